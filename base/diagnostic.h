@@ -1,0 +1,82 @@
+#pragma once
+
+#include "base/source.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orb {
+
+enum class Severity : std::uint8_t { Info, Warning, Error };
+
+/// `info`, `warning` or `error`: the words of the text and JSON forms.
+std::string_view to_string(Severity severity);
+
+/// What a linter knows about one kind of finding. Rules live in tables beside the code that raises
+/// them; `orb explain`, SARIF and docs/reference/rules.md are printed from the same rows.
+struct Rule {
+  std::string_view id; ///< kebab-case, unique over all tables
+  Severity severity = Severity::Error;
+  std::string_view summary;     ///< one sentence
+  std::string_view explanation; ///< why it matters and what to do instead
+  std::string_view bad;         ///< a smallest source that raises the rule
+  std::string_view good;        ///< the same, mended
+  std::uint8_t robot_error = 0; ///< the error number that the robot would report, 0 for none
+};
+
+struct Edit {
+  Span span;
+  std::string text;
+};
+
+/// Safe edits keep the meaning of a program that works; unsafe ones want a look.
+enum class Safety : std::uint8_t { Safe, Unsafe };
+
+struct Fix {
+  std::string title;
+  std::vector<Edit> edits; ///< ascending, not overlapping
+  Safety safety = Safety::Safe;
+};
+
+struct Note {
+  Span span;
+  std::string message;
+};
+
+/// One finding about the user's input. Plain data: renderers print it, policy weighs it.
+struct Diagnostic {
+  const Rule* rule = nullptr;
+  Severity severity = Severity::Error; ///< the rule's, unless the policy changed it
+  Span span;
+  std::string message; ///< what was seen: lower case, no full stop, code in backticks
+  std::string help;    ///< what helps; may be empty
+  std::vector<Note> notes;
+  std::optional<Fix> fix;
+  std::optional<std::uint32_t> basic_line; ///< the orbBasic line number, where there is one
+};
+
+/// A finding of `rule` at `span`, with the rule's severity.
+Diagnostic finding(const Rule& rule, Span span, std::string message, std::string help = {});
+
+/// The findings of one file, as the renderers take them.
+struct FileFindings {
+  const Source* source = nullptr;
+  std::vector<Diagnostic> diagnostics;
+  std::optional<std::size_t> built_size; ///< bytes of the image, where one could be built
+};
+
+struct Counts {
+  std::size_t errors = 0;
+  std::size_t warnings = 0;
+  std::size_t infos = 0;
+};
+
+Counts count(const std::vector<FileFindings>& files);
+
+/// Orders by place, then by rule: the order in which findings are printed.
+void sort_by_place(std::vector<Diagnostic>& diagnostics);
+
+} // namespace orb

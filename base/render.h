@@ -1,0 +1,22 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "base/style.h"
+
+#include <string>
+
+namespace orb {
+
+/// One finding as people read it: a gcc-shaped line, the excerpt with a caret, help and notes.
+std::string render_text(const Source& source, const Diagnostic& diagnostic, Style style);
+
+/// One finding as compilers print it, on a line each with its notes: `F:L:C: error: text [rule]`.
+std::string render_gcc(const Source& source, const Diagnostic& diagnostic);
+
+/// The closing line of the text form: `2 errors, 1 warning in 3 files`.
+std::string render_summary(const std::vector<FileFindings>& files);
+
+/// All findings as one JSON document of schema `orb.check/1` (docs/reference/json.md).
+std::string render_json(const std::vector<FileFindings>& files);
+
+} // namespace orb

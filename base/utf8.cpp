@@ -1,0 +1,69 @@
+#include "base/utf8.h"
+
+namespace orb {
+namespace {
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD";
+
+bool continues(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
+} // namespace
+
+std::size_t utf8_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  if (lead < 0x80)
+    return 1;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < length)
+    return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if (!continues(text[i]))
+      return 0;
+  const auto second = static_cast<unsigned char>(text[1]);
+  const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
+  const bool surrogate = lead == 0xED && second >= 0xA0;
+  const bool too_high = lead == 0xF4 && second >= 0x90;
+  return overlong || surrogate || too_high ? 0 : length;
+}
+
+std::size_t code_points(std::string_view text) {
+  std::size_t count = 0;
+  while (!text.empty()) {
+    const auto length = utf8_length(text);
+    text.remove_prefix(length == 0 ? 1 : length);
+    ++count;
+  }
+  return count;
+}
+
+std::string to_valid_utf8(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto length = utf8_length(text);
+    out += length == 0 ? replacement : text.substr(0, length);
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return out;
+}
+
+std::string to_printable(std::string_view text) {
+  std::string out;
+  for (; !text.empty();) {
+    const auto length = utf8_length(text);
+    const auto lead = static_cast<unsigned char>(text.front());
+    // C1 controls (U+0080 to U+009F) drive terminals just as the C0 ones do.
+    const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
+    if (lead == '\t')
+      out += ' ';
+    else if (length == 0 || lead < 0x20 || lead == 0x7F || c1)
+      out += replacement;
+    else
+      out += text.substr(0, length);
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return out;
+}
+
+} // namespace orb

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace orb {
+
+/// The length in bytes of the code point at the front of `text`: 1 to 4, or 0 where the bytes are
+/// not UTF-8 (then one byte stands for one U+FFFD). `text` is not empty.
+std::size_t utf8_length(std::string_view text);
+
+/// How many code points `text` shows, a byte that is not UTF-8 counting as one (U+FFFD).
+std::size_t code_points(std::string_view text);
+
+/// `text` as valid UTF-8: each byte that is not becomes U+FFFD.
+std::string to_valid_utf8(std::string_view text);
+
+/// `text` fit for a terminal: valid UTF-8, control characters replaced by a blank (tab) or U+FFFD,
+/// so that every code point takes one column and no escape sequence gets through.
+std::string to_printable(std::string_view text);
+
+} // namespace orb

@@ -1,0 +1,57 @@
+#include "cli/commands.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <utility>
+
+namespace orb::cli {
+namespace {
+
+/// Help with the examples first: people paste before they read.
+class HelpFormatter : public CLI::Formatter {
+public:
+  explicit HelpFormatter(std::string examples) : examples_(std::move(examples)) {}
+
+  std::string make_description(const CLI::App* app) const override {
+    auto out = app->get_description() + "\n";
+    if (!examples_.empty())
+      out += "\nExamples:\n" + examples_;
+    return out + "\n";
+  }
+
+private:
+  std::string examples_;
+};
+
+std::string indent(const std::string& lines) {
+  std::string out;
+  for (std::size_t from = 0; from < lines.size();) {
+    const auto to = std::min(lines.find('\n', from), lines.size());
+    out += fmt::format("  {}\n", lines.substr(from, to - from));
+    from = to + 1;
+  }
+  return out;
+}
+
+} // namespace
+
+CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples) {
+  auto* command = app.add_subcommand(std::move(name), std::move(summary));
+  command->formatter(std::make_shared<HelpFormatter>(indent(examples)));
+  command->fallthrough(); // -q, -v and --color may stand behind the command
+  return command;
+}
+
+void add_commands(CLI::App& app, Context& context) {
+  app.formatter(std::make_shared<HelpFormatter>(
+      indent("orb check program.bas\norb run program.bas\norb upload program.bas --port /dev/rfcomm0 --run")));
+  app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION));
+  app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
+  app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");
+  app.add_option("--color", context.color, "auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->capture_default_str();
+  add_explain(app, context);
+}
+
+} // namespace orb::cli

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "cli/context.h"
+
+#include <CLI/CLI.hpp>
+
+namespace orb::cli {
+
+/// Builds the whole option model: every command with its options, help and examples. Parsing it
+/// runs the chosen command, which leaves its exit code in `context`. Completion and the man pages
+/// are printed from the same model.
+void add_commands(CLI::App& app, Context& context);
+
+// One function per command, each in the file of its name. It adds the subcommand to `app`.
+void add_explain(CLI::App& app, Context& context);
+
+/// Adds a command. `examples` are pasted lines, one per line, printed first in its help.
+CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples);
+
+} // namespace orb::cli

@@ -1,0 +1,53 @@
+#include "cli/context.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+bool is_set(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+Style style_for(const std::string& color, int fd) {
+  if (color == "always")
+    return {true};
+  if (color == "never")
+    return {false};
+  if (is_set("NO_COLOR"))
+    return {false};
+  if (is_set("CLICOLOR_FORCE") && std::string_view(std::getenv("CLICOLOR_FORCE")) != "0")
+    return {true};
+  const char* term = std::getenv("TERM");
+  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
+  return {!dumb && ::isatty(fd) == 1};
+}
+
+} // namespace
+
+Style Context::out_style() const {
+  return style_for(color, STDOUT_FILENO);
+}
+
+Style Context::err_style() const {
+  return style_for(color, STDERR_FILENO);
+}
+
+void print_out(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+void print_err(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void print_error(const Context& context, std::string_view message) {
+  print_err(fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Error, "error"), message));
+}
+
+} // namespace orb::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "base/style.h"
+#include "cli/exit_code.h"
+
+#include <string>
+#include <string_view>
+
+namespace orb::cli {
+
+/// What every command shares: the options that stand before or after any command, and the code it
+/// ends with. One per process, made in main().
+struct Context {
+  bool quiet = false;
+  int verbosity = 0; ///< 1 for -v, 2 for -vv (wire trace)
+  std::string color = "auto";
+  ExitCode exit = ExitCode::Done;
+
+  /// Whether text on stdout, or on stderr, is coloured: the flag, then CLICOLOR_FORCE, NO_COLOR,
+  /// TERM=dumb, then whether it is a terminal.
+  Style out_style() const;
+  Style err_style() const;
+};
+
+/// Writes to stdout. A reader that went away (a closed pipe) ends output silently.
+void print_out(std::string_view text);
+
+/// Writes to stderr.
+void print_err(std::string_view text);
+
+/// Prints `orb: error: MESSAGE` to stderr.
+void print_error(const Context& context, std::string_view message);
+
+} // namespace orb::cli

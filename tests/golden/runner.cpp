@@ -1,0 +1,270 @@
+// Runs golden transcripts: what a user could have typed and what came back.
+//
+//   # One sentence: the behaviour that this transcript shows.
+//   $ orb check bad.bas
+//   bad.bas:1:4: error[…]: …
+//   [stderr]
+//   what went to stderr
+//   [exit 1]
+//   === bad.bas
+//   10 rgb 255,0,0
+//
+// A step is a line `$ COMMAND` (run by sh in a fresh folder that holds the input files), then the
+// expected stdout, then `[stderr]` and the expected stderr where there is any, then `[exit N]` where
+// it is not 0. Output that does not end in a line end is followed by a line `[no newline]`. Input
+// files follow at the end: `=== NAME`, or `=== NAME hex` for bytes, or `=== NAME bare` for a text
+// without its last line end. `--update` rewrites the expectations: read the diff.
+
+#include "base/bytes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Step {
+  std::string command;
+  std::string out;
+  std::string err;
+  int exit = 0;
+
+  friend bool operator==(const Step&, const Step&) = default;
+};
+
+struct Input {
+  std::string name;
+  std::string kind; // empty, "hex" or "bare"
+  std::string text;
+};
+
+struct Transcript {
+  std::string head; // the comment lines, kept as they are
+  std::vector<Step> steps;
+  std::vector<Input> inputs;
+};
+
+std::string read_all(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+/// A line of output that looks like the runner's own marks is written with a backslash before it.
+bool needs_escape(const std::string& line) {
+  return line.starts_with("$ ") || line.starts_with("[stderr]") || line.starts_with("[exit ") ||
+         line.starts_with("[no newline]") || line.starts_with("=== ") || line.starts_with("\\");
+}
+
+std::string escape(const std::string& output) {
+  std::string text;
+  for (const auto& line : split_lines(output))
+    text += (needs_escape(line) ? "\\" : "") + line + "\n";
+  if (!output.empty() && output.back() != '\n')
+    text += "[no newline]\n";
+  return text;
+}
+
+Transcript parse(const std::string& text) {
+  Transcript transcript;
+  std::string* sink = &transcript.head;
+  for (const auto& line : split_lines(text)) {
+    const bool in_input = !transcript.inputs.empty();
+    if (line.starts_with("=== ")) {
+      std::istringstream words(line.substr(4));
+      Input input;
+      words >> input.name >> input.kind;
+      transcript.inputs.push_back(input);
+      sink = &transcript.inputs.back().text;
+    } else if (in_input) {
+      *sink += line + "\n";
+    } else if (line.starts_with("$ ")) {
+      transcript.steps.push_back({line.substr(2), {}, {}, 0});
+      sink = &transcript.steps.back().out;
+    } else if (line == "[stderr]" && !transcript.steps.empty()) {
+      sink = &transcript.steps.back().err;
+    } else if (line.starts_with("[exit ") && !transcript.steps.empty()) {
+      transcript.steps.back().exit = std::atoi(line.c_str() + 6);
+    } else if (line == "[no newline]" && !sink->empty()) {
+      sink->pop_back();
+    } else {
+      *sink += (line.starts_with("\\") ? line.substr(1) : line) + "\n";
+    }
+  }
+  return transcript;
+}
+
+std::string print(const Transcript& transcript) {
+  std::string text = transcript.head;
+  for (const auto& step : transcript.steps) {
+    text += "$ " + step.command + "\n" + escape(step.out);
+    if (!step.err.empty())
+      text += "[stderr]\n" + escape(step.err);
+    if (step.exit != 0)
+      text += fmt::format("[exit {}]\n", step.exit);
+  }
+  for (const auto& input : transcript.inputs)
+    text += "=== " + input.name + (input.kind.empty() ? "" : " " + input.kind) + "\n" + input.text;
+  return text;
+}
+
+std::string content_of(const Input& input) {
+  if (input.kind == "hex") {
+    const auto bytes = orb::from_hex(input.text);
+    return bytes ? std::string(orb::as_text(*bytes)) : "bad hex in the transcript";
+  }
+  if (input.kind == "bare" && input.text.ends_with("\n"))
+    return input.text.substr(0, input.text.size() - 1);
+  return input.text;
+}
+
+/// A folder of its own for one transcript, removed at the end.
+class Scratch {
+public:
+  Scratch() {
+    std::string pattern = (fs::temp_directory_path() / "orb-golden.XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~Scratch() { fs::remove_all(path_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const fs::path& path() const { return path_; }
+
+private:
+  fs::path path_;
+};
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+Step run(const std::string& command, const fs::path& folder, const fs::path& logs) {
+  const auto out = logs / "stdout";
+  const auto err = logs / "stderr";
+  const auto line = fmt::format("cd '{}' && exec </dev/null >'{}' 2>'{}'; {}", folder.string(),
+                                out.string(), err.string(), command);
+  const int status = std::system(line.c_str());
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  Step step{command, read_all(out), read_all(err), code};
+  for (auto* text : {&step.out, &step.err})
+    replace_all(*text, folder.string(), "$PWD");
+  return step;
+}
+
+struct Options {
+  bool update = false;
+  fs::path orb;
+  fs::path root;
+  std::vector<fs::path> paths;
+};
+
+/// True when every step came back as written (or was rewritten).
+bool check(const fs::path& path, const Options& options) {
+  const auto before = read_all(path);
+  const auto expected = parse(before);
+  const Scratch scratch;
+  const Scratch logs;
+  for (const auto& input : expected.inputs) {
+    const auto target = scratch.path() / input.name;
+    fs::create_directories(target.parent_path());
+    std::ofstream(target, std::ios::binary) << content_of(input);
+  }
+  auto actual = expected;
+  for (auto& step : actual.steps)
+    step = run(step.command, scratch.path(), logs.path());
+  if (expected.steps.empty()) {
+    fmt::print("{}: holds no step; write a line `$ orb …`\n", path.string());
+    return false;
+  }
+  if (actual.steps == expected.steps)
+    return true;
+  if (options.update) {
+    std::ofstream(path, std::ios::binary) << print(actual);
+    fmt::print("updated {}\n", path.string());
+    return true;
+  }
+  std::ofstream(logs.path() / "expected", std::ios::binary) << print(expected);
+  std::ofstream(logs.path() / "actual", std::ios::binary) << print(actual);
+  fmt::print("FAILED {}\n", path.string());
+  std::fflush(stdout);
+  const auto diff = fmt::format("cd '{}' && diff -u expected actual", logs.path().string());
+  [[maybe_unused]] const int ignored = std::system(diff.c_str());
+  return false;
+}
+
+std::vector<fs::path> transcripts(const std::vector<fs::path>& paths) {
+  std::vector<fs::path> files;
+  for (const auto& path : paths) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+      if (entry.path().extension() == ".txt")
+        files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Every transcript runs under the same environment, whatever the developer's shell holds.
+void set_environment(const Options& options) {
+  const char* path = std::getenv("PATH");
+  const auto with_orb = fs::absolute(options.orb).parent_path().string() + ":" + (path ? path : "");
+  ::setenv("PATH", with_orb.c_str(), 1);
+  ::setenv("ROOT", fs::canonical(options.root).c_str(), 1);
+  ::setenv("LC_ALL", "C", 1);
+  ::setenv("TERM", "dumb", 1);
+  ::setenv("HOME", "/nonexistent", 1);
+  for (const char* name : {"ORB_PORT", "ORB_TARGET", "NO_COLOR", "CLICOLOR_FORCE", "XDG_CONFIG_HOME"})
+    ::unsetenv(name);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--update")
+      options.update = true;
+    else if (words[i] == "--orb" && i + 1 < words.size())
+      options.orb = words[++i];
+    else if (words[i] == "--root" && i + 1 < words.size())
+      options.root = words[++i];
+    else
+      options.paths.emplace_back(words[i]);
+  }
+  if (options.orb.empty() || options.root.empty() || options.paths.empty()) {
+    fmt::print(stderr, "usage: golden [--update] --orb PROGRAM --root CHECKOUT FILE|FOLDER...\n");
+    return 2;
+  }
+  set_environment(options);
+  const auto files = transcripts(options.paths);
+  std::size_t failed = 0;
+  for (const auto& file : files)
+    if (!check(file, options))
+      ++failed;
+  fmt::print("{} transcripts, {} failed\n", files.size(), failed);
+  return failed == 0 && !files.empty() ? 0 : 1;
+}

@@ -1,0 +1,80 @@
+// What holds for the repository as a whole, read from its files.
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = ORB_ROOT;
+
+/// Who may include whom (docs/architecture.md): the folders that each folder may name.
+const std::map<std::string, std::set<std::string>> floors = {
+    {"base", {"base"}},
+    {"spec", {"spec"}},
+    {"protocol", {"protocol", "spec", "base"}},
+    {"bytecode", {"bytecode", "spec", "base"}},
+    {"compiler", {"compiler", "bytecode", "spec", "base"}},
+    {"assembler", {"assembler", "protocol", "spec", "base"}},
+    {"vm", {"vm", "protocol", "bytecode", "spec", "base"}},
+    {"uploader", {"uploader", "protocol", "spec", "base"}},
+    {"cli",
+     {"cli", "uploader", "vm", "assembler", "compiler", "bytecode", "protocol", "spec", "base"}},
+};
+
+std::string read_all(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::string>& endings) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && endings.contains(entry.path().extension().string()))
+      files.push_back(entry.path());
+  return files;
+}
+
+TEST(Floors, EachFolderIncludesOnlyFromLowerOnes) {
+  const std::regex include(R"(^\s*#\s*include\s+"([a-z_0-9]+)/[^"]+")");
+  for (const auto& [folder, allowed] : floors) {
+    const auto files = files_below(root / folder, {".h", ".cpp", ".def"});
+    EXPECT_FALSE(files.empty()) << folder;
+    for (const auto& file : files) {
+      std::ifstream stream(file);
+      for (std::string line; std::getline(stream, line);) {
+        std::smatch match;
+        if (std::regex_search(line, match, include)) {
+          EXPECT_TRUE(allowed.contains(match[1])) << file << ": " << line;
+        }
+      }
+    }
+  }
+}
+
+TEST(Floors, OnlyParsersSeePegtl) {
+  for (const auto& [folder, allowed] : floors)
+    for (const auto& file : files_below(root / folder, {".h", ".cpp"}))
+      if (read_all(file).find("tao/pegtl") != std::string::npos) {
+        EXPECT_TRUE(folder == "compiler" || folder == "assembler") << file;
+      }
+}
+
+TEST(Golden, EveryTranscriptSaysWhatItShows) {
+  for (const auto& file : files_below(root / "tests" / "golden", {".txt"})) {
+    const auto text = read_all(file);
+    EXPECT_TRUE(text.starts_with("# ")) << file << " begins with a `#` sentence";
+    EXPECT_NE(text.find("\n$ "), std::string::npos) << file;
+  }
+}
+
+} // namespace
