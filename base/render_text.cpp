@@ -65,8 +65,8 @@ std::string render_text(const Source& source, const Diagnostic& diagnostic, Styl
                          style.paint(role, kind), to_printable(diagnostic.message));
   out += excerpt(source, diagnostic.span, role, style);
   if (!diagnostic.help.empty())
-    out += fmt::format("  {}: {}\n", style.paint(Role::Good, "help"),
-                       to_printable(diagnostic.help));
+    out +=
+        fmt::format("  {}: {}\n", style.paint(Role::Good, "help"), to_printable(diagnostic.help));
   for (const auto& note : diagnostic.notes) {
     const auto at = source.position(note.span.begin);
     out += fmt::format("{}:{}:{}: {}: {}\n", source.name(), at.line, at.column,

@@ -5,7 +5,8 @@
 
 namespace orb {
 
-Source::Source(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
+Source::Source(std::string name, std::string text)
+    : name_(std::move(name)), text_(std::move(text)) {
   starts_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i) {
     const bool crlf = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
@@ -30,7 +31,8 @@ Position Source::position(std::uint32_t offset) const {
 std::string_view Source::line(std::uint32_t line) const {
   if (line == 0 || line > line_count())
     return {};
-  auto text = std::string_view(text_).substr(starts_[line - 1], line_start(line + 1) - starts_[line - 1]);
+  auto text =
+      std::string_view(text_).substr(starts_[line - 1], line_start(line + 1) - starts_[line - 1]);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
     text.remove_suffix(1);
   return text;

@@ -50,7 +50,8 @@ std::optional<std::string> closest(std::string_view word,
     if (equal_but_for_case(word, candidate))
       return std::string(candidate);
   std::optional<std::string> best;
-  auto limit = std::max<std::size_t>(1, word.size() / 3) + 1;
+  // A word of which nothing would be left is not misspelt: `x` never becomes `y`.
+  auto limit = std::min(std::max<std::size_t>(1, word.size() / 3) + 1, word.size());
   for (const auto candidate : candidates) {
     const auto d = distance(word, candidate);
     if (d < limit) {

@@ -43,8 +43,9 @@ CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std:
 }
 
 void add_commands(CLI::App& app, Context& context) {
-  app.formatter(std::make_shared<HelpFormatter>(
-      indent("orb check program.bas\norb run program.bas\norb upload program.bas --port /dev/rfcomm0 --run")));
+  app.formatter(
+      std::make_shared<HelpFormatter>(indent("orb check program.bas\norb run program.bas\norb "
+                                             "upload program.bas --port /dev/rfcomm0 --run")));
   app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION));
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/style.h"
+#include "cli/config.h"
 #include "cli/exit_code.h"
 
 #include <string>
@@ -14,6 +15,7 @@ struct Context {
   bool quiet = false;
   int verbosity = 0; ///< 1 for -v, 2 for -vv (wire trace)
   std::string color = "auto";
+  Config config;
   ExitCode exit = ExitCode::Done;
 
   /// Whether text on stdout, or on stderr, is coloured: the flag, then CLICOLOR_FORCE, NO_COLOR,

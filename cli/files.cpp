@@ -112,8 +112,7 @@ tl::expected<void, IoError> write_file(const std::string& path, ByteView bytes) 
   if (file.get() < 0)
     return failure("write", path);
   const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 &&
-                       ::fsync(file.get()) == 0 &&
-                       ::rename(temporary.c_str(), path.c_str()) == 0;
+                       ::fsync(file.get()) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
   if (!written) {
     const int error = errno;
     ::unlink(temporary.c_str());

@@ -21,7 +21,8 @@ std::string unknown_word(const CLI::App& app) {
 std::vector<std::string> candidates(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
   if (word.starts_with("-")) {
-    for (const auto* scope : {&app, app.get_subcommands().empty() ? &app : app.get_subcommands().front()})
+    for (const auto* scope :
+         {&app, app.get_subcommands().empty() ? &app : app.get_subcommands().front()})
       for (const auto* option : scope->get_options())
         for (const auto& name : option->get_lnames())
           names.push_back("--" + name);
@@ -46,20 +47,33 @@ ExitCode report_usage(const CLI::App& app, const Context& context, const CLI::Pa
   }
   orb::cli::print_error(context, message);
   const auto chosen = app.get_subcommands();
-  orb::cli::print_err(fmt::format("try `orb {}--help`\n",
-                                  chosen.empty() ? "" : chosen.front()->get_name() + " "));
+  orb::cli::print_err(
+      fmt::format("try `orb {}--help`\n", chosen.empty() ? "" : chosen.front()->get_name() + " "));
   return ExitCode::Usage;
+}
+
+tl::expected<void, orb::cli::ConfigError> configure(CLI::App& app, Context& context) {
+  auto config = orb::cli::load_config();
+  if (!config)
+    return tl::unexpected(config.error());
+  context.config = *std::move(config);
+  return orb::cli::apply_config(context.config, app);
 }
 
 int run(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN); // a closed pipe or socket is an error to handle, not a death
-  CLI::App app("orb writes, checks, runs and flashes orbBasic programs and macros for Sphero robots.",
-               "orb");
+  CLI::App app(
+      "orb writes, checks, runs and flashes orbBasic programs and macros for Sphero robots.",
+      "orb");
   Context context;
   orb::cli::add_commands(app, context);
   if (argc == 1) {
     orb::cli::print_out(app.help());
     return 0;
+  }
+  if (const auto ready = configure(app, context); !ready) {
+    orb::cli::print_error(context, ready.error().message);
+    return static_cast<int>(ExitCode::Usage);
   }
   try {
     app.parse(argc, argv);

@@ -10,10 +10,10 @@
 //   10 rgb 255,0,0
 //
 // A step is a line `$ COMMAND` (run by sh in a fresh folder that holds the input files), then the
-// expected stdout, then `[stderr]` and the expected stderr where there is any, then `[exit N]` where
-// it is not 0. Output that does not end in a line end is followed by a line `[no newline]`. Input
-// files follow at the end: `=== NAME`, or `=== NAME hex` for bytes, or `=== NAME bare` for a text
-// without its last line end. `--update` rewrites the expectations: read the diff.
+// expected stdout, then `[stderr]` and the expected stderr where there is any, then `[exit N]`
+// where it is not 0. Output that does not end in a line end is followed by a line `[no newline]`.
+// Input files follow at the end: `=== NAME`, or `=== NAME hex` for bytes, or `=== NAME bare` for a
+// text without its last line end. `--update` rewrites the expectations: read the diff.
 
 #include "base/bytes.h"
 
@@ -236,7 +236,8 @@ void set_environment(const Options& options) {
   ::setenv("LC_ALL", "C", 1);
   ::setenv("TERM", "dumb", 1);
   ::setenv("HOME", "/nonexistent", 1);
-  for (const char* name : {"ORB_PORT", "ORB_TARGET", "NO_COLOR", "CLICOLOR_FORCE", "XDG_CONFIG_HOME"})
+  for (const char* name :
+       {"ORB_PORT", "ORB_TARGET", "NO_COLOR", "CLICOLOR_FORCE", "XDG_CONFIG_HOME"})
     ::unsetenv(name);
 }
 

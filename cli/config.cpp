@@ -1,0 +1,168 @@
+#include "cli/config.h"
+
+#include "base/suggest.h"
+#include "cli/files.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <sstream>
+
+namespace orb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view project_file = "orb.toml";
+constexpr std::string_view balls_section = "balls";
+
+std::optional<fs::path> user_file() {
+  if (const char* xdg = std::getenv("XDG_CONFIG_HOME"); xdg != nullptr && *xdg != '\0')
+    return fs::path(xdg) / "orb" / "config.toml";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return fs::path(home) / ".config" / "orb" / "config.toml";
+  return std::nullopt;
+}
+
+std::optional<fs::path> nearest_project_file() {
+  std::error_code error;
+  for (auto folder = fs::current_path(error); !folder.empty(); folder = folder.parent_path()) {
+    if (fs::is_regular_file(folder / project_file, error))
+      return folder / project_file;
+    if (folder == folder.root_path())
+      break;
+  }
+  return std::nullopt;
+}
+
+ConfigError problem(const std::string& file, std::string_view what) {
+  return {fmt::format("{}: {}", file, what)};
+}
+
+tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) {
+  const auto file = path.string();
+  const auto text = read_file(file);
+  if (!text)
+    return tl::unexpected(ConfigError{text.error().message});
+  std::vector<CLI::ConfigItem> items;
+  try {
+    std::istringstream stream(*text);
+    items = CLI::ConfigTOML().from_config(stream);
+  } catch (const CLI::Error& error) {
+    return tl::unexpected(problem(file, fmt::format("not understood: {}", error.what())));
+  }
+  for (const auto& item : items) {
+    if (item.name == "++" || item.name == "--")
+      continue; // CLI11 marks where sections open and close
+    if (item.parents.size() > 1)
+      return tl::unexpected(problem(file, fmt::format("`[{}]` is nested too deep; sections are "
+                                                      "`[balls]` or a command such as `[check]`",
+                                                      fmt::join(item.parents, "."))));
+    const auto section = item.parents.empty() ? std::string() : item.parents.front();
+    if (section == balls_section) {
+      if (item.inputs.size() != 1)
+        return tl::unexpected(problem(
+            file, fmt::format("ball `{}` takes one URL, such as \"rfcomm://68:86:E7:00:11:22\"",
+                              item.name)));
+      config.balls[item.name] = item.inputs.front();
+    } else {
+      config.settings.push_back({file, section, item.name, item.inputs});
+    }
+  }
+  return {};
+}
+
+/// ` did you mean …`, or nothing.
+std::string hint(const std::string& word, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const auto meant = closest(word, views);
+  return meant ? fmt::format("; did you mean `{}`?", *meant) : std::string();
+}
+
+/// The commands that a setting of section `command` speaks to.
+std::vector<CLI::App*> addressed(CLI::App& app, const std::string& command) {
+  return app.get_subcommands(
+      [&](CLI::App* sub) { return command.empty() || sub->get_name() == command; });
+}
+
+void set_default(CLI::Option& option, const std::vector<std::string>& values) {
+  for (const auto& value : values)
+    option.add_result(value);
+  option.run_callback();
+  option.clear(); // as if never given: a flag or the environment still replaces it
+}
+
+tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
+  const auto commands = addressed(app, setting.command);
+  if (commands.empty()) {
+    std::vector<std::string> names = {std::string(balls_section)};
+    for (const auto* command : addressed(app, ""))
+      names.push_back(command->get_name());
+    return tl::unexpected(
+        problem(setting.file, fmt::format("`[{}]` is not a section{}", setting.command,
+                                          hint(setting.command, names))));
+  }
+  bool known = false;
+  std::vector<std::string> names;
+  for (auto* command : commands) {
+    for (auto* option : command->get_options())
+      for (const auto& name : option->get_lnames())
+        names.push_back(name);
+    auto* option = command->get_option_no_throw("--" + setting.option);
+    if (option == nullptr)
+      continue;
+    known = true;
+    try {
+      set_default(*option, setting.values);
+    } catch (const CLI::Error& error) {
+      return tl::unexpected(problem(setting.file, error.what()));
+    }
+  }
+  if (!known)
+    return tl::unexpected(
+        problem(setting.file,
+                fmt::format("`{}` is not an option{}{}", setting.option,
+                            setting.command.empty() ? "" : " of `orb " + setting.command + "`",
+                            hint(setting.option, names))));
+  return {};
+}
+
+} // namespace
+
+tl::expected<Config, ConfigError> load_config() {
+  Config config;
+  std::error_code error;
+  if (const auto user = user_file(); user && fs::is_regular_file(*user, error))
+    if (auto done = read_into(config, *user); !done)
+      return tl::unexpected(done.error());
+  if (const auto project = nearest_project_file())
+    if (auto done = read_into(config, *project); !done)
+      return tl::unexpected(done.error());
+  return config;
+}
+
+tl::expected<void, ConfigError> apply_config(const Config& config, CLI::App& app) {
+  for (const auto& setting : config.settings)
+    if (auto done = apply(setting, app); !done)
+      return done;
+  return {};
+}
+
+tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port) {
+  if (!port.starts_with("@"))
+    return port;
+  const auto name = port.substr(1);
+  if (const auto ball = config.balls.find(name); ball != config.balls.end())
+    return ball->second;
+  std::vector<std::string> names;
+  for (const auto& [known, url] : config.balls)
+    names.push_back(known);
+  return tl::unexpected(ConfigError{fmt::format(
+      "no ball is called `{}`{}", name,
+      names.empty() ? "; name balls in orb.toml: [balls] red = \"rfcomm://68:86:E7:00:11:22\""
+                    : hint(name, names))});
+}
+
+} // namespace orb::cli

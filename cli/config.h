@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace orb::cli {
+
+/// One setting of a configuration file, with the place it came from for messages.
+struct Setting {
+  std::string file;
+  std::string command; ///< the section: a command's name, or empty for all commands
+  std::string option;  ///< the long option's name without dashes
+  std::vector<std::string> values;
+};
+
+/// What the configuration files say: `orb.toml`, found by walking up from the working folder, over
+/// `$XDG_CONFIG_HOME/orb/config.toml`.
+struct Config {
+  std::map<std::string, std::string> balls; ///< `[balls] red = "rfcomm://…"`, used as `@red`
+  std::vector<Setting> settings;            ///< weakest first
+};
+
+/// Why a configuration cannot be used: the sentence to print.
+struct ConfigError {
+  std::string message;
+};
+
+/// Reads the configuration files; missing ones are no error.
+tl::expected<Config, ConfigError> load_config();
+
+/// Makes the settings the defaults of the options they name, so that flags and environment stay
+/// stronger. An unknown section, option or value is an error.
+tl::expected<void, ConfigError> apply_config(const Config& config, CLI::App& app);
+
+/// The URL that `port` stands for: the ball's URL for `@name`, else `port` itself.
+tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port);
+
+} // namespace orb::cli
