@@ -1,0 +1,380 @@
+#pragma once
+
+// The orbBasic language of the robot as tables: statements, functions, system variables, operators,
+// errors, flags and colours. The rows, and what their columns mean, are in spec/basic.def.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace orb::spec {
+
+/// The versions of the interpreter that changed the language.
+enum class BasicVersion : std::uint8_t {
+#define ORB_BASIC_VERSION(name, ...) name,
+#include "spec/basic.def"
+};
+
+struct BasicVersionInfo {
+  BasicVersion version;
+  std::string_view text; ///< as in `--target`
+  std::string_view summary;
+};
+
+inline constexpr auto basic_versions = std::to_array<BasicVersionInfo>({
+#define ORB_BASIC_VERSION(name, text, summary) {BasicVersion::name, text, summary},
+#include "spec/basic.def"
+});
+
+enum class Statement : std::uint8_t {
+#define ORB_STATEMENT(name, ...) name,
+#include "spec/basic.def"
+};
+
+/// What stands behind a statement's word.
+enum class Form : std::uint8_t {
+  Assignment,    ///< `v = e`, the word itself may be missing
+  Conditional,   ///< `if`
+  Loop,          ///< `for`
+  LoopEnd,       ///< `next`
+  Branch,        ///< one line number, written out
+  IndexedBranch, ///< `on`
+  Output,        ///< `print`
+  Entry,         ///< `input`
+  Values,        ///< one or more expressions, without an upper bound
+  Variables,     ///< one or more variables
+  Arguments,     ///< as many expressions, parted by commas, as there are parameters
+};
+
+/// Whether a statement may stand behind `then` and `else`.
+enum class InThen : std::uint8_t {
+  Listed,   ///< documented
+  Unlisted, ///< works, but is not in the documented list (A-44)
+  Refused,  ///< a syntax error
+};
+
+/// A numeric argument; a value outside of `least` to `greatest` stops the program with Bad numeric
+/// parameter.
+struct Parameter {
+  std::string_view name;
+  std::int32_t least = 0;
+  std::int32_t greatest = 0;
+  std::string_view unit; ///< may be empty
+};
+
+struct StatementInfo {
+  Statement statement;
+  std::string_view word;
+  BasicVersion since;
+  Form form;
+  InThen in_then;
+  std::uint8_t required; ///< how many arguments must be there
+  std::string_view source;
+  std::string_view usage;
+  std::string_view summary;
+  std::string_view example; ///< a line that can be pasted
+  std::array<Parameter, 4> parameter_slots;
+
+  constexpr std::span<const Parameter> parameters() const {
+    std::size_t n = 0;
+    while (n < parameter_slots.size() && !parameter_slots[n].name.empty())
+      ++n;
+    return {parameter_slots.data(), n};
+  }
+};
+
+inline constexpr auto statements = std::to_array<StatementInfo>({
+#define PARAMETER(name, least, greatest, unit)                                                     \
+  Parameter {                                                                                      \
+    name, least, greatest, unit                                                                    \
+  }
+#define PARAMETERS(...)                                                                            \
+  std::array<Parameter, 4> {                                                                       \
+    __VA_ARGS__                                                                                    \
+  }
+#define NO_PARAMETERS                                                                              \
+  std::array<Parameter, 4> {}
+#define ORB_STATEMENT(name, word, since, form, in_then, required, source, usage, summary, example, \
+                      parameters)                                                                  \
+  {Statement::name,                                                                                \
+   word,                                                                                           \
+   BasicVersion::since,                                                                            \
+   Form::form,                                                                                     \
+   InThen::in_then,                                                                                \
+   required,                                                                                       \
+   source,                                                                                         \
+   usage,                                                                                          \
+   summary,                                                                                        \
+   example,                                                                                        \
+   parameters},
+#include "spec/basic.def"
+#undef PARAMETER
+#undef PARAMETERS
+#undef NO_PARAMETERS
+});
+
+/// Prefix functions; their operand is the whole expression that follows.
+enum class Function : std::uint8_t {
+#define ORB_FUNCTION(name, ...) name,
+#include "spec/basic.def"
+};
+
+struct FunctionInfo {
+  Function function;
+  std::string_view word;
+  std::int64_t least; ///< an operand below stops the program with Bad numeric parameter
+  std::int64_t greatest;
+  std::string_view source;
+  std::string_view summary;
+  std::string_view example;
+};
+
+inline constexpr auto functions = std::to_array<FunctionInfo>({
+#define ORB_FUNCTION(name, word, least, greatest, source, summary, example)                        \
+  {Function::name, word, least, greatest, source, summary, example},
+#include "spec/basic.def"
+});
+
+/// System variables: timers, switches and sensors.
+enum class Variable : std::uint8_t {
+#define ORB_VARIABLE(name, ...) name,
+#include "spec/basic.def"
+};
+
+enum class Access : std::uint8_t {
+  Read,
+  ReadWrite,
+  ReadClears, ///< reading sets it to 0
+};
+
+struct VariableInfo {
+  Variable variable;
+  std::string_view word;
+  std::string_view old_word; ///< its name before `since`; empty where it has had one name
+  BasicVersion since;
+  Access access;
+  std::int32_t least; ///< the least value that it reads as
+  std::int32_t greatest;
+  std::string_view unit; ///< may be empty
+  std::string_view source;
+  std::string_view summary;
+};
+
+inline constexpr auto variables = std::to_array<VariableInfo>({
+#define ORB_VARIABLE(name, word, old, since, access, least, greatest, unit, source, summary)       \
+  {Variable::name, word,   old,    BasicVersion::since, Access::access, least, greatest,           \
+   unit,           source, summary},
+#include "spec/basic.def"
+});
+
+enum class Operator : std::uint8_t {
+#define ORB_OPERATOR(name, ...) name,
+#include "spec/basic.def"
+};
+
+/// How strongly an operator binds; equals are taken from the left.
+enum class Level : std::uint8_t { Low, Medium };
+
+struct OperatorInfo {
+  Operator op;
+  char symbol;
+  Level level;
+  std::string_view example;
+  std::string_view summary;
+};
+
+inline constexpr auto operators = std::to_array<OperatorInfo>({
+#define ORB_OPERATOR(name, symbol, level, example, summary)                                        \
+  {Operator::name, symbol, Level::level, example, summary},
+#include "spec/basic.def"
+});
+
+enum class Relation : std::uint8_t {
+#define ORB_RELATION(name, ...) name,
+#include "spec/basic.def"
+};
+
+struct RelationInfo {
+  Relation relation;
+  char symbol;
+  std::string_view summary;
+};
+
+inline constexpr auto relations = std::to_array<RelationInfo>({
+#define ORB_RELATION(name, symbol, summary) {Relation::name, symbol, summary},
+#include "spec/basic.def"
+});
+
+/// What stops a program; the values are the robot's error numbers.
+enum class BasicError : std::uint8_t {
+#define ORB_BASIC_ERROR(name, code, text, summary) name = code,
+#include "spec/basic.def"
+};
+
+struct BasicErrorInfo {
+  BasicError error;
+  std::string_view text; ///< the robot's own words
+  std::string_view summary;
+};
+
+inline constexpr auto basic_errors = std::to_array<BasicErrorInfo>({
+#define ORB_BASIC_ERROR(name, code, text, summary) {BasicError::name, text, summary},
+#include "spec/basic.def"
+});
+
+/// The bits of `basflg`.
+enum class BasicFlag : std::uint8_t {
+#define ORB_BASIC_FLAG(name, value, symbol, summary) name = value,
+#include "spec/basic.def"
+};
+
+struct BasicFlagInfo {
+  BasicFlag flag;
+  std::string_view symbol; ///< the document's name
+  std::string_view summary;
+};
+
+inline constexpr auto basic_flags = std::to_array<BasicFlagInfo>({
+#define ORB_BASIC_FLAG(name, value, symbol, summary) {BasicFlag::name, symbol, summary},
+#include "spec/basic.def"
+});
+
+/// The predefined colours of LEDC; the index into the table is the argument.
+struct LedColour {
+  std::uint8_t code;
+  std::string_view name;
+  std::uint8_t red;
+  std::uint8_t green;
+  std::uint8_t blue;
+};
+
+inline constexpr auto led_colours = std::to_array<LedColour>({
+#define ORB_LED_COLOUR(code, name, red, green, blue) {code, name, red, green, blue},
+#include "spec/basic.def"
+});
+
+/// Words that are part of other statements.
+inline constexpr auto particles =
+    std::to_array<std::string_view>({"then", "else", "and", "or", "to", "step"});
+
+constexpr const BasicVersionInfo& info(BasicVersion version) {
+  return basic_versions[static_cast<std::size_t>(version)];
+}
+constexpr const StatementInfo& info(Statement statement) {
+  return statements[static_cast<std::size_t>(statement)];
+}
+constexpr const FunctionInfo& info(Function function) {
+  return functions[static_cast<std::size_t>(function)];
+}
+constexpr const VariableInfo& info(Variable variable) {
+  return variables[static_cast<std::size_t>(variable)];
+}
+constexpr const OperatorInfo& info(Operator op) {
+  return operators[static_cast<std::size_t>(op)];
+}
+constexpr const RelationInfo& info(Relation relation) {
+  return relations[static_cast<std::size_t>(relation)];
+}
+constexpr const BasicErrorInfo& info(BasicError error) {
+  return basic_errors[static_cast<std::size_t>(error) - 1]; // numbered from 1
+}
+
+/// The row of that very word, or nothing. Case counts: `rgb` is no statement.
+constexpr std::optional<BasicVersion> find_version(std::string_view text) {
+  for (const auto& row : basic_versions)
+    if (row.text == text)
+      return row.version;
+  return std::nullopt;
+}
+constexpr std::optional<Statement> find_statement(std::string_view word) {
+  for (const auto& row : statements)
+    if (row.word == word)
+      return row.statement;
+  return std::nullopt;
+}
+constexpr std::optional<Function> find_function(std::string_view word) {
+  for (const auto& row : functions)
+    if (row.word == word)
+      return row.function;
+  return std::nullopt;
+}
+/// Finds a system variable by its present or its former name.
+constexpr std::optional<Variable> find_variable(std::string_view word) {
+  for (const auto& row : variables)
+    if (row.word == word || (!row.old_word.empty() && row.old_word == word))
+      return row.variable;
+  return std::nullopt;
+}
+constexpr std::optional<Operator> find_operator(char symbol) {
+  for (const auto& row : operators)
+    if (row.symbol == symbol)
+      return row.op;
+  return std::nullopt;
+}
+constexpr std::optional<Relation> find_relation(char symbol) {
+  for (const auto& row : relations)
+    if (row.symbol == symbol)
+      return row.relation;
+  return std::nullopt;
+}
+/// The error of that number, as the robot reports it.
+constexpr std::optional<BasicError> find_error(std::uint32_t code) {
+  if (code < 1 || code > basic_errors.size())
+    return std::nullopt;
+  return basic_errors[code - 1].error;
+}
+
+constexpr std::uint8_t code(BasicError error) {
+  return static_cast<std::uint8_t>(error);
+}
+
+// The rows hold what the lookups above rely on.
+consteval bool basic_words_are_unique() {
+  std::array<std::string_view,
+             statements.size() + functions.size() + 2 * variables.size() + particles.size()>
+      words{};
+  std::size_t n = 0;
+  for (const auto& row : statements)
+    words[n++] = row.word;
+  for (const auto& row : functions)
+    words[n++] = row.word;
+  for (const auto& row : variables)
+    words[n++] = row.word;
+  for (const auto& row : variables)
+    if (!row.old_word.empty())
+      words[n++] = row.old_word;
+  for (const auto word : particles)
+    words[n++] = word;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      if (words[i] == words[j] || words[i].empty())
+        return false;
+  return true;
+}
+static_assert(basic_words_are_unique());
+
+consteval bool basic_codes_ascend() {
+  for (std::size_t i = 0; i < basic_errors.size(); ++i)
+    if (static_cast<std::size_t>(basic_errors[i].error) != i + 1)
+      return false;
+  for (std::size_t i = 0; i < led_colours.size(); ++i)
+    if (led_colours[i].code != i)
+      return false;
+  return true;
+}
+static_assert(basic_codes_ascend());
+
+consteval bool basic_parameters_make_sense() {
+  for (const auto& row : statements)
+    for (const auto& parameter : row.parameters())
+      if (parameter.least >= parameter.greatest)
+        return false;
+  return true;
+}
+static_assert(basic_parameters_make_sense());
+
+} // namespace orb::spec
