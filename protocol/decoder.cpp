@@ -1,0 +1,160 @@
+#include "protocol/decoder.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace orb::protocol {
+namespace {
+
+constexpr std::size_t command_header = 6;  // SOP1 SOP2 DID CID SEQ DLEN
+constexpr std::size_t response_header = 5; // SOP1 SOP2 MRSP SEQ DLEN
+constexpr std::size_t async_header = 5;    // SOP1 SOP2 ID DLEN-MSB DLEN-LSB
+
+/// Where the next SOP1 stands at or after `from`; the size when there is none.
+std::size_t find_start(ByteView bytes, std::size_t from) {
+  if (from < bytes.size() && bytes[from] == spec::sop1)
+    return from;
+  const auto left = bytes.size() - from;
+  const void* found = left == 0 ? nullptr : std::memchr(bytes.data() + from, spec::sop1, left);
+  return found == nullptr
+             ? bytes.size()
+             : static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - bytes.data());
+}
+
+} // namespace
+
+void Decoder::feed(ByteView bytes) {
+  if (!pending()) {
+    window_ = bytes;
+    at_ = 0;
+    return;
+  }
+  keep_rest();
+  kept_.insert(kept_.end(), bytes.begin(), bytes.end());
+  window_ = kept_;
+}
+
+void Decoder::reset() {
+  window_ = {};
+  at_ = 0;
+  expiry_ = Expiry::No;
+  kept_.clear();
+}
+
+/// Makes the unconsumed bytes our own, at the front of kept_.
+void Decoder::keep_rest() {
+  const auto rest = window_.subspan(at_);
+  if (window_.data() == kept_.data() && !kept_.empty())
+    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(at_));
+  else
+    kept_.assign(rest.begin(), rest.end());
+  window_ = kept_;
+  at_ = 0;
+}
+
+std::optional<Item> Decoder::next() {
+  Item item;
+  for (auto start = at_;;) {
+    start = find_start(window_, start);
+    const auto at_end = start == window_.size();
+    const auto found = at_end ? Match::No : match(window_.subspan(start), item);
+    const auto given_up = found == Match::Incomplete && expiry_ == Expiry::Reported;
+    if (!at_end && (found == Match::No || given_up)) {
+      ++start; // this SOP1 begins nothing
+      continue;
+    }
+    if (start > at_) {
+      item = {};
+      item.raw = window_.subspan(at_, start - at_);
+      at_ = start;
+      return item;
+    }
+    switch (found) {
+    case Match::Whole: at_ += item.raw.size(); return item;
+    case Match::Damaged: ++at_; return item;
+    case Match::Incomplete:
+      if (expiry_ == Expiry::No) {
+        keep_rest();
+        return std::nullopt;
+      }
+      expiry_ = Expiry::Reported;
+      item.kind = Item::Kind::Fragment;
+      item.raw = window_.subspan(at_);
+      ++at_;
+      return item;
+    case Match::No: // the end of the window
+      expiry_ = Expiry::No;
+      return std::nullopt;
+    }
+  }
+}
+
+Decoder::Match Decoder::match(ByteView bytes, Item& item) const {
+  return direction_ == Direction::ToBall ? match_command(bytes, item) : match_answer(bytes, item);
+}
+
+namespace {
+
+/// Fills in payload and raw bytes, and tells whether the checksum holds.
+bool complete(ByteView bytes, std::size_t header, std::size_t payload, Item& item) {
+  item.raw = bytes.first(header + payload + 1);
+  item.data = bytes.subspan(header, payload);
+  const auto covered = bytes.subspan(spec::sop_size, header + payload - spec::sop_size);
+  if (checksum(covered) == item.raw.back())
+    return true;
+  item.kind = Item::Kind::BadChecksum;
+  return false;
+}
+
+} // namespace
+
+Decoder::Match Decoder::match_command(ByteView bytes, Item& item) const {
+  item = {};
+  if (bytes.size() >= spec::sop_size && !spec::is_sop2(bytes[1]))
+    return Match::No;
+  if (bytes.size() >= command_header - 1) {
+    item.flags = bytes[1];
+    item.did = bytes[2];
+    item.cid = bytes[3];
+    item.seq = bytes[4];
+  }
+  if (bytes.size() < command_header)
+    return Match::Incomplete;
+  const auto dlen = bytes[5];
+  if (dlen == 0)
+    return Match::No;
+  const auto fixed = dlen == spec::dlen_long ? spec::long_payload(item.did, item.cid) : 0;
+  const auto payload = fixed != 0 ? fixed : dlen - std::size_t{1};
+  if (bytes.size() < command_header + payload + 1) {
+    // FF FF FF …: a stray FFh in front of a packet must not hold it up until the time-out.
+    if (item.did == spec::sop1 && match_command(bytes.subspan(1), item) == Match::Whole)
+      return Match::No;
+    return Match::Incomplete;
+  }
+  item.kind = Item::Kind::Command;
+  return complete(bytes, command_header, payload, item) ? Match::Whole : Match::Damaged;
+}
+
+Decoder::Match Decoder::match_answer(ByteView bytes, Item& item) const {
+  item = {};
+  if (bytes.size() < spec::sop_size)
+    return Match::Incomplete;
+  const auto is_async = bytes[1] == spec::sop2_async;
+  if (!is_async && bytes[1] != spec::sop2_response)
+    return Match::No;
+  item.flags = bytes[1];
+  const auto header = is_async ? async_header : response_header;
+  if (bytes.size() < header)
+    return Match::Incomplete;
+  item.code = bytes[2];
+  item.seq = is_async ? std::uint8_t{0} : bytes[3];
+  const auto length = is_async ? read_u16(bytes, 3) : std::size_t{bytes[4]};
+  if (length == 0 || length > spec::max_async_payload + 1)
+    return Match::No;
+  if (bytes.size() < header + length)
+    return Match::Incomplete;
+  item.kind = is_async ? Item::Kind::Async : Item::Kind::Response;
+  return complete(bytes, header, length - 1, item) ? Match::Whole : Match::Damaged;
+}
+
+} // namespace orb::protocol
