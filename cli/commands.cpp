@@ -53,6 +53,7 @@ void add_commands(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->capture_default_str();
   add_explain(app, context);
+  add_spec(app, context);
 }
 
 } // namespace orb::cli

@@ -13,6 +13,7 @@ void add_commands(CLI::App& app, Context& context);
 
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
 void add_explain(CLI::App& app, Context& context);
+void add_spec(CLI::App& app, Context& context);
 
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples);

@@ -46,6 +46,11 @@ void print_err(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+void print_note(const Context& context, std::string_view message) {
+  if (!context.quiet)
+    print_err(fmt::format("{}\n", message));
+}
+
 void print_error(const Context& context, std::string_view message) {
   print_err(fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Error, "error"), message));
 }

@@ -30,6 +30,9 @@ void print_out(std::string_view text);
 /// Writes to stderr.
 void print_err(std::string_view text);
 
+/// Prints a note to stderr, unless -q was given.
+void print_note(const Context& context, std::string_view message);
+
 /// Prints `orb: error: MESSAGE` to stderr.
 void print_error(const Context& context, std::string_view message);
 

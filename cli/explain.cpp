@@ -1,18 +1,63 @@
+#include "base/suggest.h"
 #include "cli/commands.h"
+#include "cli/knowledge.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <memory>
 
 namespace orb::cli {
+namespace {
+
+bool answers_to(const Entry& entry, std::string_view word) {
+  return entry.name == word ||
+         std::find(entry.aliases.begin(), entry.aliases.end(), word) != entry.aliases.end();
+}
+
+/// Every entry that `word` names, one after the other: `roll` is a variable and a macro command.
+std::string explain(const std::vector<Section>& sections, std::string_view word) {
+  std::string out;
+  for (const auto& section : sections)
+    for (const auto& entry : section.entries)
+      if (answers_to(entry, word))
+        out += (out.empty() ? "" : "\n") + print_entry(section, entry);
+  return out;
+}
+
+std::vector<std::string> all_names(const std::vector<Section>& sections) {
+  std::vector<std::string> names;
+  for (const auto& section : sections)
+    for (const auto& entry : section.entries) {
+      names.push_back(entry.name);
+      names.insert(names.end(), entry.aliases.begin(), entry.aliases.end());
+    }
+  return names;
+}
+
+void run(Context& context, const std::string& word) {
+  const auto sections = knowledge();
+  const auto text = explain(sections, word);
+  if (!text.empty()) {
+    print_out(text);
+    return;
+  }
+  const auto names = all_names(sections);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const auto meant = closest(word, views);
+  print_error(context, fmt::format("nothing is known about `{}`{}", word,
+                                   meant ? fmt::format("; did you mean `{}`?", *meant)
+                                         : "; `orb spec` lists all there is"));
+  context.exit = ExitCode::BadInput;
+}
+
+} // namespace
 
 void add_explain(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "explain", "everything the tables know about a word",
-                              "orb explain goroll\norb explain unknown-statement");
+  auto* command = add_command(app, "explain", "says all that the tables know about a word",
+                              "orb explain goroll\norb explain 08h\norb explain unknown-statement");
   auto word = std::make_shared<std::string>();
-  command->add_option("WORD", *word, "a rule, statement, error or command")->required();
-  command->callback([&context, word] {
-    print_error(context, "nothing is known about `" + *word + "`");
-    context.exit = ExitCode::BadInput;
-  });
+  command->add_option("WORD", *word, "a rule, statement, error, variable or command")->required();
+  command->callback([&context, word] { run(context, *word); });
 }
 
 } // namespace orb::cli

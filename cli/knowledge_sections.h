@@ -1,0 +1,17 @@
+#pragma once
+
+// The chapters of knowledge(), each made from one table. Only cli/knowledge.cpp calls them.
+
+#include "cli/knowledge.h"
+
+namespace orb::cli {
+
+Section statements_section();
+Section functions_section();
+Section variables_section();
+Section operators_section();
+Section basic_errors_section();
+Section limits_section();
+Section basic_flags_section();
+
+} // namespace orb::cli

@@ -1,0 +1,80 @@
+#include "base/suggest.h"
+#include "cli/commands.h"
+#include "cli/knowledge.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::string section;
+  bool json = false;
+  bool markdown = false;
+};
+
+/// The list of sections and what they hold: what `orb spec` prints by itself.
+std::string overview(const std::vector<Section>& sections) {
+  std::string out;
+  for (const auto& section : sections)
+    out += fmt::format("{:<16} {:>3} entries  {}\n", section.id, section.entries.size(),
+                       section.title);
+  return out;
+}
+
+std::string plain(const Section& section) {
+  std::string out;
+  for (const auto& entry : section.entries)
+    out += (out.empty() ? "" : "\n") + print_entry(section, entry);
+  return out;
+}
+
+/// Keeps the section that the user named; false where there is none.
+bool select(std::vector<Section>& sections, const std::string& id, const Context& context) {
+  std::vector<std::string_view> ids;
+  for (const auto& section : sections)
+    ids.push_back(section.id);
+  std::erase_if(sections, [&](const Section& section) { return section.id != id; });
+  if (!sections.empty())
+    return true;
+  const auto meant = closest(id, ids);
+  print_error(context, fmt::format("there is no section `{}`; {}", id,
+                                   meant ? fmt::format("did you mean `{}`?", *meant)
+                                         : fmt::format("one of {}", fmt::join(ids, ", "))));
+  return false;
+}
+
+void run(Context& context, const Options& options) {
+  auto sections = knowledge();
+  const bool one = !options.section.empty();
+  if (one && !select(sections, options.section, context)) {
+    context.exit = ExitCode::Usage;
+    return;
+  }
+  if (options.json)
+    print_out(print_json(sections));
+  else if (options.markdown)
+    for (const auto& section : sections)
+      print_out(print_markdown(section));
+  else if (one)
+    print_out(plain(sections.front()));
+  else {
+    print_out(overview(sections));
+    print_note(context, "`orb spec SECTION` prints one section, `orb explain WORD` one entry");
+  }
+}
+
+} // namespace
+
+void add_spec(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "spec", "prints the tables of the robot and the tools",
+                              "orb spec\norb spec statements\norb spec --json > spec.json");
+  auto options = std::make_shared<Options>();
+  command->add_option("SECTION", options->section, "one table; all where none is named");
+  auto* json = command->add_flag("--json", options->json, "as one JSON document");
+  command->add_flag("--markdown", options->markdown, "as pages of docs/reference")->excludes(json);
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli
