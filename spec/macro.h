@@ -1,0 +1,404 @@
+#pragma once
+
+// The macro system as the robot knows it: commands, flags, parameters, identifiers and sizes.
+// Source: the macro part of the quick reference and of the low-level API; where they disagree, the
+// byte output of the vendor's own libraries decides (spec/SOURCES.md).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace orb::spec {
+
+enum class MacroCommand : std::uint8_t {
+#define MACRO_COMMAND(Name, code, ...) Name = code,
+#include "spec/macro.def"
+#undef MACRO_COMMAND
+};
+
+enum class MacroFlag : std::uint8_t {
+#define MACRO_FLAG(Name, bit, ...) Name = bit,
+#include "spec/macro.def"
+#undef MACRO_FLAG
+};
+
+/// The system-wide values that API command Set Macro Parameter (57h) changes.
+enum class MacroParameter : std::uint8_t {
+#define MACRO_PARAMETER(Name, index, ...) Name = index,
+#include "spec/macro.def"
+#undef MACRO_PARAMETER
+};
+
+/// What an operand counts. Ticks10ms is a time in steps of 10 ms.
+enum class MacroUnit : std::uint8_t { None, Milliseconds, Ticks10ms, Degrees };
+
+enum class MacroOperandKind : std::uint8_t {
+  Number,
+  Delay,   ///< how long to wait after the command; may be left out in source, then 0
+  MacroId, ///< a macro's number, or its name in source
+  Text     ///< a length in 16 bits, then that many bytes
+};
+
+/// A value of an operand that has a word in source.
+struct MacroWord {
+  std::string_view word;
+  std::int32_t value = 0;
+};
+
+struct MacroOperand {
+  std::string_view name;
+  MacroOperandKind kind = MacroOperandKind::Number;
+  MacroUnit unit = MacroUnit::None;
+  std::uint8_t width = 1; ///< bytes; of the length where the operand is a text
+  bool is_signed = false;
+  std::int32_t minimum = 0;
+  std::int32_t maximum = 0;
+  const MacroWord* words = nullptr; ///< the words for its values
+  std::uint8_t word_count = 0;
+
+  constexpr const MacroWord* begin_words() const { return words; }
+  constexpr const MacroWord* end_words() const { return words + word_count; }
+};
+
+/// What a command waits for before the next one runs.
+enum class MacroWait : std::uint8_t {
+  None,
+  Operand, ///< its last operand
+  Sd1,     ///< system delay 1
+  Sd2,     ///< system delay 2
+  Stopped  ///< until the ball stands still, at most its last operand
+};
+
+/// What goes on while later commands run.
+enum class MacroBackground : std::uint8_t { None, Fade, Rotate };
+
+/// Where a command means something. `end` is ignored in a stream, as is `gosub`.
+enum class MacroPlace : std::uint8_t { Anywhere, OnlyInStream, NeverInStream };
+
+inline constexpr std::size_t macro_max_operands = 6;
+
+struct MacroCommandInfo {
+  MacroCommand command{};
+  std::uint8_t code = 0;
+  std::string_view mnemonic;
+  std::string_view title; ///< its name in the quick reference
+  std::array<MacroOperand, macro_max_operands> operand{};
+  std::uint8_t operand_count = 0;
+  std::uint8_t length = 1;      ///< bytes with the code; of a comment without its text
+  bool variable_length = false; ///< a text follows
+  bool has_pcd = false;         ///< its last byte is a post command delay
+  MacroWait wait = MacroWait::None;
+  MacroBackground background = MacroBackground::None;
+  MacroPlace place = MacroPlace::Anywhere;
+  std::uint8_t executive = 2; ///< the least version of the macro executive
+  std::string_view source;
+  std::string_view summary;
+  std::string_view example;
+
+  constexpr const MacroOperand* begin() const { return operand.data(); }
+  constexpr const MacroOperand* end() const { return operand.data() + operand_count; }
+};
+
+struct MacroFlagInfo {
+  MacroFlag flag{};
+  std::uint8_t bit = 0;
+  std::string_view word;
+  std::string_view name; ///< its documented name
+  std::string_view summary;
+};
+
+struct MacroParameterInfo {
+  MacroParameter parameter{};
+  std::uint8_t index = 0;
+  std::string_view word;
+  std::string_view summary;
+};
+
+// Identifiers. Source: low-level API §Macro IDs.
+inline constexpr std::uint8_t macro_id_none = 0; ///< no macro
+inline constexpr std::uint8_t macro_id_system_first = 1;
+inline constexpr std::uint8_t macro_id_system_last = 31;
+inline constexpr std::uint8_t macro_id_user_first = 32;
+inline constexpr std::uint8_t macro_id_user_last = 253;
+inline constexpr std::uint8_t macro_id_stream = 254;
+inline constexpr std::uint8_t macro_id_temporary = 255;
+
+enum class MacroIdKind : std::uint8_t { None, System, User, Stream, Temporary };
+
+constexpr MacroIdKind macro_id_kind(std::uint8_t id) {
+  if (id == macro_id_none)
+    return MacroIdKind::None;
+  if (id <= macro_id_system_last)
+    return MacroIdKind::System;
+  if (id <= macro_id_user_last)
+    return MacroIdKind::User;
+  return id == macro_id_stream ? MacroIdKind::Stream : MacroIdKind::Temporary;
+}
+
+// Sizes, in bytes with id and flags unless said otherwise. Source: low-level API §Macros.
+inline constexpr std::size_t macro_max_packet = 254;      ///< that one packet carries
+inline constexpr std::size_t macro_buffer_size = 1024;    ///< temporary and stream macro share it
+inline constexpr std::size_t macro_buffer_planned = 1000; ///< of it that the vendor's clients use
+inline constexpr std::size_t macro_heap_size = 2048;      ///< all user macros
+inline constexpr std::size_t macro_heap_entries = 16;     ///< how many user macros
+inline constexpr std::size_t macro_gosub_depth = 1;
+
+/// What the robot puts behind each chunk of a stream: wait here for the next chunk.
+inline constexpr std::uint8_t macro_stream_pause = 0x1C;
+/// The marker that ENDSIG emits; commands should not use it.
+inline constexpr std::uint8_t macro_end_marker = 0;
+/// Markers up to this one mean something to the vendor's streaming client.
+inline constexpr std::uint8_t macro_reserved_markers = 10;
+/// What a framed macro carries where its source names no flags, as the vendor's client does.
+inline constexpr std::uint8_t macro_default_flags = 0x01;
+/// `sleep` with this time takes the time of the API command Sleep.
+inline constexpr std::uint16_t macro_sleep_inherit = 0xFFFF;
+/// A loop count of 0 is taken as this.
+inline constexpr std::uint8_t macro_loop_least = 1;
+inline constexpr std::uint8_t macro_executive_oldest = 2;
+inline constexpr std::uint8_t macro_executive_newest = 4;
+
+namespace macro_detail {
+
+inline constexpr MacroWord stabilization_words[] = {{"off", 0}, {"on", 1}, {"on_without_reset", 2}};
+inline constexpr MacroWord motor_words[] = {
+    {"off", 0}, {"forward", 1}, {"reverse", 2}, {"brake", 3}, {"ignore", 4}};
+inline constexpr MacroWord collision_words[] = {{"off", 0}};
+
+constexpr MacroOperand number(std::string_view name, MacroUnit unit, std::uint8_t width,
+                              std::int32_t minimum, std::int32_t maximum) {
+  return {name, MacroOperandKind::Number, unit, width, minimum < 0, minimum, maximum, nullptr, 0};
+}
+
+template <std::size_t N>
+constexpr MacroOperand choice(std::string_view name, const MacroWord (&words)[N]) {
+  return {name, MacroOperandKind::Number, MacroUnit::None, 1, false, 0, N - 1, words, N};
+}
+
+constexpr MacroOperand delay(std::uint8_t width, std::int32_t maximum) {
+  return {
+      "delay", MacroOperandKind::Delay, MacroUnit::Milliseconds, width, false, 0, maximum, nullptr,
+      0};
+}
+
+template <class... Operand>
+constexpr MacroCommandInfo with_operands(MacroCommandInfo row, Operand... operands) {
+  static_assert(sizeof...(operands) <= macro_max_operands);
+  row.operand_count = sizeof...(operands);
+  std::size_t i = 0;
+  ((row.operand[i++] = operands), ...);
+  for (const auto& operand : row) {
+    row.length = static_cast<std::uint8_t>(row.length + operand.width);
+    row.variable_length = row.variable_length || operand.kind == MacroOperandKind::Text;
+    row.has_pcd = operand.kind == MacroOperandKind::Delay && operand.width == 1;
+  }
+  return row;
+}
+
+constexpr MacroCommandInfo row(MacroCommand command, std::uint8_t code, std::string_view mnemonic,
+                               std::string_view title, MacroWait wait, MacroBackground background,
+                               MacroPlace place, std::uint8_t executive, std::string_view source,
+                               std::string_view summary, std::string_view example) {
+  MacroCommandInfo info;
+  info.command = command;
+  info.code = code;
+  info.mnemonic = mnemonic;
+  info.title = title;
+  info.wait = wait;
+  info.background = background;
+  info.place = place;
+  info.executive = executive;
+  info.source = source;
+  info.summary = summary;
+  info.example = example;
+  return info;
+}
+
+} // namespace macro_detail
+
+// clang-format off
+#define OPERANDS(...) (base __VA_OPT__(,) __VA_ARGS__)
+#define BYTE(name) macro_detail::number(name, MacroUnit::None, 1, 0, 255)
+#define SPEED BYTE("speed")
+#define HEADING macro_detail::number("heading", MacroUnit::Degrees, 2, 0, 359)
+#define ANGLE macro_detail::number("angle", MacroUnit::Degrees, 2, -32768, 32767)
+#define TIME macro_detail::number("time", MacroUnit::Milliseconds, 2, 0, 65535)
+#define TIMEOUT macro_detail::number("timeout", MacroUnit::Milliseconds, 2, 0, 65535)
+#define METHOD macro_detail::number("method", MacroUnit::None, 1, 0, 1)
+#define DEAD_TIME macro_detail::number("dead_time", MacroUnit::Ticks10ms, 1, 0, 255)
+#define PCD macro_detail::delay(1, 255)
+#define LONG_DELAY macro_detail::delay(2, 65535)
+#define STABILIZATION macro_detail::choice("mode", macro_detail::stabilization_words)
+#define MOTOR_MODE(name) macro_detail::choice(name, macro_detail::motor_words)
+#define TARGET MacroOperand{"target", MacroOperandKind::MacroId, MacroUnit::None, 1, false, 0, 255, nullptr, 0}
+#define COLLISION_TARGET MacroOperand{"target", MacroOperandKind::MacroId, MacroUnit::None, 1, false, 0, 255, macro_detail::collision_words, 1}
+#define TEXT MacroOperand{"text", MacroOperandKind::Text, MacroUnit::None, 2, false, 0, 65535, nullptr, 0}
+
+/// Every command, by ascending code.
+inline constexpr MacroCommandInfo macro_commands[] = {
+#define MACRO_COMMAND(Name, code, mnemonic, title, operands, wait, background, place, executive, source, summary, example) \
+  [] { constexpr auto base = macro_detail::row(MacroCommand::Name, code, mnemonic, title, MacroWait::wait, MacroBackground::background, \
+                                               MacroPlace::place, executive, source, summary, example); \
+       return macro_detail::with_operands operands; }(),
+#include "spec/macro.def"
+#undef MACRO_COMMAND
+};
+
+#undef OPERANDS
+#undef BYTE
+#undef SPEED
+#undef HEADING
+#undef ANGLE
+#undef TIME
+#undef TIMEOUT
+#undef METHOD
+#undef DEAD_TIME
+#undef PCD
+#undef LONG_DELAY
+#undef STABILIZATION
+#undef MOTOR_MODE
+#undef TARGET
+#undef COLLISION_TARGET
+#undef TEXT
+
+inline constexpr MacroFlagInfo macro_flags[] = {
+#define MACRO_FLAG(Name, bit, word, name, summary) {MacroFlag::Name, bit, word, name, summary},
+#include "spec/macro.def"
+#undef MACRO_FLAG
+};
+
+inline constexpr MacroParameterInfo macro_parameters[] = {
+#define MACRO_PARAMETER(Name, index, word, summary) {MacroParameter::Name, index, word, summary},
+#include "spec/macro.def"
+#undef MACRO_PARAMETER
+};
+// clang-format on
+
+namespace macro_detail {
+
+inline constexpr std::uint8_t no_row = 0xFF;
+
+/// Code to row, for the decoder's inner loop.
+inline constexpr auto row_of_code = [] {
+  std::array<std::uint8_t, 256> rows{};
+  for (auto& row : rows)
+    row = no_row;
+  std::uint8_t next = 0;
+  for (const auto& info : macro_commands)
+    rows[info.code] = next++;
+  return rows;
+}();
+
+constexpr bool codes_ascend() {
+  for (std::size_t i = 1; i < std::size(macro_commands); ++i)
+    if (macro_commands[i - 1].code >= macro_commands[i].code)
+      return false;
+  return true;
+}
+
+constexpr bool mnemonics_are_unique() {
+  for (const auto& a : macro_commands)
+    for (const auto& b : macro_commands)
+      if (a.command != b.command && a.mnemonic == b.mnemonic)
+        return false;
+  return true;
+}
+
+constexpr bool operands_are_well_formed() {
+  for (const auto& info : macro_commands)
+    for (const auto& operand : info) {
+      const bool last = &operand == info.end() - 1;
+      if (operand.minimum > operand.maximum || operand.width < 1 || operand.width > 2)
+        return false;
+      if (operand.kind == MacroOperandKind::Delay && !(last && info.wait == MacroWait::Operand))
+        return false;
+      if (operand.kind == MacroOperandKind::Text && info.operand_count != 1)
+        return false;
+      for (const auto& other : info)
+        if (&other != &operand && other.name == operand.name)
+          return false;
+    }
+  return true;
+}
+
+constexpr bool flags_are_the_eight_bits() {
+  std::uint8_t all = 0;
+  for (const auto& flag : macro_flags) {
+    if ((all & flag.bit) != 0)
+      return false;
+    all = static_cast<std::uint8_t>(all | flag.bit);
+  }
+  return all == 0xFF;
+}
+
+static_assert(codes_ascend());
+static_assert(mnemonics_are_unique());
+static_assert(operands_are_well_formed());
+static_assert(flags_are_the_eight_bits());
+
+} // namespace macro_detail
+
+/// The row of a command.
+constexpr const MacroCommandInfo& info(MacroCommand command) {
+  return macro_commands[macro_detail::row_of_code[static_cast<std::uint8_t>(command)]];
+}
+
+constexpr const MacroFlagInfo& info(MacroFlag flag) {
+  std::size_t row = 0;
+  while (macro_flags[row].flag != flag)
+    ++row;
+  return macro_flags[row];
+}
+
+constexpr const MacroParameterInfo& info(MacroParameter parameter) {
+  return macro_parameters[static_cast<std::size_t>(parameter)];
+}
+
+/// The row of a command byte; null where the byte is no command.
+constexpr const MacroCommandInfo* find_macro_command(std::uint8_t code) {
+  const auto row = macro_detail::row_of_code[code];
+  return row == macro_detail::no_row ? nullptr : &macro_commands[row];
+}
+
+/// The row of a mnemonic; null where there is none. Case counts.
+constexpr const MacroCommandInfo* find_macro_command(std::string_view mnemonic) {
+  for (const auto& info : macro_commands)
+    if (info.mnemonic == mnemonic)
+      return &info;
+  return nullptr;
+}
+
+/// The row of a flag's word; null where there is none.
+constexpr const MacroFlagInfo* find_macro_flag(std::string_view word) {
+  for (const auto& info : macro_flags)
+    if (info.word == word)
+      return &info;
+  return nullptr;
+}
+
+/// The parameter with this index, where there is one.
+constexpr std::optional<MacroParameter> find_macro_parameter(std::uint8_t index) {
+  if (index < std::size(macro_parameters))
+    return macro_parameters[index].parameter;
+  return std::nullopt;
+}
+
+/// Whether a macro with these flags has `flag`.
+constexpr bool has_flag(std::uint8_t flags, MacroFlag flag) {
+  return (flags & static_cast<std::uint8_t>(flag)) != 0;
+}
+
+/// `ms`, `10 ms`, `deg` or nothing.
+std::string_view to_string(MacroUnit unit);
+
+/// Whether `value` is one that the documents give the operand: within its range, and of the macro
+/// identifiers not the stream macro's, which nothing can go to.
+constexpr bool is_documented(const MacroOperand& operand, std::int32_t value) {
+  if (operand.kind == MacroOperandKind::MacroId && value == macro_id_stream)
+    return false;
+  return value >= operand.minimum && value <= operand.maximum;
+}
+
+} // namespace orb::spec
