@@ -127,7 +127,8 @@ Decoder::Match Decoder::match_command(ByteView bytes, Item& item) const {
   const auto payload = fixed != 0 ? fixed : dlen - std::size_t{1};
   if (bytes.size() < command_header + payload + 1) {
     // FF FF FF …: a stray FFh in front of a packet must not hold it up until the time-out.
-    if (item.did == spec::sop1 && match_command(bytes.subspan(1), item) == Match::Whole)
+    Item behind;
+    if (item.did == spec::sop1 && match_command(bytes.subspan(1), behind) == Match::Whole)
       return Match::No;
     return Match::Incomplete;
   }

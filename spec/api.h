@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 /// The API of the robot: packets, commands, answers and messages. Source: API, PKT.
@@ -73,9 +74,8 @@ const ResponseInfo* find_response(std::uint8_t code);
 
 /// A command: the device id in the high byte, the command id in the low one.
 enum class ApiCommand : std::uint16_t {
-#define COMMAND(enumerator, did, cid, name) enumerator = (did) << 8 | (cid),
+#define COMMAND(enumerator, did, cid, ...) enumerator = (did) << 8 | (cid),
 #include "spec/api.def"
-#undef COMMAND
 };
 
 constexpr std::uint8_t did(ApiCommand command) {
@@ -84,12 +84,192 @@ constexpr std::uint8_t did(ApiCommand command) {
 constexpr std::uint8_t cid(ApiCommand command) {
   return static_cast<std::uint8_t>(static_cast<std::uint16_t>(command));
 }
+/// The command of these numbers; not every value is one of the table.
 constexpr ApiCommand api_command(std::uint8_t did, std::uint8_t cid) {
   return static_cast<ApiCommand>(did << 8 | cid);
 }
 
+inline constexpr std::uint8_t did_core = 0x00;
+inline constexpr std::uint8_t did_bootloader = 0x01;
+inline constexpr std::uint8_t did_sphero = 0x02;
+
+/// Whether the simulated ball does it, or how it refuses. Source: UPLOAD.
+enum class Status : std::uint8_t {
+  Implemented,
+  Factory,     ///< answers 05h: works only at the factory
+  Unsupported, ///< answers 05h: no firmware has it
+  Password,    ///< answers 0Bh: the password is not public
+  Bootloader   ///< answers 09h: the simulated bootloader takes only leave-bootloader
+};
+
+enum class Idempotent : std::uint8_t { No, Yes };
+enum class Presence : std::uint8_t { Required, Optional };
+
+/// How a field is packed; numbers most significant byte first.
+enum class FieldType : std::uint8_t {
+  U8,
+  U16,
+  U32,
+  S16,
+  S32,
+  Data,   ///< all bytes that are left
+  Data32, ///< exactly 32 bytes
+  Text12, ///< exactly 12 bytes of text
+  Text16  ///< exactly 16 bytes of text, padded with NUL
+};
+
+/// Bytes that a field takes; 0 for Data, which takes the rest.
+constexpr std::size_t field_size(FieldType type) {
+  switch (type) {
+  case FieldType::U8: return 1;
+  case FieldType::U16:
+  case FieldType::S16: return 2;
+  case FieldType::U32:
+  case FieldType::S32: return 4;
+  case FieldType::Text12: return 12;
+  case FieldType::Text16: return 16;
+  case FieldType::Data32: return 32;
+  case FieldType::Data: return 0;
+  }
+  return 0;
+}
+
+constexpr bool is_number(FieldType type) {
+  return type <= FieldType::S32;
+}
+
+/// One operand of a command, or one field of an answer or message.
+struct Field {
+  std::uint16_t owner; ///< the command's or the message's code
+  FieldType type;
+  std::string_view name;
+  std::int64_t least; ///< of numbers the value, of Data the count; only operands have a range
+  std::int64_t most;
+  Presence presence;
+  std::string_view unit; ///< a unit, or a subject of spec/names.def with blanks for `_`
+};
+
+struct CommandInfo {
+  ApiCommand command;
+  std::string_view name; ///< kebab-case, as `orb encode` and `orb exec` take it
+  Status status;
+  Idempotent idempotent;
+  std::uint8_t since_major; ///< the API revision that documents it first
+  std::uint8_t since_minor;
+  std::string_view source;
+  std::string_view example; ///< operands as `orb encode NAME` takes them
+  std::string_view summary;
+};
+
+inline constexpr auto api_commands = std::to_array<CommandInfo>({
+#define COMMAND(enumerator, did, cid, name, status, idempotent, major, minor, source, example,     \
+                summary)                                                                           \
+  {ApiCommand::enumerator,                                                                         \
+   name,                                                                                           \
+   Status::status,                                                                                 \
+   Idempotent::idempotent,                                                                         \
+   major,                                                                                          \
+   minor,                                                                                          \
+   source,                                                                                         \
+   example,                                                                                        \
+   summary},
+#include "spec/api.def"
+});
+
+/// The operands of a command in the order of the wire.
+std::span<const Field> operands(ApiCommand command);
+/// The fields of its answer; none for a Simple Response.
+std::span<const Field> answer(ApiCommand command);
+
+/// The row of a command, by its numbers or its name; null when there is none.
+const CommandInfo* find_command(std::uint8_t did, std::uint8_t cid);
+const CommandInfo* find_command(std::string_view name);
+/// The row of an enumerator.
+const CommandInfo& info(ApiCommand command);
+
+/// The messages that the ball sends unasked.
+enum class AsyncId : std::uint8_t {
+#define ASYNC(enumerator, code, ...) enumerator = code,
+#include "spec/async.def"
+};
+
+struct AsyncInfo {
+  AsyncId id;
+  std::string_view name;    ///< kebab-case
+  std::string_view enabler; ///< the command that turns it on, DID and CID; empty when none does
+  std::string_view source;
+  std::string_view summary;
+};
+
+inline constexpr auto asyncs = std::to_array<AsyncInfo>({
+#define ASYNC(enumerator, code, name, enabler, source, summary)                                    \
+  {AsyncId::enumerator, name, enabler, source, summary},
+#include "spec/async.def"
+});
+
+std::span<const Field> fields(AsyncId id);
+/// The row of a message id; null when there is none.
+const AsyncInfo* find_async(std::uint8_t id);
+
+// Values and bits of fields: one namespace a subject, such as power_state::charging.
+#define NAMED_VALUE(subject, name, value, text)                                                    \
+  namespace subject {                                                                              \
+  inline constexpr std::uint8_t name = value;                                                      \
+  }
+#define NAMED_BIT(subject, name, bit, text)                                                        \
+  namespace subject {                                                                              \
+  inline constexpr std::uint32_t name = std::uint32_t{1} << (bit);                                 \
+  }
+#include "spec/names.def"
+
+/// A value, or a bit, of the fields whose unit is `subject`.
+struct Named {
+  std::string_view subject;
+  std::uint32_t value; ///< the value, or the mask of the bit
+  std::string_view text;
+};
+
+/// The name of a value of a subject such as `power state`; empty when it has none.
+std::string_view value_name(std::string_view subject, std::uint32_t value);
+/// The names of the bits that are set, with commas; empty when none is or the subject has no bits.
+std::string bit_names(std::string_view subject, std::uint32_t value);
+
+/// What can be streamed. Source: API §Set Data Streaming.
+enum class StreamSource : std::uint8_t {
+#define STREAM(enumerator, ...) enumerator,
+#include "spec/streams.def"
+#undef STREAM
+};
+
+struct StreamInfo {
+  StreamSource source;
+  std::uint64_t mask; ///< MASK in the low 32 bits, MASK2 in the high ones
+  std::string_view name;
+  std::int32_t least;
+  std::int32_t most;
+  std::string_view unit; ///< of one LSB
+};
+
+/// In the order in which their values stand in a frame.
+inline constexpr auto streams = std::to_array<StreamInfo>({
+#define STREAM(enumerator, word, bit, name, least, most, unit)                                     \
+  {StreamSource::enumerator,                                                                       \
+   std::uint64_t{1} << (((word)-1) * 32 + (bit)),                                                  \
+   name,                                                                                           \
+   least,                                                                                          \
+   most,                                                                                           \
+   unit},
+#include "spec/streams.def"
+#undef STREAM
+});
+
+/// The rate of the control system, of which streaming takes every N-th sample.
+inline constexpr std::uint32_t stream_hz = 400;
+
 /// The fixed payload that DLEN FFh stands for with this command; 0 where FFh is an ordinary length.
 constexpr std::size_t long_payload(std::uint8_t did, std::uint8_t cid) {
+  if (did != did_sphero)
+    return 0;
   const auto command = api_command(did, cid);
   return command == ApiCommand::SetSsbModifierBlock     ? password_size + ssb_modifier_size
          : command == ApiCommand::SetConfigurationBlock ? config_block_size
