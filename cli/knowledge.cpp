@@ -85,8 +85,9 @@ std::string chapter(const Entry& entry) {
 } // namespace
 
 std::vector<Section> knowledge() {
-  return {statements_section(),   functions_section(), variables_section(),  operators_section(),
-          basic_errors_section(), limits_section(),    basic_flags_section()};
+  return {statements_section(),  functions_section(),      variables_section(),
+          operators_section(),   basic_errors_section(),   limits_section(),
+          basic_flags_section(), macro_commands_section(), macro_flags_section()};
 }
 
 std::string print_entry(const Section& section, const Entry& entry) {

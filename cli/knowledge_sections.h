@@ -13,5 +13,7 @@ Section operators_section();
 Section basic_errors_section();
 Section limits_section();
 Section basic_flags_section();
+Section macro_commands_section();
+Section macro_flags_section();
 
 } // namespace orb::cli
