@@ -1,0 +1,515 @@
+#include "vm/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace orb::vm {
+
+namespace {
+
+// The model. Marked [S] where a document gives the figure, [?] where it is a choice.
+constexpr double dt = 0.0025;                   // s, control system at 400 Hz [S]
+constexpr double full_speed = 200;              // cm/s at speed 255 [?]
+constexpr double acceleration = 150;            // cm/s2 [?]
+constexpr double braking = 300;                 // cm/s2, go 0 [?]
+constexpr double coasting = 50;                 // cm/s2, motors off [?]
+constexpr double drift_friction = 150;          // cm/s2, after a push or a bounce [?]
+constexpr double default_rotation_rate = 156.8; // deg/s: C8h at 0.784 deg/s [S]
+constexpr double fast_rotation_rate = 1000;     // deg/s [S]
+constexpr double stopped_below = 2;             // cm/s: "very small" speed [?]
+constexpr double track = 6;                     // cm between the wheels [?]
+constexpr double greatest_yaw_rate = 2000;      // deg/s, what the gyro can show [S]
+constexpr double radius = 3.65;                 // cm [?]
+constexpr double restitution = 0.3;             // share of the speed that a wall gives back [?]
+constexpr double least_blow = 5;                // cm/s that count as a blow [?]
+constexpr double power_per_speed = 2;           // collision power per unit of speed 0..255 [S]
+constexpr double gravity = 981;                 // cm/s2
+constexpr double shake_g = 4;                   // [?]
+constexpr double blow_g = 6;                    // [?]
+constexpr Duration shake_time = std::chrono::milliseconds{400};       // [?]
+constexpr Duration shake_half_period = std::chrono::milliseconds{50}; // [?]
+constexpr Duration blow_time = std::chrono::milliseconds{20};         // [?]
+constexpr double full_battery = 7.8;                                  // V at power-on [?]
+constexpr double charged_battery = 8.2;                               // V, where charging ends [?]
+constexpr double empty_battery = 6.0;                                 // V, the lowest shown [?]
+constexpr double idle_drain = 0.15 / 3600;                            // V/s [?]
+constexpr double motion_drain = 0.65 / 3600; // V/s at full speed, on top [?]
+constexpr double charge_rate = 0.6 / 3600;   // V/s [?]
+
+constexpr double to_radians = std::numbers::pi / 180;
+
+double wrap_360(double degrees) {
+  const double wrapped = std::fmod(degrees, 360.0);
+  return wrapped < 0 ? wrapped + 360.0 : wrapped;
+}
+
+/// The shortest way, -180 < way <= 180.
+double shortest_turn(double from_deg, double to_deg) {
+  const double way = wrap_360(to_deg - from_deg);
+  return way > 180 ? way - 360 : way;
+}
+
+double toward(double value, double target, double most) {
+  return value < target ? std::min(value + most, target) : std::max(value - most, target);
+}
+
+double seconds(Duration duration) {
+  return static_cast<double>(duration.count()) * 1e-9;
+}
+
+Instant grid_after(Instant now) {
+  return now + Body::step - now.time_since_epoch() % Body::step;
+}
+
+} // namespace
+
+Body::Body(std::uint64_t seed)
+    : seed_(seed), rotation_rate_(default_rotation_rate), battery_v_(full_battery) {}
+
+bool Body::moving() const {
+  return forward_ != 0 || target_speed_ != 0 || drift_x_ != 0 || drift_y_ != 0 ||
+         rotate_left_deg_ != 0 || left_wheel_ != 0 || right_wheel_ != 0 ||
+         (stabilized_ && target_deg_ != yaw_deg_) || (!stabilized_ && spin_deg_s_ != 0) ||
+         (raw_ && (left_.power != 0 || right_.power != 0)) || landing_;
+}
+
+Instant Body::next_step() const {
+  return moving() ? grid_after(now_) : never;
+}
+
+Instant Body::advance_to(Instant now) {
+  while (moving()) {
+    const Instant next = grid_after(now_);
+    if (next > now)
+      break;
+    now_ = next;
+    single_step();
+    if (impact_)
+      return now_;
+  }
+  if (!moving()) {
+    yaw_rate_ = 0;
+    forward_acceleration_ = 0;
+  }
+  now_ = std::max(now_, now);
+  return now_;
+}
+
+std::optional<Impact> Body::take_impact() {
+  const auto impact = impact_;
+  impact_.reset();
+  return impact;
+}
+
+void Body::single_step() {
+  turn();
+  drive();
+  travel();
+  if (landing_ && now_ >= falling_until_) {
+    landing_ = false;
+    struck_until_ = now_ + blow_time;
+  }
+}
+
+bool Body::fast_turn() const {
+  return go_ == Go::FastTurn || stopped();
+}
+
+void Body::turn() {
+  const double before = yaw_deg_;
+  double turned = 0;
+  if (!stabilized_) {
+    const double wheels = raw_ ? (left_wheel_ - right_wheel_) / track / to_radians : 0;
+    turned = std::clamp(wheels + spin_deg_s_, -greatest_yaw_rate, greatest_yaw_rate) * dt;
+  } else if (rotate_left_deg_ != 0) {
+    const double most = rotate_rate_ * dt;
+    turned = std::clamp(rotate_left_deg_, -most, most);
+    rotate_left_deg_ -= turned;
+  } else {
+    const double most = (fast_turn() ? fast_rotation_rate : rotation_rate_) * dt;
+    turned = std::clamp(shortest_turn(yaw_deg_, target_deg_), -most, most);
+    if (std::abs(shortest_turn(yaw_deg_ + turned, target_deg_)) < 1e-9) {
+      yaw_deg_ = target_deg_;
+      yaw_rate_ = turned / dt;
+      return;
+    }
+  }
+  yaw_deg_ = wrap_360(before + turned);
+  yaw_rate_ = turned / dt;
+  if (stabilized_ && rotate_rate_ != 0) {
+    if (rotate_left_deg_ == 0) {
+      rotate_rate_ = 0;
+      yaw_deg_ = target_deg_;
+    }
+  } else if (!stabilized_)
+    target_deg_ = yaw_deg_;
+}
+
+void Body::drive() {
+  const double before = forward_;
+  if (raw_) {
+    const auto wheel = [](double speed, const Motor& motor) {
+      const double commanded = full_speed * motor.power / 255;
+      switch (motor.mode) {
+      case MotorMode::Off: return toward(speed, 0, coasting * dt);
+      case MotorMode::Forward: return toward(speed, commanded, acceleration * dt);
+      case MotorMode::Reverse: return toward(speed, -commanded, acceleration * dt);
+      case MotorMode::Brake: return toward(speed, 0, braking * dt);
+      case MotorMode::Ignore: break;
+      }
+      return speed;
+    };
+    left_wheel_ = wheel(left_wheel_, left_);
+    right_wheel_ = wheel(right_wheel_, right_);
+    forward_ = (left_wheel_ + right_wheel_) / 2;
+  } else if (!stabilized_) {
+    forward_ = toward(forward_, 0, coasting * dt);
+  } else {
+    const bool waits = vector_drive_ == Switch::On && stopped() &&
+                       std::abs(shortest_turn(yaw_deg_, target_deg_)) > 1;
+    const double target = waits ? 0 : full_speed * target_speed_ / 255;
+    forward_ = toward(forward_, target, (go_ == Go::Brake ? braking : acceleration) * dt);
+  }
+  forward_acceleration_ = (forward_ - before) / dt;
+}
+
+void Body::travel() {
+  const double drift = std::hypot(drift_x_, drift_y_);
+  if (drift > 0) {
+    const double left = std::max(0.0, drift - drift_friction * dt) / drift;
+    drift_x_ *= left;
+    drift_y_ *= left;
+  }
+  if (forward_ == 0 && drift_x_ == 0 && drift_y_ == 0)
+    return;
+
+  const double world = (yaw_deg_ + world_offset_deg_) * to_radians;
+  const double vx = forward_ * std::sin(world) + drift_x_;
+  const double vy = forward_ * std::cos(world) + drift_y_;
+  double x = world_x_ + vx * dt;
+  double y = world_y_ + vy * dt;
+  if (!walls_.empty())
+    hit_walls(x, y, vx, vy);
+
+  // The locator sees the same way, turned into its own axes.
+  const double dx = x - world_x_;
+  const double dy = y - world_y_;
+  world_x_ = x;
+  world_y_ = y;
+  const double turned = tare_deg_ - world_offset_deg_;
+  if (turned == 0) {
+    locator_x_ += dx;
+    locator_y_ += dy;
+  } else {
+    const double sine = std::sin(turned * to_radians);
+    const double cosine = std::cos(turned * to_radians);
+    locator_x_ += dx * cosine + dy * sine;
+    locator_y_ += dy * cosine - dx * sine;
+  }
+  battery_v_ -= motion_drain * dt * std::min(1.0, std::hypot(vx, vy) / full_speed);
+}
+
+void Body::hit_walls(double& x, double& y, double vx, double vy) {
+  for (const auto& [wall, side] : walls_) {
+    const bool across_x = wall.axis == Wall::Axis::X;
+    double& place = across_x ? x : y;
+    const double speed = across_x ? vx : vy;
+    const double nearest = wall.at_cm + side * radius;
+    const bool through = side > 0 ? place < nearest : place > nearest;
+    if (!through)
+      continue;
+    place = nearest;
+    if (speed * side >= 0)
+      continue;
+    if (std::abs(speed) >= least_blow)
+      strike(across_x ? speed : 0, across_x ? 0 : speed);
+    // What the wall leaves: the way along it, and a share of the way back.
+    drift_x_ = across_x ? -restitution * vx : vx;
+    drift_y_ = across_x ? vy : -restitution * vy;
+    forward_ = left_wheel_ = right_wheel_ = 0;
+    if (std::abs(speed) < least_blow)
+      (across_x ? drift_x_ : drift_y_) = 0;
+  }
+}
+
+void Body::strike(double vx, double vy) {
+  // Into the ball's own axes: y ahead, x to the right.
+  const double world = (yaw_deg_ + world_offset_deg_) * to_radians;
+  const double scale = power_per_speed * 255 / full_speed;
+  Impact impact;
+  impact.x_power = scale * (vx * std::cos(world) - vy * std::sin(world));
+  impact.y_power = scale * (vx * std::sin(world) + vy * std::cos(world));
+  impact.speed = speed();
+  impact_ = impact;
+  struck_until_ = now_ + blow_time;
+}
+
+void Body::power_on() {
+  // Heading 0 is wherever it points; what it faces in the world does not change.
+  world_offset_deg_ += yaw_deg_;
+  yaw_deg_ = target_deg_ = tare_deg_ = 0;
+  tare_correction_ = Switch::On;
+  locator_x_ = locator_y_ = 0;
+  forward_ = left_wheel_ = right_wheel_ = drift_x_ = drift_y_ = 0;
+  rotate_left_deg_ = rotate_rate_ = yaw_rate_ = forward_acceleration_ = 0;
+  stabilized_ = true;
+  raw_ = false;
+  left_ = right_ = {};
+  target_speed_ = 0;
+  go_ = Go::Brake;
+  rotation_rate_ = default_rotation_rate;
+}
+
+void Body::roll(const Roll& roll) {
+  if (!stabilized_)
+    return;
+  target_deg_ = roll.heading_deg;
+  target_speed_ = roll.go == Go::Brake ? 0 : roll.speed;
+  go_ = roll.go;
+  rotate_left_deg_ = 0;
+  rotate_rate_ = 0;
+}
+
+void Body::rotate(int angle_deg, Duration time) {
+  if (!stabilized_)
+    return;
+  const double least = std::abs(angle_deg) / greatest_yaw_rate;
+  rotate_left_deg_ = angle_deg;
+  rotate_rate_ = std::abs(angle_deg) / std::max({least, seconds(time), dt});
+  target_deg_ = wrap_360(yaw_deg_ + angle_deg);
+}
+
+void Body::brake() {
+  target_speed_ = 0;
+  go_ = Go::Brake;
+  if (raw_)
+    left_ = right_ = {MotorMode::Off, 0};
+}
+
+void Body::set_motors(Motor left, Motor right) {
+  const auto ignored = [](const Motor& motor) { return motor.mode == MotorMode::Ignore; };
+  if (ignored(left) && ignored(right))
+    return;
+  if (!raw_)
+    left_wheel_ = right_wheel_ = forward_;
+  raw_ = true;
+  stabilized_ = false;
+  target_speed_ = 0;
+  rotate_left_deg_ = rotate_rate_ = 0;
+  if (!ignored(left))
+    left_ = left;
+  if (!ignored(right))
+    right_ = right;
+}
+
+void Body::set_stabilization(Stabilization mode) {
+  if (mode == Stabilization::Off) {
+    stabilized_ = false;
+    target_speed_ = 0;
+    rotate_left_deg_ = rotate_rate_ = 0;
+    return;
+  }
+  if (!stabilized_ || mode == Stabilization::OnAndReset) {
+    target_deg_ = yaw_deg_;
+    rotate_left_deg_ = rotate_rate_ = 0;
+    if (!stabilized_)
+      target_speed_ = 0;
+  }
+  stabilized_ = true;
+  raw_ = false;
+  left_wheel_ = right_wheel_ = 0;
+  left_ = right_ = {};
+}
+
+void Body::set_rotation_rate(double deg_per_s) {
+  rotation_rate_ = deg_per_s;
+}
+
+void Body::set_vector_drive(Switch vector_drive) {
+  vector_drive_ = vector_drive;
+}
+
+void Body::set_heading(int heading_deg) {
+  const double turned = yaw_deg_ - heading_deg;
+  world_offset_deg_ += turned;
+  if (tare_correction_ == Switch::On)
+    tare_deg_ += turned;
+  yaw_deg_ = target_deg_ = heading_deg;
+  rotate_left_deg_ = rotate_rate_ = 0;
+}
+
+void Body::locate(double x_cm, double y_cm) {
+  locator_x_ = x_cm;
+  locator_y_ = y_cm;
+}
+
+void Body::set_yaw_tare(int tare_deg) {
+  tare_deg_ = tare_deg;
+}
+
+void Body::set_tare_correction(Switch correct_on_set_heading) {
+  tare_correction_ = correct_on_set_heading;
+}
+
+void Body::add_wall(const Wall& wall) {
+  const double place = wall.axis == Wall::Axis::X ? world_x_ : world_y_;
+  walls_.push_back({wall, place < wall.at_cm ? -1.0 : 1.0});
+}
+
+void Body::push(int heading_deg, int strength) {
+  const double direction = heading_deg * to_radians;
+  const double speed = full_speed * strength / 255;
+  const double vx = speed * std::sin(direction);
+  const double vy = speed * std::cos(direction);
+  // A push to the right is a blow on the left side.
+  strike(-vx, -vy);
+  drift_x_ += vx;
+  drift_y_ += vy;
+}
+
+void Body::shake() {
+  shaken_until_ = now_ + shake_time;
+}
+
+void Body::toss(Duration time) {
+  falling_until_ = now_ + time;
+  landing_ = true;
+}
+
+void Body::tilt(double pitch_deg, double roll_deg) {
+  tilt_pitch_deg_ = pitch_deg;
+  tilt_roll_deg_ = roll_deg;
+}
+
+void Body::spin(double deg_per_s) {
+  spin_deg_s_ = deg_per_s;
+}
+
+void Body::set_battery(double volts) {
+  battery_v_ = volts;
+  battery_at_ = now_;
+}
+
+void Body::set_charger(Switch charger) {
+  set_battery(battery_v());
+  charger_ = charger;
+}
+
+bool Body::stopped() const {
+  return std::abs(forward_) < stopped_below && std::hypot(drift_x_, drift_y_) < stopped_below;
+}
+
+double Body::left_motor_cm_s() const {
+  return raw_ ? left_wheel_ : forward_;
+}
+double Body::right_motor_cm_s() const {
+  return raw_ ? right_wheel_ : forward_;
+}
+
+int Body::left_motor_power() const {
+  return static_cast<int>(std::lround(left_motor_cm_s() / full_speed * 255));
+}
+
+int Body::right_motor_power() const {
+  return static_cast<int>(std::lround(right_motor_cm_s() / full_speed * 255));
+}
+
+Vector3 Body::velocity_cm_s() const {
+  const double way = (yaw_deg_ + tare_deg_) * to_radians;
+  const double turned = (tare_deg_ - world_offset_deg_) * to_radians;
+  const double sine = std::sin(turned);
+  const double cosine = std::cos(turned);
+  return {forward_ * std::sin(way) + drift_x_ * cosine + drift_y_ * sine,
+          forward_ * std::cos(way) + drift_y_ * cosine - drift_x_ * sine, 0};
+}
+
+Pose Body::pose() const {
+  const auto velocity = velocity_cm_s();
+  return {locator_x_, locator_y_, yaw_deg_, std::hypot(velocity.x, velocity.y)};
+}
+
+int Body::speed() const {
+  const auto velocity = velocity_cm_s();
+  const double share = std::hypot(velocity.x, velocity.y) / full_speed;
+  return static_cast<int>(std::lround(std::min(share, 1.0) * 255));
+}
+
+double Body::yaw_deg() const {
+  return yaw_deg_;
+}
+
+double Body::pitch_deg() const {
+  const double lifted = std::atan2(forward_acceleration_, gravity) / to_radians;
+  return std::clamp(tilt_pitch_deg_ + lifted + noise(0), -90.0, 90.0);
+}
+
+double Body::roll_deg() const {
+  return std::clamp(tilt_roll_deg_ + noise(1), -180.0, 180.0);
+}
+
+Vector3 Body::acceleration_g() const {
+  if (now_ < falling_until_)
+    return {};
+  const double pitch = tilt_pitch_deg_ * to_radians;
+  const double roll = tilt_roll_deg_ * to_radians;
+  Vector3 felt{-std::sin(roll) * std::cos(pitch) + forward_ * yaw_rate_ * to_radians / gravity,
+               std::sin(pitch) + forward_acceleration_ / gravity, std::cos(roll) * std::cos(pitch)};
+  if (now_ < shaken_until_)
+    felt.x += (shaken_until_ - now_) / shake_half_period % 2 == 0 ? shake_g : -shake_g;
+  if (now_ < struck_until_)
+    felt.y += blow_g;
+  felt.x += noise(2) / 100;
+  felt.y += noise(3) / 100;
+  felt.z += noise(4) / 100;
+  return felt;
+}
+
+double Body::acceleration_total_g() const {
+  const auto felt = acceleration_g();
+  return std::sqrt(felt.x * felt.x + felt.y * felt.y + felt.z * felt.z);
+}
+
+Vector3 Body::rotation_deg_s() const {
+  return {noise(5), noise(6), yaw_rate_ + noise(7)};
+}
+
+Quaternion Body::attitude() const {
+  // Headings count clockwise, quaternions counter-clockwise about Z.
+  const double yaw = -yaw_deg_ * to_radians / 2;
+  const double pitch = pitch_deg() * to_radians / 2;
+  const double roll = roll_deg() * to_radians / 2;
+  const double cy = std::cos(yaw), sy = std::sin(yaw);
+  const double cp = std::cos(pitch), sp = std::sin(pitch);
+  const double cr = std::cos(roll), sr = std::sin(roll);
+  return {cr * cp * cy + sr * sp * sy, cr * sp * cy + sr * cp * sy, sr * cp * cy - cr * sp * sy,
+          cr * cp * sy - sr * sp * cy};
+}
+
+double Body::battery_v() const {
+  const double elapsed = seconds(now_ - battery_at_);
+  if (charger_ == Switch::On)
+    return std::max(battery_v_, std::min(charged_battery, battery_v_ + charge_rate * elapsed));
+  return std::max(std::min(battery_v_, empty_battery), battery_v_ - idle_drain * elapsed);
+}
+
+Instant Body::battery_reaches(double volts) const {
+  const double above = battery_v() - volts;
+  if (charging() || above <= 0)
+    return never;
+  return now_ + Duration{static_cast<Duration::rep>(above / idle_drain * 1e9) + 1};
+}
+
+double Body::noise(std::uint32_t channel) const {
+  if (noise_ == Switch::Off)
+    return 0;
+  // A value of its own for each channel in each step of the control system.
+  std::uint64_t mixed = seed_ + 0x9E3779B97F4A7C15u * (channel + 1u) +
+                        static_cast<std::uint64_t>(now_.time_since_epoch() / step);
+  mixed = (mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9u;
+  mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EBu;
+  mixed ^= mixed >> 31;
+  return static_cast<double>(mixed >> 11) * 0x1p-53 * 2 - 1;
+}
+
+} // namespace orb::vm

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "base/time.h"
+#include "spec/basic.h"
+#include "vm/body.h"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+namespace orb::vm {
+
+// What happens to a ball, as values: `orb run --trace`, reports and drawings are made from these.
+// The names and units are those of the trace (docs/ball.md).
+namespace event {
+
+/// A print statement handed its text to the print channel.
+struct Print {
+  std::string text;
+};
+/// A program stopped with an error of the robot.
+struct Error {
+  int line = 0;
+  spec::BasicError code{};
+};
+/// The colour that shows changed.
+struct Led {
+  Color color;
+};
+struct BackLed {
+  int value = 0;
+};
+/// A drive command was obeyed.
+struct Drive {
+  Roll roll;
+};
+/// Where the ball is; every 50 ms while it moves, and where it comes to rest.
+struct Position {
+  Pose pose;
+};
+struct Marker {
+  int marker = 0;
+  int macro = 0;
+  int command = 0;
+};
+/// The macro executive began a command.
+struct Macro {
+  int id = 0;
+  int command = 0;
+};
+/// A line of a program ended; only when the observer asks for lines.
+struct Line {
+  int line = 0;
+};
+/// A blow exceeded the thresholds that a client set.
+struct Collision {
+  int x = 0;
+  int y = 0;
+  int axis = 0;
+  int x_magnitude = 0;
+  int y_magnitude = 0;
+  int speed = 0;
+};
+struct Sleep {
+  int seconds = 0;
+  int macro = 0;
+  int line = 0;
+};
+/// The program ended. A macro's end is a Marker, where it asks for one.
+struct End {
+  enum class Reason : std::uint8_t { End, Error, Abort, Sleep };
+  Reason reason = Reason::End;
+  std::uint64_t lines = 0;
+};
+
+} // namespace event
+
+using Event = std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
+                           event::Position, event::Marker, event::Macro, event::Line,
+                           event::Collision, event::Sleep, event::End>;
+
+/// Sees what happens to a ball, in the order in which it happens.
+class Observer {
+public:
+  virtual ~Observer() = default;
+  virtual void on_event(Instant at, const Event& event) = 0;
+};
+
+} // namespace orb::vm

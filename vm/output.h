@@ -1,0 +1,37 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "base/time.h"
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+namespace orb::vm {
+
+/// What the ball sends, on its way over a wire of 11 520 bytes a second: a queue of packets, each
+/// with the instant at which its last byte has left.
+class Output {
+public:
+  /// Puts a packet behind the others.
+  void push(Bytes packet, Instant now);
+  /// The bytes that have not left at `now`.
+  std::size_t waiting(Instant now) const;
+  /// When no more than `bytes` will be waiting; `now` where that is so already.
+  Instant drained_to(std::size_t bytes, Instant now) const;
+  /// The first packet, when it has left at `now`.
+  std::optional<Bytes> take(Instant now);
+  /// When the next packet has left; `never` when there is none.
+  Instant next_event() const { return packets_.empty() ? never : packets_.front().left; }
+  void clear();
+
+private:
+  struct Packet {
+    Instant left;
+    Bytes bytes;
+  };
+  std::deque<Packet> packets_;
+  Instant idle_at_{}; ///< when all that was pushed has left
+};
+
+} // namespace orb::vm

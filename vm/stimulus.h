@@ -1,0 +1,80 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "base/source.h"
+#include "base/time.h"
+#include "vm/body.h"
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace orb::vm {
+
+/// What the world, or a client, does to a ball. docs/ball.md lists the lines of a script.
+namespace stimulus {
+
+struct Shake {};
+struct Toss {
+  Duration time;
+};
+struct Push {
+  int heading_deg = 0;
+  int strength = 0; ///< 0..255
+};
+/// A client's roll command.
+struct ClientRoll {
+  Roll roll;
+};
+/// A client's colour.
+struct ClientColor {
+  Color color;
+};
+struct Connect {};
+struct Disconnect {};
+struct Battery {
+  double volts = 0;
+};
+struct Charger {
+  Switch state = Switch::Off;
+};
+/// A number for `input`.
+struct Number {
+  std::int32_t value = 0;
+};
+struct Tilt {
+  double pitch_deg = 0;
+  double roll_deg = 0;
+};
+struct Spin {
+  double deg_per_s = 0;
+};
+struct Noise {
+  Switch state = Switch::Off;
+};
+
+} // namespace stimulus
+
+using Stimulus = std::variant<Wall, stimulus::Shake, stimulus::Toss, stimulus::Push,
+                              stimulus::ClientRoll, stimulus::ClientColor, stimulus::Connect,
+                              stimulus::Disconnect, stimulus::Battery, stimulus::Charger,
+                              stimulus::Number, stimulus::Tilt, stimulus::Spin, stimulus::Noise>;
+
+struct TimedStimulus {
+  Duration at{};
+  Stimulus stimulus;
+};
+
+/// A script and what is wrong with it: lines that could not be read are left out.
+struct StimulusScript {
+  std::vector<TimedStimulus> events; ///< in the order of their times; equals as written
+  std::vector<Diagnostic> diagnostics;
+};
+
+StimulusScript parse_stimulus(const Source& source);
+
+/// The rules that parse_stimulus raises.
+std::span<const Rule> stimulus_rules();
+
+} // namespace orb::vm

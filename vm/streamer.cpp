@@ -1,0 +1,7 @@
+#include "vm/streamer.h"
+
+namespace orb::vm {
+
+void Streamer::run(Instant, Ball&) {}
+
+} // namespace orb::vm
