@@ -1,5 +1,7 @@
 #include "cli/commands.h"
 
+#include "cli/values.h"
+
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
@@ -50,8 +52,9 @@ void add_commands(CLI::App& app, Context& context) {
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");
   app.add_option("--color", context.color, "auto, always or never")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->check(one_of({"auto", "always", "never"}))
       ->capture_default_str();
+  add_completion(app, context);
   add_explain(app, context);
   add_spec(app, context);
 }

@@ -1,5 +1,7 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
+#include "cli/complete.h"
+#include "cli/values.h"
 
 #include <csignal>
 #include <exception>
@@ -28,7 +30,8 @@ std::vector<std::string> candidates(const CLI::App& app, const std::string& word
           names.push_back("--" + name);
     return names;
   }
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+  for (const auto* command :
+       app.get_subcommands([](const CLI::App* one) { return !orb::cli::is_hidden(*one); }))
     names.push_back(command->get_name());
   return names;
 }
@@ -60,6 +63,14 @@ tl::expected<void, orb::cli::ConfigError> configure(CLI::App& app, Context& cont
   return orb::cli::apply_config(context.config, app);
 }
 
+/// Answers a completion script. A broken configuration costs the named balls, nothing else.
+void answer_completion(const CLI::App& app, std::vector<std::string> words) {
+  if (!words.empty() && words.front() == "--")
+    words.erase(words.begin());
+  const auto config = orb::cli::load_config().value_or(orb::cli::Config());
+  orb::cli::print_out(print(complete(app, config, words)));
+}
+
 int run(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN); // a closed pipe or socket is an error to handle, not a death
   CLI::App app(
@@ -69,6 +80,10 @@ int run(int argc, char** argv) {
   orb::cli::add_commands(app, context);
   if (argc == 1) {
     orb::cli::print_out(app.help());
+    return 0;
+  }
+  if (argv[1] == orb::cli::completion_request) {
+    answer_completion(app, std::vector<std::string>(argv + 2, argv + argc));
     return 0;
   }
   if (const auto ready = configure(app, context); !ready) {

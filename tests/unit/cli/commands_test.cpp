@@ -1,0 +1,90 @@
+// What holds for every command of the option model.
+
+#include "cli/commands.h"
+#include "cli/values.h"
+
+#include <gtest/gtest.h>
+#include <sstream>
+#include <utility>
+
+namespace orb::cli {
+namespace {
+
+struct Model {
+  CLI::App app{"", "orb"};
+  Context context;
+  std::vector<const CLI::App*> commands;
+
+  Model() {
+    add_commands(app, context);
+    commands = std::as_const(app).get_subcommands(
+        [](const CLI::App* command) { return !is_hidden(*command); });
+  }
+};
+
+/// The lines below `Examples:` in the help of a command: what a user sees.
+std::vector<std::string> examples_of(const CLI::App& command) {
+  std::istringstream help(command.help());
+  std::vector<std::string> examples;
+  bool inside = false;
+  for (std::string line; std::getline(help, line);) {
+    if (inside && line.empty())
+      break;
+    if (inside)
+      examples.push_back(line);
+    inside = inside || line == "Examples:";
+  }
+  return examples;
+}
+
+bool has_option(const CLI::App& app, const CLI::App& command, const std::string& name) {
+  return command.get_option_no_throw(name) != nullptr || app.get_option_no_throw(name) != nullptr;
+}
+
+TEST(Commands, EveryHelpShowsTwoExamplesThatCanBePasted) {
+  Model model;
+  ASSERT_FALSE(model.commands.empty());
+  for (const auto* command : model.commands) {
+    const auto examples = examples_of(*command);
+    EXPECT_GE(examples.size(), 2U) << command->get_name();
+    for (const auto& example : examples) {
+      EXPECT_NE(example.find("orb " + command->get_name()), std::string::npos) << example;
+      // Every option in it exists; what stands behind a pipe belongs to another program.
+      std::istringstream words(example.substr(0, example.find('|')));
+      for (std::string word; words >> word && word != "--";)
+        if (word.starts_with("--")) {
+          EXPECT_TRUE(has_option(model.app, *command, word.substr(0, word.find('=')))) << example;
+        }
+    }
+  }
+}
+
+TEST(Commands, EveryCommandAndOptionSaysWhatItDoes) {
+  Model model;
+  for (const auto* command : model.commands) {
+    EXPECT_FALSE(command->get_description().empty()) << command->get_name();
+    for (const auto* option : command->get_options())
+      EXPECT_FALSE(option->get_description().empty())
+          << command->get_name() << " " << option->get_name();
+  }
+}
+
+TEST(Commands, EveryClosedListSaysWhatWasMeant) {
+  Model model;
+  for (const auto* command : model.commands)
+    for (const auto* option : model.app.get_subcommand(command->get_name())->get_options()) {
+      if (value_kind(*option) != ValueKind::Words)
+        continue;
+      const auto words = words_of(*option);
+      auto misspelt = words.front() + "x";
+      // CLI11 hands out checks only through its non-const side.
+      auto* check = const_cast<CLI::Option*>(option)->get_validator(0);
+      const auto message = (*check)(misspelt);
+      EXPECT_NE(message.find("did you mean"), std::string::npos)
+          << command->get_name() << " " << option->get_name() << ": " << message
+          << " (check it by one_of, cli/values.h)";
+    }
+}
+
+} // namespace
+} // namespace orb::cli
