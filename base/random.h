@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+namespace orb {
+
+/// A small seeded generator (SplitMix64): the same numbers from every compiler, which the standard
+/// distributions do not promise. Not for secrets.
+struct Random {
+  std::uint64_t state = 1;
+
+  constexpr std::uint64_t next() {
+    state += 0x9E3779B97F4A7C15ULL;
+    auto mixed = state;
+    mixed = (mixed ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBULL;
+    return mixed ^ (mixed >> 31);
+  }
+
+  /// A number from 0 to `bound` - 1; `bound` is not 0. The bias is below bound / 2^64.
+  constexpr std::uint64_t below(std::uint64_t bound) { return next() % bound; }
+
+  /// True with the given probability, 0 to 1.
+  constexpr bool chance(double probability) {
+    return static_cast<double>(next() >> 11) < probability * 9007199254740992.0; // 2^53
+  }
+};
+
+} // namespace orb

@@ -1,0 +1,400 @@
+#include "protocol/fault.h"
+
+#include "base/suggest.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+#include <vector>
+
+namespace orb::protocol {
+namespace {
+
+/// How long the first part of a packet waits for its rest before it is passed on as it is.
+constexpr Duration hold_time = 100ms;
+/// Time between the pieces of a packet that is split.
+constexpr Duration split_gap = 1ms;
+/// The raster on which merged bytes arrive; about the interval at which a radio link is polled.
+constexpr Duration merge_raster = 20ms;
+constexpr std::uint8_t storm_async_id = 0x03; // sensor data, the message that comes in bursts
+constexpr std::uint64_t storm_most_messages = 8;
+constexpr std::uint64_t storm_most_payload = 80; // bytes; a full sensor frame has up to 64
+constexpr std::uint64_t stray_most_bytes = 3;    // real balls were seen to send one or two
+
+constexpr std::array<std::string_view, 14> words = {
+    "drop=", "flip=",  "dup=", "dup-request=", "storm=", "delay=",       "split",
+    "merge", "stale=", "cut@", "cut-answer@",  "flip@",  "flip-answer@", "seed="};
+
+tl::unexpected<std::string> wrong(std::string_view item, std::string_view what) {
+  return tl::unexpected(fmt::format("`{}` in the fault plan: {}", item, what));
+}
+
+std::optional<double> read_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint64_t> read_count(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    return std::nullopt;
+  return value;
+}
+
+std::optional<double> read_rate(std::string_view text) {
+  if (!text.ends_with("%"))
+    return std::nullopt;
+  text.remove_suffix(1);
+  const auto percent = read_number(text);
+  if (!percent || *percent < 0 || *percent > 100)
+    return std::nullopt;
+  return *percent / 100;
+}
+
+/// `300ms`, `0.2s`, or a bare number of milliseconds.
+std::optional<Duration> read_delay(std::string_view text) {
+  auto unit = 1e6; // nanoseconds
+  if (text.ends_with("ms")) {
+    text.remove_suffix(2);
+  } else if (text.ends_with("s")) {
+    text.remove_suffix(1);
+    unit = 1e9;
+  }
+  constexpr double most = 3600e9;
+  const auto value = read_number(text);
+  if (!value || *value < 0 || *value * unit > most)
+    return std::nullopt;
+  return Duration(static_cast<Duration::rep>(*value * unit));
+}
+
+bool read_delay_range(std::string_view text, FaultPlan& plan) {
+  const auto dots = text.find("..");
+  const auto least = read_delay(dots == text.npos ? text : text.substr(0, dots));
+  const auto most = read_delay(dots == text.npos ? text : text.substr(dots + 2));
+  if (!least || !most || *most < *least)
+    return false;
+  plan.delay_least = *least;
+  plan.delay_most = *most;
+  return true;
+}
+
+/// The name of an item, `=` or `@` included, and what follows it.
+std::pair<std::string_view, std::string_view> split_item(std::string_view item) {
+  const auto at = item.find_first_of("=@");
+  if (at == item.npos)
+    return {item, {}};
+  return {item.substr(0, at + 1), item.substr(at + 1)};
+}
+
+/// Where an item's value goes, by the kind of value it takes; null where it takes another kind.
+double* rate_of(FaultPlan& plan, std::string_view name) {
+  return name == "drop="          ? &plan.drop
+         : name == "flip="        ? &plan.flip
+         : name == "dup="         ? &plan.dup
+         : name == "dup-request=" ? &plan.dup_request
+         : name == "storm="       ? &plan.storm
+                                  : nullptr;
+}
+
+std::optional<std::uint64_t>* place_of(FaultPlan& plan, std::string_view name) {
+  return name == "cut@"           ? &plan.cut
+         : name == "cut-answer@"  ? &plan.cut_answer
+         : name == "flip@"        ? &plan.flip_at
+         : name == "flip-answer@" ? &plan.flip_answer_at
+                                  : nullptr;
+}
+
+tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan) {
+  const auto [name, value] = split_item(item);
+  if (auto* rate = rate_of(plan, name)) {
+    const auto read = read_rate(value);
+    if (!read)
+      return wrong(item, "a rate is written in percent, such as `1%` or `0.1%`");
+    *rate = *read;
+    return {};
+  }
+  if (auto* place = place_of(plan, name)) {
+    *place = read_count(value);
+    if (!*place)
+      return wrong(item, "a place is a whole number, such as `cut@1234`");
+    return {};
+  }
+  if (name == "delay=") {
+    if (!read_delay_range(value, plan))
+      return wrong(item, "a delay is written `50..300ms` or `200ms`, at most one hour");
+    return {};
+  }
+  if (name == "seed=" || name == "stale=") {
+    constexpr std::uint64_t most_stale = 1000;
+    const auto count = read_count(value);
+    if (!count || (name == "stale=" && *count > most_stale))
+      return wrong(item, name == "seed=" ? "a seed is a whole number" : "a number from 0 to 1000");
+    if (name == "seed=")
+      plan.seed = *count;
+    else
+      plan.stale = static_cast<std::uint32_t>(*count);
+    return {};
+  }
+  if (item == "split" || item == "merge") {
+    (item == "split" ? plan.split : plan.merge) = true;
+    return {};
+  }
+  const auto meant = closest(name, words);
+  return wrong(
+      item, fmt::format("unknown; {}", meant ? fmt::format("did you mean `{}`?", *meant)
+                                             : fmt::format("there are {}", fmt::join(words, " "))));
+}
+
+void add_rate(std::string& out, std::string_view name, double rate) {
+  if (rate > 0)
+    out += fmt::format("{}{:g}%,", name, rate * 100);
+}
+
+} // namespace
+
+tl::expected<FaultPlan, std::string> parse_fault_plan(std::string_view text) {
+  FaultPlan plan;
+  if (text == "none")
+    return plan;
+  while (true) {
+    const auto comma = std::min(text.find(','), text.size());
+    if (const auto read = read_item(text.substr(0, comma), plan); !read)
+      return tl::unexpected(read.error());
+    if (comma == text.size())
+      return plan;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::string to_string(const FaultPlan& plan) {
+  std::string out;
+  add_rate(out, "drop=", plan.drop);
+  add_rate(out, "flip=", plan.flip);
+  add_rate(out, "dup=", plan.dup);
+  add_rate(out, "dup-request=", plan.dup_request);
+  add_rate(out, "storm=", plan.storm);
+  if (plan.delay_most > Duration{})
+    out += fmt::format("delay={:g}..{:g}ms,", static_cast<double>(plan.delay_least.count()) / 1e6,
+                       static_cast<double>(plan.delay_most.count()) / 1e6);
+  if (plan.split)
+    out += "split,";
+  if (plan.merge)
+    out += "merge,";
+  if (plan.stale > 0)
+    out += fmt::format("stale={},", plan.stale);
+  for (const auto& [name, place] :
+       {std::pair{"cut@", plan.cut}, std::pair{"cut-answer@", plan.cut_answer},
+        std::pair{"flip@", plan.flip_at}, std::pair{"flip-answer@", plan.flip_answer_at}})
+    if (place)
+      out += fmt::format("{}{},", name, *place);
+  if (out.empty())
+    return "none";
+  return out + fmt::format("seed={}", plan.seed);
+}
+
+FaultPipe::FaultPipe(const FaultPlan& plan) : plan_(plan), random_{plan.seed} {
+  queue_stale(Instant{});
+}
+
+FaultPipe::Side& FaultPipe::side(Direction direction) {
+  return direction == Direction::ToBall ? to_ball_ : from_ball_;
+}
+
+void FaultPipe::push(Direction direction, ByteView bytes, Instant now) {
+  if (cut_ || bytes.empty())
+    return;
+  auto& way = side(direction);
+  auto& flip = direction == Direction::ToBall ? plan_.flip_at : plan_.flip_answer_at;
+  const auto bits = static_cast<std::uint64_t>(bytes.size()) * 8;
+  if (flip && *flip >= way.bits_in && *flip < way.bits_in + bits) {
+    // The packet is found in what was sent; only what arrives is damaged.
+    Bytes damaged(bytes.begin(), bytes.end());
+    const auto bit = *flip - way.bits_in;
+    damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ 1U << bit % 8);
+    way.bits_in += bits;
+    flip.reset();
+    queue(way, damaged, now);
+    return;
+  }
+  way.bits_in += bits;
+  way.decoder.feed(bytes);
+  find_packets(way, now);
+  way.held_until = way.decoder.pending() ? now + hold_time : never;
+}
+
+void FaultPipe::find_packets(Side& way, Instant now) {
+  while (const auto item = way.decoder.next()) {
+    switch (item->kind) {
+    case Item::Kind::Command:
+    case Item::Kind::Response:
+    case Item::Kind::Async: pass_packet(way, *item, now); break;
+    case Item::Kind::Noise: queue(way, item->raw, now); break;
+    case Item::Kind::BadChecksum:
+    case Item::Kind::Fragment:
+      queue(way, item->raw.first(1), now); // the decoder reports the rest once more
+      break;
+    }
+  }
+}
+
+void FaultPipe::pass_packet(Side& way, const Item& item, Instant now) {
+  const Bytes packet(item.raw.begin(), item.raw.end()); // the view dies with the next item
+  const auto is_answer = item.kind == Item::Kind::Response;
+  if (is_answer && random_.chance(plan_.storm))
+    queue_storm(way, now);
+  const auto rate = is_answer                          ? plan_.dup
+                    : item.kind == Item::Kind::Command ? plan_.dup_request
+                                                       : 0;
+  damage_and_queue(way, packet, now);
+  if (random_.chance(rate))
+    damage_and_queue(way, packet, now);
+}
+
+void FaultPipe::damage_and_queue(Side& way, Bytes packet, Instant now) {
+  if (random_.chance(plan_.drop))
+    return;
+  if (random_.chance(plan_.flip)) {
+    const auto bit = random_.below(packet.size() * 8);
+    packet[bit / 8] = static_cast<std::uint8_t>(packet[bit / 8] ^ 1U << bit % 8);
+  }
+  queue(way, packet, now);
+}
+
+void FaultPipe::queue(Side& way, ByteView bytes, Instant now) {
+  auto due = now;
+  if (plan_.delay_most > Duration{})
+    due += plan_.delay_least +
+           Duration(static_cast<Duration::rep>(random_.below(
+               static_cast<std::uint64_t>((plan_.delay_most - plan_.delay_least).count()) + 1)));
+  if (plan_.merge)
+    due += merge_raster - due.time_since_epoch() % merge_raster;
+  due = std::max(due, way.last_due);
+  while (!bytes.empty()) {
+    const auto size = plan_.split ? 1 + random_.below(bytes.size()) : bytes.size();
+    const auto piece = bytes.first(size);
+    way.pieces.push_back({due, {piece.begin(), piece.end()}});
+    bytes = bytes.subspan(size);
+    if (!bytes.empty())
+      due += split_gap;
+  }
+  way.last_due = due;
+}
+
+void FaultPipe::queue_storm(Side& way, Instant now) {
+  for (auto left = 1 + random_.below(storm_most_messages); left > 0; --left) {
+    Async message{storm_async_id, Bytes(1 + random_.below(storm_most_payload))};
+    for (auto& byte : message.data)
+      byte = static_cast<std::uint8_t>(random_.next());
+    queue(way, encode(message), now);
+  }
+}
+
+void FaultPipe::queue_stale(Instant now) {
+  for (std::uint32_t i = 0; i < plan_.stale; ++i) {
+    Bytes stray(random_.below(stray_most_bytes + 1));
+    for (auto& byte : stray)
+      byte = static_cast<std::uint8_t>(random_.next());
+    queue(from_ball_, stray, now);
+    const auto seq = static_cast<std::uint8_t>(random_.next());
+    queue(from_ball_, encode(Response{static_cast<std::uint8_t>(spec::ResponseCode::Ok), seq, {}}),
+          now);
+  }
+}
+
+Bytes FaultPipe::take(Direction direction, Instant now) {
+  auto& way = side(direction);
+  if (now >= way.held_until) {
+    way.decoder.expire();
+    find_packets(way, now);
+    way.held_until = never;
+  }
+  if (cut_ || way.pieces.empty() || way.pieces.front().due > now)
+    return {};
+  Bytes piece = std::move(way.pieces.front().bytes);
+  way.pieces.pop_front();
+  while (plan_.merge && !way.pieces.empty() && way.pieces.front().due <= now) {
+    piece.insert(piece.end(), way.pieces.front().bytes.begin(), way.pieces.front().bytes.end());
+    way.pieces.pop_front();
+  }
+  const auto limit = direction == Direction::ToBall ? plan_.cut : plan_.cut_answer;
+  if (limit && way.bytes_out + piece.size() >= *limit) {
+    piece.resize(*limit - way.bytes_out);
+    cut_ = true;
+  }
+  way.bytes_out += piece.size();
+  return piece;
+}
+
+Instant FaultPipe::next_due() const {
+  auto due = never;
+  for (const auto* way : {&to_ball_, &from_ball_}) {
+    due = std::min(due, way->held_until);
+    if (!way->pieces.empty())
+      due = std::min(due, way->pieces.front().due);
+  }
+  return due;
+}
+
+void FaultPipe::reconnect(Instant now) {
+  to_ball_ = Side(Direction::ToBall);
+  from_ball_ = Side(Direction::FromBall);
+  if (cut_) {
+    plan_.cut.reset();
+    plan_.cut_answer.reset();
+  }
+  cut_ = false;
+  queue_stale(now);
+}
+
+FaultTransport::FaultTransport(std::unique_ptr<Transport> inner, const FaultPlan& plan)
+    : inner_(std::move(inner)), pipe_(plan) {}
+
+namespace {
+
+tl::unexpected<LinkError> cut_error() {
+  return tl::unexpected(LinkError{LinkError::Kind::Closed, "the link was cut by the fault plan"});
+}
+
+} // namespace
+
+tl::expected<void, LinkError> FaultTransport::deliver() {
+  for (auto piece = pipe_.take(Direction::ToBall, now()); !piece.empty();
+       piece = pipe_.take(Direction::ToBall, now()))
+    if (auto written = inner_->write(piece); !written)
+      return written;
+  if (pipe_.cut())
+    return cut_error();
+  return {};
+}
+
+tl::expected<void, LinkError> FaultTransport::write(ByteView bytes) {
+  if (pipe_.cut())
+    return cut_error();
+  pipe_.push(Direction::ToBall, bytes, now());
+  return deliver();
+}
+
+tl::expected<Bytes, LinkError> FaultTransport::read(Instant deadline) {
+  while (true) {
+    if (auto delivered = deliver(); !delivered)
+      return tl::unexpected(delivered.error());
+    if (auto piece = pipe_.take(Direction::FromBall, now()); !piece.empty())
+      return piece;
+    if (pipe_.cut())
+      return cut_error();
+    const auto until = std::min(deadline, pipe_.next_due());
+    auto read = inner_->read(until);
+    if (!read)
+      return read;
+    pipe_.push(Direction::FromBall, *read, now());
+    if (read->empty() && now() >= deadline && pipe_.next_due() > now())
+      return Bytes{};
+  }
+}
+
+} // namespace orb::protocol
