@@ -15,5 +15,10 @@ Section limits_section();
 Section basic_flags_section();
 Section macro_commands_section();
 Section macro_flags_section();
+Section api_commands_section();
+Section api_messages_section();
+Section responses_section();
+Section streams_section();
+Section firmwares_section();
 
 } // namespace orb::cli

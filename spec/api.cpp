@@ -76,8 +76,9 @@ static_assert(unique_names(api_commands) && unique_names(asyncs) && unique_names
 
 template <class Rows>
 std::span<const Field> owned_by(const Rows& rows, std::uint16_t owner) {
-  const auto found = std::ranges::equal_range(rows, owner, {}, &Field::owner);
-  return {found.begin(), found.end()};
+  const auto* first = std::ranges::lower_bound(rows, owner, {}, &Field::owner);
+  const auto* last = std::ranges::upper_bound(rows, owner, {}, &Field::owner);
+  return {first, last};
 }
 
 /// `power state` is the namespace power_state.
