@@ -52,7 +52,7 @@ Bytes to_bytes(std::string_view text) {
 } // namespace
 
 Ball::Ball(const BallOptions& options)
-    : options_(options), body_(options.seed), machine_(options.lines_per_second, options.seed),
+    : options_(options), body_(options.seed), machine_(options.lines_per_second, options.seed), macros_(*this),
       inactive_at_(Instant{} + settings_.inactivity_timeout) {
   if (options_.trace_lines)
     machine_.trace_lines();
@@ -193,7 +193,7 @@ void Ball::run_events(Instant bound) {
   if (dispatcher_.next_event() <= now_)
     dispatcher_.run(now_, *this);
   if (!asleep_ && macros_.next_event() <= now_)
-    macros_.run(now_, *this);
+    macros_.advance_to(now_);
   macros_changed();
   if (!asleep_ && streamer_.next_event() <= now_)
     streamer_.run(now_, *this);
@@ -354,7 +354,7 @@ void Ball::detect_collision(const Impact& impact) {
   data.push_back(static_cast<std::uint8_t>(collision.speed));
   append_u32(data, clock_ms());
   send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::Collision), std::move(data)});
-  macros_.collision(now_, *this);
+  macros_.collide(now_);
   dispatcher_.on_collision(*this);
 }
 
@@ -553,6 +553,13 @@ void Ball::trace_command(int macro, int command) {
   trace(event::Macro{macro, command});
 }
 
+void Ball::sleep_ms(int time_ms) {
+  if (time_ms == spec::macro_sleep_inherit)
+    sleep({wake_up_.seconds, 0, 0, wake_up_.milliseconds});
+  else
+    sleep({time_ms / 1000, 0, 0, time_ms % 1000});
+}
+
 void Ball::macros_changed() {
   if (macro_ran_ && !macros_.running()) {
     macro_led_.reset();
@@ -576,8 +583,7 @@ void Ball::fall_asleep() {
   machine_.stop(event::End::Reason::Sleep);
   finish_basic();
   trace(event::Sleep{sleep.seconds, sleep.macro, sleep.line});
-  macros_.forget_user_macros();
-  macros_.abort(now_, *this);
+  macros_.fall_asleep(now_);
   macros_changed();
   dispatcher_.on_sleep(*this);
   streamer_.stop();
@@ -596,7 +602,9 @@ void Ball::fall_asleep() {
   body_.power_on();
   asleep_ = true;
   wake_up_ = sleep;
-  wake_at_ = sleep.seconds == 0 ? never : now_ + std::chrono::seconds{sleep.seconds};
+  const Duration time =
+      std::chrono::seconds{sleep.seconds} + std::chrono::milliseconds{sleep.milliseconds};
+  wake_at_ = time == Duration{} ? never : now_ + time;
   watch_motion();
   show_led();
   show_back_led(0);
@@ -612,7 +620,7 @@ void Ball::wake() {
   check_battery();
   show_led();
   if (plan.macro != 0) {
-    macros_.start(plan.macro, now_, *this);
+    macros_.start(plan.macro, now_);
     macros_changed();
   }
   if (plan.line != 0)
@@ -743,7 +751,7 @@ std::int32_t Ball::read(Variable variable, Instant now) {
   case Variable::Qone: return rounded(body_.attitude().x * 10000);
   case Variable::Qtwo: return rounded(body_.attitude().y * 10000);
   case Variable::Qthree: return rounded(body_.attitude().z * 10000);
-  case Variable::Macstat: return static_cast<std::int32_t>(macros_.status());
+  case Variable::Macstat: return static_cast<std::int32_t>(macros_.macstat());
   }
   return 0;
 }
@@ -810,11 +818,11 @@ std::optional<BasicError> Ball::perform(Statement statement, std::span<const std
   case Statement::Sleep: sleep({values[0], values[1], values[2]}); break;
   case Statement::Macrun:
     if (!macros_.running())
-      macros_.start(values[0], now_, *this);
+      macros_.start(values[0], now_);
     macros_changed();
     break;
   case Statement::Mackill:
-    macros_.abort(now_, *this);
+    macros_.abort(now_);
     macros_changed();
     break;
   case Statement::Reset:

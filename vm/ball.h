@@ -100,7 +100,7 @@ public:
   void set_led(Actor actor, Color color);
   void set_back_led(Actor actor, int level);
   /// Falls asleep as soon as whoever asked has returned.
-  void sleep(const Sleep& sleep) override;
+  void sleep(const Sleep& sleep);
 
   // orbBasic, for clients (Source: API §Append orbBasic Fragment and its neighbours).
   Outcome erase_basic(Area area);
@@ -125,8 +125,6 @@ public:
   const Body& body() const { return body_; }
   Body& body() { return body_; }
   MacroExecutive& macros() { return macros_; }
-  /// What the dispatcher hands to the executive when a client starts or stops a macro.
-  MacroHost& macro_host() { return *this; }
   /// Call it after any ask of a client that may have started or stopped a macro.
   void macros_changed();
   const MacroExecutive& macros() const { return macros_; }
@@ -173,6 +171,7 @@ private:
   void stop_motors() override;
   void emit_marker(int marker, int macro, int command) override;
   void trace_command(int macro, int command) override;
+  void sleep_ms(int time_ms) override;
   bool stopped() const override { return body_.stopped(); }
 
   void trace(const Event& event);

@@ -43,9 +43,10 @@ inline constexpr std::uint32_t stop_on_disconnect = 1u << 0; ///< a temporary fl
 
 /// Source: API §Sleep.
 struct Sleep {
-  int seconds = 0; ///< until it wakes by itself; 0 never
-  int macro = 0;   ///< to run then; 0 none
-  int line = 0;    ///< of the program in flash to run then; 0 none
+  int seconds = 0;      ///< until it wakes by itself; 0 never
+  int macro = 0;        ///< to run then; 0 none
+  int line = 0;         ///< of the program in flash to run then; 0 none
+  int milliseconds = 0; ///< added to the seconds: macros count in these
 };
 
 } // namespace orb::vm
