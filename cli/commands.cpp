@@ -21,6 +21,8 @@ public:
     return out + "\n";
   }
 
+  const std::string& examples() const { return examples_; }
+
 private:
   std::string examples_;
 };
@@ -44,10 +46,17 @@ CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std:
   return command;
 }
 
+std::string examples_of(const CLI::App& command) {
+  const auto formatter = command.get_formatter();
+  const auto* help = dynamic_cast<const HelpFormatter*>(formatter.get());
+  return help == nullptr ? std::string() : help->examples();
+}
+
 void add_commands(CLI::App& app, Context& context) {
   app.formatter(
       std::make_shared<HelpFormatter>(indent("orb check program.bas\norb run program.bas\norb "
                                              "upload program.bas --port /dev/rfcomm0 --run")));
+  app.require_subcommand(0, 1); // a word behind a command is never a second one: `orb man run`
   app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION));
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");
@@ -56,6 +65,7 @@ void add_commands(CLI::App& app, Context& context) {
       ->capture_default_str();
   add_completion(app, context);
   add_explain(app, context);
+  add_man(app, context);
   add_spec(app, context);
 }
 

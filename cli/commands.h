@@ -14,9 +14,13 @@ void add_commands(CLI::App& app, Context& context);
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
 void add_completion(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
+void add_man(CLI::App& app, Context& context);
 void add_spec(CLI::App& app, Context& context);
 
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples);
+
+/// The examples of a command, or of orb itself, as its help prints them: a line each, indented.
+std::string examples_of(const CLI::App& command);
 
 } // namespace orb::cli

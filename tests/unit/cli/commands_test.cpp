@@ -23,7 +23,7 @@ struct Model {
 };
 
 /// The lines below `Examples:` in the help of a command: what a user sees.
-std::vector<std::string> examples_of(const CLI::App& command) {
+std::vector<std::string> shown_examples(const CLI::App& command) {
   std::istringstream help(command.help());
   std::vector<std::string> examples;
   bool inside = false;
@@ -45,7 +45,7 @@ TEST(Commands, EveryHelpShowsTwoExamplesThatCanBePasted) {
   Model model;
   ASSERT_FALSE(model.commands.empty());
   for (const auto* command : model.commands) {
-    const auto examples = examples_of(*command);
+    const auto examples = shown_examples(*command);
     EXPECT_GE(examples.size(), 2U) << command->get_name();
     for (const auto& example : examples) {
       EXPECT_NE(example.find("orb " + command->get_name()), std::string::npos) << example;

@@ -1,0 +1,81 @@
+#include "base/bytes.h"
+#include "base/suggest.h"
+#include "cli/commands.h"
+#include "cli/files.h"
+#include "cli/manual.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <string_view>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::string page = "orb";
+  std::string folder;
+};
+
+std::string_view name_of(const ManualPage& page) {
+  return std::string_view(page.file).substr(0, page.file.rfind('.'));
+}
+
+void print_page(Context& context, const std::vector<ManualPage>& pages, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const auto& page : pages) {
+    if (name_of(page) == name || name_of(page) == "orb-" + name) {
+      print_out(page.text);
+      return;
+    }
+    names.push_back(name_of(page));
+    if (names.back().starts_with("orb-"))
+      names.push_back(names.back().substr(4));
+  }
+  const auto meant = closest(name, names);
+  print_error(context, fmt::format("there is no page `{}`{}", name,
+                                   meant ? fmt::format("; did you mean `{}`?", *meant)
+                                         : "; `orb man orb` names them all"));
+  context.exit = ExitCode::Usage;
+}
+
+void write_pages(Context& context, const std::vector<ManualPage>& pages,
+                 const std::string& folder) {
+  for (const auto& page : pages) {
+    const auto place = fmt::format("{}/man{}", folder, page.file.back());
+    std::error_code error;
+    std::filesystem::create_directories(place, error); // writing says what is wrong
+    if (const auto done = write_file(place + "/" + page.file, as_bytes(page.text)); !done) {
+      print_error(context, done.error().message);
+      context.exit = ExitCode::File;
+      return;
+    }
+  }
+}
+
+} // namespace
+
+void add_man(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "man", "prints a page of the manual, or writes all of them",
+                              "orb man run | man -l -\n"
+                              "orb man orbbasic > orbbasic.7\n"
+                              "orb man --all man");
+  auto options = std::make_shared<Options>();
+  auto* page = command->add_option("PAGE", options->page,
+                                   "a command, `orbbasic` or `orb-macro`; the page of orb itself "
+                                   "where none is named");
+  command
+      ->add_option("--all", options->folder,
+                   "write every page below this folder, as `MANPATH` wants it")
+      ->type_name("FOLDER")
+      ->excludes(page);
+  command->callback([&app, &context, options] {
+    const auto pages = manual(app);
+    if (options->folder.empty())
+      print_page(context, pages, options->page);
+    else
+      write_pages(context, pages, options->folder);
+  });
+}
+
+} // namespace orb::cli
