@@ -1,0 +1,150 @@
+"""A headless Chromium, driven over a pipe by its DevTools protocol; the standard library only."""
+
+import itertools
+import json
+import os
+import select
+import shutil
+import subprocess
+import tempfile
+import time
+
+
+def find():
+    """The path of an installed Chromium, or None."""
+    for name in ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"):
+        if path := shutil.which(name):
+            return path
+    return None
+
+
+class Page:
+    def __init__(self, browser, session):
+        self._browser = browser
+        self._session = session
+        self.complaints = []
+        self.requests = []
+        for domain in ("Page", "Runtime", "Network"):
+            self.call(f"{domain}.enable")
+
+    def call(self, method, **params):
+        return self._browser.call(method, params, self._session)
+
+    def on_event(self, method, params):
+        if method == "Runtime.exceptionThrown":
+            details = params["exceptionDetails"]
+            self.complaints.append(details.get("exception", {}).get("description", details["text"]))
+        elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning"):
+            self.complaints.append(str(params["args"]))
+        elif method == "Network.requestWillBeSent":
+            self.requests.append(params["request"]["url"])
+
+    def open(self, path):
+        self.call("Page.navigate", url="file://" + path)
+        self.wait("document.readyState === 'complete'")
+
+    def evaluate(self, expression):
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in answer:
+            raise AssertionError(f"{expression}: {answer['exceptionDetails']}")
+        return answer["result"].get("value")
+
+    def wait(self, expression, seconds=20):
+        """Until the page says so; a page that never does is a failure."""
+        limit = time.monotonic() + seconds
+        while not self.evaluate(expression):
+            if time.monotonic() > limit:
+                raise AssertionError(f"never became true: {expression}")
+            self._browser.listen(0.02)
+
+    def key(self, key, modifiers=0):
+        text = {"text": key} if len(key) == 1 else {}
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, modifiers=modifiers, **text)
+            text = {}
+
+    def resize(self, width, height, mobile=False):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=mobile)
+
+    def prefer(self, scheme):
+        self.call("Emulation.setEmulatedMedia",
+                  features=[{"name": "prefers-color-scheme", "value": scheme}])
+
+
+class Browser:
+    def __init__(self, path):
+        self._home = tempfile.TemporaryDirectory(prefix="orb-report.", ignore_cleanup_errors=True)
+        to_read, self._write = os.pipe()
+        self._read, to_write = os.pipe()
+
+        def hand_over():
+            # Chromium reads commands from 3 and writes answers to 4.
+            spare_in, spare_out = os.dup(to_read), os.dup(to_write)
+            os.dup2(spare_in, 3)
+            os.dup2(spare_out, 4)
+
+        self._process = subprocess.Popen(
+            [path, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
+             "--disable-dev-shm-usage", "--hide-scrollbars", "--remote-debugging-pipe",
+             f"--user-data-dir={self._home.name}", "about:blank"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False,
+            preexec_fn=hand_over)
+        os.close(to_read)
+        os.close(to_write)
+        self._numbers = itertools.count(1)
+        self._answers = {}
+        self._pages = {}
+        self._rest = b""
+
+    def close(self):
+        try:
+            self.call("Browser.close", {})
+        except AssertionError:
+            pass
+        try:
+            self._process.wait(10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._home.cleanup()
+
+    def page(self):
+        target = self.call("Target.createTarget", {"url": "about:blank"})["targetId"]
+        session = self.call("Target.attachToTarget", {"targetId": target, "flatten": True})["sessionId"]
+        page = Page.__new__(Page)
+        self._pages[session] = page
+        page.__init__(self, session)
+        return page
+
+    def listen(self, seconds):
+        """Takes in what Chromium says within `seconds`; returns early after the first piece."""
+        ready, _, _ = select.select([self._read], [], [], seconds)
+        if not ready:
+            return
+        piece = os.read(self._read, 1 << 16)
+        if not piece:
+            raise AssertionError("chromium went away")
+        *messages, self._rest = (self._rest + piece).split(b"\0")
+        for message in map(json.loads, messages):
+            if "id" in message:
+                self._answers[message["id"]] = message
+            elif message.get("sessionId") in self._pages:
+                self._pages[message["sessionId"]].on_event(message["method"], message["params"])
+
+    def call(self, method, params, session=None, seconds=30):
+        number = next(self._numbers)
+        message = {"id": number, "method": method, "params": params}
+        if session:
+            message["sessionId"] = session
+        os.write(self._write, json.dumps(message).encode() + b"\0")
+        limit = time.monotonic() + seconds
+        while number not in self._answers:
+            if time.monotonic() > limit:
+                raise AssertionError(f"no answer to {method}")
+            self.listen(0.1)
+        answer = self._answers.pop(number)
+        if "error" in answer:
+            raise AssertionError(f"{method}: {answer['error']}")
+        return answer["result"]

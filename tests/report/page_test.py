@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+"""The page of `orb run --report`, opened in a headless Chromium: it renders, plays and jumps, and
+the numbers on it equal the trace of the same run. usage: page_test.py ORB CHECKOUT
+
+Exits 77 (skipped, to ctest) where no Chromium is installed."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import browser as chromium
+
+orb, root = (os.path.abspath(path) for path in sys.argv[1:3])
+example = lambda name: os.path.join(root, "examples", name)
+megabyte = 1_000_000
+
+# Puts the slider where a hand would and tells the page.
+seek = """(t => { const s = document.getElementById('time'); s.value = t;
+  s.dispatchEvent(new Event('input')); })"""
+now = "Number(document.getElementById('time').value)"
+reading = lambda name: f"document.querySelector('[data-now={name}]').textContent"
+total = lambda name: f"document.querySelector('[data-total={name}]').textContent"
+
+
+def micro(ms):
+    return round(ms * 1000)
+
+
+class Run:
+    """One run with its trace and its page."""
+
+    def __init__(self, folder, name, *words, lines=True):
+        self.page_path = os.path.join(folder, name + ".html")
+        trace_path = os.path.join(folder, name + ".trace")
+        lines = ["--trace-lines"] if lines else []
+        subprocess.run([orb, "run", *words, "--report", self.page_path, "--trace", "json",
+                        "--trace-out", trace_path, *lines],
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        with open(trace_path, encoding="utf-8") as trace:
+            self.events = [json.loads(line) for line in trace]
+
+    def of(self, kind):
+        return [event for event in self.events if event["event"] == kind]
+
+    def at(self, kind, t):
+        before = [event for event in self.of(kind) if event["t"] <= t]
+        return before[-1] if before else None
+
+    def size(self):
+        return os.path.getsize(self.page_path)
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="orb-report.")
+        cls.browser = chromium.Browser(chromium.find())
+        cls.dance = Run(cls.folder.name, "dance", example("dance.bas"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.folder.cleanup()
+
+    def file(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def open(self, run, width=1280, height=900, mobile=False):
+        page = self.browser.page()
+        page.resize(width, height, mobile)
+        page.open(run.page_path)
+        page.wait("document.getElementById('ball') !== null")
+        self.addCleanup(self.assert_silent, page, run)
+        return page
+
+    def assert_silent(self, page, run):
+        self.assertEqual(page.complaints, [])
+        self.assertEqual([url for url in page.requests if not url.startswith(("file://" + run.page_path, "data:"))], [])
+
+    def test_totals_equal_the_trace(self):
+        page = self.open(self.dance)
+        end = self.dance.of("end")[0]
+        poses = self.dance.of("pose")
+        self.assertGreater(len(poses), 50)
+        self.assertEqual(page.evaluate(total("lines")).replace(",", ""), str(end["lines"]))
+        self.assertEqual(page.evaluate(total("time")), f"{self.dance.events[-1]['t'] / 1000:.3f} s")
+        top = max(pose["speed"] for pose in poses)
+        self.assertAlmostEqual(float(page.evaluate(total("top-speed")).split()[0]), top, delta=0.051)
+        way = sum(((b["x"] - a["x"]) ** 2 + (b["y"] - a["y"]) ** 2) ** 0.5 for a, b in zip(poses, poses[1:]))
+        shown, unit = page.evaluate(total("distance")).split()
+        self.assertAlmostEqual(float(shown) * (100 if unit == "m" else 1), way, delta=0.01 * way + 0.1)
+        for kind in ("print", "marker", "collision", "error"):
+            count = page.evaluate(f"(document.querySelector('[data-filter={kind}]') || {{dataset: {{count: 0}}}}).dataset.count")
+            self.assertEqual(int(count), len(self.dance.of(kind)), kind)
+            listed = page.evaluate(f"document.querySelectorAll('#events [data-kind={kind}]').length")
+            self.assertEqual(listed, len(self.dance.of(kind)), kind)
+
+    def test_line_counts_equal_the_trace(self):
+        page = self.open(self.dance)
+        rows = page.evaluate("[...document.querySelectorAll('#source tr')].map(row => [row.lastChild.textContent, Number(row.querySelector('.ran').dataset.count)])")
+        wanted = {}
+        for event in self.dance.of("line"):
+            wanted[str(event["line"])] = wanted.get(str(event["line"]), 0) + 1
+        self.assertGreater(len(wanted), 20)
+        shown = {text.split()[0]: count for text, count in rows if count}
+        self.assertEqual(shown, wanted)
+
+    def test_every_moment_equals_the_trace(self):
+        page = self.open(self.dance)
+        for pose in self.dance.of("pose")[::7]:
+            page.evaluate(f"{seek}({micro(pose['t'])})")
+            x, y = page.evaluate(reading("position")).removesuffix(" cm").split(", ")
+            self.assertAlmostEqual(float(x), pose["x"], delta=0.06)
+            self.assertAlmostEqual(float(y), pose["y"], delta=0.06)
+            self.assertAlmostEqual(float(page.evaluate(reading("speed")).split()[0]), pose["speed"], delta=0.06)
+            led = self.dance.at("led", pose["t"])
+            wanted = f"{led['r']}, {led['g']}, {led['b']}" if led else "0, 0, 0"
+            self.assertEqual(page.evaluate(reading("led")), wanted)
+
+    def test_plays_and_pauses(self):
+        page = self.open(self.dance)
+        where = "document.getElementById('ball').getAttribute('transform')"
+        page.evaluate(f"{seek}(0)")
+        before = page.evaluate(where)
+        page.evaluate("document.getElementById('play').click()")
+        page.wait(f"{now} > 300000")
+        self.assertNotEqual(page.evaluate(where), before)
+        page.evaluate("document.getElementById('play').click()")
+        stopped = page.evaluate(now)
+        page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.assertEqual(page.evaluate(now), stopped)
+
+    def test_plays_to_the_end_and_lights_the_ball(self):
+        page = self.open(self.dance)
+        page.evaluate("document.getElementById('rate').value = '10'")
+        page.evaluate("document.getElementById('play').click()")
+        lamp = "document.getElementById('ball-lamp').getAttribute('fill')"
+        page.wait(f"{lamp} !== 'transparent'")
+        page.wait(f"{now} === Number(document.getElementById('time').max)")
+        page.wait("document.getElementById('play').getAttribute('aria-label') === 'Play'")
+
+    def test_events_jump(self):
+        page = self.open(self.dance)
+        prints = self.dance.of("print")
+        for i in (0, len(prints) // 2, len(prints) - 1):
+            page.evaluate(f"document.querySelectorAll('#events [data-kind=print]')[{i}].click()")
+            self.assertEqual(page.evaluate(now), micro(prints[i]["t"]))
+            text = page.evaluate("document.querySelector('#events .at .words').textContent")
+            self.assertEqual(text, prints[i]["text"].rstrip("\n"))
+
+    def test_source_lines_jump_to_their_first_run(self):
+        page = self.open(self.dance)
+        first = next(event["t"] for event in self.dance.of("line") if event["line"] == 210)
+        page.evaluate("[...document.querySelectorAll('#source tr')].find(row => row.lastChild.textContent.startsWith('210 ')).click()")
+        self.assertEqual(page.evaluate(now), micro(first))
+        self.assertTrue(page.evaluate("document.querySelector('#source .current').textContent.includes('210 ')"))
+
+    def test_works_by_keyboard(self):
+        page = self.open(self.dance)
+        times = sorted({micro(event["t"]) for kind in ("print", "marker", "collision", "error") for event in self.dance.of(kind)})
+        page.key("Home")
+        self.assertEqual(page.evaluate(now), 0)
+        page.key("ArrowRight")
+        self.assertEqual(page.evaluate(now), 50_000)
+        page.key("ArrowRight", modifiers=8)  # shift
+        self.assertEqual(page.evaluate(now), 1_050_000)
+        page.key("n")
+        following = next(t for t in times if t > 1_050_000)
+        self.assertEqual(page.evaluate(now), following)
+        page.key("p")
+        self.assertLess(page.evaluate(now), following)
+        page.key("End")
+        self.assertEqual(page.evaluate(now), micro(self.dance.events[-1]["t"]))
+        page.key("Home")
+        page.key(" ")
+        page.wait(f"{now} > 0")
+        page.key(" ")
+        self.assertEqual(page.evaluate("document.getElementById('play').getAttribute('aria-label')"), "Play")
+        # Everything that can be pressed has a name and can be reached with Tab.
+        self.assertEqual(page.evaluate("""[...document.querySelectorAll('button, select, input')].filter(one =>
+          one.tabIndex < 0 || !(one.getAttribute('aria-label') || one.textContent || one.labels?.length)).length"""), 0)
+
+    def test_follows_light_and_dark(self):
+        page = self.open(self.dance)
+        paper = "getComputedStyle(document.documentElement).backgroundColor"
+        page.prefer("light")
+        light = page.evaluate(paper)
+        page.prefer("dark")
+        dark = page.evaluate(paper)
+        self.assertNotEqual(light, dark)
+        page.key("t")  # auto -> light
+        self.assertEqual(page.evaluate(paper), light)
+        page.key("t")
+        self.assertEqual(page.evaluate(paper), dark)
+
+    def test_fits_a_phone(self):
+        for width in (320, 390):
+            page = self.open(self.dance, width, 780, mobile=True)
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+            self.assertGreater(page.evaluate("document.getElementById('map').getBoundingClientRect().height"), 150)
+
+    def test_a_minute_of_driving_is_small(self):
+        run = Run(self.folder.name, "minute", example("fence.bas"), "--for", "60s")
+        self.assertLess(run.size(), megabyte)
+        page = self.open(run)
+        self.assertEqual(page.evaluate(total("time")), "60.000 s")
+        self.assertGreater(page.evaluate("document.querySelectorAll('#map .run').length"), 100)
+
+    def test_an_hour_is_thinned_and_stays_small(self):
+        program = self.file("hour.bas", "10 goroll H,80,1\n20 H = (H + 30) % 360\n30 RGB rnd 255,rnd 255,rnd 255\n40 print H\n50 delay 200\n60 goto 10\n")
+        run = Run(self.folder.name, "hour", program, "--for", "3600s", lines=False)
+        self.assertLess(run.size(), megabyte)
+        page = self.open(run)
+        self.assertFalse(page.evaluate("document.getElementById('thinned').hidden"))
+        prints = page.evaluate("Number(document.querySelector('[data-filter=print]').dataset.count)")
+        self.assertEqual(prints, len(run.of("print")))
+        page.key("End")
+        last = run.of("pose")[-1]
+        x = float(page.evaluate(reading("position")).split(",")[0])
+        self.assertAlmostEqual(x, last["x"], delta=0.06)
+
+    def test_an_empty_run(self):
+        run = Run(self.folder.name, "empty", self.file("empty.bas", "10 end\n"))
+        page = self.open(run)
+        self.assertFalse(page.evaluate("document.getElementById('still').hidden"))
+        self.assertFalse(page.evaluate("document.getElementById('no-events').hidden"))
+        page.evaluate("document.getElementById('play').click()")
+        page.key("n")
+        page.key("p")
+
+    def test_a_program_that_faults_at_once(self):
+        run = Run(self.folder.name, "fault", self.file("fault.bas", "10 print 1/0 '</script><!--\n20 end\n"))
+        page = self.open(run)
+        self.assertEqual(page.evaluate("document.querySelectorAll('#events [data-kind=error]').length"), 1)
+        self.assertIn("Divide by zero", page.evaluate("document.getElementById('outcome').textContent"))
+        self.assertIn("</script><!--", page.evaluate("document.querySelector('#source .failed').textContent"))
+
+    def test_a_macro_run(self):
+        run = Run(self.folder.name, "macro", example("square.macro"))
+        page = self.open(run)
+        markers = run.of("marker")
+        self.assertGreater(len(markers), 3)
+        for i, marker in enumerate(markers):
+            page.evaluate(f"document.querySelectorAll('#events [data-kind=marker]')[{i}].click()")
+            self.assertEqual(page.evaluate(now), micro(marker["t"]))
+
+
+if __name__ == "__main__":
+    if chromium.find() is None:
+        print("skipped: no chromium here; `./dev report` installs it")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1], verbosity=1)
