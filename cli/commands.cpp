@@ -66,6 +66,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_completion(app, context);
   add_explain(app, context);
   add_man(app, context);
+  add_new(app, context);
   add_spec(app, context);
 }
 

@@ -15,6 +15,7 @@ void add_commands(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);
+void add_new(CLI::App& app, Context& context);
 void add_spec(CLI::App& app, Context& context);
 
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.

@@ -1,0 +1,129 @@
+#include "cli/commands.h"
+#include "cli/files.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Starter {
+  std::string_view name;
+  std::string_view text;
+};
+
+// A project that checks without a finding and runs at once. `%` stands for its name.
+constexpr auto starters = std::to_array<Starter>({
+    {"program.bas", R"(' %: drives a square in four colours, then waits to be shaken.
+10 locate 0,0
+20 for S = 0 to 3
+30 LEDC S + 1
+40 goroll S * 90,100,1
+50 delay 1200
+60 goroll S * 90,0,0
+70 delay 700
+80 print "corner" ,S + 1 ": " xpos "," ypos
+90 next S
+100 LEDC 6
+110 delay 50
+120 if dshake = 0 then goto 110
+130 print "shaken, good bye"
+140 LEDC 0
+)"},
+    {"wink.macro", R"(; %: winks twice and turns on the spot.
+.macro wink id=40 flags=motor_control,endsig
+  loop_start 2
+    rgb 0 255 0
+    delay 200
+    rgb 0 0 0
+    delay 200
+  loop_end
+  rotate 360 1000
+  delay 1000
+)"},
+    {"world.stimulus", R"(# What happens to the ball while it runs (docs/ball.md lists every line).
+at 10s shake
+)"},
+    {"orb.toml", R"(# Defaults for every orb command in this folder; flags are stronger.
+[check]
+target = "1.6"
+
+# Balls by name, used as `--port @red`.
+# [balls]
+# red = "rfcomm://68:86:E7:00:11:22"
+)"},
+    {"README.md", R"(# %
+
+    orb check program.bas wink.macro
+    orb run program.bas --stimulus world.stimulus --report report.html
+    orb run wink.macro
+    orb upload program.bas --port rfcomm://68:86:E7:00:11:22 --run
+)"},
+});
+
+std::string filled(std::string_view text, const std::string& name) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '%')
+      out += name;
+    else
+      out += c;
+  }
+  return out;
+}
+
+void make(Context& context, const std::string& folder) {
+  const fs::path path(folder);
+  std::error_code error;
+  if (fs::exists(path, error) && (!fs::is_directory(path, error) || !fs::is_empty(path, error))) {
+    print_error(context, fmt::format("`{}` exists already; give another name", folder));
+    context.exit = ExitCode::File;
+    return;
+  }
+  fs::create_directories(path, error);
+  if (error) {
+    print_error(context, fmt::format("cannot make `{}`: {}", folder, error.message()));
+    context.exit = ExitCode::File;
+    return;
+  }
+  auto name = fs::absolute(path, error).lexically_normal().filename().string();
+  if (name.empty())
+    name = fs::absolute(path, error).lexically_normal().parent_path().filename().string();
+  for (const auto& starter : starters) {
+    const auto file = (path / starter.name).string();
+    const auto text = filled(starter.text, name);
+    if (const auto written = write_file(file, as_bytes(text)); !written) {
+      print_error(context, written.error().message);
+      context.exit = ExitCode::File;
+      return;
+    }
+    print_out(fmt::format("{}\n", file));
+  }
+  print_note(context, fmt::format("now try:\n  cd {}\n  orb run program.bas --stimulus "
+                                  "world.stimulus --report report.html",
+                                  folder));
+}
+
+} // namespace
+
+void add_new(CLI::App& app, Context& context) {
+  auto* command =
+      add_command(app, "new", "make a folder with a working starter", "orb new dance\norb new .");
+  auto folder = std::make_shared<std::string>();
+  command
+      ->add_option("NAME", *folder,
+                   "the folder to make: a program, a macro, a stimulus script and settings")
+      ->required()
+      ->check([](const std::string& name) {
+        return name.empty() ? std::string("a name is needed") : std::string();
+      });
+  command->callback([&context, folder] { make(context, *folder); });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,117 @@
+#include "cli/watch.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <fmt/format.h>
+#include <optional>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <tuple>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+/// How often the files are looked at. Looking works on every file system and through every way in
+/// which an editor saves; a notification does not.
+constexpr timespec period{0, 100'000'000};
+
+/// What changes when a file is written, replaced or removed.
+using Stamp = std::tuple<bool, ino_t, off_t, time_t, long>;
+
+Stamp stamp(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    return {};
+  return {true, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+std::vector<Stamp> stamps(const std::vector<std::string>& files) {
+  std::vector<Stamp> list;
+  for (const auto& file : files)
+    list.push_back(stamp(file));
+  return list;
+}
+
+/// The signals that end watching, held back so that none is lost between two looks.
+class Held {
+public:
+  Held() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM})
+      sigaddset(&signals_, signal);
+    sigprocmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~Held() { release(); }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+  void release() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  /// Waits one period; true when a signal came.
+  bool came() const { return sigtimedwait(&signals_, nullptr, &period) > 0; }
+
+private:
+  sigset_t signals_;
+  sigset_t before_;
+};
+
+/// One run of the command in a process of its own.
+class Run {
+public:
+  Run(Context& context, Held& held, const std::function<void()>& once) {
+    std::fflush(nullptr);
+    process_ = ::fork();
+    if (process_ != 0)
+      return;
+    held.release();
+    once();
+    std::fflush(nullptr);
+    ::_exit(static_cast<int>(context.exit));
+  }
+  ~Run() {
+    if (process_ <= 0)
+      return;
+    ::kill(process_, SIGTERM);
+    ::waitpid(process_, nullptr, 0);
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  /// Takes note of an end; true when the run ended since the last call.
+  bool ended() {
+    if (process_ <= 0 || ::waitpid(process_, nullptr, WNOHANG) == 0)
+      return false;
+    process_ = 0;
+    return true;
+  }
+
+private:
+  pid_t process_ = 0;
+};
+
+} // namespace
+
+void watch(Context& context, const std::vector<std::string>& files,
+           const std::function<void()>& once) {
+  context.exit = ExitCode::Done;
+  Held held;
+  auto seen = stamps(files);
+  std::optional<Run> run;
+  run.emplace(context, held, once);
+  while (!held.came()) {
+    if (run->ended())
+      print_note(context, "waiting for a change; Ctrl-C ends");
+    const auto now = stamps(files);
+    if (now == seen)
+      continue;
+    const auto changed = std::mismatch(now.begin(), now.end(), seen.begin()).first - now.begin();
+    seen = now;
+    print_note(context, fmt::format("--- {} changed", files[static_cast<std::size_t>(changed)]));
+    run.reset();
+    run.emplace(context, held, once);
+  }
+}
+
+} // namespace orb::cli
