@@ -96,7 +96,7 @@ void make(Context& context, const std::string& folder) {
   if (name.empty())
     name = fs::absolute(path, error).lexically_normal().parent_path().filename().string();
   for (const auto& starter : starters) {
-    const auto file = (path / starter.name).string();
+    const auto file = (path / starter.name).lexically_normal().string();
     const auto text = filled(starter.text, name);
     if (const auto written = write_file(file, as_bytes(text)); !written) {
       print_error(context, written.error().message);
@@ -105,9 +105,10 @@ void make(Context& context, const std::string& folder) {
     }
     print_out(fmt::format("{}\n", file));
   }
-  print_note(context, fmt::format("now try:\n  cd {}\n  orb run program.bas --stimulus "
-                                  "world.stimulus --report report.html",
-                                  folder));
+  const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", folder);
+  print_note(context, fmt::format("now try:\n{}  orb run program.bas --stimulus world.stimulus "
+                                  "--report report.html",
+                                  step));
 }
 
 } // namespace
