@@ -229,8 +229,8 @@ tl::expected<Bytes, EncodeError> encode_operands(spec::ApiCommand command,
 std::string usage(const spec::CommandInfo& row) {
   std::string out(row.name);
   for (const auto& field : spec::operands(row.command)) {
-    const auto optional = field.presence == spec::Presence::Optional;
-    out += fmt::format(optional ? " [{}]" : " {}", placeholder(field));
+    const auto word = placeholder(field);
+    out += field.presence == spec::Presence::Optional ? fmt::format(" [{}]", word) : " " + word;
   }
   return out;
 }
