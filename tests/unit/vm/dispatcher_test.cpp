@@ -400,6 +400,21 @@ TEST(Dispatcher, ConfigurationBlocksComeBackAsTheyWent) {
   EXPECT_EQ(client.rest[0].data.size(), spec::ssb_size);
 }
 
+TEST(Dispatcher, MacrosAnswerAndMarkAsTheRecordedSessionsDid) {
+  Client client;
+  EXPECT_EQ(client.code(ApiCommand::ReinitMacroExecutive), ResponseCode::Ok);
+  EXPECT_EQ(client.ask(ApiCommand::AbortMacro).data, (Bytes{0, 0, 0}));
+  EXPECT_EQ(client.code(ApiCommand::SaveTemporaryMacro, {0xFF, 0x14, 0x15, 0xAA, 0x15, 0xBB, 0x00}),
+            ResponseCode::Ok);
+  client.ask(ApiCommand::RunMacro, {0xFF});
+  const auto markers = client.messages(AsyncId::MacroMarker);
+  ASSERT_EQ(markers.size(), 3u);
+  EXPECT_EQ(markers[0].data, (Bytes{0xAA, 0xFF, 0, 1}));
+  EXPECT_EQ(markers[1].data, (Bytes{0xBB, 0xFF, 0, 2}));
+  EXPECT_EQ(markers[2].data, (Bytes{0x00, 0xFF, 0, 3}));
+  EXPECT_EQ(client.code(ApiCommand::RunMacro, {77}), ResponseCode::ExecuteFailed);
+}
+
 TEST(Dispatcher, SleepIsAnsweredThenObeyedAndWakesByItself) {
   Client client;
   EXPECT_EQ(client.code(ApiCommand::Sleep, {0xFF, 0xFF, 0, 0, 0}), ResponseCode::Unsupported);
