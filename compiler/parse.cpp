@@ -20,6 +20,7 @@ struct Stop {
   Reason reason;
   const char* begin;
   const char* end; ///< null where the span is the token at `begin`
+  std::uint32_t found = 0;
 };
 
 constexpr std::array<std::uint8_t, 128> operator_of = [] {
@@ -181,7 +182,7 @@ public:
     const auto line = size(program_.lines);
     if (program_.faults.empty() || program_.faults.back().line != line)
       program_.faults.push_back(
-          {stop.reason, line, kind_,
+          {stop.reason, line, kind_, stop.found,
            stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin)});
     depth_ = 0;
   }
@@ -363,11 +364,12 @@ struct arguments {
         if (!Control<comma>::template match<A, M, Action, Control>(in, builder)) {
           if (n >= row.required)
             return true;
-          throw Stop{Reason::ExpectedComma, here, nullptr};
+          throw Stop{Reason::ExpectedComma, here, nullptr, static_cast<std::uint32_t>(n)};
         }
       }
       if (!Control<expression>::template match<A, M, Action, Control>(in, builder))
-        throw Stop{Reason::ExpectedExpression, in.current(), nullptr};
+        throw Stop{Reason::ExpectedExpression, in.current(), nullptr,
+                   static_cast<std::uint32_t>(n)};
     }
     if (most > 0 && in.current() != in.end() && *in.current() == ',')
       throw Stop{Reason::TooManyArguments, in.current(), nullptr};

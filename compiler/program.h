@@ -136,6 +136,7 @@ struct Fault {
   Reason reason = Reason::Trailing;
   std::uint32_t line = 0;                           ///< index into `lines`
   spec::Statement statement = spec::Statement::End; ///< the statement it is in, where one was read
+  std::uint32_t found = 0;                          ///< arguments read before, where that matters
   Span span;
 };
 

@@ -1,0 +1,130 @@
+#include "compiler/check.h"
+
+#include "compiler/image.h"
+#include "compiler/parse.h"
+#include "compiler/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace orb::compiler {
+namespace {
+
+/// One finding for the whole file, shown at its first byte.
+Checked refuse(const Rule& rule, std::string message, std::string help = {}) {
+  Checked checked;
+  checked.diagnostics.push_back(finding(rule, {0, 0}, std::move(message), std::move(help)));
+  return checked;
+}
+
+/// A NUL that is not at the end, or more control characters than any text has.
+bool is_binary(std::string_view text) {
+  const auto last = text.find_last_not_of('\0');
+  const auto content =
+      last == std::string_view::npos ? std::string_view() : text.substr(0, last + 1);
+  if (content.find('\0') != std::string_view::npos)
+    return true;
+  constexpr std::size_t one_in = 16;
+  const auto controls =
+      static_cast<std::size_t>(std::count_if(content.begin(), content.end(), [](char c) {
+        return (static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r') ||
+               c == '\x7F';
+      }));
+  return controls * one_in > content.size();
+}
+
+bool holds_program(const Program& program) {
+  return std::any_of(program.lines.begin(), program.lines.end(),
+                     [](const Line& line) { return line.has_number() || line.has_statement(); });
+}
+
+/// The edits taken so far, by where they begin.
+class Edits {
+public:
+  /// Takes all edits of a fix, or none when one touches what was taken before.
+  bool take(const Fix& fix) {
+    for (const auto& edit : fix.edits)
+      if (touches(edit.span))
+        return false;
+    for (const auto& edit : fix.edits)
+      taken_.emplace(edit.span.begin, &edit);
+    return true;
+  }
+
+  std::string apply(std::string_view text) const {
+    std::string out;
+    std::size_t at = 0;
+    for (const auto& [begin, edit] : taken_) {
+      out += text.substr(at, begin - at);
+      out += edit->text;
+      at = edit->span.end;
+    }
+    out += text.substr(at);
+    return out;
+  }
+
+private:
+  bool touches(Span span) const {
+    const auto next = taken_.lower_bound(span.begin);
+    if (next != taken_.end() && (next->first < span.end || next->first == span.begin))
+      return true;
+    return next != taken_.begin() && std::prev(next)->second->span.end > span.begin;
+  }
+
+  std::map<std::uint32_t, const Edit*> taken_;
+};
+
+} // namespace
+
+Checked check(std::string_view text, const Target& target) {
+  const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
+  if (text.size() > most)
+    return refuse(rules::SourceTooLarge,
+                  fmt::format("the file has {} bytes; {} are the most", text.size(), most),
+                  "no area of the robot takes more than 4096");
+  if (is_binary(text))
+    return refuse(rules::BinaryFile, "the file is binary, no orbBasic program",
+                  "programs are plain text");
+  Checked checked;
+  checked.program = parse(text);
+  if (!holds_program(checked.program)) {
+    auto refused = refuse(rules::EmptyProgram, "the file holds no program line",
+                          "a line is a number, a blank and a statement: `10 print \"hello\"`");
+    refused.program = std::move(checked.program);
+    return refused;
+  }
+  checked.diagnostics = lint(checked.program, target);
+  checked.image_bytes = image_size(checked.program);
+  return checked;
+}
+
+Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics) {
+  Edits edits;
+  Fixed fixed;
+  for (const auto& diagnostic : diagnostics)
+    if (diagnostic.fix && diagnostic.fix->safety == Safety::Safe && edits.take(*diagnostic.fix))
+      ++fixed.count;
+  fixed.text = edits.apply(text);
+  return fixed;
+}
+
+Fixed fix(std::string text, const Target& target) {
+  // One mistake can hide the next one on its line, so a few rounds are normal; the bound only keeps
+  // a fix that would undo another from running for ever.
+  constexpr int most_rounds = 64;
+  Fixed all{std::move(text), 0};
+  for (int round = 0; round < most_rounds; ++round) {
+    auto next = apply_fixes(all.text, check(all.text, target).diagnostics);
+    if (next.count == 0)
+      break;
+    all.text = std::move(next.text);
+    all.count += next.count;
+  }
+  return all;
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,136 @@
+#include "compiler/flow.h"
+
+#include <algorithm>
+
+namespace orb::compiler {
+namespace {
+
+class Reader {
+public:
+  explicit Reader(const Program& program) : program_(program) {}
+
+  Flow read() {
+    collect_lines();
+    for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
+      auto& code = flow_.code[i];
+      code.jumps_begin = static_cast<std::uint32_t>(flow_.jumps.size());
+      const auto& statement = program_.statements[code.statement];
+      bool falls = follow(statement);
+      if (statement.kind == spec::Statement::If && !statement.error)
+        falls = follow_branches(statement);
+      code.falls = falls;
+      code.jumps_end = static_cast<std::uint32_t>(flow_.jumps.size());
+    }
+    return std::move(flow_);
+  }
+
+private:
+  void collect_lines() {
+    flow_.code.reserve(program_.lines.size());
+    flow_.numbers.reserve(program_.lines.size());
+    bool sorted = true;
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
+      const auto& line = program_.lines[i];
+      const auto index =
+          line.has_statement() ? static_cast<std::uint32_t>(flow_.code.size()) : none;
+      if (line.has_number()) {
+        sorted = sorted && (flow_.numbers.empty() || flow_.numbers.back().number < line.number);
+        flow_.numbers.push_back({line.number, i, index});
+      }
+      if (line.has_statement()) {
+        auto& code = flow_.code.emplace_back();
+        code.line = i;
+        code.statement = line.statement;
+      }
+    }
+    if (!sorted)
+      std::stable_sort(flow_.numbers.begin(), flow_.numbers.end(),
+                       [](const auto& a, const auto& b) { return a.number < b.number; });
+  }
+
+  bool follow_branches(const StatementNode& statement) {
+    const bool then_falls = follow(program_.statements[statement.then_branch]);
+    if (statement.else_branch == none)
+      return true;
+    const bool else_falls = follow(program_.statements[statement.else_branch]);
+    return then_falls || else_falls;
+  }
+
+  /// Notes where a statement jumps; returns whether the next line can follow.
+  bool follow(const StatementNode& statement) {
+    if (statement.error)
+      return false;
+    switch (statement.kind) {
+    case spec::Statement::Goto: add_targets(statement, false); return false;
+    case spec::Statement::Gosub: add_targets(statement, true); return true;
+    case spec::Statement::On: {
+      const bool call = statement.spelling == Spelling::OnGosub;
+      add_targets(statement, call);
+      return call;
+    }
+    case spec::Statement::Return:
+    case spec::Statement::End:
+    case spec::Statement::Reset:
+    case spec::Statement::Sleep: return false;
+    case spec::Statement::Let:
+    case spec::Statement::If:
+    case spec::Statement::For:
+    case spec::Statement::Next:
+    case spec::Statement::Print:
+    case spec::Statement::Input:
+    case spec::Statement::Delay:
+    case spec::Statement::Rgb:
+    case spec::Statement::Ledc:
+    case spec::Statement::BackLed:
+    case spec::Statement::Random:
+    case spec::Statement::Goroll:
+    case spec::Statement::Heading:
+    case spec::Statement::Raw:
+    case spec::Statement::Locate:
+    case spec::Statement::Basflg:
+    case spec::Statement::Data:
+    case spec::Statement::Rstr:
+    case spec::Statement::Read:
+    case spec::Statement::Tron:
+    case spec::Statement::Troff:
+    case spec::Statement::Macrun:
+    case spec::Statement::Mackill: return true;
+    }
+    return true;
+  }
+
+  void add_targets(const StatementNode& statement, bool call) {
+    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
+      const auto& item = program_.items[i];
+      if (item.kind != ItemKind::Target)
+        continue;
+      Flow::Jump jump;
+      jump.item = i;
+      jump.call = call;
+      if (const auto* number = flow_.find(item.value))
+        jump.to = number->code;
+      if (jump.to != none) {
+        flow_.code[jump.to].target = true;
+        flow_.code[jump.to].called = flow_.code[jump.to].called || call;
+      }
+      flow_.jumps.push_back(jump);
+    }
+  }
+
+  const Program& program_;
+  Flow flow_;
+};
+
+} // namespace
+
+const Flow::Number* Flow::find(std::uint32_t number) const {
+  const auto at = std::lower_bound(numbers.begin(), numbers.end(), number,
+                                   [](const auto& row, std::uint32_t n) { return row.number < n; });
+  return at != numbers.end() && at->number == number ? &*at : nullptr;
+}
+
+Flow read_flow(const Program& program) {
+  return Reader(program).read();
+}
+
+} // namespace orb::compiler
