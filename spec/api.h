@@ -93,6 +93,11 @@ inline constexpr std::uint8_t did_core = 0x00;
 inline constexpr std::uint8_t did_bootloader = 0x01;
 inline constexpr std::uint8_t did_sphero = 0x02;
 
+/// Whether a command belongs to orbBasic, which some robots lack.
+constexpr bool is_orbbasic(ApiCommand command) {
+  return command >= ApiCommand::EraseOrbbasicStorage && command <= ApiCommand::CommitRamToFlash70;
+}
+
 /// Whether the simulated ball does it, or how it refuses. Source: UPLOAD.
 enum class Status : std::uint8_t {
   Implemented,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "spec/api.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +39,21 @@ struct FirmwareInfo {
   /// The orbBasic version in packed nibbles: 16h is 1.6; 0 where there is none.
   constexpr std::uint8_t orbbasic() const { return record_bytes[version_orbbasic_at]; }
   constexpr bool has_orbbasic() const { return orbbasic() != 0; }
+
+  /// Whether bit 1 of SOP2 decides if a command resets the inactivity timer; earlier every one did.
+  /// Since firmware 1.26 (API §Client Command Packets).
+  constexpr bool has_option_bits() const {
+    constexpr std::size_t version_at = 3; // MSA-ver, MSA-rev
+    return record_bytes[version_at] > 1 ||
+           (record_bytes[version_at] == 1 && record_bytes[version_at + 1] >= 26);
+  }
+
+  /// Whether this firmware has the command: by the API revision, and orbBasic's only with orbBasic.
+  constexpr bool knows(const CommandInfo& command) const {
+    const auto newer = command.since_major > api_major ||
+                       (command.since_major == api_major && command.since_minor > api_minor);
+    return !newer && (has_orbbasic() || !is_orbbasic(command.command));
+  }
 };
 
 namespace detail {

@@ -52,7 +52,8 @@ Bytes to_bytes(std::string_view text) {
 } // namespace
 
 Ball::Ball(const BallOptions& options)
-    : options_(options), body_(options.seed), machine_(options.lines_per_second, options.seed), macros_(*this),
+    : options_(options), body_(options.seed), machine_(options.lines_per_second, options.seed),
+      macros_(*this), dispatcher_(options.seed),
       inactive_at_(Instant{} + settings_.inactivity_timeout) {
   if (options_.trace_lines)
     machine_.trace_lines();
@@ -111,18 +112,34 @@ Bytes Ball::take_output() {
 }
 
 void Ball::send(const protocol::Response& response) {
-  if (connected_)
-    output_.push(protocol::encode(response), now_);
+  if (!connected_)
+    return;
+  output_.push(protocol::encode(response), now_);
+  ++sent_;
 }
 
 void Ball::send(const protocol::Async& async) {
   if (!connected_)
     return;
+  if (holding_) {
+    held_.push_back(async);
+    return;
+  }
   const auto id = static_cast<spec::AsyncId>(async.id);
   const bool vital = id == spec::AsyncId::BasicPrint || id == spec::AsyncId::BasicErrorText ||
                      id == spec::AsyncId::BasicError;
-  if (vital || output_.waiting(now_) <= congested_bytes)
-    output_.push(protocol::encode(async), now_);
+  if (!vital && output_.waiting(now_) > congested_bytes) {
+    ++dropped_;
+    return;
+  }
+  output_.push(protocol::encode(async), now_);
+  ++sent_;
+}
+
+void Ball::release_messages() {
+  holding_ = false;
+  for (const auto& async : std::exchange(held_, {}))
+    send(async);
 }
 
 // Time.
@@ -203,8 +220,10 @@ void Ball::run_events(Instant bound) {
 
 void Ball::watch_motion() {
   const bool moving = body_.moving() && !asleep_;
-  if (moving && !was_moving_)
+  if (moving && !was_moving_) {
     watch_at_ = now_;
+    dispatcher_.on_motion(*this);
+  }
   if (now_ >= watch_at_ || (was_moving_ && !moving)) {
     trace(event::Position{body_.pose()});
     check_battery();
@@ -250,7 +269,6 @@ void Ball::settings_changed() {
                                                                           : Switch::Off);
   if (!(settings_.permanent_flags & option::motion_timeout))
     motion_deadline_ = never;
-  client_was_active();
   check_battery();
   show_led();
   show_back_led(back_led_);
@@ -573,6 +591,14 @@ void Ball::macros_changed() {
 
 // Sleep.
 
+void Ball::shut_down() {
+  abort_basic();
+  macros_.abort(now_);
+  macros_changed();
+  streamer_.stop();
+  stop(Actor::Client);
+}
+
 void Ball::sleep(const Sleep& sleep) {
   falls_asleep_ = sleep;
 }
@@ -616,6 +642,7 @@ void Ball::wake() {
   wake_at_ = never;
   body_.advance_to(now_);
   body_.power_on();
+  dispatcher_.on_wake(*this);
   client_was_active();
   check_battery();
   show_led();
@@ -772,6 +799,7 @@ std::optional<Instant> Ball::print(std::string_view text, Instant now) {
     if (const Instant ready = output_.drained_to(room, now); ready > now)
       return ready;
     output_.push(std::move(packet), now);
+    ++sent_;
   }
   trace(event::Print{std::string(text)});
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include "bytecode/chunk.h"
 #include "protocol/packet.h"
 #include "spec/basic.h"
+#include "spec/firmware.h"
 #include "spec/limits.h"
 #include "vm/body.h"
 #include "vm/dispatcher.h"
@@ -45,6 +46,7 @@ struct BallOptions {
   std::uint64_t seed = 1;
   std::uint32_t lines_per_second = static_cast<std::uint32_t>(
       spec::value_of(spec::Limit::LinesPerSecond)); ///< from 1 to 1 000 000 000
+  spec::Firmware firmware = spec::default_firmware;
   std::size_t ram_bytes = static_cast<std::size_t>(spec::value_of(spec::Limit::RamBytes));
   Loader loader = nullptr;      ///< without it every program is empty
   Observer* observer = nullptr; ///< must outlive the ball
@@ -120,6 +122,13 @@ public:
   /// Async messages reach a connected client only; under congestion those that are not vital are
   /// dropped (docs/ball.md).
   void send(const protocol::Async& async);
+  /// Async messages wait from here to release_messages(), so that an answer can go before them.
+  void hold_messages() { holding_ = true; }
+  void release_messages();
+  /// Packets handed to the link, and messages dropped under congestion.
+  std::uint32_t sent() const { return sent_; }
+  std::uint32_t dropped() const { return dropped_; }
+  void clear_sent() { sent_ = dropped_ = 0; }
 
   // Parts, for the dispatcher and for whoever watches.
   const Body& body() const { return body_; }
@@ -137,12 +146,17 @@ public:
   /// Call it after any ask of a client that resets the inactivity timer.
   void client_was_active();
   bool asleep() const { return asleep_; }
+  /// Whether it will fall asleep as soon as whoever asked has returned.
+  bool falls_asleep() const { return falls_asleep_.has_value(); }
+  /// Stops programs, macros, streams and motors, as for the bootloader.
+  void shut_down();
   /// When the sleeping ball wakes up by itself.
   std::optional<Instant> wake_up() const;
   Color led() const { return body_.led(); }
   /// 1 charging, 2 OK, 3 low, 4 critical (Source: API §Get Power State).
   int battery_state() const;
   std::uint64_t seed() const { return options_.seed; }
+  spec::Firmware firmware() const { return options_.firmware; }
   /// The millisecond counter that stamps messages (API §Assign Time Value); 0 at power-on.
   std::uint32_t clock_ms() const;
   void set_clock_ms(std::uint32_t value);
@@ -208,6 +222,10 @@ private:
   Area running_area_ = Area::Ram;
   std::vector<TimedStimulus> script_; ///< `at` counts from the ball's power-on; latest first
 
+  bool holding_ = false;
+  std::vector<protocol::Async> held_;
+  std::uint32_t sent_ = 0;
+  std::uint32_t dropped_ = 0;
   bool connected_ = false;
   bool asleep_ = false;
   std::optional<Sleep> falls_asleep_;

@@ -166,8 +166,9 @@ void Body::drive() {
   } else if (!stabilized_) {
     forward_ = toward(forward_, 0, coasting * dt);
   } else {
-    const bool waits = vector_drive_ == Switch::On && stopped() &&
-                       std::abs(shortest_turn(yaw_deg_, target_deg_)) > 1;
+    const bool slow = std::abs(forward_) <= full_speed * vector_drive_limit_ / 255;
+    const bool waits =
+        vector_drive_ == Switch::On && slow && std::abs(shortest_turn(yaw_deg_, target_deg_)) > 1;
     const double target = waits ? 0 : full_speed * target_speed_ / 255;
     forward_ = toward(forward_, target, (go_ == Go::Brake ? braking : acceleration) * dt);
   }
@@ -195,6 +196,7 @@ void Body::travel() {
   // The locator sees the same way, turned into its own axes.
   const double dx = x - world_x_;
   const double dy = y - world_y_;
+  rolled_cm_ += std::hypot(dx, dy);
   world_x_ = x;
   world_y_ = y;
   const double turned = tare_deg_ - world_offset_deg_;
@@ -259,6 +261,7 @@ void Body::power_on() {
   target_speed_ = 0;
   go_ = Go::Brake;
   rotation_rate_ = default_rotation_rate;
+  vector_drive_limit_ = default_vector_drive_limit;
 }
 
 void Body::roll(const Roll& roll) {

@@ -87,6 +87,7 @@ struct Wall {
 /// every figure of it is a constant at the top of body.cpp.
 class Body {
 public:
+  static constexpr int default_vector_drive_limit = 50; // API §Set Vector Drive Limit
   static constexpr Duration step = std::chrono::microseconds{2500};
 
   explicit Body(std::uint64_t seed);
@@ -117,6 +118,8 @@ public:
   /// Degrees per second of an ordinary turn.
   void set_rotation_rate(double deg_per_s);
   void set_vector_drive(Switch vector_drive);
+  /// The speed, 0 to 255, up to which vector drive turns before it moves.
+  void set_vector_drive_limit(int speed) { vector_drive_limit_ = speed; }
   /// Renames the present heading (Source: API §Set Heading); the locator follows its own rule.
   void set_heading(int heading_deg);
 
@@ -167,6 +170,8 @@ public:
   double battery_v() const;
   /// When the voltage falls to `volts` at rest; `never` while charging or below already.
   Instant battery_reaches(double volts) const;
+  /// The length of its way since it was made.
+  std::uint64_t rolled_cm() const { return static_cast<std::uint64_t>(rolled_cm_); }
   bool charging() const { return charger_ == Switch::On; }
 
 private:
@@ -186,6 +191,7 @@ private:
   bool stabilized_ = true;
   bool raw_ = false; ///< the motors are driven by set_motors
   Switch vector_drive_ = Switch::Off;
+  int vector_drive_limit_ = default_vector_drive_limit;
   Go go_ = Go::Brake;
   int target_speed_ = 0;
   double target_deg_ = 0;
@@ -201,6 +207,7 @@ private:
   double tare_deg_ = 0;         ///< locator direction = yaw + tare
   Switch tare_correction_ = Switch::On;
   double forward_ = 0;
+  double rolled_cm_ = 0;
   double left_wheel_ = 0;
   double right_wheel_ = 0;
   double drift_x_ = 0; ///< what pushes and bounces add, in world axes

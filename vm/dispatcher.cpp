@@ -1,12 +1,269 @@
-#include "vm/dispatcher.h"
+#include "vm/dispatch.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace orb::vm {
+namespace {
 
-void Dispatcher::receive(ByteView, Ball&) {}
-void Dispatcher::run(Instant, Ball&) {}
-void Dispatcher::on_disconnect(Ball&) {}
-void Dispatcher::on_sleep(Ball&) {}
-void Dispatcher::on_battery(Ball&) {}
-void Dispatcher::on_collision(Ball&) {}
+using protocol::Item;
+using spec::ApiCommand;
+using spec::ResponseCode;
+
+constexpr Duration gyro_check_interval = std::chrono::milliseconds{10};
+constexpr double gyro_limit_deg_s = 500; // [?]
+
+/// How the ball refuses a command that it knows and does not do (UPLOAD quirk).
+ResponseCode refusal(spec::Status status) {
+  switch (status) {
+  case spec::Status::Implemented: return ResponseCode::Ok;
+  case spec::Status::Factory:
+  case spec::Status::Unsupported: return ResponseCode::Unsupported;
+  case spec::Status::Password: return ResponseCode::BadPassword;
+  case spec::Status::Bootloader: return ResponseCode::BadDevice;
+  }
+  return ResponseCode::General;
+}
+
+} // namespace
+
+/// The handlers in the order of spec::api_commands; null for commands that are refused.
+struct Dispatcher::Handlers {
+  template <ApiCommand command, spec::Status status>
+  static constexpr Handler of() {
+    if constexpr (status == spec::Status::Implemented)
+      return &Dispatcher::handle<command>;
+    else
+      return nullptr;
+  }
+  static Handler find(const spec::CommandInfo& row) {
+    static constexpr Handler table[] = {
+#define COMMAND(enumerator, did, cid, name, status, ...)                                           \
+  of<ApiCommand::enumerator, spec::Status::status>(),
+#include "spec/api.def"
+    };
+    return table[&row - spec::api_commands.data()];
+  }
+};
+
+Dispatcher::Dispatcher(std::uint64_t seed) : seed_(seed) {
+  profile_.cold_boots = 1;
+}
+
+void Dispatcher::receive(ByteView bytes, Ball& ball) {
+  if (bytes.empty())
+    return;
+  last_byte_ = ball.now();
+  decoder_.feed(bytes);
+  take_items(ball);
+}
+
+void Dispatcher::take_items(Ball& ball) {
+  while (const auto item = decoder_.next()) {
+    switch (item->kind) {
+    case Item::Kind::Command: {
+      // An answer precedes the messages that its command causes.
+      ball.hold_messages();
+      const auto reply = obey(*item, ball);
+      answer(*item, reply, ball);
+      ball.release_messages();
+      if (ball.falls_asleep()) {
+        decoder_.reset();
+        return;
+      }
+      break;
+    }
+    case Item::Kind::BadChecksum:
+      ++counters_.bad_checksum;
+      answer(*item, {ResponseCode::BadChecksum, {}}, ball);
+      break;
+    case Item::Kind::Fragment: answer(*item, {ResponseCode::Fragment, {}}, ball); break;
+    case Item::Kind::Noise:
+    case Item::Kind::Response:
+    case Item::Kind::Async: break;
+    }
+  }
+}
+
+void Dispatcher::answer(const Item& item, const Reply& reply, Ball& ball) {
+  if ((item.flags & spec::sop2_answer) != 0)
+    ball.send(protocol::Response{static_cast<std::uint8_t>(reply.code), item.seq, reply.data});
+}
+
+Dispatcher::Reply Dispatcher::obey(const Item& item, Ball& ball) {
+  const auto& firmware = spec::info(ball.firmware());
+  const auto resets = (item.flags & spec::sop2_reset_timeout) != 0;
+  if (resets || !firmware.has_option_bits())
+    ball.client_was_active();
+
+  const auto leaves_bootloader =
+      spec::api_command(item.did, item.cid) == ApiCommand::LeaveBootloader;
+  const auto known_device = in_bootloader_
+                                ? item.did == spec::did_core || leaves_bootloader
+                                : item.did == spec::did_core || item.did == spec::did_sphero;
+  if (!known_device) {
+    ++counters_.bad_did;
+    return {ResponseCode::BadDevice, {}};
+  }
+  const auto* row = spec::find_command(item.did, item.cid);
+  if (row == nullptr || !firmware.knows(*row)) {
+    ++counters_.bad_cid;
+    return {ResponseCode::BadCommand, {}};
+  }
+  const auto refused = refusal(row->status);
+  if (refused == ResponseCode::Unsupported) {
+    ++counters_.good;
+    return {refused, {}};
+  }
+  const auto operands = protocol::Operands::read(row->command, item.data);
+  if (!operands && operands.error().code == ResponseCode::BadMessage) {
+    ++counters_.bad_dlen;
+    return {ResponseCode::BadMessage, {}};
+  }
+  ++counters_.good;
+  if (refused != ResponseCode::Ok)
+    return {refused, {}};
+  if (!operands)
+    return {operands.error().code, {}};
+  return (this->*Handlers::find(*row))({*operands, ball});
+}
+
+// What happens by itself.
+
+Instant Dispatcher::next_event() const {
+  const auto fragment = decoder_.pending() ? last_byte_ + spec::fragment_timeout : never;
+  return std::min(
+      {fragment, power_notice_at_, self_level_.next_event(), soul_tick_at_, gyro_check_at_});
+}
+
+void Dispatcher::run(Instant now, Ball& ball) {
+  if (decoder_.pending() && now >= last_byte_ + spec::fragment_timeout) {
+    decoder_.expire();
+    take_items(ball);
+  }
+  if (now >= power_notice_at_) {
+    power_notice_at_ = now + power_notice_interval;
+    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::PowerNotification),
+                              {static_cast<std::uint8_t>(ball.battery_state())}});
+  }
+  self_level_.run(now, ball);
+  if (now >= soul_tick_at_)
+    tick_soul(ball);
+  if (now >= gyro_check_at_)
+    check_gyro(ball);
+}
+
+void Dispatcher::on_battery(Ball& ball) {
+  bring_up_to_date(ball);
+  const auto charging = ball.battery_state() == spec::power_state::charging;
+  if (was_charging_ && !charging) {
+    ++profile_.charges;
+    profile_.since_charge_s = 0;
+  }
+  was_charging_ = charging;
+  if (power_notice_at_ != never)
+    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::PowerNotification),
+                              {static_cast<std::uint8_t>(ball.battery_state())}});
+}
+
+void Dispatcher::on_collision(Ball& ball) {
+  if (!profile_.soul.damage_shield())
+    return;
+  if (soul_messages_)
+    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::ShieldDamage),
+                              {profile_.soul.shield()}});
+  soul_tick_at_ = std::min(soul_tick_at_, ball.now() + Soul::tick_time);
+}
+
+void Dispatcher::on_motion(Ball& ball) {
+  soul_tick_at_ = std::min(soul_tick_at_, ball.now() + Soul::tick_time);
+  watch_gyro(ball);
+}
+
+void Dispatcher::on_disconnect(Ball&) {
+  decoder_.reset();
+  power_notice_at_ = never;
+}
+
+void Dispatcher::on_sleep(Ball& ball) {
+  bring_up_to_date(ball);
+  decoder_.reset();
+  self_level_.cancel();
+  profile_.soul.stop_boost();
+  in_bootloader_ = false;
+  device_mode_ = spec::device_mode::normal;
+  accelerometer_range_ = spec::accelerometer_range::g8;
+  power_notice_at_ = soul_tick_at_ = gyro_check_at_ = never;
+  soul_messages_ = false;
+  gyro_exceeded_ = 0;
+}
+
+void Dispatcher::on_wake(Ball& ball) {
+  ++profile_.wake_ups;
+  counted_until_ = ball.now();
+  ball.set_clock_ms(0); // API §Assign Time Value: it starts at zero when the ball wakes up
+}
+
+void Dispatcher::bring_up_to_date(const Ball& ball) {
+  if (ball.asleep())
+    return;
+  const auto awake = std::chrono::floor<std::chrono::seconds>(ball.now() - counted_until_);
+  counted_until_ += awake;
+  profile_.awake_s += static_cast<std::uint64_t>(awake.count());
+  profile_.since_charge_s += static_cast<std::uint64_t>(awake.count());
+}
+
+void Dispatcher::tick_soul(Ball& ball) {
+  auto& soul = profile_.soul;
+  const auto was_boosting = soul.boosting();
+  const auto moving = !ball.body().stopped();
+  const auto changes = soul.tick(moving);
+  if (was_boosting && !soul.boosting())
+    set_boost(false, ball);
+  soul_tick_at_ = moving || soul.changing() ? ball.now() + Soul::tick_time : never;
+  if (!soul_messages_)
+    return;
+  const auto send = [&](spec::AsyncId id, Bytes data) {
+    ball.send(protocol::Async{static_cast<std::uint8_t>(id), std::move(data)});
+  };
+  if (changes.level) {
+    Bytes data;
+    append_u16(data, soul.level());
+    append_u16(data, soul.points());
+    send(spec::AsyncId::LevelUp, std::move(data));
+  }
+  if (changes.shield)
+    send(spec::AsyncId::ShieldDamage, {soul.shield()});
+  if (changes.experience)
+    send(spec::AsyncId::XpUpdate, {soul.experience()});
+  if (changes.boost)
+    send(spec::AsyncId::BoostUpdate, {soul.boost()});
+}
+
+/// Looks for gyro limits only where somebody wants to know and the ball may turn.
+void Dispatcher::watch_gyro(const Ball& ball) {
+  const auto wanted =
+      (ball.settings().permanent_flags & spec::permanent_option_flags::gyro_limit_messages) != 0;
+  gyro_check_at_ = wanted && ball.body().moving() ? ball.now() : never;
+}
+
+void Dispatcher::check_gyro(Ball& ball) {
+  const auto rate = ball.body().rotation_deg_s();
+  const std::pair<double, std::uint32_t> axes[] = {
+      {rate.x, spec::gyro_axis_flags::x_positive}, {-rate.x, spec::gyro_axis_flags::x_negative},
+      {rate.y, spec::gyro_axis_flags::y_positive}, {-rate.y, spec::gyro_axis_flags::y_negative},
+      {rate.z, spec::gyro_axis_flags::z_positive}, {-rate.z, spec::gyro_axis_flags::z_negative}};
+  std::uint8_t exceeded = 0;
+  for (const auto& [value, bit] : axes)
+    if (value > gyro_limit_deg_s)
+      exceeded = static_cast<std::uint8_t>(exceeded | bit);
+  exceeded = static_cast<std::uint8_t>(exceeded & ~gyro_exceeded_);
+  if (exceeded != 0) {
+    // Each axis once, until Set Heading clears the measurements.
+    gyro_exceeded_ = static_cast<std::uint8_t>(gyro_exceeded_ | exceeded);
+    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::GyroLimit), {exceeded}});
+  }
+  gyro_check_at_ = ball.body().moving() ? ball.now() + gyro_check_interval : never;
+}
 
 } // namespace orb::vm

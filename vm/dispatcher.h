@@ -2,28 +2,114 @@
 
 #include "base/bytes.h"
 #include "base/time.h"
+#include "protocol/decoder.h"
+#include "protocol/payload.h"
+#include "spec/api.h"
+#include "vm/profile.h"
+#include "vm/self_level.h"
+
+#include <cstdint>
+#include <string>
 
 namespace orb::vm {
 
 class Ball;
+struct MacroStatus;
 
 /// The API: finds packets in what a client sends, obeys them through Ball's actions with
-/// Actor::Client, and answers with `Ball::send`. Ball calls it like this:
+/// Actor::Client, and answers with `Ball::send`. What a command takes, and whether it is refused,
+/// stands in spec/api.def. Ball calls it like this:
 ///   - `receive` with every piece of bytes, at the ball's present instant;
 ///   - `next_event()` and `run` for what it must do by itself (half packets that time out, power
-///     notifications, soul-block messages);
-///   - `on_sleep` / `on_disconnect` to drop what does not outlive them.
+///     notifications, self levelling, soul-block messages);
+///   - the `on_…` functions when something happens to the ball.
 class Dispatcher {
 public:
+  explicit Dispatcher(std::uint64_t seed);
+
   void receive(ByteView bytes, Ball& ball);
-  Instant next_event() const { return never; }
+  Instant next_event() const;
   void run(Instant now, Ball& ball);
   void on_disconnect(Ball& ball);
   void on_sleep(Ball& ball);
+  void on_wake(Ball& ball);
   /// The state of the battery changed (power notifications).
   void on_battery(Ball& ball);
-  /// A collision was reported (shield, experience).
+  /// A collision was reported (shield).
   void on_collision(Ball& ball);
+  /// The ball began to move (experience).
+  void on_motion(Ball& ball);
+
+  const Profile& profile() const { return profile_; }
+  Profile& profile() { return profile_; }
+  /// Counts up with every command that changes what outlives a power cycle.
+  std::uint64_t revision() const { return revision_; }
+  /// The counters of a life, as of now; they have no events of their own.
+  void bring_up_to_date(const Ball& ball);
+
+private:
+  struct Reply {
+    spec::ResponseCode code = spec::ResponseCode::Ok;
+    Bytes data;
+  };
+  /// A command whose operands have been checked.
+  struct Call {
+    const protocol::Operands& operands;
+    Ball& ball;
+  };
+
+  // Source: API §Perform Level 2 Diagnostics.
+  struct Counters {
+    std::uint32_t good = 0;
+    std::uint32_t bad_did = 0;
+    std::uint32_t bad_dlen = 0;
+    std::uint32_t bad_cid = 0;
+    std::uint32_t bad_checksum = 0;
+    std::uint32_t overruns = 0;
+  };
+
+  void take_items(Ball& ball);
+  void answer(const protocol::Item& item, const Reply& reply, Ball& ball);
+  Reply obey(const protocol::Item& item, Ball& ball);
+
+  /// What one command does: a specialisation for each implemented row of spec/api.def, without
+  /// which the table of handlers does not link. They stand in vm/dispatch_*.cpp.
+  template <spec::ApiCommand command>
+  Reply handle(Call call);
+  using Handler = Reply (Dispatcher::*)(Call call);
+  struct Handlers;
+
+  static Reply status_reply(const MacroStatus& status);
+  std::string level_1(Ball& ball);
+  void set_boost(bool on, Ball& ball);
+  void tick_soul(Ball& ball);
+  void check_gyro(Ball& ball);
+  void watch_gyro(const Ball& ball);
+  void persist() { ++revision_; }
+
+  std::uint64_t seed_;
+  protocol::Decoder decoder_{protocol::Direction::ToBall};
+  Instant last_byte_{};
+  Counters counters_;
+  Profile profile_;
+  std::uint64_t revision_ = 0;
+
+  // Lost in sleep.
+  bool in_bootloader_ = false;
+  std::uint8_t device_mode_ = spec::device_mode::normal;
+  std::uint8_t accelerometer_range_ = spec::accelerometer_range::g8;
+  static constexpr Duration power_notice_interval = std::chrono::seconds{10}; // API
+  Instant power_notice_at_ = never;
+  bool soul_messages_ = false;
+  Instant soul_tick_at_ = never;
+  Instant consumable_until_{};
+  SelfLevel self_level_;
+  Instant gyro_check_at_ = never;
+  std::uint8_t gyro_exceeded_ = 0;
+  int speed_before_boost_ = 0;
+
+  Instant counted_until_{}; ///< how far the counters of a life have come
+  bool was_charging_ = false;
 };
 
 } // namespace orb::vm

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "base/bytes.h"
 #include "base/time.h"
+
+#include <cstdint>
 
 namespace orb::vm {
 
@@ -11,9 +14,30 @@ class Ball;
 /// `Ball::streamer()`; Ball calls `run` at `next_event()`, after the body's step of that instant.
 class Streamer {
 public:
-  Instant next_event() const { return never; }
+  struct Request {
+    std::uint32_t divisor = 1;  ///< N: every how many steps of the control system
+    std::uint32_t frames = 1;   ///< M: per packet
+    std::uint64_t mask = 0;     ///< of spec::streams
+    std::uint32_t packets = 0;  ///< how many packets; 0 without end
+    double accelerometer_g = 8; ///< where the accelerometer saturates
+  };
+
+  /// Whether a packet of the request fits a message.
+  static bool fits(const Request& request);
+
+  /// Streams from now on, in place of what was streamed before. A mask without sources stops.
+  void start(const Request& request, Instant now);
+  void stop() { next_ = never; }
+
+  Instant next_event() const { return next_; }
   void run(Instant now, Ball& ball);
-  void stop() {}
+
+private:
+  Request request_;
+  Instant next_ = never;
+  std::uint32_t collected_ = 0; ///< frames in data_
+  std::uint32_t sent_ = 0;      ///< packets
+  Bytes data_;
 };
 
 } // namespace orb::vm

@@ -1,0 +1,159 @@
+#include "protocol/describe.h"
+
+#include "protocol/payload.h"
+
+#include <fmt/format.h>
+
+namespace orb::protocol {
+namespace {
+
+/// Text in quotes with what is not printable as an escape.
+std::string quoted(ByteView bytes) {
+  std::string out = "\"";
+  for (const auto byte : bytes) {
+    if (byte == '\n')
+      out += "\\n";
+    else if (byte == '\r')
+      out += "\\r";
+    else if (byte == 0)
+      out += "\\0";
+    else if (byte == '"' || byte == '\\')
+      out += {'\\', static_cast<char>(byte)};
+    else if (byte < ' ' || byte >= 0x7F)
+      out += fmt::format("\\x{:02X}", byte);
+    else
+      out += static_cast<char>(byte);
+  }
+  return out + "\"";
+}
+
+std::string value_text(const FieldValue& value) {
+  const auto& field = *value.field;
+  if (!spec::is_number(field.type)) {
+    const auto is_text = field.unit == "text";
+    return is_text ? quoted(value.bytes) : to_hex(value.bytes);
+  }
+  if (field.unit == "nibbles")
+    return fmt::format("{}.{}", value.number >> 4, value.number & 15);
+  const auto bits = static_cast<std::uint32_t>(value.number);
+  auto name = std::string(spec::value_name(field.unit, bits));
+  if (name.empty())
+    name = spec::bit_names(field.unit, bits);
+  const auto is_mask = field.unit.starts_with("stream mask") || field.unit.ends_with("flags");
+  const auto number = is_mask ? fmt::format("{:0{}X}h", bits, 2 * spec::field_size(field.type))
+                              : fmt::format("{}", value.number);
+  return name.empty() ? number : fmt::format("{} ({})", number, name);
+}
+
+/// The data as `name value` with commas, then what no field names.
+std::string fields_text(std::span<const spec::Field> fields, ByteView data) {
+  std::string out;
+  std::size_t used = 0;
+  for (const auto& value : read_fields(fields, data)) {
+    used += spec::is_number(value.field->type) ? spec::field_size(value.field->type)
+                                               : value.bytes.size();
+    if (value.field->name.starts_with("reserved"))
+      continue;
+    out += fmt::format(", {} {}", value.field->name, value_text(value));
+  }
+  if (used < data.size())
+    out += fmt::format(", data {}", to_hex(data.subspan(used)));
+  return out;
+}
+
+/// The frames of a sensor stream by the mask that asked for them.
+std::string frames_text(std::uint64_t mask, ByteView data) {
+  std::string out;
+  std::size_t at = 0;
+  while (at < data.size()) {
+    const auto start = at;
+    for (const auto& row : spec::streams) {
+      if ((row.mask & mask) == 0)
+        continue;
+      if (data.size() - at < 2)
+        return out + fmt::format(", data {}", to_hex(data.subspan(at)));
+      out += fmt::format(", {} {}", row.name, static_cast<std::int16_t>(read_u16(data, at)));
+      at += 2;
+    }
+    if (at == start)
+      return out + fmt::format(", frames {}", to_hex(data));
+  }
+  return out;
+}
+
+std::string options_text(std::uint8_t flags) {
+  const auto answer = (flags & spec::sop2_answer) != 0;
+  const auto reset = (flags & spec::sop2_reset_timeout) != 0;
+  return fmt::format("{:02X} ({}, {})", flags, answer ? "answer" : "no answer",
+                     reset ? "reset time-out" : "keep time-out");
+}
+
+std::uint8_t check_byte(const Item& item) {
+  return item.raw.back();
+}
+
+} // namespace
+
+std::string Describer::describe(const Item& item) {
+  switch (item.kind) {
+  case Item::Kind::Command: return command(item);
+  case Item::Kind::Response: return response(item);
+  case Item::Kind::Async: return async(item);
+  case Item::Kind::Noise: return fmt::format("noise {}", to_hex(item.raw));
+  case Item::Kind::BadChecksum:
+    return fmt::format(
+        "bad checksum {}, {:02X} would be right", to_hex(item.raw),
+        checksum(item.raw.subspan(spec::sop_size, item.raw.size() - spec::sop_size - 1)));
+  case Item::Kind::Fragment: return fmt::format("incomplete {}", to_hex(item.raw));
+  }
+  return {};
+}
+
+std::string Describer::command(const Item& item) {
+  const auto* row = spec::find_command(item.did, item.cid);
+  asked_[item.seq] = static_cast<std::uint16_t>(spec::api_command(item.did, item.cid));
+  if (row != nullptr && row->command == spec::ApiCommand::SetDataStreaming) {
+    std::uint64_t mask = 0;
+    for (const auto& value : read_fields(spec::operands(row->command), item.data)) {
+      if (value.field->unit == "stream mask")
+        mask |= static_cast<std::uint64_t>(value.number);
+      if (value.field->unit == "stream mask 2")
+        mask |= static_cast<std::uint64_t>(value.number) << 32;
+    }
+    stream_mask_ = mask;
+  }
+  return fmt::format(
+      "command {}: sop2 {}, did {:02X}, cid {:02X}, seq {:02X}, dlen {:02X}{}, chk {:02X}",
+      row == nullptr ? "unknown" : row->name, options_text(item.flags), item.did, item.cid,
+      item.seq, item.raw[5],
+      row == nullptr ? fields_text({}, item.data)
+                     : fields_text(spec::operands(row->command), item.data),
+      check_byte(item));
+}
+
+std::string Describer::response(const Item& item) {
+  const auto* code = spec::find_response(item.code);
+  const auto asked = asked_[item.seq];
+  const auto* row =
+      spec::find_command(static_cast<std::uint8_t>(asked >> 8), static_cast<std::uint8_t>(asked));
+  const auto ok = item.code == static_cast<std::uint8_t>(spec::ResponseCode::Ok);
+  const auto fields =
+      row == nullptr || !ok ? std::span<const spec::Field>{} : spec::answer(row->command);
+  return fmt::format("response{}: mrsp {:02X} ({}), seq {:02X}, dlen {:02X}{}, chk {:02X}",
+                     row == nullptr ? "" : fmt::format(" to {}", row->name), item.code,
+                     code == nullptr ? "unknown" : code->meaning, item.seq, item.raw[4],
+                     fields_text(fields, item.data), check_byte(item));
+}
+
+std::string Describer::async(const Item& item) const {
+  const auto* row = spec::find_async(item.code);
+  const auto fields = row == nullptr ? std::span<const spec::Field>{} : spec::fields(row->id);
+  const auto is_stream = row != nullptr && row->id == spec::AsyncId::SensorData;
+  return fmt::format("message {}: id {:02X}, dlen {:04X}{}, chk {:02X}",
+                     row == nullptr ? "unknown" : row->name, item.code, read_u16(item.raw, 3),
+                     is_stream ? frames_text(stream_mask_, item.data)
+                               : fields_text(fields, item.data),
+                     check_byte(item));
+}
+
+} // namespace orb::protocol

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "uploader/plan.h"
+#include "uploader/session.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace orb::uploader {
+
+/// What is in the place that an upload was for.
+enum class Content : std::uint8_t {
+  Unchanged,
+  ErasedOrUnchanged, ///< the erase was sent, its answer is missing
+  Erased,
+  Incomplete,  ///< a front part of the program or macro, perhaps all of it
+  Unconfirmed, ///< all of it was sent; whether it is there is not known
+  Stored
+};
+
+/// How an upload ended. Only Done is success.
+struct Report {
+  enum class Kind : std::uint8_t {
+    Done,
+    Impossible, ///< it cannot fit this ball; nothing was changed
+    Refused,    ///< the ball said no, or its battery is too low
+    NoBall,     ///< nothing that answers like a ball
+    LinkLost,   ///< the link failed or the ball fell silent; `content` is what is known
+    Unknown,    ///< it may have worked: neither success nor failure
+    Interrupted ///< by the user
+  };
+  Kind kind = Kind::Done;
+  Content content = Content::Unchanged;
+  std::string message;   ///< one sentence: what happened, what is on the ball, what helps
+  std::uint8_t code = 0; ///< of Refused, where the ball said it
+};
+
+/// What a ball said of itself before anything was changed.
+struct Greeting {
+  Bytes versions;
+  Firmware firmware;
+  std::optional<Bytes> power; ///< the answer of Get Power State, where the ball gives one
+
+  /// The power state of the API, 0 where it is not known.
+  std::uint8_t power_state() const;
+};
+
+enum class Stage : std::uint8_t {
+  Greeting,
+  Preparing,
+  Sending,
+  Confirming,
+  Storing,
+  Starting,
+  Done
+};
+std::string_view to_string(Stage stage);
+
+/// Where an upload stands.
+struct Status {
+  Stage stage = Stage::Greeting;
+  std::size_t bytes_sent = 0; ///< of the program or macro, answered for
+  std::size_t bytes_total = 0;
+  std::size_t packets = 0;       ///< that were answered for and carry them
+  std::size_t packets_total = 0; ///< planned; resends and short fragments add to it
+  int attempt = 1;
+};
+
+/// Is told how an upload goes on.
+class Progress {
+public:
+  virtual ~Progress() = default;
+  virtual void on_status(const Status& status, Instant now) = 0;
+};
+
+/// For uploads that nobody watches.
+class NullProgress final : public Progress {
+public:
+  void on_status(const Status&, Instant) override {}
+};
+
+/// Whether a nearly empty battery stops what writes to flash.
+enum class BatteryPolicy : std::uint8_t { Refuse, Ignore };
+
+/// Waits for stray bytes, pings until there is an answer, asks for versions and power.
+tl::expected<Greeting, Report> greet(Session& session);
+
+/// Puts a program into the ball and says the truth about it (docs/uploading.md). Ends before the
+/// deadline of the plan.
+Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,
+              BatteryPolicy battery, Progress& progress);
+
+/// The same for a macro.
+Report upload(Session& session, const MacroJob& job, Progress& progress);
+
+/// Sends one command and says how it went: until it is answered where that does no harm, else once.
+tl::expected<protocol::Response, Report> request(Session& session, spec::ApiCommand command,
+                                                 const Bytes& data = {});
+
+} // namespace orb::uploader

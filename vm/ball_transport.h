@@ -1,0 +1,46 @@
+#pragma once
+
+#include "protocol/transport.h"
+#include "vm/ball.h"
+
+#include <deque>
+
+namespace orb::vm {
+
+/// The wire between a client and a ball in the same process.
+struct WireModel {
+  Duration round_trip{};                  ///< half of it each way
+  std::uint32_t bytes_per_second = 11520; ///< to the ball; the ball paces its own output
+};
+
+/// The link `sim:`: a client's end of a wire to a ball in this process. Time is virtual: waiting
+/// costs nothing, and the ball lives exactly as long as the client waits.
+class BallTransport final : public protocol::Transport {
+public:
+  /// Connects to the ball, which must outlive the transport.
+  explicit BallTransport(Ball& ball, const WireModel& wire = {});
+  ~BallTransport() override;
+  BallTransport(const BallTransport&) = delete;
+  BallTransport& operator=(const BallTransport&) = delete;
+
+  Instant now() const override { return ball_.now(); }
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override;
+  /// With the deadline `never` it returns nothing once the ball is at rest.
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override;
+
+private:
+  struct Lump {
+    Instant due;
+    Bytes bytes;
+  };
+
+  void exchange();
+
+  Ball& ball_;
+  WireModel wire_;
+  Instant wire_free_{};
+  std::deque<Lump> to_ball_;
+  std::deque<Lump> to_client_;
+};
+
+} // namespace orb::vm

@@ -1,0 +1,152 @@
+// Device 02h: option flags, modes, configuration and soul block.
+
+#include "vm/dispatch.h"
+
+#include <utility>
+
+namespace orb::vm {
+namespace {
+
+using spec::ResponseCode;
+
+constexpr std::size_t application_block_size = 32;
+constexpr std::uint32_t chassis_base = 0x1000;                // [?]
+constexpr std::uint8_t factory_block = 0;                     // API §Get Configuration Block
+constexpr Duration consumable_time = std::chrono::seconds{3}; // how long its macro runs [?]
+constexpr std::uint32_t assigned_temporary_flags = spec::temporary_option_flags::stop_on_disconnect;
+
+std::uint16_t chassis_id(std::uint64_t seed) {
+  return static_cast<std::uint16_t>(chassis_base + (seed & 0xFFF));
+}
+
+} // namespace
+
+HANDLE(GetApplicationConfigurationBlock) {
+  return {ResponseCode::Ok, Bytes(application_block_size)};
+}
+
+HANDLE(ReenableDemoMode) {
+  return {};
+}
+
+HANDLE(GetChassisId) {
+  Reply reply;
+  append_u16(reply.data, chassis_id(seed_));
+  return reply;
+}
+
+HANDLE(SetPermanentOptionFlags) {
+  call.ball.settings().permanent_flags = static_cast<std::uint32_t>(call.operands.number(0));
+  call.ball.settings_changed();
+  watch_gyro(call.ball);
+  persist();
+  return {};
+}
+
+HANDLE(GetPermanentOptionFlags) {
+  Reply reply;
+  append_u32(reply.data, call.ball.settings().permanent_flags);
+  return reply;
+}
+
+HANDLE(SetTemporaryOptionFlags) {
+  call.ball.settings().temporary_flags =
+      static_cast<std::uint32_t>(call.operands.number(0)) & assigned_temporary_flags;
+  return {};
+}
+
+HANDLE(GetTemporaryOptionFlags) {
+  Reply reply;
+  append_u32(reply.data, call.ball.settings().temporary_flags);
+  return reply;
+}
+
+HANDLE(GetConfigurationBlock) {
+  Bytes block;
+  if (call.operands.u8(0) == factory_block) {
+    // What the factory wrote: the settings of a new ball and its chassis id at the end [?].
+    block = config_block({}, {});
+    block.resize(spec::config_block_size - sizeof(std::uint16_t));
+    append_u16(block, chassis_id(seed_));
+  } else {
+    block = config_block(call.ball.settings(), profile_);
+  }
+  call.ball.send(
+      protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::ConfigBlock), std::move(block)});
+  return {};
+}
+
+HANDLE(SetConfigurationBlock) {
+  if (!load_config_block(call.operands.data(), call.ball.settings(), profile_))
+    return {ResponseCode::BadParameter, {}};
+  call.ball.settings_changed();
+  call.ball.client_was_active();
+  watch_gyro(call.ball);
+  persist();
+  return {};
+}
+
+HANDLE(SetDeviceMode) {
+  device_mode_ = call.operands.u8(0);
+  return {};
+}
+
+HANDLE(GetDeviceMode) {
+  return {ResponseCode::Ok, {device_mode_}};
+}
+
+HANDLE(GetSsb) {
+  call.ball.send(
+      protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::SoulBlock), profile_.soul.block()});
+  return {};
+}
+
+HANDLE(RefillBank) {
+  const auto bank = call.operands.u8(0);
+  const auto cores = profile_.soul.refill(bank);
+  if (!cores)
+    return {ResponseCode::ExecuteFailed, {}};
+  persist();
+  if (soul_messages_) {
+    const auto is_boost = bank == spec::bank::boost;
+    call.ball.send(
+        protocol::Async{static_cast<std::uint8_t>(is_boost ? spec::AsyncId::BoostUpdate
+                                                           : spec::AsyncId::ShieldDamage),
+                        {is_boost ? profile_.soul.boost() : profile_.soul.shield()}});
+  }
+  Reply reply;
+  append_u32(reply.data, *cores);
+  return reply;
+}
+
+HANDLE(BuyConsumable) {
+  const auto consumable = call.operands.u8(0);
+  if (!profile_.soul.buy(consumable, call.operands.u8(1)))
+    return {ResponseCode::ExecuteFailed, {}};
+  persist();
+  Reply reply;
+  reply.data = {profile_.soul.count(consumable)};
+  append_u32(reply.data, profile_.soul.cores());
+  return reply;
+}
+
+HANDLE(UseConsumable) {
+  const auto consumable = call.operands.u8(0);
+  if (call.ball.now() < consumable_until_ || !profile_.soul.use(consumable))
+    return {ResponseCode::ExecuteFailed, {}};
+  consumable_until_ = call.ball.now() + consumable_time;
+  return {ResponseCode::Ok, {consumable, profile_.soul.count(consumable)}};
+}
+
+HANDLE(GetPasswordSeed) {
+  Reply reply;
+  append_u32(reply.data, static_cast<std::uint32_t>(seed_ * 0x9E3779B97F4A7C15u >> 32));
+  return reply;
+}
+
+HANDLE(EnableSsbAsync) {
+  soul_messages_ = call.operands.u8(0) != 0;
+  return {};
+}
+
+} // namespace orb::vm

@@ -1,0 +1,248 @@
+// Device 00h: what every robot of the vendor has.
+
+#include "vm/dispatch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace orb::vm {
+namespace {
+
+using spec::ResponseCode;
+
+constexpr std::string_view default_name = "Sphero-RGB";
+constexpr std::string_view id_color_letters = "RGB";  // [?]
+constexpr std::string_view address_prefix = "6886E7"; // the vendor's block of Bluetooth addresses
+constexpr std::size_t reported_name_size = 16;        // API §Get Bluetooth Info
+constexpr std::uint16_t deep_sleep = 0xFFFF;          // API §Sleep: not supported by this hardware
+constexpr std::uint8_t power_record_version = 1;      // API §Get Power State
+constexpr std::uint16_t level_2_record_version = 1;   // API §Perform Level 2 Diagnostics
+constexpr std::uint8_t boot_reason_cold = 0;          // [?]
+constexpr std::size_t boot_counters = 16;             // API §Perform Level 2 Diagnostics
+constexpr std::size_t wake_up_counter = 2;            // [?]: after cold and warm
+
+std::uint16_t clamp_u16(std::uint64_t value) {
+  return static_cast<std::uint16_t>(std::min<std::uint64_t>(value, UINT16_MAX));
+}
+
+std::string_view own_name(const Profile& profile) {
+  return profile.name.empty() ? default_name : std::string_view(profile.name);
+}
+
+/// A ball's address follows from its seed, so that the balls of one server differ.
+std::string own_address(std::uint64_t seed) {
+  return fmt::format("{}{:06X}", address_prefix, seed & 0xFFFFFF);
+}
+
+std::uint16_t centivolts(const Ball& ball) {
+  return static_cast<std::uint16_t>(std::lround(ball.body().battery_v() * 100));
+}
+
+} // namespace
+
+HANDLE(Ping) {
+  return {};
+}
+
+HANDLE(GetVersioning) {
+  const auto record = spec::info(call.ball.firmware()).record();
+  return {ResponseCode::Ok, {record.begin(), record.end()}};
+}
+
+HANDLE(SetDeviceName) {
+  const auto name = as_text(call.operands.data());
+  profile_.name = clip_utf8(name.substr(0, name.find('\0')), name_size);
+  persist();
+  return {};
+}
+
+HANDLE(GetBluetoothInfo) {
+  Reply reply;
+  const auto name = clip_utf8(own_name(profile_), reported_name_size);
+  reply.data.assign(name.begin(), name.end());
+  reply.data.resize(reported_name_size);
+  const auto address = own_address(seed_);
+  reply.data.insert(reply.data.end(), address.begin(), address.end());
+  reply.data.push_back(0);
+  reply.data.insert(reply.data.end(), id_color_letters.begin(), id_color_letters.end());
+  return reply;
+}
+
+HANDLE(SetAutoReconnect) {
+  profile_.auto_reconnect = call.operands.u8(0) != 0;
+  profile_.auto_reconnect_s = call.operands.u8(1);
+  persist();
+  return {};
+}
+
+HANDLE(GetAutoReconnect) {
+  return {ResponseCode::Ok, {std::uint8_t{profile_.auto_reconnect}, profile_.auto_reconnect_s}};
+}
+
+HANDLE(GetPowerState) {
+  bring_up_to_date(call.ball);
+  Reply reply;
+  reply.data = {power_record_version, static_cast<std::uint8_t>(call.ball.battery_state())};
+  append_u16(reply.data, centivolts(call.ball));
+  append_u16(reply.data, profile_.charges);
+  append_u16(reply.data, clamp_u16(profile_.since_charge_s));
+  return reply;
+}
+
+HANDLE(SetPowerNotification) {
+  power_notice_at_ = call.operands.u8(0) == 0 ? never : call.ball.now() + power_notice_interval;
+  return {};
+}
+
+HANDLE(Sleep) {
+  if (call.operands.number(0) == deep_sleep)
+    return {ResponseCode::Unsupported, {}};
+  call.ball.sleep({static_cast<int>(call.operands.number(0)), call.operands.u8(1),
+                   static_cast<int>(call.operands.number(2))});
+  return {};
+}
+
+HANDLE(GetVoltageTripPoints) {
+  Reply reply;
+  append_u16(reply.data, static_cast<std::uint32_t>(call.ball.settings().low_battery_cv));
+  append_u16(reply.data, static_cast<std::uint32_t>(call.ball.settings().critical_battery_cv));
+  return reply;
+}
+
+HANDLE(SetVoltageTripPoints) {
+  if (call.operands.number(0) - call.operands.number(1) < trip_point_distance_cv)
+    return {ResponseCode::BadParameter, {}};
+  call.ball.settings().low_battery_cv = static_cast<int>(call.operands.number(0));
+  call.ball.settings().critical_battery_cv = static_cast<int>(call.operands.number(1));
+  call.ball.settings_changed();
+  persist();
+  return {};
+}
+
+HANDLE(SetInactivityTimeout) {
+  call.ball.settings().inactivity_timeout = std::chrono::seconds{call.operands.number(0)};
+  call.ball.client_was_active(); // the new time counts from now
+  persist();
+  return {};
+}
+
+HANDLE(JumpToBootloader) {
+  in_bootloader_ = true;
+  call.ball.shut_down();
+  return {};
+}
+
+HANDLE(LeaveBootloader) {
+  in_bootloader_ = false;
+  return {};
+}
+
+HANDLE(PerformLevel1Diagnostics) {
+  const auto text = level_1(call.ball);
+  call.ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::Level1Diagnostics),
+                                 {text.begin(), text.end()}});
+  return {};
+}
+
+HANDLE(PerformLevel2Diagnostics) {
+  bring_up_to_date(call.ball);
+  Reply reply;
+  auto& out = reply.data;
+  append_u16(out, level_2_record_version);
+  out.push_back(0);
+  append_u32(out, counters_.good);
+  append_u32(out, counters_.bad_did);
+  append_u32(out, counters_.bad_dlen);
+  append_u32(out, counters_.bad_cid);
+  append_u32(out, counters_.bad_checksum);
+  append_u32(out, counters_.overruns);
+  append_u32(out, call.ball.sent());
+  append_u32(out, call.ball.dropped());
+  out.push_back(boot_reason_cold);
+  for (std::size_t i = 0; i < boot_counters; ++i)
+    append_u16(out, i == 0 ? profile_.cold_boots : i == wake_up_counter ? profile_.wake_ups : 0);
+  append_u16(out, 0);
+  append_u16(out, profile_.charges);
+  append_u16(out, clamp_u16(profile_.since_charge_s));
+  append_u32(out, static_cast<std::uint32_t>(profile_.awake_s));
+  append_u32(out, static_cast<std::uint32_t>(profile_.rolled_cm + call.ball.body().rolled_cm()));
+  append_u16(out, 0);
+  append_u32(out, 0);
+  return reply;
+}
+
+HANDLE(ClearCounters) {
+  if (device_mode_ == spec::device_mode::normal)
+    return {ResponseCode::ExecuteFailed, {}};
+  counters_ = {};
+  call.ball.clear_sent();
+  return {};
+}
+
+HANDLE(AssignTimeValue) {
+  call.ball.set_clock_ms(static_cast<std::uint32_t>(call.operands.number(0)));
+  return {};
+}
+
+HANDLE(PollPacketTimes) {
+  Reply reply;
+  append_u32(reply.data, static_cast<std::uint32_t>(call.operands.number(0)));
+  append_u32(reply.data, call.ball.clock_ms()); // received and sent in the same millisecond
+  append_u32(reply.data, call.ball.clock_ms());
+  return reply;
+}
+
+std::string Dispatcher::level_1(Ball& ball) {
+  bring_up_to_date(ball);
+  const auto& firmware = spec::info(ball.firmware());
+  const auto record = firmware.record();
+  const auto nibbles = [](std::uint8_t byte) { return fmt::format("{}.{}", byte >> 4, byte & 15); };
+  const auto& settings = ball.settings();
+  const auto& body = ball.body();
+  const auto felt = body.acceleration_g();
+  const auto rate = body.rotation_deg_s();
+  std::string out;
+  out += fmt::format("[System]\nMode {}, Boot code {}\n", device_mode_ == 0 ? 'N' : 'H',
+                     boot_reason_cold);
+  out += fmt::format("{} rechrg, {} s since last, {} s alive\n", profile_.charges,
+                     profile_.since_charge_s, profile_.awake_s);
+  out += fmt::format("Cold:{}, Wakeup:{}\n", profile_.cold_boots, profile_.wake_ups);
+  out += fmt::format(
+      "Dist rolled: {} cm, Vbatt {:.2f}, state: {}\n", profile_.rolled_cm + body.rolled_cm(),
+      body.battery_v(),
+      spec::value_name("power state", static_cast<std::uint32_t>(ball.battery_state())));
+  out += fmt::format("Stabilize:{}\nAutoRN:{}\nMac:{}\nBas:{}\n", body.stabilized() ? 1 : 0,
+                     profile_.auto_reconnect ? 1 : 0, ball.macros().id(),
+                     ball.basic_running() ? 1 : 0);
+  out += fmt::format("Bootldr={}\nMA={}.{}\nBoard={}\nOrbBasic={}\nMacExec={}\n",
+                     nibbles(record[5]), record[3], record[4], record[2],
+                     nibbles(firmware.orbbasic()), nibbles(record[spec::version_macro_at]));
+  out += fmt::format(
+      "[Network]\nRx good:{}, bad:{}, Tx:{}\nRx overruns:{}, Tx:{}\n", counters_.good,
+      counters_.bad_checksum + counters_.bad_did + counters_.bad_cid + counters_.bad_dlen,
+      ball.sent(), counters_.overruns, ball.dropped());
+  out += fmt::format("Dev name: {}, BTA:{}\n", own_name(profile_), own_address(seed_));
+  out += fmt::format("[Options]\nPermanent:{:08X}, Temporary:{:08X}\nTrip points:{}, {}\n",
+                     settings.permanent_flags, settings.temporary_flags, settings.low_battery_cv,
+                     settings.critical_battery_cv);
+  out += fmt::format("ClientTimeOut={}\nMotionTimeOut={}\n",
+                     settings.inactivity_timeout / std::chrono::seconds{1},
+                     settings.motion_timeout / std::chrono::milliseconds{1});
+  out +=
+      fmt::format("[Sensors]\nAccel X={:.4f} Y={:.4f} Z={:.4f}\nGyro X={:.4f} Y={:.4f} Z={:.4f}\n",
+                  felt.x, felt.y, felt.z, rate.x, rate.y, rate.z);
+  out += fmt::format("Pitch={:.3f} Roll={:.3f} Yaw={:.3f}\n", body.pitch_deg(), body.roll_deg(),
+                     body.yaw_deg());
+  const auto pose = body.pose();
+  const auto& limits = settings.collisions;
+  out += fmt::format("[Control]\nX={:.1f} Y={:.1f} Speed={:.1f} cm/s\nHeading={:.1f}, Speed={}\n",
+                     pose.x_cm, pose.y_cm, pose.speed_cm_s, body.heading_setpoint_deg(),
+                     body.speed_setpoint());
+  out += fmt::format("[Collisions]\nMethod={} Xt={} Xs={} Yt={} Ys={} Dead={} ms\n", limits.method,
+                     limits.x_threshold, limits.x_speed, limits.y_threshold, limits.y_speed,
+                     limits.dead_time_10ms * 10);
+  return out;
+}
+
+} // namespace orb::vm

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "vm/settings.h"
+#include "vm/soul.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace orb::vm {
+
+/// What a ball remembers across power cycles besides its Settings: names, counters of its life, the
+/// soul block.
+struct Profile {
+  std::string name; ///< at most name_size bytes, whole UTF-8 characters; empty: the default
+  bool auto_reconnect = true;
+  std::uint8_t auto_reconnect_s = 0;
+  Soul soul;
+
+  // Of its life. Source: API §Perform Level 2 Diagnostics.
+  std::uint16_t charges = 0;
+  std::uint64_t since_charge_s = 0; ///< awake
+  std::uint64_t awake_s = 0;
+  std::uint64_t rolled_cm = 0;
+  std::uint16_t cold_boots = 0;
+  std::uint16_t wake_ups = 0;
+};
+
+/// How far apart the trip points of the battery stay. Source: API §Set Voltage Trip Points.
+inline constexpr int trip_point_distance_cv = 25;
+
+inline constexpr std::size_t name_size = 48; ///< bytes that are kept. Source: API §Set Device Name
+
+/// The front of `text` of at most `most` bytes that ends with a whole UTF-8 character.
+std::string_view clip_utf8(std::string_view text, std::size_t most);
+
+/// The user configuration block: spec::config_block_size bytes, whose layout is ours [?]
+/// (docs/protocol.md).
+Bytes config_block(const Settings& settings, const Profile& profile);
+/// Takes over a block as config_block() makes them; false, and nothing changed, for others.
+bool load_config_block(ByteView block, Settings& settings, Profile& profile);
+
+} // namespace orb::vm
