@@ -1,9 +1,55 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace orb::bytecode {
 
-enum class Op : std::uint16_t { EndOfProgram };
+/// The instructions; bytecode/op.def says what each does.
+enum class Op : std::uint16_t {
+#define ORB_OP(name, ...) name,
+#include "bytecode/op.def"
+};
+
+/// Whether the line goes on behind an instruction or ends with it.
+enum class Ends : std::uint8_t { Value, Line };
+
+struct OpInfo {
+  std::string_view name;
+  Ends ends;
+  std::string_view operands; ///< a letter for each of a to d, then t for a target
+  std::string_view effect;
+
+  constexpr bool has_target() const { return operands.size() == 5; }
+};
+
+inline constexpr auto ops = std::to_array<OpInfo>({
+#define ORB_OP(name, ends, operands, effect) {#name, Ends::ends, operands, effect},
+#include "bytecode/op.def"
+});
+
+constexpr const OpInfo& info(Op op) {
+  return ops[static_cast<std::size_t>(op)];
+}
+
+/// The operators of the language and, for dividing by constants, two of the machine's own.
+enum class Arithmetic : std::uint8_t {
+  Multiply,
+  Divide,
+  Remainder,
+  ShiftLeft,
+  ShiftRight,
+  Add,
+  Subtract,
+  And,
+  Or,
+  DivideBy,
+  RemainderBy
+};
+
+/// How two relations are glued together.
+enum class Glue : std::uint8_t { And, Or };
 
 } // namespace orb::bytecode

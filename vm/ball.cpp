@@ -52,9 +52,9 @@ Bytes to_bytes(std::string_view text) {
 } // namespace
 
 Ball::Ball(const BallOptions& options)
-    : options_(options), body_(options.seed), machine_(options.lines_per_second, options.seed),
-      macros_(*this), dispatcher_(options.seed),
-      inactive_at_(Instant{} + settings_.inactivity_timeout) {
+    : options_(options), body_(options.seed),
+      machine_(options.lines_per_second, options.seed, options.dispatch), macros_(*this),
+      dispatcher_(options.seed), inactive_at_(Instant{} + settings_.inactivity_timeout) {
   if (options_.trace_lines)
     machine_.trace_lines();
 }
@@ -606,9 +606,9 @@ void Ball::sleep(const Sleep& sleep) {
 void Ball::fall_asleep() {
   const Sleep sleep = *falls_asleep_;
   falls_asleep_.reset();
+  trace(event::Sleep{sleep.seconds, sleep.macro, sleep.line});
   machine_.stop(event::End::Reason::Sleep);
   finish_basic();
-  trace(event::Sleep{sleep.seconds, sleep.macro, sleep.line});
   macros_.fall_asleep(now_);
   macros_changed();
   dispatcher_.on_sleep(*this);
@@ -707,7 +707,7 @@ Outcome Ball::execute_basic(Area area, int line) {
 void Ball::abort_basic() {
   if (!machine_.running())
     return;
-  machine_.abort(now_);
+  machine_.abort();
   finish_basic();
 }
 

@@ -51,6 +51,7 @@ struct BallOptions {
   Loader loader = nullptr;      ///< without it every program is empty
   Observer* observer = nullptr; ///< must outlive the ball
   bool trace_lines = false;     ///< the observer is told every line
+  Dispatch dispatch = Dispatch::Threaded;
 };
 
 /// A ball. A discrete-event simulation that is handed the time: it jumps from one thing that can

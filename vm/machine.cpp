@@ -1,21 +1,448 @@
 #include "vm/machine.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <span>
+#include <utility>
+
 namespace orb::vm {
 
-Machine::Machine(std::uint32_t, std::uint64_t) {}
-void Machine::start(bytecode::Chunk, int, Instant) {}
-void Machine::run(Instant, Host&) {}
-Instant Machine::next_event() const {
-  return never;
+namespace {
+
+using bytecode::Op;
+using spec::BasicError;
+using spec::Limit;
+using spec::Statement;
+using spec::Variable;
+
+constexpr std::int64_t second = 1'000'000'000;
+/// No product of a run's lines or time leaves 63 bits.
+constexpr std::int64_t most_lines = 8'000'000'000;
+constexpr std::int64_t greatest_product = 8'000'000'000'000'000'000;
+
+constexpr auto print_bytes = static_cast<std::size_t>(spec::value_of(Limit::PrintBytes));
+constexpr std::int32_t timer_values = 65536;
+/// What is printed in place of a text that is too long; no document has the robot's words [?].
+constexpr std::string_view too_long = "(print exceeds 32 bytes)\n";
+
+std::uint64_t mix(std::uint64_t value) {
+  value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9u;
+  value = (value ^ value >> 27) * 0x94D049BB133111EBu;
+  return value ^ value >> 31;
 }
-void Machine::abort(Instant) {}
-void Machine::stop(event::End::Reason) {}
-void Machine::deliver_input(std::int32_t, Instant) {}
+
+constexpr bool within(const spec::Parameter& parameter, std::int32_t value) {
+  return parameter.least <= value && value <= parameter.greatest;
+}
+
+std::size_t timer_number(Variable variable) {
+  return static_cast<std::size_t>(variable) - static_cast<std::size_t>(Variable::TimerA);
+}
+
+bool is_timer(Variable variable) {
+  return variable == Variable::TimerA || variable == Variable::TimerB ||
+         variable == Variable::TimerC;
+}
+
+/// Lamps change nothing that happens later, so the program need not pause for the ball to look.
+bool only_lights(Statement statement) {
+  return statement == Statement::Rgb || statement == Statement::Ledc ||
+         statement == Statement::BackLed;
+}
+
+} // namespace
+
+// --- slow operations
+// ------------------------------------------------------------------------------
+
+Flow Core::read_system(const Code& instruction) {
+  const auto variable = static_cast<Variable>(instruction.b);
+  const Instant now = line_end();
+  if (!is_timer(variable)) {
+    registers[instruction.a] = host->read(variable, now);
+    return Flow::Next;
+  }
+  const auto& timer = timers[timer_number(variable)];
+  const std::int64_t elapsed = (now - timer.since) / std::chrono::milliseconds{1};
+  registers[instruction.a] =
+      timer.from == 0 ? static_cast<std::int32_t>(elapsed % timer_values)
+                      : static_cast<std::int32_t>(std::max<std::int64_t>(0, timer.from - elapsed));
+  return Flow::Next;
+}
+
+Flow Core::write_system(const Code& instruction) {
+  const auto variable = static_cast<Variable>(instruction.a);
+  const std::int32_t value = registers[instruction.b];
+  if (!is_timer(variable)) {
+    const auto problem = host->write(variable, value, line_end());
+    // The rest of the line is at most its end.
+    return problem ? fail(*problem) : Flow::Next;
+  }
+  if (value < 0 || value >= timer_values)
+    return fail(BasicError::BadNumericParameter);
+  timers[timer_number(variable)] = {line_end(), value};
+  return Flow::Next;
+}
+
+Flow Core::square_root(const Code& instruction) {
+  const std::int32_t value = registers[instruction.b];
+  if (value < 0)
+    return fail(BasicError::BadNumericParameter);
+  // 31 bits are exact in a double, and IEEE rounds the root correctly.
+  registers[instruction.a] = static_cast<std::int32_t>(std::sqrt(static_cast<double>(value)));
+  return Flow::Next;
+}
+
+Flow Core::random_number(const Code& instruction) {
+  const std::int32_t most = registers[instruction.b];
+  if (most < 1)
+    return fail(BasicError::BadNumericParameter);
+  random += 0x9E3779B97F4A7C15u;
+  const std::uint64_t drawn = mix(random) >> 32;
+  registers[instruction.a] =
+      1 + static_cast<std::int32_t>(drawn * static_cast<std::uint64_t>(most) >> 32);
+  return Flow::Next;
+}
+
+void Core::print_number(std::int32_t value) {
+  char digits[12];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
+  text.append(digits, end);
+}
+
+Flow Core::print(bool open) {
+  if (text.size() > print_bytes)
+    text = too_long;
+  else if (!open)
+    text += '\n';
+  const Instant now = line_end();
+  const auto again = host->print(text, now);
+  if (!again) {
+    text.clear();
+    return Flow::Next;
+  }
+  pending = std::move(text);
+  text.clear();
+  wait = Wait::Queue;
+  until = *again;
+  return Flow::Leave;
+}
+
+Flow Core::delay(std::int32_t milliseconds) {
+  if (!within(spec::info(Statement::Delay).parameters()[0], milliseconds))
+    return fail(BasicError::BadNumericParameter);
+  wait = Wait::Time;
+  until = line_end() + std::chrono::milliseconds{milliseconds};
+  return Flow::Leave;
+}
+
+Flow Core::input(const Code& instruction) {
+  entry = instruction.a;
+  wait = Wait::Input;
+  until = never;
+  return Flow::Leave;
+}
+
+Flow Core::input_timed(const Code& instruction) {
+  const std::int32_t milliseconds = registers[instruction.b];
+  if (!within(spec::info(Statement::Input).parameters()[0], milliseconds))
+    return fail(BasicError::BadNumericParameter);
+  entry = instruction.a;
+  fallback = registers[instruction.c];
+  wait = Wait::Input;
+  until = line_end() + std::chrono::milliseconds{milliseconds};
+  return Flow::Leave;
+}
+
+Flow Core::enter(std::int32_t value) {
+  std::size_t index = entry;
+  if (entry == bytecode::element_by_index) {
+    const std::int32_t y = registers[bytecode::index_variable];
+    if (y < 1 || y > bytecode::element_count)
+      return fail(BasicError::IllegalIndex);
+    index = bytecode::first_element + static_cast<std::size_t>(y) - 1;
+  }
+  registers[index] = value;
+  return Flow::Next;
+}
+
+Flow Core::set_data(const Code& instruction) {
+  data_count = instruction.b;
+  data_next = 0;
+  std::copy_n(registers.begin() + instruction.a, data_count, data.begin());
+  return Flow::Next;
+}
+
+Flow Core::read_data(const Code& instruction) {
+  if (data_next == data_count)
+    return fail(BasicError::OutOfData);
+  registers[instruction.a] = data[data_next++];
+  return Flow::Next;
+}
+
+Flow Core::perform(const Code& instruction) {
+  const auto statement = static_cast<Statement>(instruction.a);
+  const std::span<const std::int32_t> arguments{registers.data() + instruction.b, instruction.c};
+  const auto parameters = spec::info(statement).parameters();
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    if (!within(parameters[i], arguments[i]))
+      return fail(BasicError::BadNumericParameter);
+  if (const auto problem = host->perform(statement, arguments, line_end()))
+    return fail(*problem);
+  return only_lights(statement) ? Flow::Next : Flow::Leave;
+}
+
+void Core::reseed() {
+  seeds += 0x9E3779B97F4A7C15u;
+  random = mix(seeds);
+}
+
+void Core::clear() {
+  std::fill_n(registers.begin(), bytecode::first_temporary, 0);
+  loops[0].variable = no_variable;
+  loop = loops.data();
+  call_depth = 0;
+  data_count = data_next = 0;
+  text.clear();
+  tron = false;
+  timers.fill({line_end(), 0});
+  reseed();
+}
+
+Flow Core::reset() {
+  const Instant now = line_end();
+  clear();
+  pc = start;
+  host->perform(Statement::Reset, {}, now);
+  return Flow::Leave;
+}
+
+// --- the machine
+// ----------------------------------------------------------------------------------
+
+Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch dispatch)
+    : engine_(dispatch == Dispatch::Threaded ? threaded_engine() : switch_engine()) {
+  core_.lines_per_second =
+      std::clamp<std::int64_t>(static_cast<std::int64_t>(lines_per_second), 1, second);
+  core_.seeds = mix(seed);
+  core_.registers.resize(bytecode::first_temporary);
+}
+
+void Machine::link(const bytecode::Chunk& chunk) {
+  const std::size_t size = chunk.code.size();
+  core_.code.assign(size, {});
+  core_.lines = chunk.lines;
+  core_.texts = chunk.texts;
+  core_.registers.assign(chunk.register_count(), 0);
+  core_.reciprocals.assign(chunk.register_count(), 0);
+  for (std::size_t i = 0; i < chunk.constants.size(); ++i) {
+    const std::int32_t value = chunk.constants[i];
+    core_.registers[chunk.first_constant() + i] = value;
+    if (value > 1)
+      core_.reciprocals[chunk.first_constant() + i] =
+          std::numeric_limits<std::int64_t>::max() / value + 1;
+  }
+
+  const auto distance = [](std::size_t from, std::size_t to) {
+    return static_cast<std::int32_t>(
+        (static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from)) *
+        static_cast<std::int64_t>(sizeof(Code)));
+  };
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    while (line < chunk.lines.size() && chunk.lines[line].begin <= i)
+      ++line;
+    const std::size_t following = line < chunk.lines.size() ? chunk.lines[line].begin : size - 1;
+    const auto& instruction = chunk.code[i];
+    core_.code[i] = {engine_.handlers[static_cast<std::size_t>(instruction.op)],
+                     instruction.a,
+                     instruction.b,
+                     instruction.c,
+                     instruction.d,
+                     distance(i, instruction.target),
+                     distance(i, following)};
+  }
+}
+
+void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
+  if (bytecode::verify(chunk)) {
+    chunk = {};
+    chunk.code.push_back({Op::EndOfProgram, 0, 0, 0, 0, 0});
+  }
+  link(chunk);
+  now_ = core_.base = now;
+  core_.done = core_.allowed = core_.budget = 0;
+  core_.wait = Core::Wait::Nothing;
+  core_.pending.clear();
+  core_.clear();
+  lines_ = 0;
+  running_ = true;
+  announced_ = false;
+  stop_.reset();
+
+  const auto found = std::find_if(core_.lines.begin(), core_.lines.end(),
+                                  [&](const auto& row) { return row.number == line; });
+  missing_line_.reset();
+  if (found == core_.lines.end())
+    missing_line_ = line;
+  core_.start = core_.code.data() + (found == core_.lines.end() ? 0 : found->begin);
+  core_.pc = core_.at = core_.start;
+}
+
+int Machine::line_of(const Code* code) const {
+  const auto index = static_cast<std::uint32_t>(code - core_.code.data());
+  const auto after =
+      std::upper_bound(core_.lines.begin(), core_.lines.end(), index,
+                       [](std::uint32_t place, const auto& line) { return place < line.begin; });
+  return after == core_.lines.begin() ? 0 : std::prev(after)->number;
+}
+
+void Machine::finish(event::End::Reason reason) {
+  running_ = false;
+  stop_ = {reason, 0, std::nullopt, lines_};
+}
+
+void Machine::finish(BasicError error, int line) {
+  running_ = false;
+  stop_ = {event::End::Reason::Error, line, error, lines_};
+}
+
 std::optional<Machine::Stop> Machine::take_stop() {
-  return stop_;
+  return std::exchange(stop_, std::nullopt);
 }
-std::int32_t Machine::variable(std::size_t) const {
-  return 0;
+
+void Machine::stop(event::End::Reason reason) {
+  if (running_)
+    finish(reason);
+}
+
+void Machine::abort() {
+  if (!running_)
+    return;
+  const bool waits = core_.wait != Core::Wait::Nothing;
+  finish(BasicError::UserAbort,
+         missing_line_ ? *missing_line_ : line_of(waits ? core_.at : core_.pc));
+  stop_->reason = event::End::Reason::Abort;
+}
+
+std::int32_t Machine::variable(std::size_t index) const {
+  return core_.registers[index];
+}
+
+Instant Machine::next_event() const {
+  if (!running_)
+    return never;
+  if (core_.wait != Core::Wait::Nothing)
+    return core_.until;
+  if (missing_line_ || core_.pc == &core_.code.back())
+    return now_;
+  return core_.time_of(core_.done + 1);
+}
+
+/// How many lines end before `limit`.
+std::int64_t Machine::lines_before(Instant limit) const {
+  const std::int64_t longest = greatest_product / core_.lines_per_second;
+  const std::int64_t time = std::min((limit - core_.base).count(), longest);
+  if (time <= 0)
+    return 0;
+  // Line k ends before it when k * 10^9 / N < time: all k below the quotient, rounded up.
+  const std::int64_t last = (time * core_.lines_per_second + second - 1) / second - 1;
+  return std::min(last - core_.done, most_lines);
+}
+
+void Machine::resume(Instant at) {
+  core_.base += at - now_;
+  now_ = at;
+  core_.wait = Core::Wait::Nothing;
+}
+
+void Machine::deliver_input(std::int32_t value, Instant now) {
+  if (!running_ || core_.wait != Core::Wait::Input)
+    return;
+  resume(std::max(now, now_));
+  if (core_.enter(value) == Flow::Fault)
+    finish(core_.error, line_of(core_.at));
+}
+
+/// Ends what the program waits for, where that is before `limit`. True when it can go on.
+bool Machine::continue_wait(Instant limit, Host& host) {
+  if (core_.wait == Core::Wait::Nothing)
+    return true;
+  if (core_.until >= limit)
+    return false;
+  const auto wait = core_.wait;
+  resume(core_.until);
+  if (wait == Core::Wait::Input && core_.enter(core_.fallback) == Flow::Fault) {
+    finish(core_.error, line_of(core_.at));
+    return false;
+  }
+  if (wait == Core::Wait::Queue) {
+    if (const auto again = host.print(core_.pending, now_)) {
+      core_.wait = wait;
+      core_.until = *again;
+      return continue_wait(limit, host);
+    }
+  }
+  return true;
+}
+
+/// Prints the number of the next line for tron. True when the line can run.
+bool Machine::announce(Host& host) {
+  if (announced_ || !core_.tron)
+    return true;
+  announced_ = true;
+  core_.pending = fmt::format("<{}>", line_of(core_.pc));
+  const auto again = host.print(core_.pending, now_);
+  if (again) {
+    core_.wait = Core::Wait::Queue;
+    core_.until = *again;
+  }
+  return !again;
+}
+
+void Machine::run(Instant limit, Host& host) {
+  core_.host = &host;
+  if (running_ && missing_line_) {
+    finish(BasicError::BadLineNumber, *missing_line_);
+    return;
+  }
+  while (running_ && continue_wait(limit, host)) {
+    if (core_.pc == &core_.code.back()) {
+      finish(event::End::Reason::End);
+      return;
+    }
+    const std::int64_t lines = lines_before(limit);
+    if (lines <= 0)
+      return;
+    if (!announce(host))
+      continue;
+    const bool single = tracing_ || core_.tron;
+    const int line = single ? line_of(core_.pc) : 0;
+    core_.allowed = core_.budget = single ? 1 : lines;
+    const Exit exit = engine_.run(core_);
+
+    const std::int64_t executed = core_.allowed - core_.budget;
+    now_ = core_.line_end();
+    lines_ += static_cast<std::uint64_t>(executed);
+    core_.done += executed;
+    core_.allowed = core_.budget = 0;
+    // Whole seconds hold whole lines, so the numbers stay small.
+    core_.base += std::chrono::seconds{core_.done / core_.lines_per_second};
+    core_.done %= core_.lines_per_second;
+    announced_ = false;
+    if (tracing_ && executed > 0)
+      host.line_ended(line, now_);
+
+    switch (exit) {
+    case Exit::Budget: break;
+    case Exit::Leave: return;
+    case Exit::Fault: finish(core_.error, line_of(core_.at)); return;
+    case Exit::Ended: finish(event::End::Reason::End); return;
+    }
+  }
 }
 
 } // namespace orb::vm

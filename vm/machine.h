@@ -4,19 +4,22 @@
 #include "bytecode/chunk.h"
 #include "spec/basic.h"
 #include "vm/host.h"
+#include "vm/machine_core.h"
 #include "vm/observer.h"
 
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace orb::vm {
+
+/// How instructions are dispatched. Both do the same; Switch is what compilers without computed
+/// jumps take.
+enum class Dispatch : std::uint8_t { Threaded, Switch };
 
 /// Runs orbBasic: a compiled program, its variables, loops, calls, timers, data and random numbers.
 /// It asks a Host for everything else and is handed the time. Line k of a program ends at
 /// floor(k * 10^9 / lines per second) ns after its start, plus what it waited; what a line does
-/// happens when it ends.
+/// happens when it ends. The instructions themselves run in vm/machine_loop.h.
 class Machine {
 public:
   /// Why and where a program stopped.
@@ -27,10 +30,15 @@ public:
     std::uint64_t lines = 0; ///< that were executed
   };
 
-  Machine(std::uint32_t lines_per_second, std::uint64_t seed);
+  /// `lines_per_second` is 1 to 1 000 000 000; values outside are moved to the nearest.
+  Machine(std::uint32_t lines_per_second, std::uint64_t seed,
+          Dispatch dispatch = Dispatch::Threaded);
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
 
   /// Starts a program at `line` with a clean slate. A line that does not exist is an error of the
-  /// program: it is running, and stops as soon as it is run.
+  /// program: it is running, and stops as soon as it is run. A chunk that verify() refuses counts
+  /// as an empty program.
   void start(bytecode::Chunk chunk, int line, Instant now);
 
   /// Executes the lines that end before `limit`, or fewer: it returns early after a statement that
@@ -42,9 +50,12 @@ public:
   Instant next_event() const;
 
   bool running() const { return running_; }
-  bool waits_for_input() const { return false; }
+  /// Whether it waits for a number that only deliver_input() can bring.
+  bool waits_for_input() const {
+    return running_ && core_.wait == Core::Wait::Input && core_.until == never;
+  }
   /// Ends the program from outside: a stop with the error User abort.
-  void abort(Instant now);
+  void abort();
   /// Ends the program, where one runs, without an error.
   void stop(event::End::Reason reason);
   /// Completes a waiting `input`; ignored otherwise.
@@ -54,16 +65,32 @@ public:
 
   /// The instant that the machine has reached.
   Instant now() const { return now_; }
+  /// Lines executed since the start of the program.
   std::uint64_t lines() const { return lines_; }
-  /// The value of A to Y (0 to 24) or of an element of Z (from bytecode::first_element).
+  /// The value of A to Y (0 to 24) or of an element of Z (from bytecode::first_element); 0 before
+  /// the first program.
   std::int32_t variable(std::size_t index) const;
+  /// From now on the host is told every line.
   void trace_lines() { tracing_ = true; }
 
 private:
+  void link(const bytecode::Chunk& chunk);
+  bool continue_wait(Instant limit, Host& host);
+  void resume(Instant at);
+  bool announce(Host& host);
+  std::int64_t lines_before(Instant limit) const;
+  int line_of(const Code* code) const;
+  void finish(event::End::Reason reason);
+  void finish(spec::BasicError error, int line);
+
+  Engine engine_;
+  Core core_;
   Instant now_{};
   std::uint64_t lines_ = 0;
   bool running_ = false;
   bool tracing_ = false;
+  bool announced_ = false;          ///< tron has printed the number of the next line
+  std::optional<int> missing_line_; ///< the start line does not exist
   std::optional<Stop> stop_;
 };
 

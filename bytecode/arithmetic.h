@@ -1,0 +1,46 @@
+#pragma once
+
+#include "spec/basic.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace orb::bytecode {
+
+// What numbers do: 32 bits, two's complement, wrapping. The machine, the compiler's
+// constant folding and the evaluator of the tests agree on this file's meaning, each its own way.
+
+constexpr std::int32_t wrap(std::int64_t value) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
+}
+
+constexpr std::int32_t add(std::int32_t x, std::int32_t y) {
+  return wrap(std::int64_t{x} + y);
+}
+constexpr std::int32_t subtract(std::int32_t x, std::int32_t y) {
+  return wrap(std::int64_t{x} - y);
+}
+constexpr std::int32_t multiply(std::int32_t x, std::int32_t y) {
+  return wrap(std::int64_t{x} * y);
+}
+/// Rounds toward zero; `y` is not 0. The least number divided by -1 is itself.
+constexpr std::int32_t divide(std::int32_t x, std::int32_t y) {
+  return wrap(std::int64_t{x} / y);
+}
+/// Has the sign of `x`; `y` is not 0.
+constexpr std::int32_t remainder(std::int32_t x, std::int32_t y) {
+  return wrap(std::int64_t{x} % y);
+}
+/// `count` is 0 to 31.
+constexpr std::int32_t shift_left(std::int32_t x, std::int32_t count) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(x) << count);
+}
+/// Keeps the sign; `count` is 0 to 31.
+constexpr std::int32_t shift_right(std::int32_t x, std::int32_t count) {
+  return x >> count;
+}
+constexpr std::int32_t absolute(std::int32_t x) {
+  return x < 0 ? subtract(0, x) : x;
+}
+
+} // namespace orb::bytecode

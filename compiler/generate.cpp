@@ -1,0 +1,826 @@
+#include "compiler/generate.h"
+
+#include "bytecode/arithmetic.h"
+#include "bytecode/op.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <unordered_map>
+
+namespace orb::compiler {
+
+namespace {
+
+using bytecode::Arithmetic;
+using bytecode::Chunk;
+using bytecode::Ends;
+using bytecode::Glue;
+using bytecode::Instruction;
+using bytecode::Op;
+using spec::BasicError;
+using spec::Function;
+using spec::Operator;
+using spec::Relation;
+using spec::Statement;
+
+// The instruction table, looked up by what is wanted. Nothing where it has no such row.
+
+std::optional<Op> calculation(Arithmetic op, Ends ends) {
+#define ORB_CALC(name, sign)                                                                       \
+  if (op == Arithmetic::name)                                                                      \
+    return ends == Ends::Line ? Op::name##Line : Op::name;
+#include "bytecode/op.def"
+  return std::nullopt;
+}
+
+std::optional<Op> left_chain(Arithmetic first, Arithmetic second, Ends ends) {
+#define ORB_LEFT(op1, s1, op2, s2)                                                                 \
+  if (first == Arithmetic::op1 && second == Arithmetic::op2)                                       \
+    return ends == Ends::Line ? Op::op1##Then##op2##Line : Op::op1##Then##op2;
+#include "bytecode/op.def"
+  return std::nullopt;
+}
+
+std::optional<Op> right_chain(Arithmetic first, Arithmetic second, Ends ends) {
+#define ORB_RIGHT(op1, s1, op2, s2)                                                                \
+  if (first == Arithmetic::op1 && second == Arithmetic::op2)                                       \
+    return ends == Ends::Line ? Op::op1##Of##op2##Line : Op::op1##Of##op2;
+#include "bytecode/op.def"
+  return std::nullopt;
+}
+
+/// What a test does: If ends the line when it is not true, Unless jumps, Goto jumps when it is.
+enum class Then : std::uint8_t { If, Unless, Goto };
+
+Op test(Relation relation, Then then) {
+#define ORB_TEST(rel, sign)                                                                        \
+  if (relation == Relation::rel)                                                                   \
+    return then == Then::If ? Op::If##rel : then == Then::Unless ? Op::Unless##rel : Op::Goto##rel;
+#include "bytecode/op.def"
+  return Op::IfEqual;
+}
+
+std::optional<Op> calculated_test(Arithmetic op, Relation relation, Then then) {
+#define ORB_CALC_TEST(name, s, rel, sign)                                                          \
+  if (op == Arithmetic::name && relation == Relation::rel)                                         \
+    return then == Then::If       ? Op::If##name##rel                                              \
+           : then == Then::Unless ? Op::Unless##name##rel                                          \
+                                  : Op::Goto##name##rel;
+#include "bytecode/op.def"
+  return std::nullopt;
+}
+
+Op two_tests(Glue glue, Relation first, Relation second, Then then) {
+#define ORB_TWO_TESTS(name, rel1, s1, rel2, s2)                                                    \
+  if (glue == Glue::name && first == Relation::rel1 && second == Relation::rel2)                   \
+    return then == Then::If ? Op::If##rel1##name##rel2 : Op::Unless##rel1##name##rel2;
+#include "bytecode/op.def"
+  return Op::IfEqualAndEqual;
+}
+
+Arithmetic arithmetic(Operator op) {
+  switch (op) {
+  case Operator::Multiply: return Arithmetic::Multiply;
+  case Operator::Divide: return Arithmetic::Divide;
+  case Operator::Remainder: return Arithmetic::Remainder;
+  case Operator::ShiftLeft: return Arithmetic::ShiftLeft;
+  case Operator::ShiftRight: return Arithmetic::ShiftRight;
+  case Operator::Add: return Arithmetic::Add;
+  case Operator::Subtract: return Arithmetic::Subtract;
+  case Operator::And: return Arithmetic::And;
+  case Operator::Or: return Arithmetic::Or;
+  }
+  return Arithmetic::Add;
+}
+
+/// Registers of constants get their final number when the temporaries have been counted.
+constexpr std::uint16_t constant_mark = 0x8000;
+/// Of temporaries, of constants and of texts.
+constexpr std::uint16_t most_registers = 0x7F00;
+
+/// A value that has been read in the text: a register, or a computation that has not been emitted
+/// yet, so that it can become part of a larger instruction.
+struct Value {
+  enum class Kind : std::uint8_t {
+    Register, ///< x
+    Calc,     ///< x op1 y
+    Left,     ///< (x op1 y) op2 z
+    Right,    ///< x op1 (y op2 z)
+    Element,  ///< Z
+    System,   ///< system variable x
+    Sqrt,     ///< of x
+    Rnd,
+    Abs
+  };
+  Kind kind = Kind::Register;
+  Arithmetic op1{};
+  Arithmetic op2{};
+  std::uint16_t x = 0;
+  std::uint16_t y = 0;
+  std::uint16_t z = 0;
+
+  bool is_register() const { return kind == Kind::Register; }
+};
+
+class Generator {
+public:
+  explicit Generator(const Program& program) : program_(program) {}
+
+  Chunk run() {
+    find_lines();
+    begins_.assign(program_.lines.size() + 1, 0);
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
+      const auto& line = program_.lines[i];
+      begins_[i] = here();
+      if (!line.has_statement())
+        continue;
+      const auto number = line.number <= 0xFFFF ? line.number : 0;
+      chunk_.lines.push_back({static_cast<std::uint16_t>(number), here()});
+      if (!indexed_pair(i))
+        statement(program_.statements[line.statement]);
+      if (overflow_)
+        give_up(begins_[i]);
+    }
+    begins_[program_.lines.size()] = here();
+    emit(Op::EndOfProgram);
+    resolve();
+    return std::move(chunk_);
+  }
+
+private:
+  std::uint32_t here() const { return static_cast<std::uint32_t>(chunk_.code.size()); }
+
+  std::uint32_t emit(Op op, std::uint16_t a = 0, std::uint16_t b = 0, std::uint16_t c = 0,
+                     std::uint16_t d = 0) {
+    chunk_.code.push_back({op, a, b, c, d, 0});
+    return here() - 1;
+  }
+
+  void find_lines() {
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
+      if (program_.lines[i].has_number())
+        line_of_.try_emplace(program_.lines[i].number, i); // of duplicates the first counts, A-26
+  }
+
+  /// Leads instruction `at` to a line; false where there is none of that number.
+  bool lead_to(std::uint32_t at, std::uint32_t number) {
+    const auto found = line_of_.find(number);
+    if (found == line_of_.end())
+      return false;
+    jumps_.push_back({at, found->second});
+    return true;
+  }
+
+  void resolve() {
+    for (const auto& [at, line] : jumps_)
+      chunk_.code[at].target = begins_[line];
+    const std::uint16_t first = chunk_.first_constant();
+    const auto place = [&](std::uint16_t& operand, char kind) {
+      if (kind == 'r' && operand >= constant_mark)
+        operand = static_cast<std::uint16_t>(operand - constant_mark + first);
+    };
+    for (auto& instruction : chunk_.code) {
+      const auto operands = bytecode::info(instruction.op).operands;
+      place(instruction.a, operands[0]);
+      place(instruction.b, operands[1]);
+      place(instruction.c, operands[2]);
+      place(instruction.d, operands[3]);
+    }
+  }
+
+  /// No text that fits a ball runs out of registers; of one that does, the line is a trap.
+  void give_up(std::uint32_t begin) {
+    overflow_ = false;
+    chunk_.code.resize(begin);
+    while (!jumps_.empty() && jumps_.back().at >= begin)
+      jumps_.pop_back();
+    emit(Op::Trap, spec::code(BasicError::ExpressionTooComplex));
+    if (begin == 0)
+      return;
+    auto& before = chunk_.code[begin - 1];
+    if (before.op == Op::IndexLoad || before.op == Op::IndexStore) // its second line is gone
+      before = {Op::AddLine, bytecode::index_variable, before.b, before.c, 0, 0};
+  }
+
+  // Registers.
+
+  std::uint16_t constant(std::int32_t value) {
+    if (chunk_.constants.size() >= most_registers && !constants_.contains(value)) {
+      overflow_ = true;
+      return constant_mark;
+    }
+    const auto [at, fresh] = constants_.try_emplace(
+        value, static_cast<std::uint16_t>(constant_mark + chunk_.constants.size()));
+    if (fresh)
+      chunk_.constants.push_back(value);
+    return at->second;
+  }
+
+  std::optional<std::int32_t> constant_in(std::uint16_t index) const {
+    if (index < constant_mark)
+      return std::nullopt;
+    return chunk_.constants[index - constant_mark];
+  }
+
+  std::uint16_t temporary() {
+    if (next_temporary_ >= most_registers) {
+      overflow_ = true;
+      return bytecode::first_temporary;
+    }
+    const std::uint16_t index = next_temporary_++;
+    chunk_.temporaries =
+        std::max(chunk_.temporaries,
+                 static_cast<std::uint16_t>(next_temporary_ - bytecode::first_temporary));
+    return index;
+  }
+
+  static bool is_temporary(std::uint16_t index) {
+    return index >= bytecode::first_temporary && index < constant_mark;
+  }
+
+  // Values.
+
+  /// Whether emitting it can stop the program, or clears what it reads.
+  bool has_effect(const Value& value) const {
+    const auto faults = [&](Arithmetic op, std::uint16_t right) {
+      if (op == Arithmetic::Divide || op == Arithmetic::Remainder)
+        return true;
+      if (op == Arithmetic::ShiftLeft || op == Arithmetic::ShiftRight) {
+        const auto count = constant_in(right);
+        return !count || *count < 0 || *count > spec::value_of(spec::Limit::GreatestShift);
+      }
+      return false;
+    };
+    switch (value.kind) {
+    case Value::Kind::Register:
+    case Value::Kind::Left: // of operators that cannot fault
+    case Value::Kind::Right:
+    case Value::Kind::Abs: return false;
+    case Value::Kind::Calc: return faults(value.op1, value.y);
+    case Value::Kind::Element:
+    case Value::Kind::System:
+    case Value::Kind::Sqrt:
+    case Value::Kind::Rnd: return true;
+    }
+    return true;
+  }
+
+  void emit(const Value& value, std::uint16_t to, Ends ends) {
+    const bool line = ends == Ends::Line;
+    switch (value.kind) {
+    case Value::Kind::Register: emit(line ? Op::CopyLine : Op::Copy, to, value.x); return;
+    case Value::Kind::Calc: emit(*calculation(value.op1, ends), to, value.x, value.y); return;
+    case Value::Kind::Left:
+      emit(*left_chain(value.op1, value.op2, ends), to, value.x, value.y, value.z);
+      return;
+    case Value::Kind::Right:
+      emit(*right_chain(value.op1, value.op2, ends), to, value.x, value.y, value.z);
+      return;
+    case Value::Kind::Element: emit(line ? Op::LoadElementLine : Op::LoadElement, to); return;
+    case Value::Kind::System: emit(Op::ReadSystem, to, value.x); break;
+    case Value::Kind::Sqrt: emit(Op::Sqrt, to, value.x); break;
+    case Value::Kind::Rnd: emit(Op::Rnd, to, value.x); break;
+    case Value::Kind::Abs: emit(Op::Abs, to, value.x); break;
+    }
+    if (line)
+      emit(Op::EndLine);
+  }
+
+  /// Everything on the stack below `top` that can be noticed happens first: values take effect in
+  /// the order of the text.
+  void settle_below(std::size_t top) {
+    for (std::size_t i = 0; i < top; ++i)
+      if (has_effect(stack_[i]))
+        materialize(i);
+  }
+
+  /// Emits entry `i` of the stack into a register of its own.
+  std::uint16_t materialize(std::size_t i) {
+    if (stack_[i].is_register())
+      return stack_[i].x;
+    if (has_effect(stack_[i]))
+      settle_below(i);
+    const Value value = stack_[i];
+    // Only the topmost value may take over its operands' temporary.
+    std::uint16_t to = 0;
+    for (const std::uint16_t operand : {value.x, value.y, value.z})
+      if (i + 1 == stack_.size() && uses(value, operand) && is_temporary(operand) &&
+          (to == 0 || operand < to))
+        to = operand;
+    if (to == 0)
+      to = temporary();
+    else
+      next_temporary_ = static_cast<std::uint16_t>(to + 1);
+    emit(value, to, Ends::Value);
+    stack_[i] = {Value::Kind::Register, {}, {}, to, 0, 0};
+    return to;
+  }
+
+  static bool uses(const Value& value, std::uint16_t index) {
+    switch (value.kind) {
+    case Value::Kind::Element:
+    case Value::Kind::System: return false;
+    case Value::Kind::Register:
+    case Value::Kind::Sqrt:
+    case Value::Kind::Rnd:
+    case Value::Kind::Abs: return index == value.x;
+    case Value::Kind::Calc: return index == value.x || index == value.y;
+    case Value::Kind::Left:
+    case Value::Kind::Right: return index == value.x || index == value.y || index == value.z;
+    }
+    return false;
+  }
+
+  void push_register(std::uint16_t index) {
+    stack_.push_back({Value::Kind::Register, {}, {}, index, 0, 0});
+  }
+
+  void trap(BasicError error) {
+    settle_below(stack_.size());
+    emit(Op::Trap, spec::code(error));
+  }
+
+  std::optional<std::int32_t> folded(Operator op, std::int32_t x, std::int32_t y) const {
+    switch (op) {
+    case Operator::Multiply: return bytecode::multiply(x, y);
+    case Operator::Add: return bytecode::add(x, y);
+    case Operator::Subtract: return bytecode::subtract(x, y);
+    case Operator::And: return x & y;
+    case Operator::Or: return x | y;
+    case Operator::Divide:
+    case Operator::Remainder:
+    case Operator::ShiftLeft:
+    case Operator::ShiftRight: return std::nullopt; // may fault
+    }
+    return std::nullopt;
+  }
+
+  /// Combines the two topmost values.
+  void combine(Operator written) {
+    const std::size_t left = stack_.size() - 2;
+    const std::size_t right = left + 1;
+    Arithmetic op = arithmetic(written);
+
+    if (stack_[left].is_register() && stack_[right].is_register()) {
+      const auto x = constant_in(stack_[left].x);
+      const auto y = constant_in(stack_[right].x);
+      if (x && y) {
+        if (const auto value = folded(written, *x, *y)) {
+          stack_.resize(left);
+          push_register(constant(*value));
+          return;
+        }
+      }
+    }
+    if (stack_[right].is_register()) {
+      const auto divisor = constant_in(stack_[right].x);
+      if (divisor && *divisor > 1 && op == Arithmetic::Divide)
+        op = Arithmetic::DivideBy;
+      if (divisor && *divisor > 1 && op == Arithmetic::Remainder)
+        op = Arithmetic::RemainderBy;
+    }
+
+    Value value{Value::Kind::Calc, op, {}, 0, 0, 0};
+    if (stack_[left].kind == Value::Kind::Calc && stack_[right].is_register() &&
+        left_chain(stack_[left].op1, op, Ends::Value)) {
+      const auto& inner = stack_[left];
+      value = {Value::Kind::Left, inner.op1, op, inner.x, inner.y, stack_[right].x};
+    } else if (stack_[right].kind == Value::Kind::Calc &&
+               right_chain(op, stack_[right].op1, Ends::Value)) {
+      if (!stack_[left].is_register())
+        materialize(left);
+      const auto& inner = stack_[right];
+      value = {Value::Kind::Right, op, inner.op1, stack_[left].x, inner.x, inner.y};
+    } else {
+      if (!stack_[left].is_register())
+        materialize(left);
+      if (!stack_[right].is_register())
+        materialize(right);
+      value.x = stack_[left].x;
+      value.y = stack_[right].x;
+    }
+    stack_.resize(left);
+    stack_.push_back(value);
+  }
+
+  /// Reads the expression whose root is `root` onto the stack. False when it traps.
+  bool expression(std::uint32_t root) {
+    const std::uint32_t first = program_.nodes[root].first;
+    // Too many levels are noticed where the first level too many opens.
+    std::uint32_t too_deep = none;
+    for (std::uint32_t i = first; i <= root; ++i)
+      if (program_.nodes[i].depth > spec::value_of(spec::Limit::ExpressionLevels))
+        too_deep = std::min(too_deep, program_.nodes[i].first);
+
+    for (std::uint32_t i = first; i <= root; ++i) {
+      if (i == too_deep) {
+        trap(BasicError::ExpressionTooComplex);
+        return false;
+      }
+      const auto& node = program_.nodes[i];
+      switch (node.kind) {
+      case NodeKind::Number: push_register(constant(node.value)); break;
+      case NodeKind::Letter: push_register(node.what); break;
+      case NodeKind::Indexed: stack_.push_back({Value::Kind::Element, {}, {}, 0, 0, 0}); break;
+      case NodeKind::System:
+        stack_.push_back({Value::Kind::System, {}, {}, node.what, 0, 0});
+        break;
+      case NodeKind::Group: break;
+      case NodeKind::Negate: negate(); break;
+      case NodeKind::Binary: combine(static_cast<Operator>(node.what)); break;
+      case NodeKind::Call: call(static_cast<Function>(node.what)); break;
+      }
+    }
+    return true;
+  }
+
+  void negate() {
+    const std::uint16_t operand = materialize(stack_.size() - 1);
+    stack_.pop_back();
+    if (const auto value = constant_in(operand))
+      push_register(constant(bytecode::subtract(0, *value)));
+    else
+      stack_.push_back({Value::Kind::Calc, Arithmetic::Subtract, {}, constant(0), operand, 0});
+  }
+
+  void call(Function function) {
+    const std::uint16_t operand = materialize(stack_.size() - 1);
+    stack_.pop_back();
+    const auto kind = function == Function::Sqrt  ? Value::Kind::Sqrt
+                      : function == Function::Rnd ? Value::Kind::Rnd
+                                                  : Value::Kind::Abs;
+    stack_.push_back({kind, {}, {}, operand, 0, 0});
+  }
+
+  /// The value of an expression in whatever register it is in; nothing when it traps.
+  std::optional<std::uint16_t> in_register(std::uint32_t root) {
+    if (!expression(root))
+      return std::nullopt;
+    const std::uint16_t index = materialize(stack_.size() - 1);
+    stack_.pop_back();
+    return index;
+  }
+
+  /// Evaluates an expression into a given register. False when it traps.
+  bool into(std::uint32_t root, std::uint16_t to, Ends ends) {
+    const std::uint16_t free = next_temporary_;
+    if (!expression(root))
+      return false;
+    emit(stack_.back(), to, ends);
+    stack_.pop_back();
+    next_temporary_ = free;
+    return true;
+  }
+
+  // Lines.
+
+  void statement(const StatementNode& node) {
+    stack_.clear();
+    next_temporary_ = bytecode::first_temporary;
+    if (node.error) {
+      emit(Op::Trap, spec::code(*node.error));
+      return;
+    }
+    const auto items = program_.items_of(node);
+    switch (node.kind) {
+    case Statement::Let: assign(items[0], items[1].value); return;
+    case Statement::If: decide(node, items); return;
+    case Statement::For: begin_loop(items); return;
+    case Statement::Next:
+      if (items[0].kind == ItemKind::Letter)
+        emit(Op::Next, static_cast<std::uint16_t>(items[0].value));
+      else
+        emit(Op::NextElement);
+      return;
+    case Statement::Goto: branch(Op::Goto, items[0].value); return;
+    case Statement::Gosub: branch(Op::Gosub, items[0].value); return;
+    case Statement::Return: emit(Op::Return); return;
+    case Statement::On:
+      choose(node.spelling == Spelling::OnGosub ? Op::OnGosub : Op::OnGoto, items);
+      return;
+    case Statement::Print: print(items); return;
+    case Statement::Input: input(items); return;
+    case Statement::Delay:
+      if (const auto time = in_register(items[0].value))
+        emit(Op::Delay, *time);
+      return;
+    case Statement::End: emit(Op::End); return;
+    case Statement::Data: data(items); return;
+    case Statement::Rstr: emit(Op::RestartData); return;
+    case Statement::Read: read(items); return;
+    case Statement::Random: emit(Op::Random); return;
+    case Statement::Tron: emit(Op::Tron); return;
+    case Statement::Troff: emit(Op::Troff); return;
+    case Statement::Reset: emit(Op::Reset); return;
+    case Statement::Rgb:
+    case Statement::Ledc:
+    case Statement::BackLed:
+    case Statement::Goroll:
+    case Statement::Heading:
+    case Statement::Raw:
+    case Statement::Locate:
+    case Statement::Basflg:
+    case Statement::Sleep:
+    case Statement::Macrun:
+    case Statement::Mackill: perform(node.kind, items); return;
+    }
+  }
+
+  /// Sets a variable to a register, within the line.
+  void store(const Item& variable, std::uint16_t from) {
+    if (variable.kind == ItemKind::Letter)
+      emit(Op::Copy, static_cast<std::uint16_t>(variable.value), from);
+    else if (variable.kind == ItemKind::Indexed)
+      emit(Op::StoreElement, from);
+    else
+      emit(Op::WriteSystem, static_cast<std::uint16_t>(variable.value), from);
+  }
+
+  void assign(const Item& variable, std::uint32_t root) {
+    if (variable.kind == ItemKind::Letter) {
+      into(root, static_cast<std::uint16_t>(variable.value), Ends::Line);
+      return;
+    }
+    const auto from = in_register(root);
+    if (!from)
+      return;
+    if (variable.kind == ItemKind::Indexed) {
+      emit(Op::StoreElementLine, *from);
+    } else {
+      store(variable, *from);
+      emit(Op::EndLine);
+    }
+  }
+
+  std::optional<std::uint16_t> leaf(std::uint32_t root) {
+    const auto& node = program_.nodes[root];
+    if (node.kind == NodeKind::Number)
+      return constant(node.value);
+    if (node.kind == NodeKind::Letter)
+      return node.what;
+    return std::nullopt;
+  }
+
+  /// `Y = b + c` followed by a line that moves Z, as one instruction. The second line is also
+  /// generated by itself: branches lead to it, and the machine may have to stop between the two.
+  bool indexed_pair(std::uint32_t line) {
+    const auto* first = assignment(line);
+    if (!first)
+      return false;
+    const auto y = program_.items_of(*first);
+    if (y[0].kind != ItemKind::Letter || y[0].value != bytecode::index_variable)
+      return false;
+    std::uint32_t following = line + 1;
+    while (following < program_.lines.size() && !program_.lines[following].has_statement())
+      ++following;
+    const auto* second = assignment(following);
+    if (!second)
+      return false;
+    const auto z = program_.items_of(*second);
+    const bool loads =
+        z[0].kind == ItemKind::Letter && program_.nodes[z[1].value].kind == NodeKind::Indexed;
+    const bool stores = z[0].kind == ItemKind::Indexed && leaf(z[1].value);
+    if (!loads && !stores)
+      return false;
+
+    const auto& root = program_.nodes[y[1].value];
+    std::optional<std::uint16_t> b = leaf(y[1].value);
+    std::optional<std::uint16_t> c = constant(0);
+    if (!b && root.kind == NodeKind::Binary && y[1].value - root.first == 2) {
+      b = leaf(root.first);
+      c = leaf(y[1].value - 1);
+      const auto op = static_cast<Operator>(root.what);
+      if (op == Operator::Subtract && c && constant_in(*c))
+        c = constant(bytecode::subtract(0, *constant_in(*c)));
+      else if (op != Operator::Add)
+        return false;
+    }
+    if (!b || !c)
+      return false;
+    if (loads)
+      emit(Op::IndexLoad, static_cast<std::uint16_t>(z[0].value), *b, *c);
+    else
+      emit(Op::IndexStore, *leaf(z[1].value), *b, *c);
+    return true;
+  }
+
+  const StatementNode* assignment(std::uint32_t line) const {
+    if (line >= program_.lines.size() || !program_.lines[line].has_statement())
+      return nullptr;
+    const auto& node = program_.statements[program_.lines[line].statement];
+    return node.kind == Statement::Let && !node.error ? &node : nullptr;
+  }
+
+  void branch(Op op, std::uint32_t number) {
+    const std::uint32_t at = emit(op);
+    if (!lead_to(at, number))
+      chunk_.code[at] = {Op::Trap, spec::code(BasicError::BadLineNumber), 0, 0, 0, 0};
+  }
+
+  void choose(Op op, std::span<const Item> items) {
+    const auto index = in_register(items[0].value);
+    if (!index)
+      return;
+    const auto targets = items.subspan(1);
+    emit(op, *index, static_cast<std::uint16_t>(targets.size()));
+    for (const auto& target : targets) {
+      const std::uint32_t row = emit(Op::Target);
+      if (!lead_to(row, target.value))
+        chunk_.code[row].a = spec::code(BasicError::BadLineNumber);
+    }
+  }
+
+  void begin_loop(std::span<const Item> items) {
+    const auto step_of = [&]() -> std::optional<std::uint16_t> {
+      return items.size() > 3 ? in_register(items[3].value) : constant(1);
+    };
+    const auto start = in_register(items[1].value);
+    if (!start)
+      return;
+    const bool letter = items[0].kind == ItemKind::Letter;
+    const auto variable = static_cast<std::uint16_t>(items[0].value);
+    const bool simple =
+        letter && leaf(items[2].value) && (items.size() <= 3 || leaf(items[3].value));
+    if (!simple) // the start is assigned before end and step are evaluated
+      store(items[0], *start);
+    const auto end = in_register(items[2].value);
+    const auto step = end ? step_of() : std::nullopt;
+    if (!step)
+      return;
+    if (letter)
+      emit(Op::For, variable, simple ? *start : variable, *end, *step);
+    else
+      emit(Op::ForElement, 0, *end, *step);
+  }
+
+  void decide(const StatementNode& node, std::span<const Item> items) {
+    const auto& then = program_.statements[node.then_branch];
+    const bool has_else = node.else_branch != none;
+    const auto kind = has_else ? Then::Unless : Then::If;
+    std::uint32_t at = 0;
+    if (items.size() == 3) {
+      if (!expression(items[0].value) || !expression(items[2].value))
+        return;
+      const auto relation = static_cast<Relation>(items[1].value);
+      materialize(1);
+      const std::uint16_t right = stack_[1].x;
+      // `then goto` is part of the test where nothing else remains to be done.
+      const bool jumps = !has_else && then.kind == Statement::Goto && !then.error &&
+                         line_of_.contains(program_.items_of(then)[0].value);
+      const auto shape = jumps ? Then::Goto : kind;
+      const Value left = stack_[0];
+      const auto fused = left.kind == Value::Kind::Calc ? calculated_test(left.op1, relation, shape)
+                                                        : std::nullopt;
+      if (fused) {
+        at = emit(*fused, left.x, left.y, right);
+      } else {
+        stack_.pop_back();
+        const std::uint16_t x = materialize(0);
+        at = emit(test(relation, shape), x, right);
+      }
+      if (jumps) {
+        lead_to(at, program_.items_of(then)[0].value);
+        return;
+      }
+    } else {
+      // Both relations are evaluated.
+      std::array<std::uint16_t, 4> values{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto value = in_register_apart(items[i * 2].value);
+        if (!value)
+          return;
+        values[i] = *value;
+      }
+      const auto glue = items[3].kind == ItemKind::And ? Glue::And : Glue::Or;
+      at = emit(two_tests(glue, static_cast<Relation>(items[1].value),
+                          static_cast<Relation>(items[5].value), kind),
+                values[0], values[1], values[2], values[3]);
+    }
+    statement(then);
+    chunk_.code[at].target = here();
+    if (has_else)
+      statement(program_.statements[node.else_branch]);
+  }
+
+  /// Like in_register, leaving the value on the stack so that later ones do not take its place.
+  std::optional<std::uint16_t> in_register_apart(std::uint32_t root) {
+    if (!expression(root))
+      return std::nullopt;
+    return materialize(stack_.size() - 1);
+  }
+
+  void print(std::span<const Item> items) {
+    const bool open = !items.empty() && items.back().kind == ItemKind::Semicolon;
+    for (const auto& item : items) {
+      switch (item.kind) {
+      case ItemKind::Expression:
+      case ItemKind::Character: {
+        next_temporary_ = bytecode::first_temporary;
+        const auto value = in_register(item.value);
+        if (!value)
+          return;
+        emit(item.kind == ItemKind::Character ? Op::PrintCharacter : Op::PrintNumber, *value);
+        break;
+      }
+      case ItemKind::String: {
+        const auto quoted = program_.text_of(item.span);
+        if (chunk_.texts.size() >= most_registers) {
+          overflow_ = true;
+          return;
+        }
+        emit(Op::PrintText, static_cast<std::uint16_t>(chunk_.texts.size()));
+        chunk_.texts.emplace_back(quoted.substr(1, quoted.size() - 2));
+        break;
+      }
+      case ItemKind::Comma: emit(Op::PrintBlank); break;
+      case ItemKind::Semicolon: // only the last one means something
+      case ItemKind::Letter:
+      case ItemKind::Indexed:
+      case ItemKind::System:
+      case ItemKind::Target:
+      case ItemKind::Relation:
+      case ItemKind::And:
+      case ItemKind::Or: break;
+      }
+    }
+    emit(open ? Op::PrintOpen : Op::PrintLine);
+  }
+
+  void input(std::span<const Item> items) {
+    const auto variable = items[0].kind == ItemKind::Letter
+                              ? static_cast<std::uint16_t>(items[0].value)
+                              : bytecode::element_by_index;
+    if (items.size() == 1) {
+      emit(Op::Input, variable);
+      return;
+    }
+    const auto time = in_register_apart(items[1].value);
+    const auto fallback = time ? in_register_apart(items[2].value) : std::nullopt;
+    if (fallback)
+      emit(Op::InputTimed, variable, *time, *fallback);
+  }
+
+  /// Evaluates items into registers side by side; nothing when one traps.
+  std::optional<std::uint16_t> side_by_side(std::span<const Item> items) {
+    const std::uint16_t first = next_temporary_;
+    for (std::size_t i = 0; i < items.size(); ++i)
+      temporary();
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (!into(items[i].value, static_cast<std::uint16_t>(first + i), Ends::Value))
+        return std::nullopt;
+    return first;
+  }
+
+  void data(std::span<const Item> items) {
+    const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::DataValues));
+    const auto kept = items.first(std::min(items.size(), most)); // more are ignored
+    if (const auto first = side_by_side(kept))
+      emit(Op::SetData, *first, static_cast<std::uint16_t>(kept.size()));
+  }
+
+  void read(std::span<const Item> items) {
+    for (const auto& item : items) {
+      if (item.kind == ItemKind::Letter) {
+        emit(Op::ReadData, static_cast<std::uint16_t>(item.value));
+      } else {
+        next_temporary_ = bytecode::first_temporary;
+        const std::uint16_t value = temporary();
+        emit(Op::ReadData, value);
+        store(item, value);
+      }
+    }
+    emit(Op::EndLine);
+  }
+
+  void perform(Statement kind, std::span<const Item> items) {
+    if (const auto first = side_by_side(items))
+      emit(Op::Perform, static_cast<std::uint16_t>(kind), *first,
+           static_cast<std::uint16_t>(items.size()));
+  }
+
+  struct Jump {
+    std::uint32_t at;   ///< instruction
+    std::uint32_t line; ///< index into the program's lines
+  };
+
+  const Program& program_;
+  Chunk chunk_;
+  std::unordered_map<std::uint32_t, std::uint32_t> line_of_;
+  std::unordered_map<std::int32_t, std::uint16_t> constants_;
+  std::vector<std::uint32_t> begins_; ///< by line of the program: its instruction, or the next one
+  std::vector<Jump> jumps_;
+  std::vector<Value> stack_;
+  std::uint16_t next_temporary_ = bytecode::first_temporary;
+  bool overflow_ = false;
+};
+
+} // namespace
+
+bytecode::Chunk generate(const Program& program) {
+  return Generator(program).run();
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,12 @@
+#include "compiler/load.h"
+
+#include "compiler/generate.h"
+#include "compiler/parse.h"
+
+namespace orb::compiler {
+
+bytecode::Chunk load(std::string_view text) {
+  return generate(parse(text));
+}
+
+} // namespace orb::compiler

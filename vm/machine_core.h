@@ -1,0 +1,148 @@
+#pragma once
+
+#include "base/time.h"
+#include "bytecode/chunk.h"
+#include "spec/basic.h"
+#include "spec/limits.h"
+#include "vm/host.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace orb::vm {
+
+/// An instruction as the loop runs it: the handler is known, distances are in bytes.
+struct Code {
+  const void* handler = nullptr;
+  std::uint16_t a = 0;
+  std::uint16_t b = 0;
+  std::uint16_t c = 0;
+  std::uint16_t d = 0;
+  std::int32_t jump = 0; ///< from here to the target
+  std::int32_t next = 0; ///< from here to the line that follows
+};
+
+/// A running `for`.
+struct Loop {
+  const Code* body = nullptr;
+  std::int32_t end = 0;
+  std::int32_t step = 0;
+  std::uint16_t variable = 0; ///< a register, or bytecode::element_by_index
+};
+
+/// What an operation that the loop does not do by itself says about going on.
+enum class Flow : std::uint8_t {
+  Next,  ///< go on
+  Fault, ///< the program stops with `error`
+  Leave  ///< the line has ended; let the ball look at the world before the next one
+};
+
+/// Why the loop came back.
+enum class Exit : std::uint8_t { Budget, Leave, Fault, Ended };
+
+/// What the loop and the slow operations share. The loop keeps `pc`, `loop` and `budget` in
+/// registers of the processor and writes them here when it lets go.
+struct Core {
+  static constexpr auto for_depth = static_cast<std::size_t>(spec::value_of(spec::Limit::ForDepth));
+  static constexpr auto gosub_depth =
+      static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth));
+  /// The variable of the loop below all loops: no `next` matches it.
+  static constexpr std::uint16_t no_variable = 0xFFFE;
+
+  // The program.
+  std::vector<Code> code; ///< one for one with the chunk's
+  std::vector<bytecode::Line> lines;
+  std::vector<std::string> texts;
+  std::vector<std::int32_t> registers;
+  /// By register: 2^63 / constant + 1, for DivideBy and RemainderBy.
+  std::vector<std::int64_t> reciprocals;
+
+  // Where it is.
+  const Code* pc = nullptr; ///< what runs next
+  const Code* at = nullptr; ///< what called a slow operation, or failed
+  const Code* start = nullptr;
+  std::array<Loop, for_depth + 1> loops; ///< the first is below all loops
+  Loop* loop = nullptr;                  ///< the innermost
+  std::array<const Code*, gosub_depth> calls{};
+  std::size_t call_depth = 0;
+  spec::BasicError error{};
+
+  // The clock. Line k ends at base + floor(k * 10^9 / lines_per_second).
+  std::int64_t lines_per_second = 1;
+  Instant base{};
+  std::int64_t done = 0;    ///< lines since base, before this run
+  std::int64_t allowed = 0; ///< lines that this run may execute
+  std::int64_t budget = 0;  ///< what is left of them
+
+  // What statements own.
+  struct Timer {
+    Instant since{};
+    std::int32_t from = 0; ///< counts down from here; 0 counts up
+  };
+  std::array<Timer, 3> timers;
+  std::array<std::int32_t, static_cast<std::size_t>(spec::value_of(spec::Limit::DataValues))>
+      data{};
+  std::size_t data_count = 0;
+  std::size_t data_next = 0;
+  std::string text; ///< what `print` has put together
+  bool tron = false;
+  std::uint64_t seeds = 0;  ///< the stream that `random` draws from
+  std::uint64_t random = 0; ///< the generator that `rnd` draws from
+
+  // What a line waits for.
+  enum class Wait : std::uint8_t { Nothing, Time, Queue, Input };
+  Wait wait = Wait::Nothing;
+  Instant until = never;     ///< of Time and Queue; of Input where it has a time-out
+  std::string pending;       ///< the text that did not fit the queue
+  std::uint16_t entry = 0;   ///< the variable of `input`
+  std::int32_t fallback = 0; ///< what it takes when nothing comes
+
+  Host* host = nullptr;
+
+  Instant time_of(std::int64_t line) const {
+    return base + Duration{line * 1'000'000'000 / lines_per_second};
+  }
+  /// The end of the line that is being executed.
+  Instant line_end() const { return time_of(done + allowed - budget); }
+
+  Flow fail(spec::BasicError what) {
+    error = what;
+    return Flow::Fault;
+  }
+
+  // The slow operations: each belongs to the instruction of its name.
+  Flow read_system(const Code& code);
+  Flow write_system(const Code& code);
+  Flow square_root(const Code& code);
+  Flow random_number(const Code& code);
+  void print_number(std::int32_t value);
+  Flow print(bool open);
+  Flow delay(std::int32_t milliseconds);
+  Flow input(const Code& code);
+  Flow input_timed(const Code& code);
+  Flow set_data(const Code& code);
+  Flow read_data(const Code& code);
+  Flow perform(const Code& code);
+  void reseed();
+  void clear();
+  Flow reset();
+  /// Sets what `input` waits for.
+  Flow enter(std::int32_t value);
+};
+
+/// A way to run code: what to put into Code::handler for each operation, and the loop itself.
+struct Engine {
+  const void* const* handlers; ///< by bytecode::Op
+  Exit (*run)(Core&);
+};
+
+/// The loop with a jump from each instruction to the next; where the compiler has no such jumps it
+/// is the switch.
+Engine threaded_engine();
+/// The loop as one switch.
+Engine switch_engine();
+
+} // namespace orb::vm

@@ -1,0 +1,58 @@
+#include "vm/machine_calculate.h"
+#include "vm/machine_core.h"
+
+// Each block jumps straight to the next one, so that the processor learns which instruction tends
+// to follow which. Labels as values are an extension of gcc and clang.
+#if defined(__GNUC__)
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"
+
+namespace orb::vm {
+
+namespace {
+
+/// Runs; without a core it only tells where its blocks are.
+Exit run_threaded(Core* machine, const void* const** table) {
+  static const void* const handlers[] = {
+#define ORB_OP(name, ...) &&name,
+#include "bytecode/op.def"
+  };
+  if (!machine) {
+    *table = handlers;
+    return Exit::Ended;
+  }
+  Core& core = *machine;
+#define OP(name)                                                                                   \
+  name:
+#define DISPATCH() goto * pc->handler
+#include "vm/machine_loop.h"
+}
+
+Exit run(Core& core) {
+  return run_threaded(&core, nullptr);
+}
+
+} // namespace
+
+Engine threaded_engine() {
+  const void* const* handlers = nullptr;
+  run_threaded(nullptr, &handlers);
+  return {handlers, run};
+}
+
+} // namespace orb::vm
+
+#pragma GCC diagnostic pop
+
+#else
+
+namespace orb::vm {
+
+Engine threaded_engine() {
+  return switch_engine();
+}
+
+} // namespace orb::vm
+
+#endif
