@@ -700,9 +700,14 @@ private:
                 values[0], values[1], values[2], values[3]);
     }
     statement(then);
+    if (!has_else) {
+      chunk_.code[at].target = here();
+      return;
+    }
+    const std::uint32_t skip = emit(Op::Skip);
     chunk_.code[at].target = here();
-    if (has_else)
-      statement(program_.statements[node.else_branch]);
+    statement(program_.statements[node.else_branch]);
+    chunk_.code[skip].target = here();
   }
 
   /// Like in_register, leaving the value on the stack so that later ones do not take its place.

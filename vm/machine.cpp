@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -243,7 +242,8 @@ void Machine::link(const bytecode::Chunk& chunk) {
     core_.registers[chunk.first_constant() + i] = value;
     if (value > 1)
       core_.reciprocals[chunk.first_constant() + i] =
-          std::numeric_limits<std::int64_t>::max() / value + 1;
+          static_cast<std::int64_t>((std::uint64_t{1} << 63) / static_cast<std::uint64_t>(value)) +
+          1;
   }
 
   const auto distance = [](std::size_t from, std::size_t to) {
@@ -423,6 +423,8 @@ void Machine::run(Instant limit, Host& host) {
     const int line = single ? line_of(core_.pc) : 0;
     core_.allowed = core_.budget = single ? 1 : lines;
     const Exit exit = engine_.run(core_);
+    if (core_.pc->handler == engine_.handlers[static_cast<std::size_t>(Op::Skip)])
+      core_.pc = core_.pc->target();
 
     const std::int64_t executed = core_.allowed - core_.budget;
     now_ = core_.line_end();

@@ -23,6 +23,14 @@ struct Code {
   std::uint16_t d = 0;
   std::int32_t jump = 0; ///< from here to the target
   std::int32_t next = 0; ///< from here to the line that follows
+
+  const Code* target() const { return away(jump); }
+  const Code* following_line() const { return away(next); }
+
+private:
+  const Code* away(std::int32_t distance) const {
+    return reinterpret_cast<const Code*>(reinterpret_cast<const char*>(this) + distance);
+  }
 };
 
 /// A running `for`.

@@ -20,9 +20,6 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     DISPATCH();                                                                                    \
   } while (false)
 
-#define JUMP(distance)                                                                             \
-  pc = reinterpret_cast<const Code*>(reinterpret_cast<const char*>(pc) + (distance))
-
 #define FAULT(what)                                                                                \
   do {                                                                                             \
     core.error = what;                                                                             \
@@ -117,19 +114,19 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     ++pc;                                                                                          \
     DISPATCH();                                                                                    \
   }                                                                                                \
-  JUMP(pc->jump);                                                                                  \
+  pc = pc->target();                                                                               \
   NEXT_LINE()
 
 #define TEST_UNLESS(condition)                                                                     \
   if (condition)                                                                                   \
     ++pc;                                                                                          \
   else                                                                                             \
-    JUMP(pc->jump);                                                                                \
+    pc = pc->target();                                                                             \
   DISPATCH()
 
 #define TEST_GOTO(condition)                                                                       \
   if (condition) {                                                                                 \
-    JUMP(pc->jump);                                                                                \
+    pc = pc->target();                                                                             \
     NEXT_LINE();                                                                                   \
   }                                                                                                \
   ++pc;                                                                                            \
@@ -253,15 +250,14 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
 
   // --- control ----------------------------------------------------------------------------------
   OP(Goto) {
-    JUMP(pc->jump);
+    pc = pc->target();
     NEXT_LINE();
   }
   OP(Gosub) {
     if (core.call_depth == core.calls.size())
       FAULT(BasicError::GosubDepthExceeded);
-    core.calls[core.call_depth++] =
-        reinterpret_cast<const Code*>(reinterpret_cast<const char*>(pc) + pc->next);
-    JUMP(pc->jump);
+    core.calls[core.call_depth++] = pc->following_line();
+    pc = pc->target();
     NEXT_LINE();
   }
   OP(Return) {
@@ -278,7 +274,7 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     if (row->a != 0)
       FAULT(static_cast<BasicError>(row->a));
     pc = row;
-    JUMP(pc->jump);
+    pc = pc->target();
     NEXT_LINE();
   }
   OP(OnGosub) {
@@ -290,10 +286,9 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
       FAULT(static_cast<BasicError>(row->a));
     if (core.call_depth == core.calls.size())
       FAULT(BasicError::GosubDepthExceeded);
-    core.calls[core.call_depth++] =
-        reinterpret_cast<const Code*>(reinterpret_cast<const char*>(pc) + pc->next);
+    core.calls[core.call_depth++] = pc->following_line();
     pc = row;
-    JUMP(pc->jump);
+    pc = pc->target();
     NEXT_LINE();
   }
   OP(For) {
@@ -307,9 +302,8 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
         FAULT(BasicError::ForDepthExceeded);
       ++loop;
     }
-    *loop = {reinterpret_cast<const Code*>(reinterpret_cast<const char*>(pc) + pc->next), end, step,
-             pc->a};
-    JUMP(pc->next);
+    *loop = {pc->following_line(), end, step, pc->a};
+    pc = pc->following_line();
     NEXT_LINE();
   }
   OP(ForElement) {
@@ -321,9 +315,8 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
         FAULT(BasicError::ForDepthExceeded);
       ++loop;
     }
-    *loop = {reinterpret_cast<const Code*>(reinterpret_cast<const char*>(pc) + pc->next), r[pc->b],
-             step, element_by_index};
-    JUMP(pc->next);
+    *loop = {pc->following_line(), r[pc->b], step, element_by_index};
+    pc = pc->following_line();
     NEXT_LINE();
   }
   OP(Next) {
@@ -352,6 +345,10 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     --loop;
     ++pc;
     NEXT_LINE();
+  }
+  OP(Skip) {
+    pc = pc->target();
+    DISPATCH();
   }
   OP(EndLine) {
     ++pc;
@@ -454,7 +451,6 @@ core.budget = 0;
 return Exit::Budget;
 
 #undef NEXT_LINE
-#undef JUMP
 #undef FAULT
 #undef SYNC
 #undef SLOW
