@@ -1,0 +1,66 @@
+#include "uploader/recording.h"
+
+#include "tests/unit/uploader/model_ball.h"
+
+#include <gtest/gtest.h>
+
+namespace orb::uploader {
+namespace {
+
+class Recorder final : public WireListener {
+public:
+  void on_bytes(protocol::Direction direction, ByteView bytes, Instant) override {
+    text += recording_line(direction, bytes);
+  }
+  std::string text = "# a recording\n";
+};
+
+Report upload_over(protocol::Transport& link, std::uint8_t first_seq) {
+  Session session(link, Budgets{}, first_seq);
+  const auto greeting = greet(session);
+  if (!greeting)
+    return greeting.error();
+  NullProgress progress;
+  return upload(session, ProgramJob{sixty_lines(), Area::Flash, std::uint16_t{10}}, *greeting,
+                BatteryPolicy::Refuse, progress);
+}
+
+std::string record() {
+  Recorder recorder;
+  RecordingTransport link(std::make_unique<ModelBall>(), recorder);
+  EXPECT_EQ(upload_over(link, 0x77).kind, Report::Kind::Done);
+  return recorder.text;
+}
+
+TEST(Recording, PlaysBackWhatWasRecorded) {
+  const auto pieces = parse_recording(record());
+  ASSERT_TRUE(pieces.has_value());
+  EXPECT_EQ(first_recorded_seq(*pieces), 0x77);
+  ReplayTransport replay(*pieces);
+  EXPECT_EQ(upload_over(replay, 0x77).kind, Report::Kind::Done);
+}
+
+TEST(Recording, FailsAtTheFirstOtherByte) {
+  const auto pieces = parse_recording(record());
+  ReplayTransport replay(*pieces);
+  const auto report = upload_over(replay, 0x78);
+  EXPECT_NE(report.kind, Report::Kind::Done);
+  EXPECT_NE(report.message.find("sent byte 5 is 78h, the recording has 77h"), std::string::npos)
+      << report.message;
+}
+
+TEST(Recording, FailsWhereItEndsTooEarly) {
+  auto pieces = *parse_recording(record());
+  pieces.resize(pieces.size() / 2);
+  ReplayTransport replay(pieces);
+  EXPECT_EQ(upload_over(replay, 0x77).kind, Report::Kind::LinkLost);
+}
+
+TEST(Recording, NamesALineThatIsNone) {
+  EXPECT_EQ(parse_recording("> FF\r\n\n# x\n< 0\n").error(),
+            "line 4 is not `> FF FF …` (sent) or `< FF FF …` (received)");
+  EXPECT_FALSE(parse_recording("FF FF").has_value());
+}
+
+} // namespace
+} // namespace orb::uploader

@@ -1,0 +1,168 @@
+#include "uploader/endpoint.h"
+
+#include "base/suggest.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fmt/format.h>
+#include <optional>
+#include <sys/socket.h>
+#include <vector>
+
+namespace orb::uploader {
+namespace {
+
+constexpr std::string_view forms =
+    "`/dev/rfcomm0`, `serial:///dev/rfcomm0`, `rfcomm://AA:BB:CC:DD:EE:FF`, `tcp://host:port`, "
+    "`pty:///path`, `replay://file` or `sim:`";
+
+constexpr std::array<std::string_view, 6> schemes = {"serial://", "rfcomm://", "tcp://",
+                                                     "pty://",    "replay://", "sim:"};
+constexpr std::uint8_t channel_most = 30; // RFCOMM server channels are 1 to 30
+
+tl::unexpected<std::string> wrong(std::string_view url, std::string_view what) {
+  return tl::unexpected(fmt::format("`{}` is not a port: {}", url, what));
+}
+
+std::optional<unsigned> read_number(std::string_view text, int base, unsigned most) {
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
+  if (error != std::errc() || end != text.data() + text.size() || value > most)
+    return std::nullopt;
+  return value;
+}
+
+tl::expected<Endpoint, std::string> read_rfcomm(Endpoint endpoint, std::string_view rest) {
+  constexpr std::size_t text_size = 17; // AA:BB:CC:DD:EE:FF
+  const auto address = rest.substr(0, text_size);
+  for (std::size_t i = 0; i < endpoint.address.size(); ++i) {
+    const auto byte =
+        address.size() == text_size ? read_number(address.substr(i * 3, 2), 16, 255) : std::nullopt;
+    if (!byte || (i > 0 && address[i * 3 - 1] != ':'))
+      return wrong(endpoint.text, "a Bluetooth address is written `rfcomm://AA:BB:CC:DD:EE:FF`");
+    endpoint.address[i] = static_cast<std::uint8_t>(*byte);
+  }
+  rest.remove_prefix(text_size);
+  if (rest.empty())
+    return endpoint;
+  const auto channel =
+      rest.front() == '/' ? read_number(rest.substr(1), 10, channel_most) : std::nullopt;
+  if (!channel || *channel == 0)
+    return wrong(endpoint.text, "a channel from 1 to 30 may follow the address, as in `/1`");
+  endpoint.channel = static_cast<std::uint8_t>(*channel);
+  return endpoint;
+}
+
+tl::expected<Endpoint, std::string> read_tcp(Endpoint endpoint, std::string_view rest) {
+  constexpr unsigned port_most = 65535;
+  const auto colon = rest.rfind(':');
+  const auto port =
+      colon == rest.npos ? std::nullopt : read_number(rest.substr(colon + 1), 10, port_most);
+  auto host = rest.substr(0, colon == rest.npos ? 0 : colon);
+  if (host.starts_with("[") && host.ends_with("]"))
+    host = host.substr(1, host.size() - 2);
+  if (!port || *port == 0 || host.empty())
+    return wrong(endpoint.text, "a TCP port is written `tcp://host:port`, such as "
+                                "`tcp://127.0.0.1:4242`");
+  endpoint.host = host;
+  endpoint.port = static_cast<std::uint16_t>(*port);
+  return endpoint;
+}
+
+tl::expected<Endpoint, std::string> read_path(Endpoint endpoint, std::string_view rest) {
+  if (rest.empty())
+    return wrong(endpoint.text, "a path is missing");
+  endpoint.path = rest;
+  return endpoint;
+}
+
+} // namespace
+
+tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
+  Endpoint endpoint;
+  endpoint.text = url;
+  const auto rest_of = [&](std::string_view scheme) { return url.substr(scheme.size()); };
+  if (url == "sim:" || url == "sim")
+    return endpoint;
+  if (url.starts_with("serial://")) {
+    endpoint.scheme = Scheme::Serial;
+    return read_path(endpoint, rest_of("serial://"));
+  }
+  if (url.starts_with("pty://")) {
+    endpoint.scheme = Scheme::Pty;
+    return read_path(endpoint, rest_of("pty://"));
+  }
+  if (url.starts_with("replay://")) {
+    endpoint.scheme = Scheme::Replay;
+    return read_path(endpoint, rest_of("replay://"));
+  }
+  if (url.starts_with("rfcomm://")) {
+    endpoint.scheme = Scheme::Rfcomm;
+    return read_rfcomm(endpoint, rest_of("rfcomm://"));
+  }
+  if (url.starts_with("tcp://")) {
+    endpoint.scheme = Scheme::Tcp;
+    return read_tcp(endpoint, rest_of("tcp://"));
+  }
+  if (url.find(':') == url.npos && url.find('/') != url.npos) {
+    endpoint.scheme = Scheme::Serial;
+    return read_path(endpoint, url);
+  }
+  const auto colon = url.find("://");
+  const auto word = colon == url.npos ? url : url.substr(0, colon + 3);
+  if (const auto meant = closest(word, schemes))
+    return wrong(url, fmt::format("did you mean `{}`?", *meant));
+  return wrong(url, fmt::format("it is written {}", forms));
+}
+
+std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& address,
+                                                   std::uint8_t channel) {
+  std::array<std::uint8_t, 10> bytes{};
+  const sa_family_t family = AF_BLUETOOTH;
+  static_assert(sizeof(family) == 2);
+  std::memcpy(bytes.data(), &family, sizeof(family));
+  std::reverse_copy(address.begin(), address.end(), bytes.begin() + sizeof(family));
+  bytes[sizeof(family) + address.size()] = channel;
+  return bytes;
+}
+
+protocol::LinkError describe_open_error(const Endpoint& endpoint, int error) {
+  const auto is_node = endpoint.scheme == Scheme::Serial || endpoint.scheme == Scheme::Pty;
+  const auto& name = is_node ? endpoint.path : endpoint.text;
+  std::string help;
+  if (error == EACCES || error == EPERM)
+    help = "add yourself to group `dialout`: `sudo usermod -aG dialout $USER`, then log in again";
+  else if (error == ENOENT && endpoint.scheme == Scheme::Pty)
+    help = "start a virtual ball with `orb ball --pty`; it prints its path";
+  else if (error == ENOENT || error == ENXIO || error == ENODEV)
+    help = "`orb ports` lists what there is; a paired ball gets a port with `sudo rfcomm bind 0 "
+           "AA:BB:CC:DD:EE:FF 1`";
+  else if (error == EBUSY || error == EWOULDBLOCK)
+    help = is_node ? fmt::format("another program has it open; `fuser -v {}` names it", name)
+                   : "another program is connected to this ball; end it first";
+  else if (error == EISDIR)
+    help = "give the path of a device, such as `/dev/rfcomm0`; `orb ports` lists them";
+  else if (error == ENOTTY || error == EINVAL)
+    help = "this is not a serial device; `orb ports` lists them";
+  else if (error == EAFNOSUPPORT || error == EPROTONOSUPPORT)
+    help = "this system has no Bluetooth sockets; use a serial port (`rfcomm bind`) or a relay "
+           "(`socat FILE:/dev/rfcomm0,raw TCP-LISTEN:4242`)";
+  else if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
+    help = fmt::format("nothing listens there; a virtual ball does after `orb ball --tcp {}:{}`",
+                       endpoint.host, endpoint.port);
+  else if (endpoint.scheme == Scheme::Rfcomm)
+    help = "shake the ball awake, keep it near, and end other connections to it";
+  else
+    help = "`orb doctor` looks for the reason";
+  const auto* what = error == EWOULDBLOCK ? "in use" : std::strerror(error);
+  std::string seen = what;
+  if (!seen.empty() && seen.size() > 1 && seen[1] >= 'a')
+    seen[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(seen[0])));
+  return {protocol::LinkError::Kind::CannotOpen,
+          fmt::format("cannot open {}: {}; {}", name, seen, help)};
+}
+
+} // namespace orb::uploader

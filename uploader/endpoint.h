@@ -1,0 +1,53 @@
+#pragma once
+
+#include "protocol/transport.h"
+#include "uploader/budgets.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace orb::uploader {
+
+enum class Scheme : std::uint8_t {
+  Serial, ///< `serial:///dev/rfcomm0`, or the bare path
+  Rfcomm, ///< `rfcomm://AA:BB:CC:DD:EE:FF[/1]`
+  Tcp,    ///< `tcp://host:port`
+  Pty,    ///< `pty:///path`
+  Sim,    ///< `sim:`, a ball in this process: whoever holds one makes the link
+  Replay  ///< `replay://file`
+};
+
+using BluetoothAddress = std::array<std::uint8_t, 6>; ///< in the order in which it is written
+
+/// Where a ball is, as a URL says it.
+struct Endpoint {
+  Scheme scheme = Scheme::Sim;
+  std::string path; ///< Serial, Pty, Replay
+  std::string host; ///< Tcp
+  std::uint16_t port = 0;
+  BluetoothAddress address{};
+  std::uint8_t channel = 1;
+  std::string text; ///< the URL as it was given, for messages
+};
+
+/// Reads a URL; the error is a sentence that says which forms there are.
+tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url);
+
+/// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
+/// try can help. Not for Sim. The error says what helps.
+tl::expected<std::unique_ptr<protocol::Transport>, protocol::LinkError>
+open(const Endpoint& endpoint, const Budgets& budgets);
+
+/// The bytes of a `sockaddr_rc` for connect(2): family, the address with its last byte first,
+/// channel. Written by hand because the kernel's header comes with the GPL.
+std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& address,
+                                                   std::uint8_t channel);
+
+/// Why opening `endpoint` failed with an error of the operating system, and what helps.
+protocol::LinkError describe_open_error(const Endpoint& endpoint, int error);
+
+} // namespace orb::uploader

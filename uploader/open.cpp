@@ -1,0 +1,224 @@
+// The links that the operating system gives: each is an Asio stream behind the Transport interface.
+
+#include "uploader/endpoint.h"
+#include "uploader/recording.h"
+
+#include <array>
+#include <asio.hpp>
+#include <cerrno>
+#include <chrono>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <optional>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <thread>
+#include <utility>
+
+namespace orb::uploader {
+namespace {
+
+using protocol::LinkError;
+
+constexpr std::size_t read_most = 4096;
+/// A link that takes no bytes for this long is broken: the longest packet needs 25 ms.
+constexpr Duration write_time = 5s;
+/// By custom; an RFCOMM port has no baud rate.
+constexpr unsigned baud_rate = 115200;
+constexpr int rfcomm_protocol = 3; // BTPROTO_RFCOMM
+
+tl::unexpected<LinkError> failed(LinkError::Kind kind, std::string message) {
+  return tl::unexpected(LinkError{kind, std::move(message)});
+}
+
+Instant steady_now() {
+  return Instant(
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+}
+
+/// A stream of Asio with deadlines. One operation at a time; an unfinished one is cancelled.
+template <class Stream>
+class AsioTransport final : public protocol::Transport {
+public:
+  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream)
+      : io_(std::move(io)), stream_(std::move(stream)) {}
+
+  Instant now() const override { return steady_now(); }
+
+  tl::expected<void, LinkError> write(ByteView bytes) override {
+    std::optional<asio::error_code> result;
+    asio::async_write(stream_, asio::buffer(bytes.data(), bytes.size()),
+                      [&](const asio::error_code& error, std::size_t) { result = error; });
+    if (!finish(result, steady_now() + write_time))
+      return failed(LinkError::Kind::Broken, "the link takes no bytes any more");
+    if (*result)
+      return link_error(*result);
+    return {};
+  }
+
+  tl::expected<Bytes, LinkError> read(Instant deadline) override {
+    std::optional<asio::error_code> result;
+    std::size_t size = 0;
+    stream_.async_read_some(asio::buffer(buffer_),
+                            [&](const asio::error_code& error, std::size_t count) {
+                              result = error;
+                              size = count;
+                            });
+    const auto in_time = finish(result, deadline);
+    if (size > 0)
+      return Bytes(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(size));
+    if (!in_time)
+      return Bytes{};
+    if (*result)
+      return link_error(*result);
+    return Bytes{};
+  }
+
+private:
+  /// Runs the operation to its end or to the deadline; then it is cancelled.
+  bool finish(const std::optional<asio::error_code>& result, Instant deadline) {
+    io_->restart();
+    io_->poll();
+    if (!result && deadline > steady_now()) {
+      const auto until = std::chrono::steady_clock::time_point(
+          std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+              deadline.time_since_epoch()));
+      if (deadline == never)
+        io_->run();
+      else
+        io_->run_until(until);
+    }
+    if (result)
+      return true;
+    asio::error_code ignored;
+    stream_.cancel(ignored);
+    io_->restart();
+    io_->run();
+    return !result || *result != asio::error::operation_aborted;
+  }
+
+  tl::unexpected<LinkError> link_error(const asio::error_code& error) {
+    // A pty whose other end is closed says EIO, a vanished radio link ECONNRESET or ETIMEDOUT.
+    if (error == asio::error::eof || error.value() == EIO ||
+        error == asio::error::connection_reset || error == asio::error::broken_pipe ||
+        error == asio::error::timed_out || error.value() == ENODEV)
+      return failed(LinkError::Kind::Closed, "the other end hung up");
+    return failed(LinkError::Kind::Broken, error.message());
+  }
+
+  std::unique_ptr<asio::io_context> io_;
+  Stream stream_;
+  std::array<std::uint8_t, read_most> buffer_{};
+};
+
+using Opened = tl::expected<std::unique_ptr<protocol::Transport>, LinkError>;
+
+/// Raw, exclusive, flushed. A line discipline would turn LF into CR LF and eat XON and XOFF.
+Opened open_serial(const Endpoint& endpoint) {
+  auto io = std::make_unique<asio::io_context>(1);
+  asio::serial_port port(*io);
+  asio::error_code error;
+  port.open(endpoint.path, error);
+  if (error)
+    return tl::unexpected(describe_open_error(endpoint, error.value()));
+  const auto handle = port.native_handle();
+  // TIOCEXCL does not stop root and flock only stops those who ask: together they do.
+  if (::flock(handle, LOCK_EX | LOCK_NB) != 0 || ::ioctl(handle, TIOCEXCL) != 0)
+    return tl::unexpected(describe_open_error(endpoint, errno));
+  termios settings{};
+  if (::tcgetattr(handle, &settings) != 0)
+    return tl::unexpected(describe_open_error(endpoint, errno));
+  ::cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cc[VMIN] = 1;
+  settings.c_cc[VTIME] = 0;
+  if (::tcsetattr(handle, TCSANOW, &settings) != 0)
+    return tl::unexpected(describe_open_error(endpoint, errno));
+  port.set_option(asio::serial_port::baud_rate(baud_rate), error); // a pty may not care
+  ::tcflush(handle, TCIOFLUSH);
+  return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port));
+}
+
+/// Connects within the budget; the error is 0 for success.
+template <class Socket, class Connect>
+int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets,
+                    const Connect& connect) {
+  asio::error_code result = asio::error::timed_out;
+  connect([&](const asio::error_code& error) { result = error; });
+  io.restart();
+  io.run_for(std::chrono::duration_cast<std::chrono::steady_clock::duration>(budgets.connect));
+  if (!io.stopped()) {
+    asio::error_code ignored;
+    socket.close(ignored);
+    io.run();
+    return ETIMEDOUT;
+  }
+  return result.value();
+}
+
+Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets) {
+  using asio::ip::tcp;
+  auto io = std::make_unique<asio::io_context>(1);
+  asio::error_code error;
+  const auto addresses =
+      tcp::resolver(*io).resolve(endpoint.host, std::to_string(endpoint.port), error);
+  if (error)
+    return failed(LinkError::Kind::CannotOpen,
+                  fmt::format("cannot open {}: no host is called `{}`; check the name",
+                              endpoint.text, endpoint.host));
+  tcp::socket socket(*io);
+  const auto result = connect_in_time(*io, socket, budgets, [&](const auto& done) {
+    asio::async_connect(socket, addresses,
+                        [done](const asio::error_code& e, const tcp::endpoint&) { done(e); });
+  });
+  if (result != 0)
+    return tl::unexpected(describe_open_error(endpoint, result));
+  socket.set_option(tcp::no_delay(true), error);
+  return std::make_unique<AsioTransport<tcp::socket>>(std::move(io), std::move(socket));
+}
+
+Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets) {
+  using Protocol = asio::generic::stream_protocol;
+  auto io = std::make_unique<asio::io_context>(1);
+  Protocol::socket socket(*io);
+  asio::error_code error;
+  socket.open(Protocol(AF_BLUETOOTH, rfcomm_protocol), error);
+  if (error)
+    return tl::unexpected(describe_open_error(endpoint, error.value()));
+  const auto address = rfcomm_socket_address(endpoint.address, endpoint.channel);
+  const Protocol::endpoint target(address.data(), address.size(), rfcomm_protocol);
+  const auto result = connect_in_time(*io, socket, budgets, [&](const auto& done) {
+    socket.async_connect(target, [done](const asio::error_code& e) { done(e); });
+  });
+  if (result != 0)
+    return tl::unexpected(describe_open_error(endpoint, result));
+  return std::make_unique<AsioTransport<Protocol::socket>>(std::move(io), std::move(socket));
+}
+
+Opened open_once(const Endpoint& endpoint, const Budgets& budgets) {
+  switch (endpoint.scheme) {
+  case Scheme::Serial:
+  case Scheme::Pty: return open_serial(endpoint);
+  case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets);
+  case Scheme::Tcp: return open_tcp(endpoint, budgets);
+  case Scheme::Replay: return open_replay(endpoint.path);
+  case Scheme::Sim: break;
+  }
+  return failed(LinkError::Kind::CannotOpen, "a ball in this process is not opened by its URL");
+}
+
+} // namespace
+
+Opened open(const Endpoint& endpoint, const Budgets& budgets) {
+  // Only a radio link fails now and works a moment later: the ball may be waking up.
+  const auto times = endpoint.scheme == Scheme::Rfcomm ? budgets.opens : 1;
+  auto opened = open_once(endpoint, budgets);
+  for (int time = 1; !opened && time < times; ++time) {
+    std::this_thread::sleep_for(budgets.backoff(time));
+    opened = open_once(endpoint, budgets);
+  }
+  return opened;
+}
+
+} // namespace orb::uploader

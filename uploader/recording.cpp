@@ -1,0 +1,111 @@
+#include "uploader/recording.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+namespace orb::uploader {
+
+using protocol::Direction;
+using protocol::LinkError;
+
+tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::string_view text) {
+  std::vector<RecordedPiece> pieces;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const auto end = std::min(text.find('\n'), text.size());
+    auto content = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (content.ends_with('\r'))
+      content.remove_suffix(1);
+    if (content.empty() || content.front() == '#')
+      continue;
+    const auto bytes = from_hex(content.substr(1));
+    if ((content.front() != '>' && content.front() != '<') || !bytes)
+      return tl::unexpected(
+          fmt::format("line {} is not `> FF FF …` (sent) or `< FF FF …` (received)", line));
+    if (!bytes->empty())
+      pieces.push_back({content.front() == '>' ? Direction::ToBall : Direction::FromBall, *bytes});
+  }
+  return pieces;
+}
+
+std::string recording_line(Direction direction, ByteView bytes) {
+  return fmt::format("{} {}\n", direction == Direction::ToBall ? '>' : '<', to_hex(bytes));
+}
+
+tl::expected<void, LinkError> RecordingTransport::write(ByteView bytes) {
+  listener_.on_bytes(Direction::ToBall, bytes, now());
+  return inner_->write(bytes);
+}
+
+tl::expected<Bytes, LinkError> RecordingTransport::read(Instant deadline) {
+  auto read = inner_->read(deadline);
+  if (read && !read->empty())
+    listener_.on_bytes(Direction::FromBall, *read, now());
+  return read;
+}
+
+tl::expected<void, LinkError> ReplayTransport::write(ByteView bytes) {
+  // What came by itself and was not read in time does not stand in the way.
+  for (const auto byte : bytes) {
+    while (next_ < pieces_.size() && pieces_[next_].direction == Direction::FromBall)
+      ++next_;
+    if (next_ == pieces_.size())
+      return tl::unexpected(LinkError{
+          LinkError::Kind::Mismatch,
+          fmt::format("the recording ends before sent byte {} ({:02X}h)", total_ + 1, byte)});
+    const auto expected = pieces_[next_].bytes[written_];
+    if (byte != expected)
+      return tl::unexpected(
+          LinkError{LinkError::Kind::Mismatch,
+                    fmt::format("sent byte {} is {:02X}h, the recording has {:02X}h there; it was "
+                                "made with other files or options",
+                                total_ + 1, byte, expected)});
+    ++total_;
+    if (++written_ == pieces_[next_].bytes.size()) {
+      written_ = 0;
+      ++next_;
+    }
+  }
+  return {};
+}
+
+tl::expected<Bytes, LinkError> ReplayTransport::read(Instant deadline) {
+  if (next_ == pieces_.size())
+    return tl::unexpected(LinkError{LinkError::Kind::Closed, "the recording ends here"});
+  if (pieces_[next_].direction == Direction::FromBall)
+    return pieces_[next_++].bytes;
+  if (deadline != never)
+    now_ = std::max(now_, deadline);
+  return Bytes{};
+}
+
+tl::expected<std::unique_ptr<protocol::Transport>, LinkError> open_replay(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file.is_open() || file.bad())
+    return tl::unexpected(
+        LinkError{LinkError::Kind::CannotOpen,
+                  fmt::format("cannot read {}; `--record FILE` makes a recording", path)});
+  auto pieces = parse_recording(text);
+  if (!pieces)
+    return tl::unexpected(
+        LinkError{LinkError::Kind::CannotOpen, fmt::format("{}: {}", path, pieces.error())});
+  return std::make_unique<ReplayTransport>(std::move(*pieces));
+}
+
+std::optional<std::uint8_t> first_recorded_seq(const std::vector<RecordedPiece>& pieces) {
+  Bytes sent;
+  for (const auto& piece : pieces)
+    if (piece.direction == Direction::ToBall)
+      sent.insert(sent.end(), piece.bytes.begin(), piece.bytes.end());
+  protocol::Decoder decoder(Direction::ToBall);
+  decoder.feed(sent);
+  while (const auto item = decoder.next())
+    if (item->kind == protocol::Item::Kind::Command)
+      return item->seq;
+  return std::nullopt;
+}
+
+} // namespace orb::uploader
