@@ -65,6 +65,7 @@ void add_commands(CLI::App& app, Context& context) {
       ->capture_default_str();
   add_completion(app, context);
   add_explain(app, context);
+  add_lsp(app, context);
   add_man(app, context);
   add_new(app, context);
   add_spec(app, context);

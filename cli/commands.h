@@ -14,6 +14,7 @@ void add_commands(CLI::App& app, Context& context);
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
 void add_completion(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
+void add_lsp(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);
 void add_new(CLI::App& app, Context& context);
 void add_spec(CLI::App& app, Context& context);
