@@ -42,7 +42,7 @@ void add_lsp(CLI::App& app, Context& context) {
   auto* command =
       add_command(app, "lsp", "serves editors over stdin and stdout (Language Server Protocol)",
                   "orb lsp\n"
-                  "nvim -c 'lua vim.lsp.start({cmd = {\"orb\", \"lsp\"}})' square.bas");
+                  "orb lsp --stdio");
   auto stdio = std::make_shared<bool>(false);
   command->add_flag("--stdio", *stdio, "for editors that insist on it; it changes nothing");
   command->callback([&context, stdio] { context.exit = serve(); });

@@ -222,24 +222,29 @@ std::vector<spec::BasicError> errors_of(const spec::StatementInfo& row) {
   return errors;
 }
 
-std::string print_errors(const std::vector<spec::BasicError>& errors) {
-  std::string out;
-  for (const auto error : errors)
-    out += fmt::format("- can stop with: {:02X}h {}\n", spec::code(error), spec::info(error).text);
-  return out;
+/// The entry of `section` for `word` with the errors that it can stop a program with.
+std::optional<std::string> markdown_with_errors(const Section& section, std::string_view word,
+                                                const std::vector<spec::BasicError>& errors) {
+  for (auto entry : section.entries) {
+    if (entry.name != word)
+      continue;
+    for (const auto error : errors)
+      entry.facts.emplace_back(
+          "can stop with", fmt::format("{:02X}h {}", spec::code(error), spec::info(error).text));
+    return entry_markdown(section, entry, language_id);
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> word_markdown(std::string_view word) {
-  if (const auto statement = spec::find_statement(word)) {
-    const auto text = find_markdown(statements_section(), word, language_id);
-    const auto errors = print_errors(errors_of(spec::info(*statement)));
-    return errors.empty() ? *text : *text + "\n" + errors;
+  if (const auto statement = spec::find_statement(word))
+    return markdown_with_errors(statements_section(), word, errors_of(spec::info(*statement)));
+  if (const auto function = spec::find_function(word)) {
+    std::vector<spec::BasicError> errors;
+    if (function != spec::Function::Abs)
+      errors.push_back(spec::BasicError::BadNumericParameter);
+    return markdown_with_errors(functions_section(), word, errors);
   }
-  if (const auto function = spec::find_function(word))
-    return *find_markdown(functions_section(), word, language_id) +
-           (function == spec::Function::Abs
-                ? ""
-                : "\n" + print_errors({spec::BasicError::BadNumericParameter}));
   if (spec::find_variable(word))
     return find_markdown(variables_section(), word, language_id);
   return std::nullopt;

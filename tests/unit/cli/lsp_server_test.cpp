@@ -133,10 +133,10 @@ TEST(LspChanges, ColumnsCountWhatWasNegotiated) {
 }
 
 RC_GTEST_PROP(LspChanges, ManySmallChangesAreAsGoodAsOneWhole, ()) {
-  const std::vector<std::string> pieces = {
-      "10 ",  "rgb",    "\n", "\r\n", "20 end\n",    "\"\xC3\xA9\"",
-      "goto", " 10 ",   "'x", "\t",   "print ",      "\xF0\x9F\x98\x80",
-      "\r",   "30 RGB", ",1", "",     "if A=1 then "};
+  const std::vector<std::string> pieces = {"10 ",      "rgb",          "\n",     "\r\n",
+                                           "20 end\n", "\"\xC3\xA9\"", "goto",   " 10 ",
+                                           "'x",       "\t",           "print ", "\xF0\x9F\x98\x80",
+                                           "30 RGB",   ",1",           "",       "if A=1 then "};
   const auto encoding = *rc::gen::element<std::string>("utf-8", "utf-16", "utf-32");
   LspClient client(encoding);
   LspClient whole("utf-32");
