@@ -280,6 +280,12 @@ function draw_progress(state) {
   }
 }
 
+/** Following moves the map only when the ball comes near its edge. */
+function leaves_view(state) {
+  const x = px(state.x) / pixels.width, y = py(state.y) / pixels.height;
+  return x < .2 || x > .8 || y < .2 || y > .8;
+}
+
 function zoom_by(factor) {
   view.zoom = clamp(view.zoom * factor, .2, 60);
   redraw();
@@ -475,7 +481,7 @@ function add_lane({ id, name, unit, series, cyclic, low, high, held }) {
   const outputs = series.map((one, i) => {
     const line = element("span");
     line.append(element("i", { class: `s${i}` }, series.length > 1 ? one.name : "now"));
-    const output = element("output", { "data-series": one.name });
+    const output = element("output", { "data-series": one.name, "aria-live": "off" });
     line.append(output);
     words.append(line);
     return output;
@@ -600,7 +606,7 @@ function draw_colors(art) {
 function show() {
   const state = state_at(now);
   const lamp = lamp_at(now), lamp_color = lamp ? css_color(lamp) : "transparent";
-  if (view.follow) draw_map();
+  if (view.follow && leaves_view(state)) draw_map();
   draw_progress(state);
   layers.ball.setAttribute("transform", `translate(${px(state.x).toFixed(2)} ${py(state.y).toFixed(2)})`);
   layers.nose.setAttribute("transform", `rotate(${state.heading.toFixed(1)})`);
