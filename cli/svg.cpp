@@ -59,6 +59,14 @@ vm::Color color_at(const Journey& journey, Duration t) {
   return after == entries.begin() ? vm::Color{} : std::prev(after)->value;
 }
 
+/// What the ball showed last; a program's end puts its colour out.
+vm::Color last_lit(const Journey& journey) {
+  const auto& entries = journey.led().entries();
+  const auto found = std::find_if(entries.rbegin(), entries.rend(),
+                                  [](const auto& entry) { return lit(entry.value); });
+  return found == entries.rend() ? vm::Color{} : found->value;
+}
+
 struct Extent {
   double left = 0;
   double right = 0;
@@ -149,19 +157,21 @@ std::string walls(const Journey& journey, const Frame& frame) {
 std::string path(const Journey& journey, const Frame& frame) {
   const auto& poses = journey.poses().entries();
   std::string outline;
-  std::string out;
+  std::string unlit;
+  std::string out; // lit stretches lie above unlit ones
   std::string open;
   vm::Color color;
   std::string here;
   const auto close = [&] {
     if (open.empty())
       return;
-    outline += open;
-    if (lit(color))
+    if (lit(color)) {
+      outline += open;
       out +=
           fmt::format("<path class=\"path\" stroke=\"{}\" d=\"{}\"/>\n", color_name(color), open);
-    else
-      out += fmt::format("<path class=\"path unlit\" d=\"{}\"/>\n", open);
+    } else {
+      unlit += fmt::format("<path class=\"path unlit\" d=\"{}\"/>\n", open);
+    }
     open.clear();
   };
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -178,9 +188,9 @@ std::string path(const Journey& journey, const Frame& frame) {
     here = next;
   }
   close();
-  if (outline.empty())
-    return "";
-  return fmt::format("<path class=\"outline\" d=\"{}\"/>\n{}", outline, out);
+  if (!outline.empty())
+    unlit += fmt::format("<path class=\"outline\" d=\"{}\"/>\n", outline);
+  return unlit + out;
 }
 
 std::string marks(const Journey& journey, const Frame& frame) {
@@ -265,8 +275,7 @@ text{fill:#e4ecf1}.wall{stroke:#91a2af}.outline{stroke:#000}.unlit{stroke:#586a7
 std::string picture(const Journey& journey, double* height) {
   const auto box = extent(journey);
   const auto& poses = journey.poses().entries();
-  const auto& led = journey.led().entries();
-  const auto last = led.empty() ? vm::Color{} : led.back().value;
+  const auto last = last_lit(journey);
   if (!moved(box)) {
     *height = 240;
     const Point center{card_width / 2, *height / 2};

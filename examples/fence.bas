@@ -3,7 +3,7 @@
 10 locate 0,0
 20 D = sqrt (xpos * xpos + ypos * ypos)
 30 if D > 50 then goto 100
-40 H = (H + rnd 90 + 315) % 360
+40 H = (H + 315 + rnd 90) % 360
 50 RGB 0,255 - D * 4,D * 4
 60 goroll H,80,1
 70 delay 250

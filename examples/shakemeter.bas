@@ -1,7 +1,7 @@
 ' Shake thermometer: the harder it is shaken the warmer it gets; it cools down slowly.
 '   orb run examples/shakemeter.bas --stimulus examples/shakemeter.stimulus --for 10s
 10 W = 0
-20 M = abs (accelone - 1000) / 12
+20 M = abs ((accelone - 1000) / 12)
 30 if M > W then W = M
 40 if W > 255 then W = 255
 50 RGB W,0,255 - W

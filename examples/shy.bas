@@ -4,7 +4,7 @@
 20 X = xpos
 30 Y = ypos
 40 delay 100
-50 if abs (xpos - X) + abs (ypos - Y) < 3 then goto 20
+50 if abs (xpos - X) < 2 and abs (ypos - Y) < 2 then goto 20
 ' pushed: flee the way the push went
 60 RGB 255,40,140
 70 if abs (xpos - X) > abs (ypos - Y) then gosub 200 else gosub 300

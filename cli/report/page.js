@@ -245,6 +245,8 @@ function draw_map() {
   const ahead = shape("g", { class: "ahead" }, map);
   const halos = shape("g", { class: "halo" }, map);
   const casings = shape("g", {}, map);
+  const dark = shape("g", {}, map); // unlit stretches lie below lit ones
+  map.insertBefore(dark, casings);
   const done = shape("g", {}, map);
   const paint = stretch => stretch.color ? { stroke: css_color(stretch.color) } : {};
   for (const stretch of stretches) {
@@ -253,8 +255,8 @@ function draw_map() {
     shape("path", { ...look, "stroke-width": 3 }, ahead);
     stretch.layers = [
       shape("path", { ...look, "stroke-width": 13 }, halos),
-      shape("path", { class: "run casing", d: look.d, "stroke-width": 5.5 }, casings),
-      shape("path", { ...look, "stroke-width": stretch.color ? 3.5 : 2.5 }, done),
+      ...stretch.color ? [shape("path", { class: "run casing", d: look.d, "stroke-width": 5.5 }, casings)] : [],
+      shape("path", { ...look, "stroke-width": stretch.color ? 3.5 : 2.5 }, stretch.color ? done : dark),
     ];
     for (const layer of stretch.layers) layer.setAttribute("visibility", "hidden");
     stretch.state = "ahead";
