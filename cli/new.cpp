@@ -20,7 +20,7 @@ struct Starter {
 
 // A project that checks without a finding and runs at once. `%` stands for its name.
 constexpr auto starters = std::to_array<Starter>({
-    {"program.bas", R"(' %: drives a square in four colours, then waits to be shaken.
+    {"%.bas", R"(' %: drives a square in four colours, then waits to be shaken.
 10 locate 0,0
 20 for S = 0 to 3
 30 LEDC S + 1
@@ -60,10 +60,10 @@ target = "1.6"
 )"},
     {"README.md", R"(# %
 
-    orb check program.bas wink.macro
-    orb run program.bas --stimulus world.stimulus --report report.html
+    orb check %.bas wink.macro
+    orb run %.bas --stimulus world.stimulus --report report.html
     orb run wink.macro
-    orb upload program.bas --port rfcomm://68:86:E7:00:11:22 --run
+    orb upload %.bas --port rfcomm://68:86:E7:00:11:22 --run
 )"},
 });
 
@@ -96,7 +96,7 @@ void make(Context& context, const std::string& folder) {
   if (name.empty())
     name = fs::absolute(path, error).lexically_normal().parent_path().filename().string();
   for (const auto& starter : starters) {
-    const auto file = (path / starter.name).lexically_normal().string();
+    const auto file = (path / filled(starter.name, name)).lexically_normal().string();
     const auto text = filled(starter.text, name);
     if (const auto written = write_file(file, as_bytes(text)); !written) {
       print_error(context, written.error().message);
@@ -106,9 +106,9 @@ void make(Context& context, const std::string& folder) {
     print_out(fmt::format("{}\n", file));
   }
   const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", folder);
-  print_note(context, fmt::format("now try:\n{}  orb run program.bas --stimulus world.stimulus "
+  print_note(context, fmt::format("now try:\n{}  orb run {}.bas --stimulus world.stimulus "
                                   "--report report.html",
-                                  step));
+                                  step, name));
 }
 
 } // namespace
