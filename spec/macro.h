@@ -291,6 +291,31 @@ inline constexpr auto row_of_code = [] {
   return rows;
 }();
 
+inline constexpr std::size_t slots = 256;
+
+/// Where the search for a mnemonic begins; it goes on upwards to the first empty slot.
+constexpr std::size_t slot_of(std::string_view mnemonic) {
+  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(mnemonic[i]); };
+  return (at(0) * 7U + at(mnemonic.size() / 2) * 31U + at(mnemonic.size() - 1) * 3U +
+          mnemonic.size()) %
+         slots;
+}
+
+/// Mnemonic to row, for the parser's inner loop.
+inline constexpr auto row_of_mnemonic = [] {
+  std::array<std::uint8_t, slots> rows{};
+  for (auto& row : rows)
+    row = no_row;
+  std::uint8_t next = 0;
+  for (const auto& info : macro_commands) {
+    auto slot = slot_of(info.mnemonic);
+    while (rows[slot % slots] != no_row)
+      ++slot;
+    rows[slot % slots] = next++;
+  }
+  return rows;
+}();
+
 constexpr bool codes_ascend() {
   for (std::size_t i = 1; i < std::size(macro_commands); ++i)
     if (macro_commands[i - 1].code >= macro_commands[i].code)
@@ -364,10 +389,15 @@ constexpr const MacroCommandInfo* find_macro_command(std::uint8_t code) {
 
 /// The row of a mnemonic; null where there is none. Case counts.
 constexpr const MacroCommandInfo* find_macro_command(std::string_view mnemonic) {
-  for (const auto& info : macro_commands)
-    if (info.mnemonic == mnemonic)
-      return &info;
-  return nullptr;
+  if (mnemonic.empty())
+    return nullptr;
+  for (auto slot = macro_detail::slot_of(mnemonic);; ++slot) {
+    const auto row = macro_detail::row_of_mnemonic[slot % macro_detail::slots];
+    if (row == macro_detail::no_row)
+      return nullptr;
+    if (macro_commands[row].mnemonic == mnemonic)
+      return &macro_commands[row];
+  }
 }
 
 /// The row of a flag's word; null where there is none.

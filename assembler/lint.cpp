@@ -1,0 +1,446 @@
+#include "assembler/lint.h"
+
+#include "assembler/rules.h"
+#include "assembler/timing.h"
+#include "assembler/walk.h"
+
+#include <algorithm>
+#include <bitset>
+#include <fmt/format.h>
+#include <set>
+
+namespace orb::assembler {
+namespace {
+
+using spec::MacroBackground;
+using spec::MacroCommand;
+using spec::MacroFlag;
+using spec::MacroIdKind;
+using Origin = PlacedCommand::Origin;
+using Ids = std::bitset<256>;
+
+bool is(const PlacedCommand& command, MacroCommand kind) {
+  return command.info != nullptr && command.origin != Origin::Broken &&
+         command.info->command == kind;
+}
+
+bool rolls(MacroCommand kind) {
+  return kind == MacroCommand::Roll || kind == MacroCommand::Roll2 ||
+         kind == MacroCommand::RollSd1 || kind == MacroCommand::RollSpd1Sd1 ||
+         kind == MacroCommand::RollSpd2Sd1;
+}
+
+bool leads_elsewhere(MacroCommand kind) {
+  return kind == MacroCommand::Goto || kind == MacroCommand::Gosub ||
+         kind == MacroCommand::OnCollision;
+}
+
+Ids ids_of(const Assembly& assembly) {
+  Ids ids;
+  for (const auto& macro : assembly.macros)
+    if (macro.id)
+      ids.set(*macro.id);
+  return ids;
+}
+
+class Linter {
+public:
+  Linter(const Assembly& assembly, const LintOptions& options, const Ids& known)
+      : assembly_(assembly), options_(options), known_(known) {}
+
+  std::vector<Diagnostic> run() {
+    for (const auto& macro : assembly_.macros) {
+      check_size(macro);
+      check_flags(macro);
+      check_commands(macro);
+      check_loops(macro);
+    }
+    check_gosub_depth();
+    follow();
+    return std::move(diagnostics_);
+  }
+
+private:
+  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+    diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
+    return diagnostics_.back();
+  }
+
+  /// False where the rule was reported there already: loops and callers come by more than once.
+  bool first_time(const Rule& rule, Span span) {
+    return reported_.insert({rule.id, span.begin}).second;
+  }
+
+  static MacroIdKind kind_of(const AssembledMacro& macro) {
+    return spec::macro_id_kind(macro.id.value_or(spec::macro_id_temporary));
+  }
+
+  void check_size(const AssembledMacro& macro) {
+    const auto size = macro.framed_size();
+    if (size <= spec::macro_max_packet)
+      return;
+    switch (kind_of(macro)) {
+    case MacroIdKind::Stream: return;
+    case MacroIdKind::None:
+    case MacroIdKind::System:
+    case MacroIdKind::User:
+      report(rules::TooLarge, macro.span,
+             fmt::format("the macro has {} bytes; a user macro has at most {}, with id, flags and "
+                         "end",
+                         size, spec::macro_max_packet),
+             "split it and chain the parts by `goto`");
+      return;
+    case MacroIdKind::Temporary:
+      if (size <= spec::macro_buffer_size)
+        report(rules::NeedsChunks, macro.span,
+               fmt::format("the macro has {} bytes and goes in chunks", size));
+      else if (macro.id)
+        report(rules::TooLarge, macro.span,
+               fmt::format("the macro has {} bytes; the temporary macro has at most {}", size,
+                           spec::macro_buffer_size),
+               fmt::format("stream it: `id={}`", spec::macro_id_stream));
+      else
+        report(rules::NeedsStream, macro.span,
+               fmt::format("the macro has {} bytes; the ball's buffer has {}", size,
+                           spec::macro_buffer_size),
+               fmt::format("stream it: `id={}`", spec::macro_id_stream));
+    }
+  }
+
+  void check_flags(const AssembledMacro& macro) {
+    if (macro.flags && spec::has_flag(*macro.flags, MacroFlag::Unkillable) &&
+        kind_of(macro) != MacroIdKind::System)
+      report(rules::Unkillable, macro.flags_span,
+             fmt::format("the ball ignores `{}` here", spec::info(MacroFlag::Unkillable).word),
+             "remove the flag");
+  }
+
+  void check_commands(const AssembledMacro& macro) {
+    const bool stream = kind_of(macro) == MacroIdKind::Stream;
+    const PlacedCommand* leaves = nullptr;
+    for (const auto& command : macro.commands) {
+      if (command.info == nullptr || command.origin == Origin::Supplied)
+        continue;
+      const auto kind = command.info->command;
+      const auto word = command.info->mnemonic;
+      if (command.info->executive > options_.executive)
+        report(rules::Executive, command.span,
+               fmt::format("`{}` needs macro executive {}, the target has {}", word,
+                           command.info->executive, options_.executive));
+      if (command.info->place == spec::MacroPlace::OnlyInStream && !stream) {
+        auto& diagnostic =
+            report(rules::StreamOnly, command.span,
+                   fmt::format("`{}` aborts a macro that is no stream", word),
+                   fmt::format("write `end`, or give the macro `id={}`", spec::macro_id_stream));
+        if (!macro.id)
+          diagnostic.severity = Severity::Warning; // it may be sent as a stream yet
+      }
+      if (command.info->place == spec::MacroPlace::NeverInStream && stream)
+        report(rules::NeverInStream, command.span,
+               fmt::format("the stream macro ignores `{}`", word),
+               kind == MacroCommand::End ? "`stream_end` ends it" : "");
+      if (leaves != nullptr && kind != MacroCommand::End && kind != MacroCommand::Comment) {
+        report(rules::Unreachable, command.span,
+               fmt::format("`{}` is never reached: nothing comes back from `{}`", word,
+                           leaves->info->mnemonic))
+            .notes.push_back({leaves->span, "the macro is left here"});
+        leaves = nullptr;
+      }
+      if (kind == MacroCommand::Goto || kind == MacroCommand::Sleep ||
+          (stream && kind == MacroCommand::StreamEnd))
+        leaves = &command;
+      if (command.origin == Origin::Written)
+        check_values(command);
+    }
+    if (!macro.has_end && !stream)
+      report(rules::MissingEnd, macro.commands.empty() ? macro.span : macro.commands.back().span,
+             "the macro has no end", "remove `.noend`");
+  }
+
+  void check_values(const PlacedCommand& command) {
+    const auto kind = command.info->command;
+    if (leads_elsewhere(kind))
+      check_target(command);
+    if (kind == MacroCommand::Marker && command.value[0] == spec::macro_end_marker)
+      report(rules::MarkerZero, command.operand, "marker 0 is what the end of a macro emits",
+             fmt::format("use one from {}", spec::macro_reserved_markers + 1));
+    if (kind == MacroCommand::Marker && command.value[0] > 0 &&
+        command.value[0] <= spec::macro_reserved_markers)
+      report(
+          rules::MarkerReserved, command.operand,
+          fmt::format("markers 1 to {} pace the vendor's streams", spec::macro_reserved_markers));
+    if (kind == MacroCommand::LoopStart && command.value[0] == 0)
+      report(rules::LoopZero, command.operand, "a loop of 0 runs once", "write 1, or remove it");
+  }
+
+  void check_target(const PlacedCommand& command) {
+    const auto id = static_cast<std::uint8_t>(command.value[0]);
+    const auto word = command.info->mnemonic;
+    switch (spec::macro_id_kind(id)) {
+    case MacroIdKind::Stream:
+      report(rules::StreamTarget, command.operand,
+             fmt::format("`{}` cannot lead to the stream macro, {}", word, id),
+             fmt::format("{} to {} are user macros, {} is the temporary one",
+                         spec::macro_id_user_first, spec::macro_id_user_last,
+                         spec::macro_id_temporary));
+      return;
+    case MacroIdKind::None:
+      if (command.info->command != MacroCommand::OnCollision)
+        report(rules::UnknownTarget, command.operand, "0 is the id of no macro");
+      return;
+    case MacroIdKind::User:
+      if (!known_[id])
+        report(rules::UnknownTarget, command.operand,
+               fmt::format("no macro here has the id {}", id),
+               fmt::format("check it together with the file that defines `id={}`", id));
+      return;
+    case MacroIdKind::System:
+    case MacroIdKind::Temporary: return;
+    }
+  }
+
+  void check_loops(const AssembledMacro& macro) {
+    const PlacedCommand* open = nullptr;
+    int replaced = 0;
+    for (const auto& command : macro.commands) {
+      if (is(command, MacroCommand::LoopStart) || is(command, MacroCommand::LoopStartSystem)) {
+        if (open != nullptr) {
+          report(rules::NestedLoop, command.span, "this loop replaces the one before it",
+                 "loops do not nest; multiply the counts, or repeat the commands")
+              .notes.push_back({open->span, "which begins here"});
+          ++replaced;
+        }
+        open = &command;
+      } else if (is(command, MacroCommand::LoopEnd)) {
+        if (open == nullptr && replaced > 0)
+          --replaced; // explained by the nesting
+        else if (open == nullptr)
+          report(rules::LoopEnd, command.span, "there is no loop to end here",
+                 "remove it, or write `loop_start` above");
+        open = nullptr;
+      }
+    }
+    if (open != nullptr)
+      report(rules::LoopOpen, open->span, "this loop has no end", "write `loop_end` below");
+  }
+
+  void check_gosub_depth() {
+    struct Call {
+      const AssembledMacro* from;
+      const PlacedCommand* command;
+    };
+    std::vector<Call> calls;
+    for (const auto& macro : assembly_.macros)
+      for (const auto& command : macro.commands)
+        if (is(command, MacroCommand::Gosub))
+          calls.push_back({&macro, &command});
+    for (const auto& inner : calls)
+      for (const auto& outer : calls)
+        if (outer.from != inner.from &&
+            inner.from->id.value_or(spec::macro_id_temporary) == outer.command->value[0]) {
+          report(rules::GosubDepth, inner.command->span,
+                 "this gosub is ignored when the macro is itself called",
+                 "calls are one deep; let the caller call both")
+              .notes.push_back({outer.command->span, "it is called here"});
+          break;
+        }
+  }
+
+  // What happens in time.
+
+  struct Background {
+    const PlacedCommand* command = nullptr; ///< null: none runs
+    std::int64_t begin_ms = 0;
+    std::int64_t end_ms = 0;
+  };
+
+  void cut(const Background& background, std::int64_t now_ms, Span by, std::string_view what) {
+    if (background.command == nullptr || now_ms >= background.end_ms ||
+        !first_time(rules::CutShort, background.command->span))
+      return;
+    auto& diagnostic = report(
+        rules::CutShort, background.command->span,
+        fmt::format("this {} takes {} and has {}",
+                    background.command->info->background == MacroBackground::Fade ? "fade"
+                                                                                  : "rotation",
+                    print_time(background.end_ms - background.begin_ms),
+                    print_time(now_ms - background.begin_ms)),
+        fmt::format("add `delay {}` behind it", background.end_ms - now_ms));
+    if (by.size() > 0)
+      diagnostic.notes.push_back({by, fmt::format("{} here", what)});
+  }
+
+  void follow() {
+    std::vector<bool> led_to(assembly_.macros.size());
+    for (const auto& macro : assembly_.macros)
+      for (const auto& command : macro.commands)
+        if (is(command, MacroCommand::Goto) || is(command, MacroCommand::Gosub))
+          for (std::size_t i = 0; i < assembly_.macros.size(); ++i)
+            if (&assembly_.macros[i] != &macro && assembly_.macros[i].id == command.value[0])
+              led_to[i] = true;
+    std::vector<bool> seen(assembly_.macros.size());
+    for (std::size_t i = 0; i < assembly_.macros.size(); ++i)
+      if (!led_to[i])
+        follow(i, seen);
+    for (std::size_t i = 0; i < assembly_.macros.size(); ++i)
+      if (!seen[i])
+        follow(i, seen);
+  }
+
+  void follow(std::size_t start, std::vector<bool>& seen) {
+    seen[start] = true;
+    Background fade;
+    Background rotation;
+    const PlacedCommand* unstabilized = nullptr;
+    const auto result = walk(assembly_, start, [&](const Visit& visit) {
+      seen[visit.macro] = true;
+      const auto& command = assembly_.macros[visit.macro].commands[visit.command];
+      if (command.info == nullptr || command.origin == Origin::Broken)
+        return;
+      const auto kind = command.info->command;
+      const auto now = visit.latest_ms;
+      if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
+          first_time(rules::RollDuringRotation, command.span))
+        report(rules::RollDuringRotation, command.span,
+               "this roll is ignored: a rotation still runs",
+               fmt::format("add `delay {}` before it", rotation.end_ms - now))
+            .notes.push_back({rotation.command->span, "the rotation begins here"});
+      if ((rolls(kind) || kind == MacroCommand::SetSpeed) && unstabilized != nullptr &&
+          first_time(rules::RollUnstabilized, command.span))
+        report(rules::RollUnstabilized, command.span,
+               fmt::format("`{}` does nothing while stabilization is off", command.info->mnemonic),
+               "write `stabilization on` before it")
+            .notes.push_back({unstabilized->span, "switched off here"});
+      if (kind == MacroCommand::Stabilization)
+        unstabilized = command.value[0] == 0 ? &command : nullptr;
+      if (kind == MacroCommand::RawMotors) {
+        constexpr auto ignore = std::size(spec::macro_detail::motor_words) - 1;
+        if (static_cast<std::size_t>(command.value[0]) != ignore ||
+            static_cast<std::size_t>(command.value[2]) != ignore)
+          unstabilized = &command;
+      }
+      if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
+        cut(fade, now, command.span, "another colour is set");
+        fade = {};
+      }
+      if (command.info->background == MacroBackground::Fade) {
+        cut(fade, now, command.span, "the next one begins");
+        fade = {&command, now, now + command.value[3]};
+      }
+      if (command.info->background == MacroBackground::Rotate) {
+        cut(rotation, now, command.span, "the next one begins");
+        const auto time = kind == MacroCommand::Rotate      ? command.value[1]
+                          : kind == MacroCommand::RotateSd1 ? visit.sd1_ms
+                                                            : visit.sd2_ms;
+        rotation = {&command, now, now + time};
+      }
+      if (kind == MacroCommand::Gosub && !defines(command.value[0])) {
+        fade = rotation = {}; // who knows what happens there
+        unstabilized = nullptr;
+      }
+    });
+    if (result.end != WalkEnd::Ended && result.end != WalkEnd::Sleeps)
+      return;
+    cut(fade, result.latest_ms, {}, {});
+    cut(rotation, result.latest_ms, {}, {});
+  }
+
+  bool defines(std::int32_t id) const {
+    return std::any_of(assembly_.macros.begin(), assembly_.macros.end(),
+                       [&](const AssembledMacro& macro) {
+                         return macro.id.value_or(spec::macro_id_temporary) == id;
+                       });
+  }
+
+  const Assembly& assembly_;
+  const LintOptions& options_;
+  const Ids& known_;
+  std::vector<Diagnostic> diagnostics_;
+  std::set<std::pair<std::string_view, std::uint32_t>> reported_;
+};
+
+/// What the files of one ball share: ids, heap and index.
+void check_shared(std::span<const Assembly> assemblies, std::span<const Source* const> sources,
+                  std::vector<FileFindings>& files) {
+  struct Owner {
+    std::size_t file = 0;
+    const AssembledMacro* macro = nullptr;
+  };
+  std::array<Owner, 256> owners{};
+  std::size_t heap = 0;
+  std::size_t entries = 0;
+  bool full = false;
+  for (std::size_t i = 0; i < assemblies.size(); ++i)
+    for (const auto& macro : assemblies[i].macros) {
+      if (!macro.id || spec::macro_id_kind(*macro.id) != MacroIdKind::User)
+        continue;
+      auto& owner = owners[*macro.id];
+      if (owner.macro != nullptr && owner.file != i)
+        files[i].diagnostics.push_back(
+            finding(rules::DuplicateId, macro.span,
+                    fmt::format("`{}` and `{}` of {} have the same id {}", macro.name,
+                                owner.macro->name, sources[owner.file]->name(), *macro.id)));
+      if (owner.macro == nullptr)
+        owner = {i, &macro};
+      heap += macro.framed_size();
+      ++entries;
+      if (full || (heap <= spec::macro_heap_size && entries <= spec::macro_heap_entries))
+        continue;
+      full = true;
+      files[i].diagnostics.push_back(
+          finding(rules::HeapFull, macro.span,
+                  entries > spec::macro_heap_entries
+                      ? fmt::format("this is user macro {}; the ball's index has {} entries",
+                                    entries, spec::macro_heap_entries)
+                      : fmt::format("with this one the user macros have {} bytes; the ball's heap "
+                                    "has {}",
+                                    heap, spec::macro_heap_size),
+                  "run some of them as temporary macros"));
+    }
+}
+
+} // namespace
+
+std::vector<Diagnostic> lint(const Assembly& assembly, const LintOptions& options) {
+  return Linter(assembly, options, ids_of(assembly)).run();
+}
+
+std::vector<FileFindings> check(std::span<const Source* const> sources,
+                                const LintOptions& options) {
+  std::vector<Assembly> assemblies;
+  Ids known;
+  for (const auto* source : sources) {
+    assemblies.push_back(assemble(*source));
+    known |= ids_of(assemblies.back());
+  }
+  std::vector<FileFindings> files;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    auto& file = files.emplace_back();
+    file.source = sources[i];
+    file.diagnostics = assemblies[i].diagnostics;
+    auto found = Linter(assemblies[i], options, known).run();
+    file.diagnostics.insert(file.diagnostics.end(), std::make_move_iterator(found.begin()),
+                            std::make_move_iterator(found.end()));
+    if (assemblies[i].has_errors())
+      continue;
+    std::size_t size = 0;
+    for (const auto& macro : assemblies[i].macros)
+      size += macro.framed_size();
+    file.built_size = size;
+  }
+  check_shared(assemblies, sources, files);
+  for (auto& file : files)
+    sort_by_place(file.diagnostics);
+  return files;
+}
+
+std::vector<Diagnostic> check(const Source& source, const LintOptions& options) {
+  const Source* const sources[] = {&source};
+  return std::move(check(sources, options).front().diagnostics);
+}
+
+bool cannot_be_sent(const Diagnostic& diagnostic) {
+  return diagnostic.rule == &rules::TooLarge || diagnostic.rule == &rules::StreamTarget;
+}
+
+} // namespace orb::assembler

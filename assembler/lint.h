@@ -1,0 +1,31 @@
+#pragma once
+
+#include "assembler/assemble.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace orb::assembler {
+
+struct LintOptions {
+  std::uint8_t executive = spec::macro_executive_newest; ///< version of the ball's macro executive
+};
+
+/// What the linter has to say about an assembled file by itself, the assembler's own findings not
+/// included. Targets of goto that the file does not define count as unknown.
+std::vector<Diagnostic> lint(const Assembly& assembly, const LintOptions& options = {});
+
+/// All findings about one file of macro source, the assembler's and the linter's, by place.
+std::vector<Diagnostic> check(const Source& source, const LintOptions& options = {});
+
+/// The same for files that go to one ball together: they may lead to each other's macros, and they
+/// share ids, heap and index. A result per source, in order, with the size of the framed macros.
+std::vector<FileFindings> check(std::span<const Source* const> sources,
+                                const LintOptions& options = {});
+
+/// Whether a finding of the linter keeps the bytes from being of any use: `orb asm` then writes
+/// none. Whatever else a macro does wrong, its bytes can be sent.
+bool cannot_be_sent(const Diagnostic& diagnostic);
+
+} // namespace orb::assembler

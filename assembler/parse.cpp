@@ -1,0 +1,291 @@
+#include "assembler/parse.h"
+
+#include "assembler/grammar.h"
+#include "assembler/rules.h"
+#include "base/suggest.h"
+
+#include <array>
+#include <cstring>
+#include <fmt/format.h>
+#include <optional>
+
+namespace orb::assembler {
+namespace {
+
+namespace g = grammar;
+
+constexpr std::size_t most_diagnostics = 1000;
+/// Beyond every operand, and far from where 64 bits end.
+constexpr std::int64_t largest_number = 1'000'000'000;
+
+struct Directive {
+  std::string_view word;
+  Statement::Kind kind;
+};
+constexpr Directive directives[] = {{".macro", Statement::Kind::Macro},
+                                    {".const", Statement::Kind::Const},
+                                    {".raw", Statement::Kind::Raw},
+                                    {".noend", Statement::Kind::NoEnd}};
+
+/// Why a line does not parse: thrown by the grammar's must<>, caught where the line ends.
+struct Stop {
+  enum class Expected : std::uint8_t { Value, ClosingQuote, Operand, NothingMore };
+  Expected expected;
+  const char* at;
+};
+
+/// Collects the line at hand and commits it when it is whole.
+struct Builder {
+  Program& program;
+  const char* text;
+  Statement statement;
+  bool named = false;
+
+  std::uint32_t offset(const char* at) const { return static_cast<std::uint32_t>(at - text); }
+  Span span(const char* begin, const char* end) const { return {offset(begin), offset(end)}; }
+
+  void head(const char* begin, const char* end) {
+    statement = {};
+    statement.head = statement.span = span(begin, end);
+    statement.first = static_cast<std::uint32_t>(program.values.size());
+    named = false;
+  }
+
+  Value& add(Value::Kind kind, const char* begin, const char* end) {
+    if (!named)
+      program.values.emplace_back();
+    named = false;
+    auto& value = program.values.back();
+    value.kind = kind;
+    value.span = span(begin, end);
+    statement.span.end = value.span.end;
+    return value;
+  }
+
+  void equals() {
+    // What stands before the `=` was taken for a word; it is the name of what follows.
+    auto& value = program.values.back();
+    value.name = value.span;
+    named = true;
+  }
+};
+
+std::int64_t read_digits(const char*& at, const char* end, std::int64_t base) {
+  std::int64_t number = 0;
+  for (; at != end; ++at) {
+    const char c = *at;
+    const int digit = c >= '0' && c <= '9'   ? c - '0'
+                      : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                      : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                             : 16;
+    if (digit >= base)
+      break;
+    number = std::min(number * base + digit, largest_number);
+  }
+  return number;
+}
+
+Unit read_unit(std::string_view word) {
+  if (word.empty())
+    return Unit::None;
+  if (word == "ms")
+    return Unit::Milliseconds;
+  if (word == "s")
+    return Unit::Seconds;
+  if (word == "deg")
+    return Unit::Degrees;
+  return Unit::Unknown;
+}
+
+void read_number(Value& value, const char* at, const char* end) {
+  const bool negative = *at == '-';
+  if (negative || *at == '+')
+    ++at;
+  if (end - at > 2 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X')) {
+    at += 2;
+    value.thousandths = read_digits(at, end, 16) * 1000;
+  } else {
+    value.thousandths = read_digits(at, end, 10) * 1000;
+    if (at != end && *at == '.') {
+      ++at;
+      for (std::int64_t worth = 100; at != end && *at >= '0' && *at <= '9'; ++at, worth /= 10) {
+        value.thousandths += worth * (*at - '0');
+        if (worth == 0 && *at != '0')
+          value.unit = Unit::Unknown; // finer than a thousandth
+      }
+    }
+  }
+  if (negative)
+    value.thousandths = -value.thousandths;
+  if (value.unit == Unit::None)
+    value.unit = read_unit({at, static_cast<std::size_t>(end - at)});
+}
+
+template <typename Rule>
+struct Action : tao::pegtl::nothing<Rule> {};
+
+#define ORB_ACTION(rule, body)                                                                     \
+  template <>                                                                                      \
+  struct Action<g::rule> {                                                                         \
+    template <typename Input>                                                                      \
+    static void apply([[maybe_unused]] const Input& in, Builder& builder) {                        \
+      body;                                                                                        \
+    }                                                                                              \
+  };
+
+ORB_ACTION(mnemonic, builder.head(in.begin(), in.end());
+           builder.statement.info = spec::find_macro_command(in.string_view()))
+ORB_ACTION(directive, builder.head(in.begin(), in.end());
+           builder.statement.kind = Statement::Kind::NoEnd)
+ORB_ACTION(word, builder.add(Value::Kind::Word, in.begin(), in.end()))
+ORB_ACTION(equals, builder.equals())
+ORB_ACTION(number, read_number(builder.add(Value::Kind::Number, in.begin(), in.end()), in.begin(),
+                               in.end()))
+ORB_ACTION(text, builder.add(Value::Kind::Text, in.begin(), in.end()))
+
+#undef ORB_ACTION
+
+template <typename Rule>
+constexpr Stop::Expected expected = Stop::Expected::NothingMore;
+template <>
+constexpr Stop::Expected expected<g::assigned> = Stop::Expected::Value;
+template <>
+constexpr Stop::Expected expected<g::closing_quote> = Stop::Expected::ClosingQuote;
+template <>
+constexpr Stop::Expected expected<g::next_operand> = Stop::Expected::Operand;
+
+template <typename Rule>
+struct Control : tao::pegtl::normal<Rule> {
+  template <typename Input>
+  [[noreturn]] static void raise(const Input& in, Builder& /*builder*/) {
+    throw Stop{expected<Rule>, in.current()};
+  }
+};
+
+/// `text` as it can stand in a message.
+std::string seen(const char* at, const char* end) {
+  if (at == end)
+    return "the end of the line";
+  if (*at < ' ' || *at > '~')
+    return fmt::format("the byte {:02X}h", static_cast<unsigned char>(*at));
+  return fmt::format("`{}`", *at);
+}
+
+Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
+  const auto at = builder.offset(stop.at);
+  const Span span{at, at + (stop.at == end ? 0U : 1U)};
+  const auto found = seen(stop.at, end);
+  switch (stop.expected) {
+  case Stop::Expected::Value:
+    return finding(rules::Syntax, span, fmt::format("expected a value behind `=`, found {}", found),
+                   "write a number or a name");
+  case Stop::Expected::ClosingQuote:
+    if (stop.at != end)
+      return finding(rules::Syntax, span, "this is no escape",
+                     "write one of `\\\"`, `\\\\`, `\\n`, `\\r`, `\\t`, `\\0`, `\\x41`");
+    return finding(rules::Syntax, span, "the text has no end", "add `\"`");
+  case Stop::Expected::Operand:
+    return finding(rules::Syntax, span,
+                   fmt::format("expected an operand behind the comma, found {}", found), {});
+  case Stop::Expected::NothingMore: break;
+  }
+  std::string help;
+  if (*stop.at == ';' || *stop.at == '\'' || *stop.at == '/' || *stop.at == '*')
+    help = "a remark begins with `#`";
+  else if (*stop.at == '=')
+    help = "write `name=value`";
+  else if (*stop.at == ':')
+    help = "there are no labels in a macro; `.macro NAME id=40` begins one that goto can reach";
+  else if (*stop.at == '\\')
+    help = "a text stands in quotes: `\"...\"`";
+  return finding(rules::Syntax, span, fmt::format("{} does not belong here", found), help);
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
+                         std::string otherwise) {
+  const auto meant = closest(word, candidates);
+  return meant ? fmt::format("did you mean `{}`?", *meant) : otherwise;
+}
+
+Diagnostic unknown_command(std::string_view word, Span span) {
+  std::array<std::string_view, std::size(spec::macro_commands)> names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = spec::macro_commands[i].mnemonic;
+  auto diagnostic =
+      finding(rules::UnknownCommand, span, fmt::format("`{}` is no macro command", word),
+              did_you_mean(word, names, "`orb spec` lists the commands"));
+  if (const auto meant = closest(word, names))
+    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+  return diagnostic;
+}
+
+Diagnostic unknown_directive(std::string_view word, Span span) {
+  std::array<std::string_view, std::size(directives)> names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = directives[i].word;
+  return finding(rules::UnknownDirective, span, fmt::format("`{}` is no directive", word),
+                 did_you_mean(word, names, "there are `.macro`, `.const`, `.raw` and `.noend`"));
+}
+
+/// Takes the line over, or says why not.
+std::optional<Diagnostic> commit(Builder& builder) {
+  auto& statement = builder.statement;
+  const std::string_view word{builder.text + statement.head.begin, statement.head.size()};
+  statement.count = static_cast<std::uint32_t>(builder.program.values.size()) - statement.first;
+  if (word[0] == '.') {
+    const auto* row = std::find_if(std::begin(directives), std::end(directives),
+                                   [&](const Directive& d) { return d.word == word; });
+    if (row == std::end(directives))
+      return unknown_directive(word, statement.head);
+    statement.kind = row->kind;
+  } else if (statement.info == nullptr) {
+    return unknown_command(word, statement.head);
+  }
+  builder.program.statements.push_back(statement);
+  return std::nullopt;
+}
+
+/// Parses the line at [begin, end). PEGTL reports failures by exception; it ends here.
+std::optional<Diagnostic> parse_line(Builder& builder, const char* begin, const char* end) {
+  const auto values = builder.program.values.size();
+  builder.statement.head = {};
+  std::optional<Diagnostic> problem;
+  try {
+    tao::pegtl::memory_input<tao::pegtl::tracking_mode::lazy> input(begin, end, "");
+    tao::pegtl::parse<g::line, Action, Control>(input, builder);
+    if (builder.statement.head.size() > 0)
+      problem = commit(builder);
+  } catch (const Stop& stop) {
+    problem = explain(builder, stop, end);
+  }
+  if (problem)
+    builder.program.values.resize(values);
+  return problem;
+}
+
+const char* line_end(const char* at, const char* end) {
+  while (at != end && *at != '\n' && *at != '\r')
+    ++at;
+  return at;
+}
+
+} // namespace
+
+Program parse(std::string_view text) {
+  Program program;
+  // A short command with its operands takes about this much source.
+  program.statements.reserve(text.size() / 16);
+  program.values.reserve(text.size() / 8);
+  Builder builder{program, text.data(), {}, false};
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data(); at != end;) {
+    const char* stop = line_end(at, end);
+    if (auto problem = parse_line(builder, at, stop);
+        problem && program.diagnostics.size() < most_diagnostics)
+      program.diagnostics.push_back(std::move(*problem));
+    at = stop == end ? end : stop + 1;
+  }
+  return program;
+}
+
+} // namespace orb::assembler

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "spec/macro.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace orb::assembler {
+
+/// What stands behind a number.
+enum class Unit : std::uint8_t { None, Milliseconds, Seconds, Degrees, Unknown };
+
+/// An operand as it is written.
+struct Value {
+  enum class Kind : std::uint8_t { Number, Word, Text };
+  Kind kind = Kind::Number;
+  Unit unit = Unit::None;
+  Span span;
+  Span name;                    ///< before the `=`; empty where the operand has none
+  std::int64_t thousandths = 0; ///< of a number: 1.5 is 1500; clamped to what no operand takes
+};
+
+/// A line that says something.
+struct Statement {
+  enum class Kind : std::uint8_t { Command, Macro, Const, Raw, NoEnd };
+  Kind kind = Kind::Command;
+  const spec::MacroCommandInfo* info = nullptr; ///< of a command
+  Span head;                                    ///< the mnemonic or directive
+  Span span;                                    ///< with its operands
+  std::uint32_t first = 0;                      ///< its values in Program::values
+  std::uint32_t count = 0;
+};
+
+/// A file of macro source, in flat arrays. Lines that do not parse are left out of it and explained
+/// in `diagnostics`, one finding a line.
+struct Program {
+  std::vector<Statement> statements;
+  std::vector<Value> values;
+  std::vector<Diagnostic> diagnostics;
+};
+
+} // namespace orb::assembler

@@ -1,0 +1,77 @@
+#include "assembler/timing.h"
+
+#include "assembler/walk.h"
+
+#include <fmt/format.h>
+
+namespace orb::assembler {
+namespace {
+
+TimingNote note_of(const WalkResult& result) {
+  switch (result.end) {
+  case WalkEnd::Endless: return TimingNote::Endless;
+  case WalkEnd::Leaves: return TimingNote::Leaves;
+  case WalkEnd::Sleeps: return TimingNote::Sleeps;
+  case WalkEnd::Aborts: return TimingNote::Broken;
+  case WalkEnd::TooLong: return TimingNote::TooLong;
+  case WalkEnd::Ended: break;
+  }
+  if (result.calls_unknown)
+    return TimingNote::Calls;
+  if (result.counts_by_api)
+    return TimingNote::SystemLoops;
+  return result.earliest_ms == result.latest_ms ? TimingNote::Exact : TimingNote::UntilStopped;
+}
+
+} // namespace
+
+MacroTiming time_macro(const Assembly& assembly, std::size_t macro) {
+  MacroTiming timing;
+  timing.commands.resize(assembly.macros[macro].commands.size());
+  const auto result = walk(assembly, macro, [&](const Visit& visit) {
+    if (visit.macro != macro)
+      return;
+    auto& command = timing.commands[visit.command];
+    if (!command) {
+      const auto wait =
+          wait_of(assembly.macros[macro].commands[visit.command], visit.sd1_ms, visit.sd2_ms);
+      command = CommandTiming{visit.latest_ms, wait.least_ms, wait.most_ms, 0};
+    }
+    ++command->times;
+  });
+  timing.least_ms = result.earliest_ms;
+  timing.most_ms = result.latest_ms;
+  timing.note = note_of(result);
+  return timing;
+}
+
+std::string print_time(std::int64_t ms) {
+  if (ms < 1000)
+    return fmt::format("{} ms", ms);
+  auto text = fmt::format("{}.{:03}", ms / 1000, ms % 1000);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.')
+    text.pop_back();
+  return text + " s";
+}
+
+std::string to_string(const MacroTiming& timing) {
+  const auto time =
+      timing.least_ms == timing.most_ms
+          ? print_time(timing.most_ms)
+          : fmt::format("{} to {}", print_time(timing.least_ms), print_time(timing.most_ms));
+  switch (timing.note) {
+  case TimingNote::Exact: return time;
+  case TimingNote::UntilStopped: return time + ", as the ball stops";
+  case TimingNote::Endless: return "endless";
+  case TimingNote::Leaves: return time + ", then another macro";
+  case TimingNote::Calls: return time + ", and the macros of other files that it calls";
+  case TimingNote::SystemLoops: return time + ", with one system loop";
+  case TimingNote::Sleeps: return time + ", then the ball sleeps";
+  case TimingNote::Broken: return time + ", then bytes that are no command";
+  case TimingNote::TooLong: return "more than " + time;
+  }
+  return time;
+}
+
+} // namespace orb::assembler
