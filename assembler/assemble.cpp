@@ -358,7 +358,7 @@ private:
 
   void add_command(const Statement& statement) {
     auto& out = macro();
-    if (out.has_end) {
+    if (out.has_end && out.id != spec::macro_id_stream) {
       if (!after_end_reported_)
         report(rules::AfterEnd, statement.span, "this stands behind `end`",
                "remove `end`, or begin another macro with `.macro`");
@@ -385,6 +385,7 @@ private:
       const auto comment = good ? read_text(*bound[0]) : std::string();
       place(*info, statement.span, operand, good ? Origin::Written : Origin::Broken, value,
             comment);
+      out.has_end = false;
       return;
     }
     if (good && folding_ == Folding::Fold && info->command == MacroCommand::Delay && fold(value[0]))

@@ -39,7 +39,7 @@ struct operands       : opt<operand, star<sor<operand, comma>>> {};
 struct directive      : seq<one<'.'>, identifier> {};
 struct mnemonic       : identifier {};
 struct head           : sor<mnemonic, directive> {};
-struct remark         : seq<one<'#'>, until<eof>> {};
+struct remark         : seq<one<'#', ';'>, until<eof>> {};
 struct nothing_more   : eof {};
 struct line           : seq<_, opt<head, _, operands>, opt<remark>, must<nothing_more>> {};
 

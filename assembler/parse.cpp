@@ -190,7 +190,7 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
   case Stop::Expected::NothingMore: break;
   }
   std::string help;
-  if (*stop.at == ';' || *stop.at == '\'' || *stop.at == '/' || *stop.at == '*')
+  if (*stop.at == '\'' || *stop.at == '/' || *stop.at == '*')
     help = "a remark begins with `#`";
   else if (*stop.at == '=')
     help = "write `name=value`";

@@ -63,7 +63,9 @@ void add_commands(CLI::App& app, Context& context) {
   app.add_option("--color", context.color, "auto, always or never")
       ->check(one_of({"auto", "always", "never"}))
       ->capture_default_str();
+  add_asm(app, context);
   add_completion(app, context);
+  add_disasm(app, context);
   add_explain(app, context);
   add_lsp(app, context);
   add_man(app, context);

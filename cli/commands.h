@@ -12,7 +12,9 @@ namespace orb::cli {
 void add_commands(CLI::App& app, Context& context);
 
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
+void add_asm(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
+void add_disasm(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_lsp(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);

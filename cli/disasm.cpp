@@ -1,0 +1,95 @@
+#include "assembler/disassemble.h"
+#include "base/bytes.h"
+#include "cli/commands.h"
+#include "cli/files.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace orb::cli {
+namespace {
+
+using assembler::Reading;
+
+struct Options {
+  std::string file;
+  std::string out;
+  bool raw = false;
+  bool framed = false;
+};
+
+/// What the bytes are: as the user says, as the ending says, or as the one reading that works.
+/// Nothing where both work.
+std::optional<Reading> choose(const Options& options, const std::string& ending, ByteView bytes) {
+  if (options.raw || options.framed)
+    return options.raw ? Reading::Headerless : Reading::Framed;
+  if (ending == ".sphero")
+    return Reading::Headerless;
+  if (ending == ".bin" || ending == ".hex")
+    return Reading::Framed;
+  const bool headerless = assembler::is_whole(bytes, Reading::Headerless);
+  const bool framed = assembler::is_whole(bytes, Reading::Framed);
+  if (headerless && framed)
+    return std::nullopt;
+  return framed ? Reading::Framed : Reading::Headerless;
+}
+
+ExitCode run(const Context& context, const Options& options) {
+  auto content = read_file(options.file);
+  if (!content) {
+    print_error(context, content.error().message);
+    return ExitCode::File;
+  }
+  const auto name = display_name(options.file);
+  const auto ending = std::filesystem::path(options.file).extension().string();
+  Bytes bytes{content->begin(), content->end()};
+  if (ending == ".hex") {
+    auto read = from_hex(*content);
+    if (!read) {
+      print_error(context, fmt::format("{}: this is no hex; expected pairs of digits", name));
+      return ExitCode::BadInput;
+    }
+    bytes = std::move(*read);
+  }
+  if (bytes.empty()) {
+    print_error(context, fmt::format("{}: the file is empty; expected a macro command", name));
+    return ExitCode::BadInput;
+  }
+  const auto reading = choose(options, ending, bytes);
+  if (!reading) {
+    print_error(context, fmt::format("{} can be read both ways: commands alone (`--raw`), or with "
+                                     "id and flags before them (`--framed`); say which",
+                                     name));
+    return ExitCode::Usage;
+  }
+  const auto text = assembler::disassemble(bytes, *reading);
+  if (!text) {
+    print_error(context, fmt::format("{}: {}", name, text.error()));
+    return ExitCode::BadInput;
+  }
+  const auto written = write_file(options.out.empty() ? "-" : options.out, as_bytes(*text));
+  if (!written) {
+    print_error(context, written.error().message);
+    return ExitCode::File;
+  }
+  return ExitCode::Done;
+}
+
+} // namespace
+
+void add_disasm(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "disasm", "turns the bytes of a macro back into source",
+                              "orb disasm dance.sphero\norb disasm saved.bin -o saved.macro\n"
+                              "orb disasm capture.dat --framed");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "bytes of a macro; - is stdin")->required();
+  command->add_option("-o,--out", options->out, "where to write the source; stdout otherwise");
+  auto* raw = command->add_flag("--raw", options->raw, "the bytes are commands alone (.sphero)");
+  command->add_flag("--framed", options->framed, "the bytes begin with id and flags (.bin)")
+      ->excludes(raw);
+  command->callback([&context, options] { context.exit = run(context, *options); });
+}
+
+} // namespace orb::cli

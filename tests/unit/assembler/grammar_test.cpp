@@ -1,0 +1,12 @@
+#include "assembler/grammar.h"
+
+#include <gtest/gtest.h>
+#include <tao/pegtl/contrib/analyze.hpp>
+
+namespace {
+
+TEST(MacroGrammar, HasNoLoopWithoutProgress) {
+  EXPECT_EQ(tao::pegtl::analyze<orb::assembler::grammar::line>(), 0U);
+}
+
+} // namespace
