@@ -294,7 +294,9 @@ tl::expected<std::optional<Response>, NoAnswer> offer(Session& session, const By
 Report give_up_chunks(Job& job, ApiCommand command, const NoAnswer& failure) {
   job.content = Content::Unconfirmed;
   auto report = job.lost(command, failure);
-  if (failure.kind == NoAnswer::Kind::TimedOut && job.session().ask(ApiCommand::AbortMacro))
+  const auto link_works = failure.kind == NoAnswer::Kind::TimedOut ||
+                          failure.link.kind == LinkError::Kind::Interrupted;
+  if (link_works && job.session().ask(ApiCommand::AbortMacro))
     report.message += "; the macro was aborted";
   return report;
 }
@@ -483,6 +485,31 @@ tl::expected<Response, Report> request(Session& session, ApiCommand command, con
   if (!is_ok(*answer))
     return tl::unexpected(job.refused(command, *answer));
   return *answer;
+}
+
+Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
+               Progress& progress) {
+  const auto greeting = greet(session);
+  if (!greeting)
+    return greeting.error();
+  const auto several = delivery.macros.size() + (delivery.program ? 1 : 0) > 1;
+  Report report;
+  const auto named = [&](const std::string& name) {
+    if (several)
+      report.message = fmt::format("{}: {}", name, report.message);
+    return report;
+  };
+  for (const auto& macro : delivery.macros) {
+    progress.on_item(macro.name);
+    report = upload(session, macro.job, progress);
+    if (report.kind != Report::Kind::Done)
+      return named(macro.name);
+  }
+  if (!delivery.program)
+    return report;
+  progress.on_item(delivery.program_name);
+  report = upload(session, *delivery.program, *greeting, battery, progress);
+  return report.kind == Report::Kind::Done ? report : named(delivery.program_name);
 }
 
 Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace orb::uploader {
 
@@ -71,12 +72,15 @@ struct Status {
 class Progress {
 public:
   virtual ~Progress() = default;
+  /// The next of several things begins.
+  virtual void on_item(std::string_view name) = 0;
   virtual void on_status(const Status& status, Instant now) = 0;
 };
 
 /// For uploads that nobody watches.
 class NullProgress final : public Progress {
 public:
+  void on_item(std::string_view) override {}
   void on_status(const Status&, Instant) override {}
 };
 
@@ -93,6 +97,22 @@ Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,
 
 /// The same for a macro.
 Report upload(Session& session, const MacroJob& job, Progress& progress);
+
+/// What goes to a ball in one go: macros first, then the program.
+struct Delivery {
+  struct NamedMacro {
+    std::string name; ///< for messages
+    MacroJob job;
+  };
+  std::vector<NamedMacro> macros;
+  std::string program_name;
+  std::optional<ProgramJob> program;
+};
+
+/// Greets the ball and uploads all of it, up to the first that is not Done. Where there are
+/// several, the message says which one it speaks of.
+Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
+               Progress& progress);
 
 /// Sends one command and says how it went: until it is answered where that does no harm, else once.
 tl::expected<protocol::Response, Report> request(Session& session, spec::ApiCommand command,

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "protocol/transport.h"
+
+#include <memory>
+
+namespace orb::cli {
+
+/// Makes SIGINT and SIGTERM a request to stop instead of a death, as long as it lives.
+class InterruptGuard {
+public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  /// Whether the user asked to stop since the guard was made.
+  static bool asked();
+};
+
+/// A Transport around a Transport whose waits end when the user asks to stop: the next read or
+/// write is then the error Interrupted, once; what follows is clean-up and goes through. A second
+/// request ends that too.
+class InterruptibleTransport final : public protocol::Transport {
+public:
+  explicit InterruptibleTransport(std::unique_ptr<protocol::Transport> inner)
+      : inner_(std::move(inner)) {}
+
+  Instant now() const override { return inner_->now(); }
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override;
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override;
+
+private:
+  bool stop();
+
+  std::unique_ptr<protocol::Transport> inner_;
+  int seen_ = 0;
+};
+
+} // namespace orb::cli

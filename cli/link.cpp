@@ -1,0 +1,165 @@
+#include "cli/link.h"
+
+#include "cli/config.h"
+#include "cli/interrupt.h"
+#include "compiler/load.h"
+#include "uploader/endpoint.h"
+#include "vm/ball_transport.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <fmt/format.h>
+#include <random>
+
+namespace orb::cli {
+namespace {
+
+using uploader::Endpoint;
+using uploader::Report;
+using uploader::Scheme;
+
+/// Fixed for `sim:`, so that runs repeat; drawn for anything that may remember an earlier session.
+constexpr std::uint8_t sim_first_seq = 0;
+
+tl::unexpected<LinkFailure> failure(ExitCode exit, std::string message) {
+  return tl::unexpected(LinkFailure{exit, std::move(message)});
+}
+
+std::uint8_t draw_first_seq() {
+  return static_cast<std::uint8_t>(std::random_device{}());
+}
+
+/// A replay must begin with the sequence number that was recorded.
+std::uint8_t first_seq_of(const Endpoint& endpoint) {
+  if (endpoint.scheme == Scheme::Sim)
+    return sim_first_seq;
+  if (endpoint.scheme != Scheme::Replay)
+    return draw_first_seq();
+  const auto text = read_file(endpoint.path);
+  const auto pieces = text ? uploader::parse_recording(*text)
+                           : tl::expected<std::vector<uploader::RecordedPiece>, std::string>();
+  return pieces ? uploader::first_recorded_seq(*pieces).value_or(0) : std::uint8_t{0};
+}
+
+} // namespace
+
+std::optional<Duration> read_duration(std::string_view text) {
+  auto unit = Duration(1s);
+  if (text.ends_with("ms")) {
+    text.remove_suffix(2);
+    unit = 1ms;
+  } else if (text.ends_with("s")) {
+    text.remove_suffix(1);
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  constexpr double most_s = 3600;
+  const auto seconds = value * static_cast<double>(unit.count()) / 1e9;
+  if (error != std::errc() || end != text.data() + text.size() || value < 0 || seconds > most_s)
+    return std::nullopt;
+  return Duration(static_cast<Duration::rep>(seconds * 1e9));
+}
+
+void add_port_options(CLI::App& command, PortOptions& options) {
+  command
+      .add_option("-p,--port", options.port,
+                  "where the ball is: a path, rfcomm://, tcp://, pty://, replay://, sim: or @ball")
+      ->envname("ORB_PORT")
+      ->type_name("URL")
+      ->capture_default_str();
+  command.add_option("--record", options.record, "write what passes over the link to this file")
+      ->type_name("FILE");
+  command.add_option("--timeout", options.answer, "how long to wait for one answer")
+      ->type_name("TIME")
+      ->check([](const std::string& text) {
+        const auto time = read_duration(text);
+        return time && *time > Duration{} ? std::string()
+                                          : "`" + text + "` is not a time such as 2s or 500ms";
+      })
+      ->capture_default_str();
+}
+
+void WireLog::on_bytes(protocol::Direction direction, ByteView bytes, Instant) {
+  const auto line = uploader::recording_line(direction, bytes);
+  recording_ += line;
+  if (verbosity_ >= 2)
+    print_err(line);
+}
+
+tl::expected<void, IoError> Link::finish() const {
+  if (record_file.empty())
+    return {};
+  return write_file(record_file, as_bytes(log->recording()));
+}
+
+tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options) {
+  const auto url = resolve_port(context.config, options.port);
+  if (!url)
+    return failure(ExitCode::Usage, url.error().message);
+  const auto endpoint = uploader::parse_endpoint(*url);
+  if (!endpoint)
+    return failure(ExitCode::Usage, endpoint.error());
+  Link link;
+  link.name = *url;
+  link.is_sim = endpoint->scheme == Scheme::Sim;
+  link.first_seq = first_seq_of(*endpoint);
+  link.budgets.answer = read_duration(options.answer).value_or(link.budgets.answer);
+  if (link.is_sim) {
+    vm::BallOptions ball;
+    ball.loader = compiler::load;
+    link.ball = std::make_unique<vm::Ball>(ball);
+    link.transport = std::make_unique<vm::BallTransport>(*link.ball);
+  } else {
+    auto opened = uploader::open(*endpoint, link.budgets);
+    if (!opened)
+      return failure(ExitCode::NoBall, opened.error().message);
+    link.transport = std::move(*opened);
+  }
+  link.record_file = options.record;
+  if (!options.record.empty() || context.verbosity >= 2) {
+    link.log = std::make_unique<WireLog>(context.verbosity);
+    link.transport =
+        std::make_unique<uploader::RecordingTransport>(std::move(link.transport), *link.log);
+  }
+  link.transport = std::make_unique<InterruptibleTransport>(std::move(link.transport));
+  return link;
+}
+
+ExitCode exit_code(const Report& report) {
+  switch (report.kind) {
+  case Report::Kind::Done: return ExitCode::Done;
+  case Report::Kind::Impossible: return ExitCode::BadInput;
+  case Report::Kind::Refused: return ExitCode::Refused;
+  case Report::Kind::NoBall: return ExitCode::NoBall;
+  case Report::Kind::LinkLost: return ExitCode::LinkLost;
+  case Report::Kind::Unknown: return ExitCode::Unknown;
+  case Report::Kind::Interrupted: return ExitCode::Interrupted;
+  }
+  return ExitCode::Bug;
+}
+
+void with_ball(Context& context, const PortOptions& options,
+               const std::function<ExitCode(Link&, uploader::Session&,
+                                            const uploader::Greeting&)>& work) {
+  const InterruptGuard guard;
+  auto link = open_link(context, options);
+  if (!link) {
+    print_error(context, link.error().message);
+    context.exit = link.error().exit;
+    return;
+  }
+  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  const auto greeting = uploader::greet(session);
+  if (greeting) {
+    context.exit = work(*link, session, *greeting);
+  } else {
+    print_error(context, greeting.error().message);
+    context.exit = exit_code(greeting.error());
+  }
+  if (const auto written = link->finish(); !written) {
+    print_error(context, written.error().message);
+    context.exit = ExitCode::File;
+  }
+}
+
+} // namespace orb::cli

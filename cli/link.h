@@ -1,0 +1,82 @@
+#pragma once
+
+#include "cli/context.h"
+#include "cli/files.h"
+#include "protocol/transport.h"
+#include "uploader/budgets.h"
+#include "uploader/recording.h"
+#include "uploader/upload.h"
+#include "vm/ball.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace orb::cli {
+
+/// The options of every command that talks to a ball.
+struct PortOptions {
+  std::string port = "sim:";
+  std::string record;        ///< a file for the bytes of both directions; empty for none
+  std::string answer = "2s"; ///< the wait for one answer
+};
+
+/// Adds `--port`, which the environment may give as ORB_PORT, `--record` and `--timeout`.
+void add_port_options(CLI::App& command, PortOptions& options);
+
+/// Reads `2s`, `500ms` or a number of seconds; nothing for other words or more than an hour.
+std::optional<Duration> read_duration(std::string_view text);
+
+/// Hears the wire for a recording and for `-vv`.
+class WireLog final : public uploader::WireListener {
+public:
+  explicit WireLog(int verbosity) : verbosity_(verbosity) {}
+  void on_bytes(protocol::Direction direction, ByteView bytes, Instant now) override;
+  const std::string& recording() const { return recording_; }
+
+private:
+  int verbosity_;
+  std::string recording_;
+};
+
+/// An open link to a ball and a session on it.
+struct Link {
+  bool is_sim = false;
+  std::string name; ///< the port, for messages
+  uploader::Budgets budgets;
+  std::uint8_t first_seq = 0;
+  std::string record_file;
+  std::unique_ptr<WireLog> log;
+  std::unique_ptr<vm::Ball> ball; ///< of `sim:`
+  std::unique_ptr<protocol::Transport> transport;
+
+  /// Writes the recording, if there is to be one.
+  tl::expected<void, IoError> finish() const;
+};
+
+/// Why there is no link, and the code to end with.
+struct LinkFailure {
+  ExitCode exit = ExitCode::NoBall;
+  std::string message;
+};
+
+/// Opens the link that the options name: a URL, a bare path or `@ball`.
+tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options);
+
+/// The code that a report ends with.
+ExitCode exit_code(const uploader::Report& report);
+
+/// Opens the link, greets the ball, lets `work` do its job and closes: the shape of the small
+/// commands. Errors are printed; the exit code is left in the context.
+void with_ball(Context& context, const PortOptions& options,
+               const std::function<ExitCode(Link&, uploader::Session&,
+                                            const uploader::Greeting&)>& work);
+
+} // namespace orb::cli

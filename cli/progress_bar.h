@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cli/context.h"
+#include "uploader/upload.h"
+
+#include <optional>
+#include <string>
+
+namespace orb::cli {
+
+/// Shows how an upload goes on, on stderr: a bar that is drawn over itself on a terminal, a line
+/// now and then elsewhere, nothing with -q.
+class ProgressBar final : public uploader::Progress {
+public:
+  explicit ProgressBar(const Context& context);
+  ~ProgressBar() override;
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void on_item(std::string_view name) override;
+  void on_status(const uploader::Status& status, Instant now) override;
+
+  /// Takes the bar off the screen, so that something else can be printed.
+  void clear();
+
+private:
+  void draw(const uploader::Status& status, Instant now);
+  void print_line(const uploader::Status& status, Instant now);
+
+  bool quiet_;
+  bool animated_;
+  bool drawn_ = false;
+  std::string name_;
+  std::optional<Instant> sending_since_;
+  int attempt_ = 1;
+  int told_quarter_ = 0;
+};
+
+/// The bar, the numbers and what is left, without the name: what is drawn and printed.
+std::string describe_progress(const uploader::Status& status, Duration sending_for);
+
+} // namespace orb::cli

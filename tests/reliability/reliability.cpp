@@ -1,0 +1,443 @@
+// Uploads over bad links, many times and in virtual time, and looks at the ball afterwards: is what
+// the uploader says the truth? Prints tables, exits with 1 when it lied, hung or failed too often.
+//
+//   reliability [--uploads N] [--document FILE]
+//
+// N uploads per fault profile (default 1000); all other parts are complete at any N. With
+// --document the result is written as docs/reliability.md.
+
+#include "compiler/load.h"
+#include "protocol/fault.h"
+#include "uploader/upload.h"
+#include "vm/ball.h"
+#include "vm/ball_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace {
+
+using namespace orb;
+using protocol::FaultPlan;
+using uploader::Area;
+using uploader::Content;
+using uploader::ProgramJob;
+using uploader::Report;
+using Kind = uploader::Report::Kind;
+
+/// What was there before, so that "unchanged" can be told from "erased".
+constexpr std::string_view old_program = "10 print \"old\"\n";
+constexpr Duration round_trip = 10ms;
+
+/// A program of `lines` lines of about `width` bytes, with its final NUL.
+Bytes program_of(int lines, std::size_t width) {
+  std::string text;
+  for (int i = 1; i <= lines; ++i) {
+    auto line = fmt::format("{} print \"line {}", i * 10, i);
+    line.resize(std::max(line.size(), width - 2), '.');
+    text += line + "\"\n";
+  }
+  Bytes image(text.begin(), text.end());
+  image.push_back(0);
+  return image;
+}
+
+constexpr int sixty_lines = 60;
+constexpr std::size_t line_width = 19;
+
+ByteView bytes_of(std::string_view text) {
+  return as_bytes(text);
+}
+
+/// A ball with old programs in both areas.
+std::unique_ptr<vm::Ball> make_ball(std::uint64_t seed, std::size_t ram_bytes = 4096) {
+  vm::BallOptions options;
+  options.seed = seed;
+  options.loader = compiler::load;
+  options.ram_bytes = ram_bytes;
+  auto ball = std::make_unique<vm::Ball>(options);
+  for (const auto area : {vm::Area::Ram, vm::Area::Flash})
+    (void)ball->append_basic(area, bytes_of(old_program));
+  return ball;
+}
+
+std::unique_ptr<protocol::Transport> connect(vm::Ball& ball, const FaultPlan& plan) {
+  return std::make_unique<protocol::FaultTransport>(
+      std::make_unique<vm::BallTransport>(ball, vm::WireModel{round_trip}), plan);
+}
+
+struct Run {
+  Report report;
+  Duration took{};
+  Duration deadline{};
+};
+
+Run upload_once(protocol::Transport& link, const ProgramJob& job, std::uint8_t first_seq) {
+  uploader::Session session(link, uploader::Budgets{}, first_seq);
+  uploader::NullProgress progress;
+  const auto start = session.now();
+  uploader::Delivery delivery;
+  delivery.program = job;
+  Run run;
+  run.report = deliver(session, delivery, uploader::BatteryPolicy::Refuse, progress);
+  run.took = session.now() - start;
+  run.deadline =
+      make_plan(job, uploader::default_firmware(), uploader::Budgets{}, first_seq)->deadline;
+  return run;
+}
+
+/// Whether a report is true of the ball.
+bool is_true(const Report& report, const vm::Ball& ball, const ProgramJob& job) {
+  const std::string_view image = as_text(job.image);
+  const auto area = job.area == Area::Flash ? vm::Area::Flash : vm::Area::Ram;
+  const auto ram = ball.basic_text(vm::Area::Ram);
+  const auto text = ball.basic_text(area);
+  if (report.kind == Kind::Done)
+    return text == image;
+  const auto kept = job.area == Area::Ram || ball.basic_text(vm::Area::Flash) == old_program;
+  switch (report.content) {
+  case Content::Unchanged: return text == old_program && ram == old_program;
+  case Content::ErasedOrUnchanged: return (ram.empty() || ram == old_program) && kept;
+  case Content::Erased: return ram.empty() && kept;
+  case Content::Incomplete: return kept;
+  case Content::Unconfirmed: return text == image || text == old_program || job.area == Area::Ram;
+  case Content::Stored: return text == image;
+  }
+  return false;
+}
+
+struct Tally {
+  int runs = 0;
+  int done = 0;
+  int reported = 0;
+  int wrong = 0;   ///< success said, other content
+  int untrue = 0;  ///< a failure whose description does not fit the ball
+  int overdue = 0; ///< beyond the deadline of the plan
+  Duration longest{};
+
+  void add(const Run& run, const vm::Ball& ball, const ProgramJob& job) {
+    ++runs;
+    const auto right = is_true(run.report, ball, job);
+    if (run.report.kind == Kind::Done)
+      ++(right ? done : wrong);
+    else
+      ++(right ? reported : untrue);
+    if (run.took > run.deadline)
+      ++overdue;
+    longest = std::max(longest, run.took);
+  }
+  bool honest() const { return wrong == 0 && untrue == 0 && overdue == 0; }
+};
+
+double seconds(Duration duration) {
+  return static_cast<double>(duration.count()) / 1e9;
+}
+
+struct Profile {
+  std::string_view plan;
+  double least_success;       ///< 0 for none demanded
+  std::string_view sphero_js; ///< of 2000 runs, where they were measured
+  std::string_view sphero_pwn;
+};
+
+constexpr std::string_view not_measured = "–";
+
+constexpr auto profiles = std::to_array<Profile>({
+    {"drop=1%", 0.999, "1752 ok, 248 reported", "1752 ok, **248 hang**"},
+    {"dup=1%", 0.999, "1903 ok, **97 wrong**", "1903 ok, **97 wrong**"},
+    {"flip=1%", 0.999, "1776 ok, 129 reported, **95 wrong**",
+     "1764 ok, 108 reported, **128 hang**"},
+    {"drop=2%,dup=1%,flip=2%", 0.999, "1172 ok, 630 reported, **198 wrong**",
+     "1154 ok, 171 reported, **611 hang, 64 wrong**"},
+    {"drop=10%", 0.98, not_measured, not_measured},
+    {"dup=10%", 0.98, not_measured, not_measured},
+    {"flip=10%", 0.98, not_measured, not_measured},
+    {"drop=4%,dup=2%,flip=4%", 0.98, not_measured, not_measured},
+    {"delay=50..300ms,drop=1%", 0.999, not_measured, not_measured},
+    {"split,flip=1%", 0.999, not_measured, not_measured},
+    {"merge,stale=8,dup=1%", 0.999, not_measured, not_measured},
+    {"storm=30%,drop=1%,flip=1%", 0.999, not_measured, not_measured},
+});
+
+/// Requests that arrive twice. Alone they are always noticed; together with a lost second answer
+/// they cannot be.
+constexpr auto doubled_requests = std::to_array<std::string_view>(
+    {"dup-request=1%", "dup-request=1%,drop=1%", "dup-request=10%,drop=10%"});
+
+ProgramJob job_for(std::uint64_t seed) {
+  return {program_of(sixty_lines, line_width), seed % 2 == 0 ? Area::Ram : Area::Flash, {}};
+}
+
+Tally run_profile(std::string_view words, int uploads) {
+  auto plan = *protocol::parse_fault_plan(words);
+  Tally tally;
+  for (int i = 1; i <= uploads; ++i) {
+    plan.seed = static_cast<std::uint64_t>(i);
+    const auto job = job_for(plan.seed);
+    const auto ball = make_ball(plan.seed);
+    const auto link = connect(*ball, plan);
+    const auto first_seq = static_cast<std::uint8_t>(Random{plan.seed * 7919}.next());
+    tally.add(upload_once(*link, job, first_seq), *ball, job);
+  }
+  return tally;
+}
+
+std::string tally_cells(const Tally& tally) {
+  return fmt::format("{} ok, {} reported, {} wrong", tally.done, tally.reported,
+                     tally.wrong + tally.untrue);
+}
+
+/// Prints as it goes and keeps the document.
+struct Page {
+  std::string text;
+  bool failed = false;
+
+  void add(const std::string& lines) {
+    std::fputs(lines.c_str(), stdout);
+    std::fflush(stdout);
+    text += lines;
+  }
+  void check(bool good, const std::string& what) {
+    if (good)
+      return;
+    failed = true;
+    std::fprintf(stderr, "FAILED: %s\n", what.c_str());
+  }
+};
+
+void add_profiles(Page& page, int uploads) {
+  page.add(fmt::format("## Fault profiles\n\n"
+                       "{} uploads each of a {}-line program ({} bytes, 5 fragments), seeds 1 to "
+                       "{}; every other one\ninto flash through RAM. Rates are per packet and "
+                       "direction.\n\n"
+                       "| profile | orb | success | longest | sphero.js 0.9.2 | sphero-pwn 0.5.3 "
+                       "|\n|---|---|---|---|---|---|\n",
+                       uploads, sixty_lines, job_for(1).image.size(), uploads));
+  for (const auto& profile : profiles) {
+    const auto tally = run_profile(profile.plan, uploads);
+    const auto success = static_cast<double>(tally.done) / tally.runs;
+    page.add(fmt::format("| `{}` | {} | {:.2f} % | {:.1f} s | {} | {} |\n", profile.plan,
+                         tally_cells(tally), success * 100, seconds(tally.longest),
+                         profile.sphero_js, profile.sphero_pwn));
+    page.check(tally.honest(), fmt::format("{}: {} wrong, {} untrue, {} overdue", profile.plan,
+                                           tally.wrong, tally.untrue, tally.overdue));
+    page.check(success >= profile.least_success,
+               fmt::format("{}: {:.3f} % success", profile.plan, success * 100));
+  }
+  page.add(fmt::format(
+      "\nNo upload took longer than the deadline of its plan, {:.0f} s.\n\n",
+      seconds(
+          make_plan(job_for(2), uploader::default_firmware(), uploader::Budgets{}, 0)->deadline)));
+}
+
+/// The share of wrong successes that doubled requests can cause. A fragment arrives once with
+/// (1−d)(1−q)² or d·2q(1−q)², and twice with one of its answers lost, so that it looks like once,
+/// with d(1−q)²·2q(1−q); whatever else happens to it starts the upload over.
+double doubled_bound(const FaultPlan& plan, int fragments) {
+  const auto d = plan.dup_request;
+  const auto q = plan.drop;
+  const auto arrives = (1 - q) * (1 - q);
+  const auto once = (1 - d) * arrives + d * 2 * q * arrives;
+  const auto twice_unseen = d * arrives * 2 * q * (1 - q);
+  return 1 - std::pow(once / (once + twice_unseen), fragments);
+}
+
+void add_doubled_requests(Page& page, int uploads) {
+  page.add(
+      "## Doubled requests\n\n"
+      "A link that delivers a *request* twice and loses the second answer leaves a doubled "
+      "fragment that\nnobody can see, because a program cannot be read back. RFCOMM does not "
+      "do this. The bound is\n1 − (1 − r)^fragments, where r is the share of doubled fragments "
+      "with one answer among those that look\nright.\n\n"
+      "| profile | orb | bound on wrong |\n|---|---|---|\n");
+  for (const auto words : doubled_requests) {
+    const auto plan = *protocol::parse_fault_plan(words);
+    const auto tally = run_profile(words, uploads);
+    const auto bound = doubled_bound(plan, 5);
+    page.add(fmt::format("| `{}` | {} | {:.2f} % |\n", words, tally_cells(tally), bound * 100));
+    page.check(tally.overdue == 0, fmt::format("{}: overdue", words));
+    const auto expected = bound * tally.runs;
+    page.check(tally.wrong + tally.untrue <= expected + 3 * std::sqrt(expected),
+               fmt::format("{}: {} wrong", words, tally.wrong + tally.untrue));
+  }
+  page.add("\n");
+}
+
+/// How many bytes a faultless upload sends and receives.
+struct Traffic {
+  std::uint64_t to_ball = 0;
+  std::uint64_t from_ball = 0;
+};
+
+Traffic measure(const ProgramJob& job) {
+  const auto ball = make_ball(1);
+  const auto link = connect(*ball, {});
+  uploader::Session session(*link, uploader::Budgets{}, 0);
+  uploader::NullProgress progress;
+  uploader::Delivery delivery;
+  delivery.program = job;
+  (void)deliver(session, delivery, uploader::BatteryPolicy::Refuse, progress);
+  return {session.counts().bytes_out, session.counts().bytes_in};
+}
+
+void add_flips(Page& page) {
+  const ProgramJob job{program_of(sixty_lines, 20), Area::Ram, {}};
+  const auto traffic = measure(job);
+  page.add(fmt::format("## Every single bit\n\nOne bit of one packet of a {}-byte upload inverted, "
+                       "for every bit.\n\n| direction | uploads | result |\n|---|---|---|\n",
+                       job.image.size()));
+  for (const bool to_ball : {true, false}) {
+    Tally tally;
+    for (std::uint64_t bit = 0; bit < 8 * (to_ball ? traffic.to_ball : traffic.from_ball); ++bit) {
+      FaultPlan plan;
+      (to_ball ? plan.flip_at : plan.flip_answer_at) = bit;
+      const auto ball = make_ball(1);
+      const auto link = connect(*ball, plan);
+      tally.add(upload_once(*link, job, 0), *ball, job);
+    }
+    page.add(fmt::format("| {} the ball | {} | {} |\n", to_ball ? "to" : "from", tally.runs,
+                         tally_cells(tally)));
+    page.check(tally.honest() && tally.done == tally.runs, "single bits");
+  }
+  page.add("\n");
+}
+
+void add_cuts(Page& page) {
+  page.add("## Cut after every byte\n\nThe link breaks after each byte in turn; the report is "
+           "compared with the ball, then the program is\nuploaded again over a new link.\n\n| "
+           "direction | area | cuts | first report | second upload |\n|---|---|---|---|---|\n");
+  for (const auto area : {Area::Ram, Area::Flash}) {
+    const ProgramJob job{program_of(sixty_lines, line_width), area, {}};
+    const auto traffic = measure(job);
+    for (const bool to_ball : {true, false}) {
+      Tally first;
+      Tally second;
+      for (std::uint64_t byte = 0; byte <= (to_ball ? traffic.to_ball : traffic.from_ball);
+           ++byte) {
+        FaultPlan plan;
+        (to_ball ? plan.cut : plan.cut_answer) = byte;
+        const auto ball = make_ball(1);
+        {
+          const auto link = connect(*ball, plan);
+          first.add(upload_once(*link, job, 0), *ball, job);
+        }
+        const auto link = connect(*ball, {});
+        second.add(upload_once(*link, job, 0x99), *ball, job);
+      }
+      page.add(fmt::format("| {} the ball | {} | {} | {} | {} |\n", to_ball ? "to" : "from",
+                           area == Area::Ram ? "RAM" : "flash", first.runs, tally_cells(first),
+                           tally_cells(second)));
+      page.check(first.honest() && second.honest() && second.done == second.runs, "cuts");
+    }
+  }
+  page.add("\n");
+}
+
+void add_full_storage(Page& page) {
+  constexpr int runs = 50;
+  int refused = 0;
+  for (int i = 1; i <= runs; ++i) {
+    constexpr std::size_t too_small = 600; // bytes, though the ball says that it has 4096
+    const auto ball = make_ball(static_cast<std::uint64_t>(i), too_small);
+    const auto link = connect(*ball, {});
+    const ProgramJob job{program_of(sixty_lines, line_width), Area::Ram, {}};
+    const auto run = upload_once(*link, job, static_cast<std::uint8_t>(i));
+    refused += run.report.kind == Kind::Refused && run.report.code == 8;
+  }
+  page.add(fmt::format("## Storage full\n\n| | orb | sphero.js 0.9.2 | sphero-pwn 0.5.3 |\n"
+                       "|---|---|---|---|\n| {0} uploads | {1} refused with the reason (exit 5) | "
+                       "**50 wrong** | 50 reported |\n\n",
+                       runs, refused));
+  page.check(refused == runs, "storage full");
+}
+
+/// Hears when the first fragment leaves and when the last answer before the barrier comes.
+class Clock final : public uploader::Progress {
+public:
+  void on_item(std::string_view) override {}
+  void on_status(const uploader::Status& status, Instant now) override {
+    if (status.stage == uploader::Stage::Sending && !first)
+      first = now;
+    if (status.stage == uploader::Stage::Confirming)
+      last = now;
+    packets = status.packets;
+  }
+  std::optional<Instant> first;
+  Instant last{};
+  std::size_t packets = 0;
+};
+
+void add_speed(Page& page) {
+  ProgramJob job;
+  for (int lines = 1; program_of(lines, line_width).size() <= 4096; ++lines)
+    job.image = program_of(lines, line_width);
+  const auto ball = make_ball(1);
+  const auto link = connect(*ball, {});
+  uploader::Session session(*link, uploader::Budgets{}, 0);
+  const auto start = session.now();
+  const auto greeting = greet(session);
+  Clock clock;
+  const auto report = upload(session, job, *greeting, uploader::BatteryPolicy::Refuse, clock);
+  const auto all = session.now() - start;
+  page.check(report.kind == Kind::Done, "speed: " + report.message);
+  const auto took = clock.last - *clock.first;
+  // A fragment's packet carries start bytes, DID, CID, SEQ, DLEN, area and checksum; its answer has
+  // six bytes. Both travel at the speed of the wire, and one round trip lies between.
+  constexpr std::size_t around_a_fragment = 8;
+  constexpr std::size_t answer_bytes = 6;
+  const auto bytes = job.image.size() + clock.packets * (around_a_fragment + answer_bytes);
+  const auto needed = Duration(1s) * static_cast<Duration::rep>(bytes) / 11520 +
+                      round_trip * static_cast<Duration::rep>(clock.packets);
+  const auto ratio = seconds(took) / seconds(needed);
+  page.add(fmt::format(
+      "## Speed\n\nOn a link with {:g} ms round trip and 11 520 bytes/s a program of {} bytes in "
+      "{} "
+      "fragments takes {:.3f} s\nfrom the first byte of the first fragment to the answer to the "
+      "last; its bytes and one round trip per\nfragment need {:.3f} s: **{:.3f}×**. Before and "
+      "after it {:.3f} s go by (200 ms of draining, {} packets more).\n\n",
+      seconds(round_trip) * 1000, job.image.size(), clock.packets, seconds(took), seconds(needed),
+      ratio, seconds(all - took), session.counts().packets_out - clock.packets));
+  page.check(ratio <= 1.05, fmt::format("speed: {:.3f} of what is needed", ratio));
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int uploads = 1000;
+  std::string document;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string_view option = argv[i];
+    if (option == "--uploads")
+      uploads = std::atoi(argv[i + 1]);
+    else if (option == "--document")
+      document = argv[i + 1];
+  }
+  Page page;
+  page.add(fmt::format(
+      "# How reliable uploading is\n\n"
+      "Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`; do "
+      "not edit. The ball\nis the built-in one, time is virtual, every upload has its own seed, so "
+      "the numbers repeat exactly.\nAfter each upload the ball's storage is compared with what was "
+      "reported: *ok* is a success that is one,\n*reported* is a failure whose message describes "
+      "the ball truly, *wrong* is everything else. The columns\nof other libraries are from 2000 "
+      "runs of each against a ball with the same faults (a duplicate there is\na doubled answer); "
+      "what they were not measured with is marked –.\n\n",
+      uploads));
+  add_profiles(page, uploads);
+  add_doubled_requests(page, uploads);
+  add_flips(page);
+  add_cuts(page);
+  add_full_storage(page);
+  add_speed(page);
+  if (!document.empty())
+    std::ofstream(document, std::ios::binary) << page.text;
+  return page.failed ? 1 : 0;
+}
