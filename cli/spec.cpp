@@ -1,7 +1,11 @@
+#include "base/bytes.h"
 #include "base/suggest.h"
 #include "cli/commands.h"
+#include "cli/editor_files.h"
+#include "cli/files.h"
 #include "cli/knowledge.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -12,6 +16,7 @@ struct Options {
   std::string section;
   bool json = false;
   bool markdown = false;
+  std::string editors; ///< the folder to print the editors' word lists into
 };
 
 /// The list of sections and what they hold: what `orb spec` prints by itself.
@@ -45,7 +50,24 @@ bool select(std::vector<Section>& sections, const std::string& id, const Context
   return false;
 }
 
+void write_editor_files(Context& context, const std::string& folder) {
+  for (const auto& file : editor_files()) {
+    const auto path = std::filesystem::path(folder) / file.path;
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error); // writing says what is wrong
+    if (const auto done = write_file(path.string(), as_bytes(file.text)); !done) {
+      print_error(context, done.error().message);
+      context.exit = ExitCode::File;
+      return;
+    }
+  }
+}
+
 void run(Context& context, const Options& options) {
+  if (!options.editors.empty()) {
+    write_editor_files(context, options.editors);
+    return;
+  }
   auto sections = knowledge();
   const bool one = !options.section.empty();
   if (one && !select(sections, options.section, context)) {
@@ -74,6 +96,11 @@ void add_spec(CLI::App& app, Context& context) {
   command->add_option("SECTION", options->section, "one table; all where none is named");
   auto* json = command->add_flag("--json", options->json, "as one JSON document");
   command->add_flag("--markdown", options->markdown, "as pages of docs/reference")->excludes(json);
+  command
+      ->add_option("--editors", options->editors,
+                   "write the grammars and syntax files for editors into this folder")
+      ->type_name("FOLDER")
+      ->excludes(json);
   command->callback([&context, options] { run(context, *options); });
 }
 

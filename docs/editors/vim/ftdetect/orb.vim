@@ -1,0 +1,2 @@
+autocmd BufRead,BufNewFile *.bas,*.orbbas setlocal filetype=orbbasic
+autocmd BufRead,BufNewFile *.macro setlocal filetype=orbmacro
