@@ -376,13 +376,14 @@ constexpr std::string_view macro_intro =
     "A macro is a short list of commands that runs inside a Sphero robot with a clock of one "
     "millisecond, without arithmetic or conditions. This page lists the commands and flags as the "
     "assembler of orb writes them: one command in a line, its operands parted by commas or given "
-    "by name, `delay=` last; a semicolon begins a comment.";
+    "by name, `delay=` last; `#` begins a remark. `.macro` names a macro and gives its id and "
+    "flags, `.const` names a "
+    "number, `.raw` holds bytes as they are; an End is added where none is written.";
 constexpr std::string_view macro_example = ".macro blink id=40 flags=motor_control\n"
                                            "  loop_start 3\n"
                                            "    rgb 255, 0, 0, delay=250ms\n"
                                            "    rgb 0, 0, 0, delay=250ms\n"
-                                           "  loop_end\n"
-                                           ".end";
+                                           "  loop_end";
 
 ManualPage basic_page(const std::vector<Section>& sections) {
   auto text = head("orbbasic", 7, "the programming language of Sphero robots");

@@ -1,0 +1,128 @@
+#include "assembler/layout.h"
+
+#include "spec/macro.h"
+
+#include <algorithm>
+
+namespace orb::assembler {
+namespace {
+
+constexpr std::size_t step = 2; // blanks that a macro or a loop indents
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back()))
+    text.remove_suffix(1);
+  return text;
+}
+
+/// The first line of `text`, taken off with its end: LF, CR or CRLF.
+std::string_view take_line(std::string_view& text) {
+  const auto end = std::min(text.find_first_of("\r\n"), text.size());
+  const auto line = text.substr(0, end);
+  const bool both = text.substr(end).starts_with("\r\n");
+  text.remove_prefix(std::min(end + (both ? 2 : 1), text.size()));
+  return line;
+}
+
+/// Where the text that begins with the quote at `begin` ends.
+std::size_t end_of_text(std::string_view line, std::size_t begin) {
+  auto at = begin + 1;
+  while (at < line.size() && line[at] != '"')
+    at += line[at] == '\\' ? 2 : 1;
+  return std::min(at + 1, line.size());
+}
+
+/// Where the remark of a line begins; its size where it has none.
+std::size_t remark_of(std::string_view line) {
+  std::size_t at = 0;
+  while (at < line.size() && line[at] != '#')
+    at = line[at] == '"' ? end_of_text(line, at) : at + 1;
+  return std::min(at, line.size());
+}
+
+/// The blanks of a statement as they should be: none before a comma, one behind it; none around the
+/// `=` of an operand; else one where there are any.
+std::string respace(std::string_view code) {
+  const bool is_const = code.starts_with(".const");
+  std::string out;
+  for (std::size_t at = 0; at < code.size();) {
+    const char c = code[at];
+    if (c == '"') {
+      const auto end = end_of_text(code, at);
+      out += code.substr(at, end - at);
+      at = end;
+    } else if (is_blank(c)) {
+      while (at < code.size() && is_blank(code[at]))
+        ++at;
+      if (at < code.size() && code[at] != ',' && code[at] != '=' && !out.ends_with(' ') &&
+          !out.ends_with('='))
+        out += ' ';
+    } else {
+      ++at;
+      if (c == '=' && is_const && !out.ends_with(' '))
+        out += ' ';
+      out += c;
+      const bool more = at < code.size();
+      if (more && (c == ',' || (c == '=' && is_const)))
+        out += ' ';
+    }
+  }
+  return out;
+}
+
+std::string_view first_word(std::string_view code) {
+  return code.substr(0, code.find_first_of(" \t,\"#"));
+}
+
+bool is(std::string_view word, spec::MacroCommand command) {
+  return word == spec::info(command).mnemonic;
+}
+
+} // namespace
+
+std::string layout(std::string_view text) {
+  std::string out;
+  bool in_macro = false;
+  std::size_t loops = 0;
+  bool blank_before = true; // none at the top
+  while (!text.empty()) {
+    const auto line = take_line(text);
+    const auto split = remark_of(line);
+    const auto code = respace(trim(line.substr(0, split)));
+    const auto remark = trim(line.substr(split));
+    if (code.empty() && remark.empty()) {
+      blank_before = blank_before || (out += '\n', true);
+      continue;
+    }
+    blank_before = false;
+    const auto word = first_word(code);
+    const bool header = word == ".macro" || word == ".const";
+    if (word == ".macro") {
+      in_macro = true;
+      loops = 0;
+    }
+    if (is(word, spec::MacroCommand::LoopEnd) && loops > 0)
+      --loops;
+    // A remark by itself stands where the next statement would; above a macro it is at the margin.
+    auto indent = header ? 0 : (in_macro ? step : 0) + step * loops;
+    if (code.empty() && !is_blank(line.empty() ? ' ' : line.front()))
+      indent = 0;
+    out += std::string(indent, ' ') + code;
+    if (!remark.empty())
+      out += (code.empty() ? "" : "  ") + std::string(remark);
+    out += '\n';
+    if (is(word, spec::MacroCommand::LoopStart) || is(word, spec::MacroCommand::LoopStartSystem))
+      ++loops;
+  }
+  while (out.ends_with("\n\n"))
+    out.pop_back();
+  return out == "\n" ? std::string() : out;
+}
+
+} // namespace orb::assembler
