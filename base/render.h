@@ -19,4 +19,8 @@ std::string render_summary(const std::vector<FileFindings>& files);
 /// All findings as one JSON document of schema `orb.check/1` (docs/reference/json.md).
 std::string render_json(const std::vector<FileFindings>& files);
 
+/// All findings as one SARIF 2.1.0 log. Columns count code points; bytes that are not UTF-8 appear
+/// as U+FFFD.
+std::string render_sarif(const std::vector<FileFindings>& files);
+
 } // namespace orb

@@ -64,9 +64,12 @@ void add_commands(CLI::App& app, Context& context) {
       ->check(one_of({"auto", "always", "never"}))
       ->capture_default_str();
   add_asm(app, context);
+  add_build(app, context);
+  add_check(app, context);
   add_completion(app, context);
   add_disasm(app, context);
   add_explain(app, context);
+  add_fmt(app, context);
   add_lsp(app, context);
   add_man(app, context);
   add_new(app, context);

@@ -13,9 +13,12 @@ void add_commands(CLI::App& app, Context& context);
 
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
 void add_asm(CLI::App& app, Context& context);
+void add_build(CLI::App& app, Context& context);
+void add_check(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 void add_disasm(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
+void add_fmt(CLI::App& app, Context& context);
 void add_lsp(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);
 void add_new(CLI::App& app, Context& context);

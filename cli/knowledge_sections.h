@@ -12,6 +12,7 @@ Section variables_section();
 Section operators_section();
 Section basic_errors_section();
 Section limits_section();
+Section rules_section();
 Section basic_flags_section();
 Section macro_commands_section();
 Section macro_flags_section();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
+#include "base/fixes.h"
 #include "compiler/lint.h"
 #include "compiler/program.h"
 
@@ -23,16 +24,8 @@ struct Checked {
 /// one finding), then every line of it. `text` must outlive the result.
 Checked check(std::string_view text, const Target& target);
 
-struct Fixed {
-  std::string text;
-  std::size_t count = 0; ///< fixes made
-};
-
 /// Makes every safe fix, again and again until none is left: fixing the result changes nothing
 /// more.
 Fixed fix(std::string text, const Target& target);
-
-/// Makes the safe fixes among `diagnostics` that do not touch each other.
-Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics);
 
 } // namespace orb::compiler

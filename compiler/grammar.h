@@ -5,20 +5,36 @@
 //
 // Every rule eats the blanks behind it. The first token decides which rule applies, so nothing is
 // ever parsed twice; what must follow is said with must<>, and compiler/parse.cpp says what is
-// reported where it does not. Three rules look a word up in the tables of spec/ and go on by what it
-// is (word_statement, named_factor, arguments): a new statement of the usual form is a new row and
-// leaves this file alone.
+// reported where it does not. Three rules look a word up in the tables of spec/ and go on by what
+// it is (word_statement, named_factor, arguments): a new statement of the usual form is a new row
+// and leaves this file alone.
 
 #include <tao/pegtl.hpp>
 #include <tao/pegtl/contrib/analyze_traits.hpp>
+
+namespace orb::compiler {
+class Builder;
+}
 
 namespace orb::compiler::grammar {
 
 using namespace tao::pegtl;
 
+// The rules that look a word up. They are matched by hand, in parse.cpp; what they consume is said
+// here once more for analyze(), which proves that no loop stands still.
+#define ORB_BY_HAND(name)                                                                          \
+  struct name {                                                                                    \
+    using rule_t = name;                                                                           \
+    using subs_t = empty_list;                                                                     \
+    template <apply_mode A, rewind_mode M, template <typename...> class Action,                    \
+              template <typename...> class Control, typename Input>                                \
+    static bool match(Input& in, Builder& builder);                                                \
+  };
+
 // clang-format off
 
-struct _ : star<blank> {};
+struct _    : star<blank> {};
+struct word : plus<alpha> {};
 
 template <char... Letters>
 struct particle : seq<string<Letters...>, not_at<alpha>, _> {};
@@ -41,7 +57,7 @@ struct group_begin    : one<'('> {};
 struct group_end      : one<')'> {};
 struct group          : seq<group_begin, _, must<sum>, must<group_end>> {};
 struct call_operand   : seq<_, must<sum>> {};
-struct named_factor; // a letter, a system variable, or a function and call_operand
+ORB_BY_HAND(named_factor)  // a letter, a system variable, or a function and call_operand
 struct positive       : sor<number, named_factor, group> {};
 struct negation       : seq<one<'-'>, _, must<positive>> {};
 struct factor         : seq<sor<positive, negation>, _> {};
@@ -56,7 +72,7 @@ struct expression     : sum {};
 
 struct comma          : seq<one<','>, _> {};
 struct equals         : seq<one<'='>, _> {};
-struct user_variable; // A to Z
+ORB_BY_HAND(user_variable) // A to Z
 struct target         : plus<digit> {};
 struct targets        : list_must<seq<target, _>, comma> {};
 struct relation_sign  : one<'=', '!', '<', '>'> {};
@@ -85,14 +101,14 @@ struct entry          : seq<must<user_variable>,
                             opt<comma, must<expression>, must<comma>, must<expression>>> {};
 struct values         : seq<must<expression>, star<comma, must<expression>>> {};
 struct variables      : seq<must<user_variable>, star<comma, must<user_variable>>> {};
-struct arguments; // as many expressions as the statement has parameters
+ORB_BY_HAND(arguments) // as many expressions as the statement has parameters
 
 struct also_and       : word_and {};
 struct also_or        : word_or {};
 struct line_end       : sor<eof, at<one<'\n', '\r', '\''>>> {};
 struct then_end       : sor<line_end, at<word_else>> {};
-struct then_branch;   // a statement and then_end; what does not parse becomes a fault of its own
-struct else_branch;   // the same with line_end
+ORB_BY_HAND(then_branch) // a statement and then_end; what does not parse becomes a fault of its own
+ORB_BY_HAND(else_branch) // the same with line_end
 struct conditional    : seq<relation, opt<sor<also_and, also_or>, relation>, must<word_then>,
                             then_branch, opt<word_else, else_branch>> {};
 
@@ -100,10 +116,41 @@ struct conditional    : seq<relation, opt<sor<also_and, also_or>, relation>, mus
 
 struct question_mark  : one<'?'> {};
 struct short_print    : seq<question_mark, _, output> {};
-struct word_statement; // a word and what its form asks for
+ORB_BY_HAND(word_statement) // a word and what its form asks for
 struct statement      : sor<word_statement, short_print> {};
 struct line_rest      : sor<line_end, seq<must<statement>, must<line_end>>> {}; // behind its number
+
+#undef ORB_BY_HAND
 
 // clang-format on
 
 } // namespace orb::compiler::grammar
+
+namespace tao::pegtl {
+
+namespace orb_grammar = orb::compiler::grammar;
+
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::named_factor>
+    : analyze_seq_traits<orb_grammar::word, opt<orb_grammar::call_operand>> {};
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::user_variable> : analyze_seq_traits<orb_grammar::word> {};
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::arguments>
+    : analyze_opt_traits<orb_grammar::expression, orb_grammar::comma> {};
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::then_branch>
+    : analyze_seq_traits<orb_grammar::statement, orb_grammar::then_end> {};
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::else_branch>
+    : analyze_seq_traits<orb_grammar::statement, orb_grammar::line_end> {};
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::word_statement>
+    : analyze_seq_traits<orb_grammar::word,
+                         sor<orb_grammar::assignment, orb_grammar::conditional, orb_grammar::loop,
+                             orb_grammar::loop_end, orb_grammar::branch_line,
+                             orb_grammar::indexed_branch, orb_grammar::entry, orb_grammar::values,
+                             orb_grammar::variables, orb_grammar::arguments, orb_grammar::output>> {
+};
+
+} // namespace tao::pegtl

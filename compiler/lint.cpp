@@ -487,7 +487,7 @@ private:
     if (!range.misses(parameter.least, parameter.greatest))
       return;
     findings_.add(rules::ValueOutOfRange, line_, value.span,
-                  fmt::format("{} of `{}` is {} to {}, found {}", parameter.name, word,
+                  fmt::format("the {} of `{}` is {} to {}, found {}", parameter.name, word,
                               parameter.least, parameter.greatest, shown(range)));
   }
 
@@ -566,7 +566,7 @@ private:
     const auto end = range_of(item(statement, 2));
     const auto step = size(statement) > 3 ? range_of(item(statement, 3)) : Range::only(1);
     if (step == Range::only(0))
-      findings_.add(rules::ZeroStep, line_, item(statement, 3).span, "the step of a loop is not 0");
+      findings_.add(rules::ZeroStep, line_, item(statement, 3).span, "the step of the loop is 0");
     const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
     if (away) {
       auto& d = findings_.add(

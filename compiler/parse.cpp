@@ -78,6 +78,8 @@ void skip_blanks(Input& in) {
     in.bump_in_this_line(1);
 }
 
+} // namespace
+
 /// Where the rules put what they find: straight into the program.
 class Builder {
 public:
@@ -262,6 +264,8 @@ private:
   bool in_branch_ = false;
 };
 
+namespace {
+
 /// Where the text of a line ends: its line end or the end of the text.
 const char* find_line_end(const char* p, const char* end) {
   return std::find_if(p, end, [](char c) { return c == '\n' || c == '\r'; });
@@ -284,211 +288,193 @@ const char* skip_outside_strings(const char* p, const char* end, IsEnd is_end) {
 
 namespace grammar {
 
-struct named_factor {
-  using rule_t = named_factor;
-  using subs_t = type_list<call_operand>;
-
-  template <apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool match(Input& in, Builder& builder) {
-    const auto letters = peek_letters(in);
-    if (letters.length == 0)
-      return false;
-    const char* const begin = in.current();
-    const char* const end = begin + letters.length;
-    const auto word = find_word(letters.packed, letters.length);
-    switch (word.kind) {
-    case WordKind::Letter: {
-      const bool indexed = word.index == spec::value_of(spec::Limit::DirectVariables);
-      if (indexed && end != in.end() && *end == '(')
-        throw Stop{Reason::IndexedParenthesis, begin, end + 1};
-      builder.leaf(indexed ? NodeKind::Indexed : NodeKind::Letter, word.index, begin, end);
-      in.bump_in_this_line(letters.length);
-      return true;
-    }
-    case WordKind::Variable:
-      builder.leaf(NodeKind::System, word.index, begin, end);
-      in.bump_in_this_line(letters.length);
-      return true;
-    case WordKind::Function:
-      in.bump_in_this_line(letters.length);
-      builder.open(begin);
-      if (!Control<call_operand>::template match<A, M, Action, Control>(in, builder))
-        return false;
-      builder.unary(NodeKind::Call, word.index, begin, builder.trim(begin, in.current()));
-      builder.close();
-      return true;
-    case WordKind::Unknown:
-    case WordKind::Statement:
-    case WordKind::Particle: return false;
-    }
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool named_factor::match(Input& in, Builder& builder) {
+  const auto letters = peek_letters(in);
+  if (letters.length == 0)
     return false;
+  const char* const begin = in.current();
+  const char* const end = begin + letters.length;
+  const auto word = find_word(letters.packed, letters.length);
+  switch (word.kind) {
+  case WordKind::Letter: {
+    const bool indexed = word.index == spec::value_of(spec::Limit::DirectVariables);
+    if (indexed && end != in.end() && *end == '(')
+      throw Stop{Reason::IndexedParenthesis, begin, end + 1};
+    builder.leaf(indexed ? NodeKind::Indexed : NodeKind::Letter, word.index, begin, end);
+    in.bump_in_this_line(letters.length);
+    return true;
   }
-};
-
-struct user_variable {
-  using rule_t = user_variable;
-  using subs_t = empty_list;
-
-  template <apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool match(Input& in, Builder& builder) {
-    const auto letters = peek_letters(in);
-    if (letters.length != 1)
+  case WordKind::Variable:
+    builder.leaf(NodeKind::System, word.index, begin, end);
+    in.bump_in_this_line(letters.length);
+    return true;
+  case WordKind::Function:
+    in.bump_in_this_line(letters.length);
+    builder.open(begin);
+    if (!Control<call_operand>::template match<A, M, Action, Control>(in, builder))
       return false;
-    const char* const begin = in.current();
-    const auto index = find_word(letters.packed, 1).index;
-    const bool indexed = index == spec::value_of(spec::Limit::DirectVariables);
-    if (indexed && begin + 1 != in.end() && begin[1] == '(')
-      throw Stop{Reason::IndexedParenthesis, begin, begin + 2};
-    builder.item(indexed ? ItemKind::Indexed : ItemKind::Letter, index,
-                 builder.span(begin, begin + 1));
-    in.bump_in_this_line(1);
-    skip_blanks(in);
+    builder.unary(NodeKind::Call, word.index, begin, builder.trim(begin, in.current()));
+    builder.close();
     return true;
+  case WordKind::Unknown:
+  case WordKind::Statement:
+  case WordKind::Particle: return false;
   }
-};
+  return false;
+}
 
-struct arguments {
-  using rule_t = arguments;
-  using subs_t = type_list<comma, expression>;
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool user_variable::match(Input& in, Builder& builder) {
+  const auto letters = peek_letters(in);
+  if (letters.length != 1)
+    return false;
+  const char* const begin = in.current();
+  const auto index = find_word(letters.packed, 1).index;
+  const bool indexed = index == spec::value_of(spec::Limit::DirectVariables);
+  if (indexed && begin + 1 != in.end() && begin[1] == '(')
+    throw Stop{Reason::IndexedParenthesis, begin, begin + 2};
+  builder.item(indexed ? ItemKind::Indexed : ItemKind::Letter, index,
+               builder.span(begin, begin + 1));
+  in.bump_in_this_line(1);
+  skip_blanks(in);
+  return true;
+}
 
-  template <apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool match(Input& in, Builder& builder) {
-    const auto& row = spec::info(builder.kind());
-    const auto most = row.parameters().size();
-    for (std::size_t n = 0; n < most; ++n) {
-      if (n > 0) {
-        const char* const here = in.current();
-        if (!Control<comma>::template match<A, M, Action, Control>(in, builder)) {
-          if (n >= row.required)
-            return true;
-          throw Stop{Reason::ExpectedComma, here, nullptr, static_cast<std::uint32_t>(n)};
-        }
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool arguments::match(Input& in, Builder& builder) {
+  const auto& row = spec::info(builder.kind());
+  const auto most = row.parameters().size();
+  for (std::size_t n = 0; n < most; ++n) {
+    if (n > 0) {
+      const char* const here = in.current();
+      if (!Control<comma>::template match<A, M, Action, Control>(in, builder)) {
+        if (n >= row.required)
+          return true;
+        throw Stop{Reason::ExpectedComma, here, nullptr, static_cast<std::uint32_t>(n)};
       }
-      if (!Control<expression>::template match<A, M, Action, Control>(in, builder))
-        throw Stop{Reason::ExpectedExpression, in.current(), nullptr,
-                   static_cast<std::uint32_t>(n)};
     }
-    if (most > 0 && in.current() != in.end() && *in.current() == ',')
-      throw Stop{Reason::TooManyArguments, in.current(), nullptr};
-    return true;
+    if (!Control<expression>::template match<A, M, Action, Control>(in, builder))
+      throw Stop{Reason::ExpectedExpression, in.current(), nullptr, static_cast<std::uint32_t>(n)};
   }
-};
+  if (most > 0 && in.current() != in.end() && *in.current() == ',')
+    throw Stop{Reason::TooManyArguments, in.current(), nullptr};
+  return true;
+}
 
-/// Parses a branch; `IsEnd` says where one that does not parse ends.
-template <typename End, bool StopsAtElse>
-struct branch_until {
-  using rule_t = branch_until;
-  using subs_t = type_list<statement, End>;
-
-  template <apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool match(Input& in, Builder& builder) {
-    const char* const begin = in.current();
-    builder.branch(begin, [&](const Builder::Mark& mark) {
-      try {
-        if (begin != in.end() && is_digit(*begin))
-          throw Stop{Reason::ImpliedGoto, begin, nullptr};
-        if (!Control<statement>::template match<A, M, Action, Control>(in, builder))
-          throw Stop{Reason::ExpectedStatement, in.current(), nullptr};
-        if (!Control<End>::template match<A, M, Action, Control>(in, builder))
-          throw Stop{Reason::Trailing, in.current(), nullptr};
-      } catch (const Stop& stop) {
-        const auto at_else = [&](const char* p) {
-          constexpr std::string_view word = "else";
-          const auto left = static_cast<std::size_t>(in.end() - p);
-          return StopsAtElse && left >= word.size() && std::string_view(p, word.size()) == word &&
-                 (left == word.size() || !is_letter(p[word.size()])) &&
-                 (p == begin || !is_letter(p[-1]));
-        };
-        const char* const end = skip_outside_strings(begin, in.end(), at_else);
-        builder.fail(mark, stop, begin, builder.trim(begin, end));
+/// Parses a branch that goes on to `End`. One that does not parse ends at `else` (only a `then`
+/// branch) or at the end of the line, and holds the robot's error.
+template <typename End, bool StopsAtElse, apply_mode A, rewind_mode M,
+          template <typename...> class Action, template <typename...> class Control, typename Input>
+bool match_branch(Input& in, Builder& builder) {
+  const char* const begin = in.current();
+  builder.branch(begin, [&](const Builder::Mark& mark) {
+    try {
+      if (begin != in.end() && is_digit(*begin))
+        throw Stop{Reason::ImpliedGoto, begin, nullptr};
+      if (!Control<statement>::template match<A, M, Action, Control>(in, builder))
+        throw Stop{Reason::ExpectedStatement, in.current(), nullptr};
+      if (!Control<End>::template match<A, M, Action, Control>(in, builder))
+        throw Stop{Reason::Trailing, in.current(), nullptr};
+    } catch (const Stop& stop) {
+      const auto at_else = [&](const char* p) {
+        constexpr std::string_view word = "else";
+        const auto left = static_cast<std::size_t>(in.end() - p);
+        return StopsAtElse && left >= word.size() && std::string_view(p, word.size()) == word &&
+               (left == word.size() || !is_letter(p[word.size()])) &&
+               (p == begin || !is_letter(p[-1]));
+      };
+      const char* const end = skip_outside_strings(begin, in.end(), at_else);
+      builder.fail(mark, stop, begin, builder.trim(begin, end));
+      if (end > in.current())
         in.bump_in_this_line(static_cast<std::size_t>(end - in.current()));
-      }
-      return in.current();
-    });
-    return true;
-  }
-};
-
-struct then_branch : branch_until<then_end, true> {};
-struct else_branch : branch_until<line_end, false> {};
-
-struct word_statement {
-  using rule_t = word_statement;
-  using subs_t = type_list<assignment, conditional, loop, loop_end, branch_line, indexed_branch,
-                           output, entry, values, variables, arguments>;
-
-  template <apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool match(Input& in, Builder& builder) {
-    const auto letters = peek_letters(in);
-    if (letters.length == 0)
-      return false;
-    const char* const begin = in.current();
-    const char* const end = begin + letters.length;
-    const auto word = find_word(letters.packed, letters.length);
-    switch (word.kind) {
-    case WordKind::Unknown: throw Stop{Reason::UnknownWord, begin, nullptr};
-    case WordKind::Function:
-    case WordKind::Particle: throw Stop{Reason::NotAStatement, begin, nullptr};
-    case WordKind::Letter:
-    case WordKind::Variable:
-      builder.begin_statement(spec::Statement::Let, Spelling::Plain, begin, begin);
-      return assign<A, M, Action, Control>(in, builder);
-    case WordKind::Statement: break;
     }
-    const auto kind = static_cast<spec::Statement>(word.index);
-    if (kind == spec::Statement::If && builder.in_branch())
-      throw Stop{Reason::NestedIf, begin, nullptr};
-    builder.begin_statement(kind, Spelling::Plain, begin, end);
+    return in.current();
+  });
+  return true;
+}
+
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool then_branch::match(Input& in, Builder& builder) {
+  return match_branch<then_end, true, A, M, Action, Control>(in, builder);
+}
+
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool else_branch::match(Input& in, Builder& builder) {
+  return match_branch<line_end, false, A, M, Action, Control>(in, builder);
+}
+
+template <typename Rule, apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool match_rest(Input& in, Builder& builder) {
+  return Control<Rule>::template match<A, M, Action, Control>(in, builder);
+}
+
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool match_assignment(Input& in, Builder& builder) {
+  const auto letters = peek_letters(in);
+  const char* const begin = in.current();
+  const auto word = find_word(letters.packed, letters.length);
+  if (letters.length > 0 && word.kind == WordKind::Variable) {
+    if (spec::variables[word.index].access != spec::Access::ReadWrite)
+      throw Stop{Reason::ReadOnly, begin, nullptr};
+    builder.item(ItemKind::System, word.index, builder.span(begin, begin + letters.length));
     in.bump_in_this_line(letters.length);
     skip_blanks(in);
-    switch (spec::info(kind).form) {
-    case spec::Form::Assignment:
-      builder.spell(Spelling::Let);
-      return assign<A, M, Action, Control>(in, builder);
-    case spec::Form::Conditional: return rest<conditional, A, M, Action, Control>(in, builder);
-    case spec::Form::Loop: return rest<loop, A, M, Action, Control>(in, builder);
-    case spec::Form::LoopEnd: return rest<loop_end, A, M, Action, Control>(in, builder);
-    case spec::Form::Branch: return rest<branch_line, A, M, Action, Control>(in, builder);
-    case spec::Form::IndexedBranch: return rest<indexed_branch, A, M, Action, Control>(in, builder);
-    case spec::Form::Output: return rest<output, A, M, Action, Control>(in, builder);
-    case spec::Form::Entry: return rest<entry, A, M, Action, Control>(in, builder);
-    case spec::Form::Values: return rest<values, A, M, Action, Control>(in, builder);
-    case spec::Form::Variables: return rest<variables, A, M, Action, Control>(in, builder);
-    case spec::Form::Arguments: return rest<arguments, A, M, Action, Control>(in, builder);
-    }
+  } else if (!Control<user_variable>::template match<A, M, Action, Control>(in, builder)) {
+    throw Stop{Reason::ExpectedVariable, begin, nullptr};
+  }
+  return match_rest<assignment, A, M, Action, Control>(in, builder);
+}
+template <apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
+bool word_statement::match(Input& in, Builder& builder) {
+  const auto letters = peek_letters(in);
+  if (letters.length == 0)
     return false;
+  const char* const begin = in.current();
+  const char* const end = begin + letters.length;
+  const auto word = find_word(letters.packed, letters.length);
+  switch (word.kind) {
+  case WordKind::Unknown: throw Stop{Reason::UnknownWord, begin, nullptr};
+  case WordKind::Function:
+  case WordKind::Particle: throw Stop{Reason::NotAStatement, begin, nullptr};
+  case WordKind::Letter:
+  case WordKind::Variable:
+    builder.begin_statement(spec::Statement::Let, Spelling::Plain, begin, begin);
+    return match_assignment<A, M, Action, Control>(in, builder);
+  case WordKind::Statement: break;
   }
-
-private:
-  template <typename Rule, apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool rest(Input& in, Builder& builder) {
-    return Control<Rule>::template match<A, M, Action, Control>(in, builder);
+  const auto kind = static_cast<spec::Statement>(word.index);
+  if (kind == spec::Statement::If && builder.in_branch())
+    throw Stop{Reason::NestedIf, begin, nullptr};
+  builder.begin_statement(kind, Spelling::Plain, begin, end);
+  in.bump_in_this_line(letters.length);
+  skip_blanks(in);
+  switch (spec::info(kind).form) {
+  case spec::Form::Assignment:
+    builder.spell(Spelling::Let);
+    return match_assignment<A, M, Action, Control>(in, builder);
+  case spec::Form::Conditional: return match_rest<conditional, A, M, Action, Control>(in, builder);
+  case spec::Form::Loop: return match_rest<loop, A, M, Action, Control>(in, builder);
+  case spec::Form::LoopEnd: return match_rest<loop_end, A, M, Action, Control>(in, builder);
+  case spec::Form::Branch: return match_rest<branch_line, A, M, Action, Control>(in, builder);
+  case spec::Form::IndexedBranch:
+    return match_rest<indexed_branch, A, M, Action, Control>(in, builder);
+  case spec::Form::Output: return match_rest<output, A, M, Action, Control>(in, builder);
+  case spec::Form::Entry: return match_rest<entry, A, M, Action, Control>(in, builder);
+  case spec::Form::Values: return match_rest<values, A, M, Action, Control>(in, builder);
+  case spec::Form::Variables: return match_rest<variables, A, M, Action, Control>(in, builder);
+  case spec::Form::Arguments: return match_rest<arguments, A, M, Action, Control>(in, builder);
   }
-
-  template <apply_mode A, rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input>
-  static bool assign(Input& in, Builder& builder) {
-    const auto letters = peek_letters(in);
-    const char* const begin = in.current();
-    const auto word = find_word(letters.packed, letters.length);
-    if (letters.length > 0 && word.kind == WordKind::Variable) {
-      if (spec::variables[word.index].access != spec::Access::ReadWrite)
-        throw Stop{Reason::ReadOnly, begin, nullptr};
-      builder.item(ItemKind::System, word.index, builder.span(begin, begin + letters.length));
-      in.bump_in_this_line(letters.length);
-      skip_blanks(in);
-    } else if (!Control<user_variable>::template match<A, M, Action, Control>(in, builder)) {
-      throw Stop{Reason::ExpectedVariable, begin, nullptr};
-    }
-    return rest<assignment, A, M, Action, Control>(in, builder);
-  }
-};
+  return false;
+}
 
 } // namespace grammar
 

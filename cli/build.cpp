@@ -1,0 +1,130 @@
+#include "base/render.h"
+#include "cli/commands.h"
+#include "cli/files.h"
+#include "cli/language.h"
+#include "cli/target.h"
+#include "compiler/check.h"
+#include "compiler/image.h"
+#include "compiler/rules.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string lang;
+  std::string out = "-";
+  std::string map;
+  TargetOptions target;
+  bool pack = false;
+  bool no_check = false;
+};
+
+std::string map_json(const std::string& file, const compiler::Image& image) {
+  nlohmann::ordered_json json;
+  json["schema"] = "orb.map/1";
+  json["file"] = file;
+  json["lines"] = nlohmann::ordered_json::array();
+  for (const auto& line : image.lines) {
+    nlohmann::ordered_json entry;
+    entry["line"] = line.source_line;
+    if (line.number != compiler::none)
+      entry["basicLine"] = line.number;
+    entry["offset"] = line.offset;
+    entry["size"] = line.size;
+    json["lines"].push_back(std::move(entry));
+  }
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+/// Prints the errors; the size is left to the image that is really built.
+bool has_errors(Context& context, const Source& source, const std::vector<Diagnostic>& found) {
+  bool errors = false;
+  for (const auto& diagnostic : found) {
+    if (diagnostic.severity != Severity::Error ||
+        diagnostic.rule == &compiler::rules::ProgramTooLarge)
+      continue;
+    errors = true;
+    print_err(render_text(source, diagnostic, context.err_style()));
+  }
+  return errors;
+}
+
+bool write(Context& context, const std::string& path, std::string_view bytes) {
+  const auto written = write_file(path, as_bytes(bytes));
+  if (!written) {
+    print_error(context, written.error().message);
+    context.exit = ExitCode::File;
+  }
+  return written.has_value();
+}
+
+void build_basic(Context& context, const Options& options, std::string text) {
+  const Source source(display_name(options.file), std::move(text));
+  const auto target = options.target.target();
+  const auto checked = compiler::check(source.text(), target);
+  const bool refused = !checked.image_bytes;
+  if ((refused || !options.no_check) && has_errors(context, source, checked.diagnostics)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  const auto image = compiler::build_image(
+      checked.program, options.pack ? compiler::Packing::Packed : compiler::Packing::Plain);
+  const auto room = static_cast<std::size_t>(compiler::area_bytes(target));
+  if (image.bytes.size() > room) {
+    print_error(context,
+                fmt::format("{} takes {} bytes, {} more than the {} of the {} area{}",
+                            source.name(), image.bytes.size(), image.bytes.size() - room, room,
+                            options.target.area, options.pack ? "" : "; try `--pack`"));
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  if (!options.map.empty() && !write(context, options.map, map_json(source.name(), image)))
+    return;
+  if (write(context, options.out, image.bytes))
+    print_note(context,
+               fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
+}
+
+void run(Context& context, const Options& options) {
+  auto text = read_file(options.file);
+  if (!text) {
+    print_error(context, text.error().message);
+    context.exit = ExitCode::File;
+    return;
+  }
+  const auto language = require_language(context, options.file, options.lang);
+  if (!language)
+    return;
+  if (language == Language::Basic) {
+    build_basic(context, options, *std::move(text));
+    return;
+  }
+  print_error(context, "macros are built with `orb asm`");
+  context.exit = ExitCode::Usage;
+}
+
+} // namespace
+
+void add_build(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "build", "make the exact bytes to upload",
+                              "orb build square.bas -o square.img\n"
+                              "orb build --pack square.bas --map square.json -o square.img");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "a source; `-` is standard input")->required();
+  add_language_option(*command, options->lang);
+  command->add_option("-o,--output", options->out,
+                      "where the bytes go; standard output if missing");
+  command->add_flag("--pack", options->pack, "as small as it gets with the same behaviour");
+  command->add_option("--map", options->map, "write which source line became which robot line");
+  add_target_options(*command, options->target);
+  command->add_flag("--no-check", options->no_check, "build although the program has errors");
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,152 @@
+#include "compiler/check.h"
+#include "base/fixes.h"
+#include "base/render.h"
+#include "cli/commands.h"
+#include "cli/files.h"
+#include "cli/language.h"
+#include "cli/policy.h"
+#include "cli/target.h"
+#include "cli/values.h"
+
+#include <algorithm>
+#include <deque>
+#include <fmt/format.h>
+#include <memory>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string lang;
+  std::string format = "text";
+  TargetOptions target;
+  Policy policy;
+  bool fix = false;
+};
+
+struct Input {
+  std::string path;
+  Language language = Language::Basic;
+  Source source;
+};
+
+/// Reads all files; nothing, and reported, where one of them cannot be read.
+std::optional<std::deque<Input>> read_inputs(Context& context, const Options& options) {
+  std::deque<Input> inputs; // sources are referred to and must not move
+  for (const auto& path : options.files) {
+    auto text = read_file(path);
+    if (!text) {
+      print_error(context, text.error().message);
+      context.exit = ExitCode::File;
+      return std::nullopt;
+    }
+    const auto language = require_language(context, path, options.lang);
+    if (!language)
+      return std::nullopt;
+    inputs.push_back({path, *language, Source(display_name(path), *std::move(text))});
+  }
+  return inputs;
+}
+
+FileFindings check_one(const Options& options, const Input& input) {
+  FileFindings findings;
+  findings.source = &input.source;
+  auto checked = compiler::check(input.source.text(), options.target.target());
+  findings.diagnostics = std::move(checked.diagnostics);
+  findings.built_size = checked.image_bytes;
+  weigh(options.policy, findings.diagnostics);
+  return findings;
+}
+
+/// Makes the safe fixes of a file until none is left, and writes it back where one was made.
+bool fix_one(Context& context, const Options& options, Input& input) {
+  constexpr int most_rounds = 64; // one mistake hides the next on its line; no fix undoes another
+  std::size_t made = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    auto fixed = apply_fixes(input.source.text(), check_one(options, input).diagnostics);
+    if (fixed.count == 0)
+      break;
+    made += fixed.count;
+    input.source = Source(input.source.name(), std::move(fixed.text));
+  }
+  if (made == 0)
+    return true;
+  if (const auto written = write_file(input.path, as_bytes(input.source.text())); !written) {
+    print_error(context, written.error().message);
+    context.exit = ExitCode::File;
+    return false;
+  }
+  print_note(context,
+             fmt::format("{}: {} fix{} made", input.source.name(), made, made == 1 ? "" : "es"));
+  return true;
+}
+
+void print_findings(Context& context, const Options& options,
+                    const std::vector<FileFindings>& files) {
+  if (options.format == "json") {
+    print_out(render_json(files));
+  } else if (options.format == "sarif") {
+    print_out(render_sarif(files));
+  } else {
+    const auto style = context.out_style();
+    std::string out;
+    for (const auto& file : files)
+      for (const auto& diagnostic : file.diagnostics)
+        out += options.format == "gcc" ? render_gcc(*file.source, diagnostic)
+                                       : render_text(*file.source, diagnostic, style);
+    print_out(out);
+    if (options.format == "text" && ::isatty(STDOUT_FILENO) != 0)
+      print_out(render_summary(files));
+  }
+}
+
+void run(Context& context, const Options& options) {
+  if (!check_rules(context, options.policy))
+    return;
+  if (options.fix &&
+      std::find(options.files.begin(), options.files.end(), "-") != options.files.end()) {
+    print_error(context, "`--fix` writes the file back; standard input has none");
+    context.exit = ExitCode::Usage;
+    return;
+  }
+  auto inputs = read_inputs(context, options);
+  if (!inputs)
+    return;
+  std::vector<FileFindings> files;
+  for (auto& input : *inputs) {
+    if (options.fix && !fix_one(context, options, input))
+      return;
+    files.push_back(check_one(options, input));
+  }
+  if (count(files).errors > 0)
+    context.exit = ExitCode::BadInput;
+  const auto hidden = cut(options.policy, files);
+  print_findings(context, options, files);
+  if (hidden > 0)
+    print_note(context, fmt::format("{} more finding{} not shown; `--max-errors 0` shows all",
+                                    hidden, hidden == 1 ? " is" : "s are"));
+}
+
+} // namespace
+
+void add_check(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "check", "find the mistakes in programs and macros",
+                              "orb check square.bas\n"
+                              "orb check --target 1.2 --ram 1024 *.bas\n"
+                              "orb check --fix square.bas\n"
+                              "orb check --format sarif *.bas *.macro > findings.sarif");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
+  add_language_option(*command, options->lang);
+  add_target_options(*command, options->target);
+  command->add_option("--format", options->format, "how findings are printed")
+      ->check(one_of({"text", "json", "sarif", "gcc"}))
+      ->capture_default_str();
+  add_policy_options(*command, options->policy);
+  command->add_flag("--fix", options->fix, "make the safe fixes and write the files back");
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli

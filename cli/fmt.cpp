@@ -1,0 +1,157 @@
+#include "base/render.h"
+#include "base/source.h"
+#include "cli/commands.h"
+#include "cli/diff.h"
+#include "cli/files.h"
+#include "cli/language.h"
+#include "compiler/check.h"
+#include "compiler/parse.h"
+#include "compiler/print.h"
+#include "compiler/renumber.h"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string lang;
+  std::string renumber;
+  bool renumbers = false;
+  bool write = false;
+  bool check = false;
+  bool diff = false;
+};
+
+std::optional<std::uint32_t> read_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || value == 0 ||
+      value > 65535)
+    return std::nullopt;
+  return value;
+}
+
+/// `START:STEP`, or `START` alone.
+std::optional<compiler::Numbering> read_numbering(const std::string& text) {
+  if (text.empty())
+    return compiler::Numbering{};
+  const auto colon = text.find(':');
+  const auto start = read_number(std::string_view(text).substr(0, colon));
+  const auto step = colon == std::string::npos
+                        ? std::optional<std::uint32_t>(compiler::Numbering{}.step)
+                        : read_number(std::string_view(text).substr(colon + 1));
+  if (!start || !step)
+    return std::nullopt;
+  return compiler::Numbering{*start, *step};
+}
+
+/// The formatted text; nothing, and reported, where the file cannot be formatted.
+std::optional<std::string> format_text(Context& context, const Source& source,
+                                       const std::optional<compiler::Numbering>& numbering) {
+  auto checked = compiler::check(source.text(), {});
+  if (!checked.image_bytes) { // no program at all: empty, binary or far too large
+    for (const auto& diagnostic : checked.diagnostics)
+      print_err(render_text(source, diagnostic, context.err_style()));
+    context.exit = ExitCode::BadInput;
+    return std::nullopt;
+  }
+  if (!numbering)
+    return compiler::format(checked.program);
+  const auto result = compiler::renumber(checked.program, *numbering);
+  if (const auto* obstacle = std::get_if<compiler::Obstacle>(&result)) {
+    const auto place = source.position(obstacle->span.begin);
+    print_error(context, fmt::format("{}:{}:{}: cannot renumber: {}", source.name(), place.line,
+                                     place.column, obstacle->message));
+    context.exit = ExitCode::BadInput;
+    return std::nullopt;
+  }
+  const auto& text = std::get<std::string>(result);
+  return compiler::format(compiler::parse(text));
+}
+
+void run_one(Context& context, const Options& options, const std::string& path,
+             const std::optional<compiler::Numbering>& numbering) {
+  auto text = read_file(path);
+  if (!text) {
+    print_error(context, text.error().message);
+    context.exit = ExitCode::File;
+    return;
+  }
+  const auto language = require_language(context, path, options.lang);
+  if (!language)
+    return;
+  if (language == Language::Macro) {
+    print_error(context,
+                fmt::format("{}: only orbBasic programs can be formatted", display_name(path)));
+    context.exit = ExitCode::Usage;
+    return;
+  }
+  const Source source(display_name(path), *std::move(text));
+  const auto formatted = format_text(context, source, numbering);
+  if (!formatted)
+    return;
+  const bool changed = *formatted != source.text();
+  if (options.diff)
+    print_out(unified_diff(source.name(), source.text(), *formatted));
+  if (options.check && changed) {
+    print_note(context, fmt::format("{} would change", source.name()));
+    context.exit = ExitCode::BadInput;
+  }
+  if (options.write && changed) {
+    if (const auto written = write_file(path, as_bytes(*formatted)); !written) {
+      print_error(context, written.error().message);
+      context.exit = ExitCode::File;
+    }
+  }
+  if (!options.diff && !options.check && !options.write)
+    print_out(*formatted);
+}
+
+void run(Context& context, const Options& options) {
+  std::optional<compiler::Numbering> numbering;
+  if (options.renumbers) {
+    numbering = read_numbering(options.renumber);
+    if (!numbering) {
+      print_error(context,
+                  fmt::format("`--renumber={}` is not START:STEP, as in `--renumber=100:10`",
+                              options.renumber));
+      context.exit = ExitCode::Usage;
+      return;
+    }
+  }
+  for (const auto& path : options.files)
+    run_one(context, options, path, numbering);
+}
+
+} // namespace
+
+void add_fmt(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "fmt", "lay programs out in one canonical way",
+                              "orb fmt square.bas\n"
+                              "orb fmt -w *.bas\n"
+                              "orb fmt --renumber=100:10 --diff square.bas");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
+  add_language_option(*command, options->lang);
+  auto* write = command->add_flag("-w,--write", options->write, "write the files back");
+  auto* check = command->add_flag("--check", options->check,
+                                  "write nothing; exit 1 where a file would change");
+  auto* diff = command->add_flag("--diff", options->diff, "print the change as a unified diff");
+  write->excludes(check);
+  write->excludes(diff);
+  auto* renumber =
+      command->add_option("--renumber", options->renumber,
+                          "new line numbers START, START+STEP…, and every jump with them (10:10)");
+  renumber->expected(0, 1)->type_name("START:STEP");
+  command->callback([&context, options, renumber] {
+    options->renumbers = renumber->count() > 0;
+    run(context, *options);
+  });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,52 @@
+#include "cli/target.h"
+
+#include "cli/values.h"
+#include "spec/limits.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <vector>
+
+namespace orb::cli {
+namespace {
+
+std::vector<std::string> versions() {
+  std::vector<std::string> all;
+  for (const auto& row : spec::basic_versions)
+    all.emplace_back(row.text);
+  return all;
+}
+
+std::vector<std::string> ram_sizes() {
+  std::vector<std::string> all;
+  for (const auto limit :
+       {spec::Limit::RamBytesUntil146, spec::Limit::RamBytesUntil147, spec::Limit::RamBytes})
+    all.push_back(std::to_string(spec::value_of(limit)));
+  return all;
+}
+
+} // namespace
+
+compiler::Target TargetOptions::target() const {
+  compiler::Target target;
+  if (const auto found = spec::find_version(version))
+    target.version = *found;
+  if (area == "flash")
+    target.area = compiler::Area::Flash;
+  if (ram != 0)
+    target.ram_bytes = ram;
+  return target;
+}
+
+void add_target_options(CLI::App& command, TargetOptions& options) {
+  command.add_option("--target", options.version, "the orbBasic version of the robot (1.6)")
+      ->check(one_of(versions()))
+      ->envname("ORB_TARGET");
+  command.add_option("--ram", options.ram, "bytes of the robot's RAM area")
+      ->check(one_of(ram_sizes()));
+  command.add_option("--area", options.area, "the area that the program goes to")
+      ->check(one_of({"ram", "flash"}))
+      ->capture_default_str();
+}
+
+} // namespace orb::cli

@@ -1,0 +1,100 @@
+#include "compiler/renumber.h"
+
+#include "base/fixes.h"
+#include "compiler/flow.h"
+#include "spec/limits.h"
+
+#include <fmt/format.h>
+#include <optional>
+#include <vector>
+
+namespace orb::compiler {
+namespace {
+
+class Renumberer {
+public:
+  Renumberer(const Program& program, Numbering numbering)
+      : program_(program), flow_(read_flow(program)), numbering_(numbering) {}
+
+  std::variant<std::string, Obstacle> run() {
+    for (const auto& fault : program_.faults)
+      return Obstacle{fault.span, "the line does not parse, so its numbers cannot be followed"};
+    if (auto obstacle = number_lines())
+      return *obstacle;
+    if (auto obstacle = follow_targets())
+      return *obstacle;
+    if (auto obstacle = follow_sleeps())
+      return *obstacle;
+    return replace();
+  }
+
+private:
+  std::optional<Obstacle> number_lines() {
+    std::uint64_t next = numbering_.start;
+    numbers_.resize(program_.lines.size());
+    for (std::size_t i = 0; i < program_.lines.size(); ++i) {
+      const auto& line = program_.lines[i];
+      if (!line.has_number())
+        continue;
+      if (next > static_cast<std::uint64_t>(spec::value_of(spec::Limit::GreatestLineNumber)))
+        return Obstacle{line.number_span,
+                        fmt::format("this line would get number {}; 65535 is the greatest", next)};
+      numbers_[i] = static_cast<std::uint32_t>(next);
+      edits_.push_back({line.number_span, std::to_string(next)});
+      next += numbering_.step;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Obstacle> follow_targets() {
+    for (const auto& item : program_.items) {
+      if (item.kind != ItemKind::Target)
+        continue;
+      const auto* number = flow_.find(item.value);
+      if (number == nullptr)
+        return Obstacle{item.span, fmt::format("there is no line {}; under new numbers there "
+                                               "might be one",
+                                               program_.text_of(item.span))};
+      edits_.push_back({item.span, std::to_string(numbers_[number->line])});
+    }
+    return std::nullopt;
+  }
+
+  /// The wake-up line belongs to the program in flash: a number that this program does not have is
+  /// left alone, as it names a line of another.
+  std::optional<Obstacle> follow_sleeps() {
+    for (const auto& statement : program_.statements) {
+      if (statement.error || statement.kind != spec::Statement::Sleep)
+        continue;
+      const auto& item = program_.items[statement.items_begin + 2];
+      const auto& root = program_.nodes[item.value];
+      if (root.kind != NodeKind::Number)
+        return Obstacle{item.span, "the wake-up line is computed, so it cannot be followed"};
+      const auto* number =
+          root.value > 0 ? flow_.find(static_cast<std::uint32_t>(root.value)) : nullptr;
+      if (number != nullptr)
+        edits_.push_back({item.span, std::to_string(numbers_[number->line])});
+    }
+    return std::nullopt;
+  }
+
+  std::string replace() const {
+    Diagnostic all;
+    all.fix = Fix{{}, edits_, Safety::Safe};
+    return apply_fixes(program_.text, {all}).text;
+  }
+
+  const Program& program_;
+  Flow flow_;
+  Numbering numbering_;
+  std::vector<std::uint32_t> numbers_; ///< by line
+  std::vector<Edit> edits_;
+};
+
+} // namespace
+
+std::variant<std::string, Obstacle> renumber(const Program& program, Numbering numbering) {
+  return Renumberer(program, numbering).run();
+}
+
+} // namespace orb::compiler

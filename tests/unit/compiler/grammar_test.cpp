@@ -1,0 +1,9 @@
+#include "compiler/grammar.h"
+
+#include <gtest/gtest.h>
+#include <tao/pegtl/contrib/analyze.hpp>
+
+// PEGTL's own check of a grammar: no rule can repeat itself without consuming.
+TEST(Grammar, EveryLoopConsumes) {
+  EXPECT_EQ(tao::pegtl::analyze<orb::compiler::grammar::line_rest>(), 0U);
+}

@@ -1,0 +1,67 @@
+#include "compiler/rules.h"
+
+#include "base/fixes.h"
+#include "compiler/check.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace orb::compiler {
+namespace {
+
+bool raises(std::string_view text, const Rule& rule) {
+  const auto checked = check(text, {});
+  return std::any_of(checked.diagnostics.begin(), checked.diagnostics.end(),
+                     [&](const Diagnostic& d) { return d.rule == &rule; });
+}
+
+TEST(Rules, EachBadExampleRaisesItsRule) {
+  for (const auto& rule : rules::all())
+    if (!rule.bad.empty()) {
+      EXPECT_TRUE(raises(rule.bad, rule)) << rule.id;
+    }
+}
+
+TEST(Rules, EachGoodExampleIsFine) {
+  for (const auto& rule : rules::all())
+    if (!rule.good.empty()) {
+      const auto checked = check(rule.good, {});
+      for (const auto& d : checked.diagnostics)
+        ADD_FAILURE() << rule.id << ": " << d.rule->id << ": " << d.message;
+    }
+}
+
+TEST(Rules, RowsAreWritten) {
+  for (const auto& rule : rules::all()) {
+    EXPECT_FALSE(rule.summary.empty()) << rule.id;
+    EXPECT_FALSE(rule.explanation.empty()) << rule.id;
+    EXPECT_EQ(rules::find(rule.id), &rule);
+    EXPECT_EQ(rule.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string::npos);
+  }
+  EXPECT_EQ(rules::find("no-such-rule"), nullptr);
+}
+
+// A safe fix mends what it was made for, and fixing again changes nothing.
+TEST(Rules, FixesOfTheBadExamplesAreFinal) {
+  std::size_t fixed_rules = 0;
+  for (const auto& rule : rules::all()) {
+    const auto checked = check(rule.bad, {});
+    const bool fixable =
+        std::any_of(checked.diagnostics.begin(), checked.diagnostics.end(), [&](const auto& d) {
+          return d.rule == &rule && d.fix && d.fix->safety == Safety::Safe;
+        });
+    if (!fixable)
+      continue;
+    ++fixed_rules;
+    const auto once = fix(std::string(rule.bad), {});
+    EXPECT_FALSE(raises(once.text, rule)) << rule.id << ": " << once.text;
+    const auto twice = fix(once.text, {});
+    EXPECT_EQ(twice.count, 0U) << rule.id;
+    EXPECT_EQ(twice.text, once.text) << rule.id;
+  }
+  EXPECT_GE(fixed_rules, 12U);
+}
+
+} // namespace
+} // namespace orb::compiler
