@@ -1,4 +1,5 @@
 #include "base/render.h"
+#include "cli/asm.h"
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/language.h"
@@ -105,8 +106,10 @@ void run(Context& context, const Options& options) {
     build_basic(context, options, *std::move(text));
     return;
   }
-  print_error(context, "macros are built with `orb asm`");
-  context.exit = ExitCode::Usage;
+  AsmOptions macros;
+  macros.file = options.file;
+  macros.out = options.out;
+  context.exit = run_asm(context, macros);
 }
 
 } // namespace

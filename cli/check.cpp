@@ -1,4 +1,5 @@
 #include "compiler/check.h"
+#include "assembler/lint.h"
 #include "base/fixes.h"
 #include "base/render.h"
 #include "cli/commands.h"
@@ -50,14 +51,39 @@ std::optional<std::deque<Input>> read_inputs(Context& context, const Options& op
   return inputs;
 }
 
-FileFindings check_one(const Options& options, const Input& input) {
+FileFindings check_basic(const Options& options, const Source& source) {
   FileFindings findings;
-  findings.source = &input.source;
-  auto checked = compiler::check(input.source.text(), options.target.target());
+  findings.source = &source;
+  auto checked = compiler::check(source.text(), options.target.target());
   findings.diagnostics = std::move(checked.diagnostics);
   findings.built_size = checked.image_bytes;
-  weigh(options.policy, findings.diagnostics);
   return findings;
+}
+
+/// Checks all files. Macros are checked together: they go to one ball and call each other.
+std::vector<FileFindings> check_all(const Options& options, const std::deque<Input>& inputs) {
+  std::vector<const Source*> macros;
+  for (const auto& input : inputs)
+    if (input.language == Language::Macro)
+      macros.push_back(&input.source);
+  auto of_macros = assembler::check(macros);
+  std::vector<FileFindings> files;
+  std::size_t next_macro = 0;
+  for (const auto& input : inputs) {
+    switch (input.language) {
+    case Language::Basic: files.push_back(check_basic(options, input.source)); break;
+    case Language::Macro: files.push_back(std::move(of_macros[next_macro++])); break;
+    }
+    weigh(options.policy, files.back().diagnostics);
+  }
+  return files;
+}
+
+std::vector<Diagnostic> findings_of(const Options& options, const Input& input) {
+  auto found = input.language == Language::Basic ? check_basic(options, input.source).diagnostics
+                                                 : assembler::check(input.source);
+  weigh(options.policy, found);
+  return found;
 }
 
 /// Makes the safe fixes of a file until none is left, and writes it back where one was made.
@@ -65,7 +91,7 @@ bool fix_one(Context& context, const Options& options, Input& input) {
   constexpr int most_rounds = 64; // one mistake hides the next on its line; no fix undoes another
   std::size_t made = 0;
   for (int round = 0; round < most_rounds; ++round) {
-    auto fixed = apply_fixes(input.source.text(), check_one(options, input).diagnostics);
+    auto fixed = apply_fixes(input.source.text(), findings_of(options, input));
     if (fixed.count == 0)
       break;
     made += fixed.count;
@@ -114,12 +140,10 @@ void run(Context& context, const Options& options) {
   auto inputs = read_inputs(context, options);
   if (!inputs)
     return;
-  std::vector<FileFindings> files;
-  for (auto& input : *inputs) {
+  for (auto& input : *inputs)
     if (options.fix && !fix_one(context, options, input))
       return;
-    files.push_back(check_one(options, input));
-  }
+  auto files = check_all(options, *inputs);
   if (count(files).errors > 0)
     context.exit = ExitCode::BadInput;
   const auto hidden = cut(options.policy, files);

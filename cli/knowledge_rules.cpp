@@ -1,5 +1,6 @@
-// What the linter of orbBasic looks for.
+// What the linters look for.
 
+#include "assembler/rules.h"
 #include "cli/knowledge_sections.h"
 #include "compiler/rules.h"
 #include "spec/basic.h"
@@ -8,23 +9,37 @@
 
 namespace orb::cli {
 
+namespace {
+
+void add(Section& section, const Rule& rule) {
+  Entry entry;
+  entry.name = rule.id;
+  entry.summary = rule.summary;
+  entry.facts.emplace_back("severity", to_string(rule.severity));
+  if (const auto error = spec::find_error(rule.robot_error))
+    entry.facts.emplace_back("on the robot", fmt::format("error {:02X}h, {}", rule.robot_error,
+                                                         spec::info(*error).text));
+  entry.explanation = rule.explanation;
+  if (!rule.bad.empty())
+    entry.code.emplace_back("bad", rule.bad);
+  if (!rule.good.empty())
+    entry.code.emplace_back("good", rule.good);
+  section.entries.push_back(std::move(entry));
+}
+
+} // namespace
+
 Section rules_section() {
   Section section{"rules", "Rules for orbBasic", "rule", {}};
-  for (const auto& rule : compiler::rules::all()) {
-    Entry entry;
-    entry.name = rule.id;
-    entry.summary = rule.summary;
-    entry.facts.emplace_back("severity", to_string(rule.severity));
-    if (const auto error = spec::find_error(rule.robot_error))
-      entry.facts.emplace_back("on the robot", fmt::format("error {:02X}h, {}", rule.robot_error,
-                                                           spec::info(*error).text));
-    entry.explanation = rule.explanation;
-    if (!rule.bad.empty())
-      entry.code.emplace_back("bad", rule.bad);
-    if (!rule.good.empty())
-      entry.code.emplace_back("good", rule.good);
-    section.entries.push_back(std::move(entry));
-  }
+  for (const auto& rule : compiler::rules::all())
+    add(section, rule);
+  return section;
+}
+
+Section macro_rules_section() {
+  Section section{"macro-rules", "Rules for macros", "macro rule", {}};
+  for (const auto& rule : assembler::rules::all())
+    add(section, rule);
   return section;
 }
 

@@ -486,9 +486,10 @@ private:
     const auto range = range_of(value);
     if (!range.misses(parameter.least, parameter.greatest))
       return;
+    const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
     findings_.add(rules::ValueOutOfRange, line_, value.span,
-                  fmt::format("the {} of `{}` is {} to {}, found {}", parameter.name, word,
-                              parameter.least, parameter.greatest, shown(range)));
+                  fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
+                              parameter.greatest, shown(range)));
   }
 
   void check_arguments(const StatementNode& statement) {
@@ -507,8 +508,8 @@ private:
   void add_two_values(const StatementNode& statement) {
     const auto speed = range_of(item(statement, 1));
     auto& d =
-        findings_.add(rules::GorollTwoValues, line_, statement.span,
-                      "`goroll` takes 3 values, found 2", "add the go value: 1 drives, 0 brakes");
+        findings_.add(rules::MissingGo, line_, statement.span, "`goroll` takes 3 values, found 2",
+                      "add the go value: 1 drives, 0 brakes");
     const auto end = item(statement, 1).span.end;
     if (speed.constant())
       d.fix =
@@ -556,7 +557,7 @@ private:
       check_index(variable.span);
     } else if (static_cast<spec::Variable>(variable.value) != spec::Variable::Ctrl) {
       const auto& row = spec::variables[variable.value];
-      check_range(value, row.word, {"value", row.least, row.greatest, row.unit});
+      check_range(value, row.word, {"", row.least, row.greatest, row.unit});
     }
   }
 
