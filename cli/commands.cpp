@@ -73,6 +73,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_lsp(app, context);
   add_man(app, context);
   add_new(app, context);
+  add_run(app, context);
   add_spec(app, context);
 }
 

@@ -22,6 +22,7 @@ void add_fmt(CLI::App& app, Context& context);
 void add_lsp(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);
 void add_new(CLI::App& app, Context& context);
+void add_run(CLI::App& app, Context& context);
 void add_spec(CLI::App& app, Context& context);
 
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.

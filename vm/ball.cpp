@@ -175,9 +175,26 @@ Instant Ball::next_event() const {
 }
 
 void Ball::advance_to(Instant target) {
+  advance(target, Until::Target);
+}
+
+void Ball::advance_until_quiet(Instant target) {
+  interrupted_ = false;
+  advance(target, Until::Quiet);
+}
+
+void Ball::advance(Instant target, Until until) {
   for (;;) {
+    if (until == Until::Quiet) {
+      if (interrupted_ || quiet())
+        return;
+      if (idle()) // only output has to leave
+        target = std::min(target, output_.drained_to(0, now_));
+    }
     const Instant event = next_simulation_event();
     const Instant limit = std::min(event, target + Duration{1});
+    if (answer_input())
+      continue;
     if (machine_.next_event() < limit) {
       machine_.run(limit, *this);
       now_ = std::max(now_, machine_.now());
@@ -190,6 +207,29 @@ void Ball::advance_to(Instant target) {
   }
   now_ = std::max(now_, target);
   body_.advance_to(now_);
+}
+
+bool Ball::answer_input() {
+  if (inputs_.empty() || !machine_.waits_for_input())
+    return false;
+  machine_.deliver_input(inputs_.front(), now_);
+  inputs_.pop_front();
+  finish_basic();
+  return true;
+}
+
+bool Ball::quiet() const {
+  return idle() && output_.waiting(now_) == 0;
+}
+
+bool Ball::idle() const {
+  const bool waits_in_vain = machine_.waits_for_input() && machine_.next_event() == never &&
+                             inputs_.empty() &&
+                             std::none_of(script_.begin(), script_.end(), [](const auto& event) {
+                               return std::holds_alternative<stimulus::Number>(event.stimulus);
+                             });
+  return (!machine_.running() || waits_in_vain) && !macros_.running() && wake_at_ == never &&
+         !falls_asleep_;
 }
 
 void Ball::run_events(Instant bound) {

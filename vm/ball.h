@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -82,6 +83,15 @@ public:
   Instant now() const { return now_; }
   /// Lets everything happen that is due up to and including `target`.
   void advance_to(Instant target);
+  /// The same, but comes back as soon as the ball is quiet(), or its observer calls interrupt().
+  void advance_until_quiet(Instant target);
+  /// Nothing runs or will run by itself: no program, no macro, no wake-up, and all output has left.
+  /// A program that waits for a number that nobody will bring is quiet, too.
+  bool quiet() const;
+  /// The same, but output may still be leaving.
+  bool idle() const;
+  /// Lets advance_until_quiet() come back after the present event.
+  void interrupt() { interrupted_ = true; }
   /// When something happens next by itself, output that leaves included; `never` at rest.
   Instant next_event() const;
 
@@ -114,7 +124,12 @@ public:
   Outcome commit_basic();
   /// A number for a waiting `input`; ignored when none waits.
   void deliver_input(std::int32_t value);
+  /// A number for the next `input` that waits: a client that answers at once.
+  void queue_input(std::int32_t value) { inputs_.push_back(value); }
+  bool input_queued() const { return !inputs_.empty(); }
   std::string_view basic_text(Area area) const;
+  /// Where the program lies that runs, or ran last.
+  Area basic_area() const { return running_area_; }
   bool basic_running() const { return machine_.running(); }
   const Machine& machine() const { return machine_; }
 
@@ -204,6 +219,9 @@ private:
   void detect_collision(const Impact& impact);
   void check_battery();
   void watch_motion();
+  enum class Until : std::uint8_t { Target, Quiet };
+  void advance(Instant target, Until until);
+  bool answer_input();
   Instant next_housekeeping() const;
   Instant next_simulation_event() const;
   void run_events(Instant bound);
@@ -223,6 +241,8 @@ private:
   Area running_area_ = Area::Ram;
   std::vector<TimedStimulus> script_; ///< `at` counts from the ball's power-on; latest first
 
+  std::deque<std::int32_t> inputs_;
+  bool interrupted_ = false;
   bool holding_ = false;
   std::vector<protocol::Async> held_;
   std::uint32_t sent_ = 0;

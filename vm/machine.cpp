@@ -121,7 +121,7 @@ Flow Core::print(bool open) {
   const auto again = host->print(text, now);
   if (!again) {
     text.clear();
-    return Flow::Next;
+    return Flow::Leave; // whoever watches the output may want to stop here
   }
   pending = std::move(text);
   text.clear();

@@ -50,10 +50,8 @@ public:
   Instant next_event() const;
 
   bool running() const { return running_; }
-  /// Whether it waits for a number that only deliver_input() can bring.
-  bool waits_for_input() const {
-    return running_ && core_.wait == Core::Wait::Input && core_.until == never;
-  }
+  /// Whether it waits for a number; without a time-out next_event() is `never`.
+  bool waits_for_input() const { return running_ && core_.wait == Core::Wait::Input; }
   /// Ends the program from outside: a stop with the error User abort.
   void abort();
   /// Ends the program, where one runs, without an error.
