@@ -31,7 +31,7 @@ struct RunOptions {
   std::vector<std::string> files;
   std::string language;
   std::string time = "60s";
-  std::optional<std::uint32_t> line;
+  std::optional<std::uint16_t> line;
   std::uint64_t seed = 1;
   std::string input;
   bool disconnected = false;
@@ -133,10 +133,9 @@ public:
   }
 
   void on_event(Instant at, const vm::Event& event) override {
-    if (!ball)
+    if (!ball || over)
       return;
-    const Duration t = at - start;
-    last = at;
+    bool told = !ball->idle(); // of what goes on afterwards only how it ended counts
     if (const auto* print = std::get_if<vm::event::Print>(&event)) {
       if (!trace.replaces_output())
         print_out(print->text);
@@ -144,30 +143,32 @@ public:
       forbidden.take(print->text);
       if (expected.seen() || forbidden.seen())
         ball->interrupt();
+      told = true;
     } else if (const auto* error = std::get_if<vm::event::Error>(&event)) {
       faults.push_back({error->line, error->code, ball->basic_area()});
+      told = true;
     } else if (const auto* end = std::get_if<vm::event::End>(&event)) {
       reason = end->reason;
       lines += end->lines;
+      if (ball->idle())
+        over = at;
+      told = true;
+    } else if (ball->idle()) {
+      over = at;
     }
-    if (ended())
+    if (!told)
       return;
+    const Duration t = at - start;
     trace.add(t, event);
     if (journey) {
       journey->add(t, event);
       journey->sample(t, ball->body());
     }
-    // What the program itself asked for has been seen once nothing runs any more.
-    if (std::holds_alternative<vm::event::End>(event) && ball->idle())
-      over = at;
   }
-
-  bool ended() const { return over.has_value(); }
 
   vm::Ball* ball = nullptr; ///< set when the program starts
   Instant start{};
-  Instant last{};
-  std::optional<Instant> over;
+  std::optional<Instant> over; ///< since then nothing runs any more
   TraceSink trace;
   Sought expected;
   Sought forbidden;
@@ -212,15 +213,19 @@ RunResult<void> upload_all(const RunInputs& inputs, vm::Area area, uploader::Ses
     if (auto done = check(uploader::upload(session, job, progress)); !done)
       return done;
   }
-  for (std::size_t i = 0; i < inputs.programs.size(); ++i) {
-    const bool flash = (area == vm::Area::Flash) == (i == 0);
-    uploader::ProgramJob job{inputs.programs[i]->image,
-                             flash ? uploader::Area::Flash : uploader::Area::Ram, std::nullopt};
-    if (auto done = check(
-            uploader::upload(session, job, *greeting, uploader::BatteryPolicy::Refuse, progress));
-        !done)
-      return done;
-  }
+  // Flash first: on its way there a program passes through RAM.
+  for (const bool to_flash : {true, false})
+    for (std::size_t i = 0; i < inputs.programs.size(); ++i) {
+      if (((area == vm::Area::Flash) == (i == 0)) != to_flash)
+        continue;
+      uploader::ProgramJob job{inputs.programs[i]->image,
+                               to_flash ? uploader::Area::Flash : uploader::Area::Ram,
+                               std::nullopt};
+      if (auto done = check(
+              uploader::upload(session, job, *greeting, uploader::BatteryPolicy::Refuse, progress));
+          !done)
+        return done;
+    }
   return {};
 }
 
@@ -243,7 +248,8 @@ void start(const RunInputs& inputs, const RunOptions& options, vm::Area area, vm
     }
     return;
   }
-  const std::uint16_t line = options.line.value_or(inputs.programs.front()->first_line);
+  const auto line =
+      static_cast<std::uint16_t>(options.line.value_or(inputs.programs.front()->first_line));
   if (options.disconnected) {
     ball.execute_basic(area, line);
     return;
@@ -435,7 +441,7 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   ball.advance_to(ball.now() + 1s - ball.now().time_since_epoch() % 1s);
   ball.take_output();
   watcher.ball = &ball;
-  watcher.start = watcher.last = ball.now();
+  watcher.start = ball.now();
   if (watcher.journey)
     describe(*inputs, area, *watcher.journey);
   ball.schedule(inputs->stimuli);
@@ -447,12 +453,14 @@ RunResult<void> run(Context& context, const RunOptions& options) {
 
   const auto reason = reason_of(ball, watcher, limit);
   const auto lines = watcher.lines + (ball.basic_running() ? ball.machine().lines() : 0);
-  const Duration lasted = watcher.over.value_or(ball.now()) - watcher.start;
+  const Instant over = watcher.over.value_or(ball.idle_since().value_or(ball.now()));
+  const Duration lasted = over - watcher.start;
   watcher.trace.finish(lasted, reason, lines);
   for (const auto& fault : watcher.faults) {
     const bool first = fault.area == area || inputs->programs.size() < 2;
     print_fault(fault, *inputs->programs[first ? 0 : 1]);
   }
+  watcher.ball = nullptr;
   const auto words = ending_words(reason, lasted, lines);
   if (const auto done = watcher.trace.close(); !done)
     return refuse(ExitCode::File, done.error().message);

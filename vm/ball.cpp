@@ -186,9 +186,13 @@ void Ball::advance_until_quiet(Instant target) {
 void Ball::advance(Instant target, Until until) {
   for (;;) {
     if (until == Until::Quiet) {
+      if (!idle())
+        idle_since_.reset();
+      else if (!idle_since_)
+        idle_since_ = now_;
       if (interrupted_ || quiet())
         return;
-      if (idle()) // only output has to leave
+      if (idle_since_) // only output has to leave
         target = std::min(target, output_.drained_to(0, now_));
     }
     const Instant event = next_simulation_event();
@@ -646,6 +650,10 @@ void Ball::sleep(const Sleep& sleep) {
 void Ball::fall_asleep() {
   const Sleep sleep = *falls_asleep_;
   falls_asleep_.reset();
+  wake_up_ = sleep;
+  const Duration time =
+      std::chrono::seconds{sleep.seconds} + std::chrono::milliseconds{sleep.milliseconds};
+  wake_at_ = time == Duration{} ? never : now_ + time;
   trace(event::Sleep{sleep.seconds, sleep.macro, sleep.line});
   machine_.stop(event::End::Reason::Sleep);
   finish_basic();
@@ -667,10 +675,6 @@ void Ball::fall_asleep() {
   motion_deadline_ = never;
   body_.power_on();
   asleep_ = true;
-  wake_up_ = sleep;
-  const Duration time =
-      std::chrono::seconds{sleep.seconds} + std::chrono::milliseconds{sleep.milliseconds};
-  wake_at_ = time == Duration{} ? never : now_ + time;
   watch_motion();
   show_led();
   show_back_led(0);
@@ -679,7 +683,6 @@ void Ball::fall_asleep() {
 void Ball::wake() {
   const Sleep plan = wake_at_ <= now_ ? wake_up_ : Sleep{};
   asleep_ = false;
-  wake_at_ = never;
   body_.advance_to(now_);
   body_.power_on();
   dispatcher_.on_wake(*this);
@@ -692,6 +695,7 @@ void Ball::wake() {
   }
   if (plan.line != 0)
     execute_basic(Area::Flash, plan.line);
+  wake_at_ = never; // only now: in between the ball is not idle
 }
 
 // orbBasic.

@@ -90,6 +90,8 @@ public:
   bool quiet() const;
   /// The same, but output may still be leaving.
   bool idle() const;
+  /// Since when it is idle, as far as advance_until_quiet() has seen.
+  std::optional<Instant> idle_since() const { return idle_since_; }
   /// Lets advance_until_quiet() come back after the present event.
   void interrupt() { interrupted_ = true; }
   /// When something happens next by itself, output that leaves included; `never` at rest.
@@ -243,6 +245,7 @@ private:
 
   std::deque<std::int32_t> inputs_;
   bool interrupted_ = false;
+  std::optional<Instant> idle_since_;
   bool holding_ = false;
   std::vector<protocol::Async> held_;
   std::uint32_t sent_ = 0;

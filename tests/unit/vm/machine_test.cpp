@@ -13,6 +13,10 @@ struct Case {
   const char* end;
 };
 
+void PrintTo(const Case& test, std::ostream* out) {
+  *out << test.name;
+}
+
 const Case cases[] = {
     {"precedence", "10 print 1+2&3, 2|1*4, 6&3+1, 10-3-2, 45|85, (2+3)*5\n", "3 6 3 5 125 25\n",
      "end"},
