@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <string>
@@ -75,6 +76,27 @@ TEST(Golden, EveryTranscriptSaysWhatItShows) {
     EXPECT_TRUE(text.starts_with("# ")) << file << " begins with a `#` sentence";
     EXPECT_NE(text.find("\n$ "), std::string::npos) << file;
   }
+}
+
+TEST(Editors, TheVsCodeExtensionNamesFilesThatExistAndParse) {
+  const auto folder = root / "docs" / "editors" / "vscode";
+  const auto parse = [](const fs::path& path) {
+    return nlohmann::json::parse(read_all(path), nullptr, false);
+  };
+  for (const auto& file : files_below(folder, {".json"}))
+    EXPECT_FALSE(parse(file).is_discarded()) << file;
+  const auto package = parse(folder / "package.json");
+  std::set<fs::path> named{folder / package["main"]};
+  for (const auto& language : package["contributes"]["languages"])
+    named.insert(folder / language["configuration"]);
+  for (const auto& grammar : package["contributes"]["grammars"]) {
+    const auto path = folder / grammar["path"];
+    named.insert(path);
+    EXPECT_EQ(parse(path)["scopeName"], grammar["scopeName"]) << path;
+  }
+  EXPECT_EQ(named.size(), 5U);
+  for (const auto& path : named)
+    EXPECT_TRUE(fs::exists(path)) << path;
 }
 
 } // namespace
