@@ -271,11 +271,12 @@ function draw_progress(state) {
   for (const stretch of stretches) {
     const wanted = stretch.to <= i ? "done" : stretch.from <= i ? "open" : "ahead";
     if (wanted === stretch.state && wanted !== "open") continue;
-    const d = wanted === "open"
+    const cut = wanted === "open", whole = !cut && stretch.state === "open";
+    const d = cut
       ? `${line_from(stretch.from, Math.min(i, stretch.to))}L${px(state.x).toFixed(1)} ${py(state.y).toFixed(1)}`
       : stretch.d;
     for (const layer of stretch.layers) {
-      layer.setAttribute("d", d);
+      if (cut || whole) layer.setAttribute("d", d);
       layer.setAttribute("visibility", wanted === "ahead" ? "hidden" : "visible");
     }
     stretch.state = wanted;
