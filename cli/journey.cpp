@@ -34,7 +34,7 @@ int Journey::add_file(std::string name, std::string text) {
 }
 
 void Journey::map_line(int robot_line, Place place) {
-  lines_.emplace(robot_line, place);
+  lines_.insert_or_assign(robot_line, place);
 }
 
 void Journey::map_command(int macro, int command, Place place) {
@@ -74,7 +74,8 @@ void Journey::add(Duration t, const vm::Event& event) {
           if (found != lines_.end())
             files_[static_cast<std::size_t>(found->second.file)].failed.push_back(
                 found->second.line);
-          happen(t, Kind::Error, fmt::format("line {}: {}", seen.line, spec::info(seen.code).text));
+          end_.fault = fmt::format("line {}: {}", seen.line, spec::info(seen.code).text);
+          happen(t, Kind::Error, end_.fault);
         } else if constexpr (std::is_same_v<Seen, of::Led>) {
           led_.push(t, seen.color);
         } else if constexpr (std::is_same_v<Seen, of::BackLed>) {
@@ -132,8 +133,10 @@ void Journey::sample(Duration t, const vm::Body& body) {
                      rounded(100 * body.battery_v()), body.stabilized() ? 1 : 0}});
 }
 
-void Journey::finish(End end) {
-  end_ = std::move(end);
+void Journey::finish(Duration t, std::string reason, std::string words) {
+  end_.t = t;
+  end_.reason = std::move(reason);
+  end_.words = std::move(words);
 }
 
 Journey::Listed Journey::listed() const {

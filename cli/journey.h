@@ -109,6 +109,7 @@ public:
     Duration t{};
     std::string reason; ///< as in the trace
     std::string words;  ///< a sentence for people
+    std::string fault;  ///< the error that ended it; empty for none. Filled in by the journey
   };
 
   Journey();
@@ -123,8 +124,7 @@ public:
   void add(Duration t, const vm::Event& event);
   /// Reads the sensors, at most every 20 ms.
   void sample(Duration t, const vm::Body& body);
-  /// Words for the error that ended the run.
-  void finish(End end);
+  void finish(Duration t, std::string reason, std::string words);
 
   const std::vector<File>& files() const { return files_; }
   const std::map<Place, Count>& counts() const { return counts_; }

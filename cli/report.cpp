@@ -240,6 +240,10 @@ std::string thinned_words(const Journey& journey, const Journey::Listed& listed)
          "events. Totals and line counts are exact; `orb run --trace json` has every value.";
 }
 
+std::string outcome(const Journey::End& end) {
+  return end.fault.empty() ? end.words : fmt::format("{}; {}", end.fault, end.words);
+}
+
 ordered_json run_data(const Journey& journey, std::string_view title) {
   const auto listed = journey.listed();
   return {{"schema", "orb.report/1"},
@@ -247,7 +251,7 @@ ordered_json run_data(const Journey& journey, std::string_view title) {
           {"end",
            {{"t", microseconds(journey.end().t)},
             {"reason", journey.end().reason},
-            {"text", journey.end().words}}},
+            {"text", outcome(journey.end())}}},
           {"totals", totals(journey)},
           {"counts", counts(journey)},
           {"thinned", thinned_words(journey, listed)},

@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -56,7 +57,8 @@ struct RunOptions {
 /// Where the trace goes: stdout as it happens, or a file that appears whole at the end.
 class TraceSink {
 public:
-  explicit TraceSink(const RunOptions& options) : path_(options.trace_out) {
+  explicit TraceSink(const RunOptions& options)
+      : path_(options.trace_out), lines_(options.trace_lines) {
     if (!options.trace.empty() || !path_.empty())
       format_ = options.trace == "csv" ? TraceFormat::Csv : TraceFormat::Json;
     if (options.trace.empty() && path_.ends_with(".csv"))
@@ -67,7 +69,7 @@ public:
 
   bool replaces_output() const { return format_ && path_.empty(); }
   void add(Duration t, const vm::Event& event) {
-    if (format_)
+    if (format_ && (lines_ || !std::holds_alternative<vm::event::Line>(event)))
       put(trace_line(*format_, t, event));
   }
   void finish(Duration t, std::string_view reason, std::uint64_t lines) {
@@ -92,6 +94,7 @@ private:
 
   std::optional<TraceFormat> format_;
   std::string path_;
+  bool lines_; ///< a report sees every line even where the trace does not ask for them
   std::string text_;
 };
 
@@ -378,6 +381,17 @@ void describe(const RunInputs& inputs, vm::Area area, Journey& journey) {
         journey.map_line(static_cast<int>(line->number),
                          {number, static_cast<int>(file.source.position(line->span.begin).line)});
   }
+  std::map<std::string, int> macro_files;
+  for (const auto& macro : inputs.macros) {
+    if (macro.text.empty())
+      continue;
+    const auto [file, fresh] = macro_files.try_emplace(macro.name, 0);
+    if (fresh)
+      file->second = journey.add_file(macro.name, macro.text);
+    for (std::size_t k = 0; k < macro.command_lines.size(); ++k)
+      journey.map_command(macro.image.id, static_cast<int>(k) + 1,
+                          {file->second, macro.command_lines[k]});
+  }
   for (const auto& event : inputs.stimuli)
     if (const auto* wall = std::get_if<vm::Wall>(&event.stimulus))
       journey.add_wall(*wall);
@@ -465,7 +479,7 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   if (const auto done = watcher.trace.close(); !done)
     return refuse(ExitCode::File, done.error().message);
   if (watcher.journey) {
-    watcher.journey->finish({lasted, std::string(reason), words});
+    watcher.journey->finish(lasted, std::string(reason), words);
     if (auto done = write_pictures(options, *watcher.journey); !done)
       return done;
   }

@@ -1,5 +1,6 @@
 #include "cli/run_inputs.h"
 
+#include "assembler/assemble.h"
 #include "base/render.h"
 #include "cli/files.h"
 #include "compiler/image.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace orb::cli {
 
@@ -78,11 +80,34 @@ RunResult<std::unique_ptr<ProgramFile>> read_program(const std::string& path) {
   return file;
 }
 
-RunResult<MacroFile> read_macro(const std::string& path) {
+/// Every macro of a source file, in order.
+RunResult<std::vector<MacroFile>> assemble_macros(const Source& source, const Context& context) {
+  const auto assembly = assembler::assemble(source);
+  if (assembly.has_errors()) {
+    for (const auto& diagnostic : assembly.diagnostics)
+      if (diagnostic.severity == Severity::Error)
+        print_err(render_text(source, diagnostic, context.err_style()));
+    return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", source.name()));
+  }
+  std::vector<MacroFile> files;
+  for (const auto& macro : assembly.macros) {
+    MacroFile file{source.name(), macro.image(), std::string(source.text()), {}};
+    for (const auto& command : macro.commands)
+      file.command_lines.push_back(static_cast<int>(source.position(command.span.begin).line));
+    files.push_back(std::move(file));
+  }
+  if (files.empty())
+    return refuse(ExitCode::BadInput, fmt::format("{} holds no macro", source.name()));
+  return files;
+}
+
+RunResult<std::vector<MacroFile>> read_macros(const std::string& path, const Context& context) {
   const auto text = read_file(path);
   if (!text)
     return refuse(ExitCode::File, text.error().message);
-  MacroFile file{display_name(path), {}};
+  if (!path.ends_with(".sphero") && !path.ends_with(".bin"))
+    return assemble_macros(Source(display_name(path), *text), context);
+  MacroFile file{display_name(path), {}, {}, {}};
   const auto bytes = as_bytes(*text);
   if (path.ends_with(".bin")) {
     const auto image = protocol::decode_macro(bytes);
@@ -98,7 +123,9 @@ RunResult<MacroFile> read_macro(const std::string& path) {
   if (listing.error)
     return refuse(ExitCode::BadInput,
                   fmt::format("{}: {}", file.name, protocol::to_string(*listing.error)));
-  return file;
+  std::vector<MacroFile> files;
+  files.push_back(std::move(file));
+  return files;
 }
 
 } // namespace
@@ -110,10 +137,10 @@ RunResult<RunInputs> read_run_inputs(const std::vector<std::string>& files,
   for (const auto& path : files) {
     const bool macro = language.empty() ? is_macro(path) : language == "macro";
     if (macro) {
-      auto file = read_macro(path);
-      if (!file)
-        return tl::unexpected(file.error());
-      inputs.macros.push_back(std::move(*file));
+      auto macros = read_macros(path, context);
+      if (!macros)
+        return tl::unexpected(macros.error());
+      std::move(macros->begin(), macros->end(), std::back_inserter(inputs.macros));
     } else {
       auto file = read_program(path);
       if (!file)

@@ -28,6 +28,8 @@ struct ProgramFile {
 struct MacroFile {
   std::string name;
   protocol::MacroImage image;
+  std::string text;               ///< the file's source; empty where it holds bytes
+  std::vector<int> command_lines; ///< where command number k + 1 stands in the source
 };
 
 /// Everything that a run is made of.
@@ -49,7 +51,8 @@ using RunResult = tl::expected<Value, Refusal>;
 tl::unexpected<Refusal> refuse(ExitCode code, std::string message);
 
 /// Reads programs, macros and a stimulus script (an empty path: none). `language` is `basic`,
-/// `macro` or empty: then the ending decides. Mistakes of the script go to stderr as findings.
+/// `macro` or empty: then the ending decides. Mistakes of the script, and of macro source, go to
+/// stderr as findings.
 RunResult<RunInputs> read_run_inputs(const std::vector<std::string>& files,
                                      std::string_view language, const std::string& stimulus,
                                      const Context& context);

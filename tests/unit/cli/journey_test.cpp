@@ -51,7 +51,7 @@ Journey square() {
   journey.add(ms(150), event::Position{{30, -30, 180, 10}});
   journey.add(ms(150), event::Collision{1, 2, 3, 4, 5, 6});
   journey.add(ms(160), event::End{event::End::Reason::End, 2});
-  journey.finish({ms(160), "end", "ended"});
+  journey.finish(ms(160), "end", "ended");
   return journey;
 }
 
@@ -97,7 +97,7 @@ TEST(Report, BytesThatAreNotTextSurvive) {
   Journey journey;
   journey.add_file("\xFF.bas", "10 print \"\xFE\"\n");
   journey.add(ms(0), event::Print{"\xE4\x00\x1B"});
-  journey.finish({ms(1), "end", ""});
+  journey.finish(ms(1), "end", "");
   EXPECT_NE(report_page(journey, "\xFF").find("\\u00e4"), std::string::npos);
 }
 
@@ -113,7 +113,7 @@ TEST(Svg, DrawsARingForABallThatStayed) {
   Journey journey;
   journey.add(ms(0), event::Led{{255, 0, 0}});
   journey.add(ms(500), event::Led{{0, 255, 0}});
-  journey.finish({ms(1000), "end", ""});
+  journey.finish(ms(1000), "end", "");
   const auto svg = path_svg(journey);
   EXPECT_NE(svg.find("class=\"arc\" stroke=\"#00ff00\""), std::string::npos);
   EXPECT_EQ(svg.find("class=\"path\""), std::string::npos);
