@@ -197,17 +197,18 @@ ExitCode exit_code(uploader::Report::Kind kind) {
   return ExitCode::Bug;
 }
 
+RunResult<void> check(const uploader::Report& report) {
+  if (report.kind == uploader::Report::Kind::Done)
+    return {};
+  return refuse(exit_code(report.kind), report.message);
+}
+
 /// Brings everything into the ball the way any client would.
 RunResult<void> upload_all(const RunInputs& inputs, vm::Area area, uploader::Session& session) {
   const auto greeting = uploader::greet(session);
   if (!greeting)
     return refuse(exit_code(greeting.error().kind), greeting.error().message);
   uploader::NullProgress progress;
-  const auto check = [](const uploader::Report& report) -> RunResult<void> {
-    if (report.kind == uploader::Report::Kind::Done)
-      return {};
-    return refuse(exit_code(report.kind), report.message);
-  };
   // The last temporary macro stays, and the first is the one to run.
   for (auto macro = inputs.macros.rbegin(); macro != inputs.macros.rend(); ++macro) {
     uploader::MacroJob job{macro->image, uploader::natural_kind(macro->image), false, false};
@@ -238,28 +239,35 @@ void send_now(vm::Ball& ball, spec::ApiCommand command, Bytes data) {
 }
 
 /// Starts the program, or the first macro, at the ball's present instant.
-void start(const RunInputs& inputs, const RunOptions& options, vm::Area area, vm::Ball& ball) {
+RunResult<void> start(const RunInputs& inputs, const RunOptions& options, vm::Area area,
+                      vm::Ball& ball, uploader::Session& session) {
   if (options.disconnected)
     ball.disconnect();
   if (inputs.programs.empty()) {
-    const auto id = inputs.macros.front().image.id;
+    const auto& image = inputs.macros.front().image;
+    if (image.id == spec::macro_id_stream) {
+      uploader::NullProgress progress;
+      uploader::MacroJob job{image, uploader::MacroKind::Stream, false, false};
+      return check(uploader::upload(session, job, progress));
+    }
     if (options.disconnected) {
-      ball.macros().start(id, ball.now());
+      ball.macros().start(image.id, ball.now());
       ball.macros_changed();
     } else {
-      send_now(ball, spec::ApiCommand::RunMacro, {id});
+      send_now(ball, spec::ApiCommand::RunMacro, {image.id});
     }
-    return;
+    return {};
   }
   const auto line =
       static_cast<std::uint16_t>(options.line.value_or(inputs.programs.front()->first_line));
   if (options.disconnected) {
     ball.execute_basic(area, line);
-    return;
+    return {};
   }
   Bytes data{static_cast<std::uint8_t>(area)};
   append_u16(data, line);
   send_now(ball, spec::ApiCommand::ExecuteOrbbasicProgram, std::move(data));
+  return {};
 }
 
 /// `1,2,-3`; nothing where that is no list of 32-bit numbers.
@@ -462,7 +470,8 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   for (const auto number : numbers)
     ball.queue_input(number);
   const Instant limit = *time == Duration{} ? never - 1h : watcher.start + *time;
-  start(*inputs, options, area, ball);
+  if (auto done = start(*inputs, options, area, ball, session); !done)
+    return done;
   live(ball, options, watcher, limit);
 
   const auto reason = reason_of(ball, watcher, limit);

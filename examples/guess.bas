@@ -1,5 +1,5 @@
 ' Guess the number: the ball thinks of a number from 1 to 50, you send your guesses.
-'   orb run examples/guess.bas --seed 3 --input 25,12,18,21,23,22
+'   orb run examples/guess.bas --seed 3 --input 25,12,18,21,19
 10 N = rnd 50
 20 G = 0
 30 print "your guess (1 to 50)?"
@@ -11,7 +11,7 @@
 90 if G < 6 then goto 30
 100 print "it was" ,N
 110 end
-120 print "yes! in" ,G "tries"
+120 print "yes! in" ,G " tries"
 130 for F = 1 to 7
 140 LEDC F
 150 delay 150
