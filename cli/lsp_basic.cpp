@@ -6,6 +6,7 @@
 #include "compiler/check.h"
 #include "compiler/parse.h"
 #include "compiler/print.h"
+#include "compiler/renumber.h"
 #include "compiler/rules.h"
 #include "compiler/words.h"
 #include "spec/limits.h"
@@ -14,6 +15,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
+#include <variant>
 
 namespace orb::cli {
 namespace {
@@ -631,6 +633,11 @@ std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& optio
   auto fixed = compiler::fix(std::string(source.text()), target_of(options));
   if (fixed.count > 0)
     all.push_back({"apply all safe fixes", "source.fixAll", std::move(fixed.text)});
+  const auto program = compiler::parse(source.text());
+  if (auto numbered = compiler::renumber(program, {});
+      const auto* text = std::get_if<std::string>(&numbered))
+    if (*text != source.text())
+      all.push_back({"renumber the lines 10, 20, 30 and so on", "source.renumber", *text});
   return all;
 }
 

@@ -18,40 +18,64 @@ std::string unknown_word(const CLI::App& app) {
   return words.empty() ? std::string() : words.front();
 }
 
-/// The names that could have been meant instead of `word`: options of the chosen command, or
-/// commands.
-std::vector<std::string> candidates(const CLI::App& app, const std::string& word) {
+/// The command that the command line names; null where it names none.
+const CLI::App* chosen_command(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? nullptr : chosen.front();
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
-  if (word.starts_with("-")) {
-    for (const auto* scope :
-         {&app, app.get_subcommands().empty() ? &app : app.get_subcommands().front()})
+  for (const auto* scope : {chosen_command(app), &app})
+    if (scope != nullptr)
       for (const auto* option : scope->get_options())
         for (const auto& name : option->get_lnames())
           names.push_back("--" + name);
-    return names;
-  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
   for (const auto* command :
        app.get_subcommands([](const CLI::App* one) { return !orb::cli::is_hidden(*one); }))
     names.push_back(command->get_name());
   return names;
 }
 
+std::string meant_instead(const std::string& word, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const auto meant = orb::closest(word, views);
+  return meant ? fmt::format("; did you mean `{}`?", *meant) : "";
+}
+
+bool names_a_source(std::string_view word) {
+  return word.ends_with(".bas") || word.ends_with(".orbbas") || word.ends_with(".macro");
+}
+
+/// Why `word` has no place where it stands, and what was probably meant.
+std::string describe(const CLI::App& app, const std::string& word) {
+  const auto* command = chosen_command(app);
+  const auto whom = command == nullptr ? std::string("orb") : "orb " + command->get_name();
+  if (word.starts_with("-")) {
+    const auto name = word.substr(0, word.find('='));
+    return fmt::format("`{}` is not an option of {}{}", name, whom,
+                       meant_instead(name, option_names(app)));
+  }
+  if (command != nullptr)
+    return fmt::format("`{}` is one word too many for {}", word, whom);
+  if (names_a_source(word))
+    return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
+  return fmt::format("`{}` is not a command of orb{}", word,
+                     meant_instead(word, command_names(app)));
+}
+
 /// Prints why the command line was not understood and what was probably meant.
 ExitCode report_usage(const CLI::App& app, const Context& context, const CLI::ParseError& error) {
-  std::string message = error.what();
   const auto word = unknown_word(app);
-  if (!word.empty()) {
-    message = fmt::format("`{}` is not {} of orb", word,
-                          word.starts_with("-") ? "an option" : "a command");
-    const auto names = candidates(app, word.substr(0, word.find('=')));
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    if (const auto meant = orb::closest(word.substr(0, word.find('=')), views))
-      message += fmt::format("; did you mean `{}`?", *meant);
-  }
-  orb::cli::print_error(context, message);
-  const auto chosen = app.get_subcommands();
+  orb::cli::print_error(context, word.empty() ? error.what() : describe(app, word));
+  const auto* command = chosen_command(app);
   orb::cli::print_err(
-      fmt::format("try `orb {}--help`\n", chosen.empty() ? "" : chosen.front()->get_name() + " "));
+      fmt::format("try `orb {}--help`\n", command == nullptr ? "" : command->get_name() + " "));
   return ExitCode::Usage;
 }
 

@@ -199,5 +199,13 @@ TEST(LspBasicActions, OfferTheFixOfAFinding) {
   EXPECT_TRUE(session.actions(json_range(1, 4, 4), {{"only", {"quickfix"}}}).empty());
 }
 
+TEST(LspBasicActions, OfferToRenumber) {
+  Session session("5 delay 10\n7 goto 5\n");
+  const auto found = session.actions(json_range(0, 0, 0), {{"only", {"source"}}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0]["kind"], "source.renumber");
+  EXPECT_EQ(found[0]["edit"]["changes"][LspClient::uri][0]["newText"], "10 delay 10\n20 goto 10\n");
+}
+
 } // namespace
 } // namespace orb::cli
