@@ -283,6 +283,11 @@ private:
   void begin_unnamed() {
     assembly_.macros.emplace_back();
     inside_ = true;
+    reserve();
+  }
+
+  /// Room for what the rest of the file may hold.
+  void reserve() {
     macro().commands.reserve(program_.statements.size() + 1);
     macro().body.reserve(program_.statements.size() * 5);
   }
@@ -296,6 +301,8 @@ private:
         ++current_;
       }
       inside_ = true;
+      if (assembly_.macros.size() == 1)
+        reserve();
       return;
     case Statement::Kind::Command:
     case Statement::Kind::Raw:
@@ -698,6 +705,15 @@ private:
   bool after_end_reported_ = false;
 };
 
+/// By byte: whether it has no place in a text.
+constexpr auto is_binary = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t c = 0; c < ' '; ++c)
+    table[c] = c != '\t' && c != '\n' && c != '\r';
+  table[0x7F] = true;
+  return table;
+}();
+
 std::optional<Diagnostic> unreadable(const Source& source) {
   const auto text = source.text();
   if (text.empty())
@@ -707,12 +723,16 @@ std::optional<Diagnostic> unreadable(const Source& source) {
     return finding(rules::SourceTooLarge, {0, 0},
                    fmt::format("the file has {} bytes; at most {} are looked at", text.size(),
                                largest_source));
-  const auto binary = std::find_if(text.begin(), text.end(), [](char c) {
-    return (c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r') || c == '\x7F';
-  });
-  if (binary == text.end())
+  // One pass without branches first: nearly every file is text.
+  bool any = false;
+  for (const char c : text)
+    any |= is_binary[static_cast<unsigned char>(c)];
+  if (!any)
     return std::nullopt;
-  const auto at = static_cast<std::uint32_t>(binary - text.begin());
+  const auto* const binary = std::find_if(text.data(), text.data() + text.size(), [](char c) {
+    return is_binary[static_cast<unsigned char>(c)];
+  });
+  const auto at = static_cast<std::uint32_t>(binary - text.data());
   return finding(
       rules::BinaryFile, {at, at + 1},
       fmt::format("the file is no text: byte {:02X}h", static_cast<unsigned char>(*binary)),

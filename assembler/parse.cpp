@@ -251,7 +251,8 @@ std::optional<Diagnostic> parse_line(Builder& builder, const char* begin, const 
   builder.statement.head = {};
   std::optional<Diagnostic> problem;
   try {
-    tao::pegtl::memory_input<tao::pegtl::tracking_mode::lazy> input(begin, end, "");
+    tao::pegtl::memory_input<tao::pegtl::tracking_mode::lazy, tao::pegtl::eol::lf_crlf, const char*>
+        input(begin, end, "");
     tao::pegtl::parse<g::line, Action, Control>(input, builder);
     if (builder.statement.head.size() > 0)
       problem = commit(builder);
@@ -263,10 +264,9 @@ std::optional<Diagnostic> parse_line(Builder& builder, const char* begin, const 
   return problem;
 }
 
-const char* line_end(const char* at, const char* end) {
-  while (at != end && *at != '\n' && *at != '\r')
-    ++at;
-  return at;
+const char* find(const char* at, const char* end, char c) {
+  const auto* found = std::memchr(at, c, static_cast<std::size_t>(end - at));
+  return found == nullptr ? end : static_cast<const char*>(found);
 }
 
 } // namespace
@@ -278,8 +278,11 @@ Program parse(std::string_view text) {
   program.values.reserve(text.size() / 8);
   Builder builder{program, text.data(), {}, false};
   const char* const end = text.data() + text.size();
+  const char* return_at = find(text.data(), end, '\r'); // mostly there is none
   for (const char* at = text.data(); at != end;) {
-    const char* stop = line_end(at, end);
+    if (return_at < at)
+      return_at = find(at, end, '\r');
+    const char* stop = find(at, return_at, '\n');
     if (auto problem = parse_line(builder, at, stop);
         problem && program.diagnostics.size() < most_diagnostics)
       program.diagnostics.push_back(std::move(*problem));

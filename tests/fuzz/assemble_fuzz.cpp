@@ -1,0 +1,14 @@
+// Any text is assembled, linted and timed, or explained.
+
+#include "assembler/lint.h"
+#include "assembler/timing.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace orb;
+  const Source source("fuzz.macro", std::string(as_text(ByteView(data, size))));
+  assembler::check(source);
+  const auto assembly = assembler::assemble(source, assembler::Folding::Fold);
+  for (std::size_t i = 0; i < assembly.macros.size(); ++i)
+    assembler::time_macro(assembly, i);
+  return 0;
+}
