@@ -9,7 +9,7 @@
 namespace orb::assembler {
 
 struct LintOptions {
-  std::uint8_t executive = spec::macro_executive_newest; ///< version of the ball's macro executive
+  int executive = spec::macro_executive_newest; ///< version of the ball's macro executive
 };
 
 /// What the linter has to say about an assembled file by itself, the assembler's own findings not

@@ -24,6 +24,7 @@ struct Options {
   std::string format = "text";
   TargetOptions target;
   Policy policy;
+  assembler::LintOptions macro;
   bool fix = false;
 };
 
@@ -66,7 +67,7 @@ std::vector<FileFindings> check_all(const Options& options, const std::deque<Inp
   for (const auto& input : inputs)
     if (input.language == Language::Macro)
       macros.push_back(&input.source);
-  auto of_macros = assembler::check(macros);
+  auto of_macros = assembler::check(macros, options.macro);
   std::vector<FileFindings> files;
   std::size_t next_macro = 0;
   for (const auto& input : inputs) {
@@ -81,7 +82,7 @@ std::vector<FileFindings> check_all(const Options& options, const std::deque<Inp
 
 std::vector<Diagnostic> findings_of(const Options& options, const Input& input) {
   auto found = input.language == Language::Basic ? check_basic(options, input.source).diagnostics
-                                                 : assembler::check(input.source);
+                                                 : assembler::check(input.source, options.macro);
   weigh(options.policy, found);
   return found;
 }
@@ -165,6 +166,11 @@ void add_check(CLI::App& app, Context& context) {
   command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
   add_language_option(*command, options->lang);
   add_target_options(*command, options->target);
+  command
+      ->add_option("--executive", options->macro.executive,
+                   "version of the ball's macro executive, for macro source")
+      ->check(CLI::Range(int{spec::macro_executive_oldest}, int{spec::macro_executive_newest}))
+      ->capture_default_str();
   command->add_option("--format", options->format, "how findings are printed")
       ->check(one_of({"text", "json", "sarif", "gcc"}))
       ->capture_default_str();

@@ -232,7 +232,7 @@ TEST(Lint, FilesOfOneBallShareIdsAndHeap) {
 
 TEST(Lint, NewerCommandsThanTheExecutiveAreErrors) {
   const Source source("a.macro", "roll2 1, 2, 3\nloop_start_system\nloop_end\n");
-  const auto count = [&](std::uint8_t version) {
+  const auto count = [&](int version) {
     int errors = 0;
     for (const auto& diagnostic : check(source, {version}))
       errors += diagnostic.rule->id == "macro-executive" ? 1 : 0;
