@@ -1,3 +1,6 @@
+#include "assembler/layout.h"
+#include "assembler/lint.h"
+#include "assembler/rules.h"
 #include "base/render.h"
 #include "base/source.h"
 #include "cli/commands.h"
@@ -74,6 +77,19 @@ std::optional<std::string> format_text(Context& context, const Source& source,
   return compiler::format(compiler::parse(text));
 }
 
+/// The same for macro source, whose statements keep their order and their remarks.
+std::optional<std::string> format_macro(Context& context, const Source& source) {
+  namespace rules = assembler::rules;
+  for (const auto& diagnostic : assembler::check(source))
+    for (const auto* rule : {&rules::EmptyFile, &rules::BinaryFile, &rules::SourceTooLarge})
+      if (diagnostic.rule == rule) {
+        print_err(render_text(source, diagnostic, context.err_style()));
+        context.exit = ExitCode::BadInput;
+        return std::nullopt;
+      }
+  return assembler::layout(source.text());
+}
+
 void run_one(Context& context, const Options& options, const std::string& path,
              const std::optional<compiler::Numbering>& numbering) {
   auto text = read_file(path);
@@ -85,14 +101,14 @@ void run_one(Context& context, const Options& options, const std::string& path,
   const auto language = require_language(context, path, options.lang);
   if (!language)
     return;
-  if (language == Language::Macro) {
-    print_error(context,
-                fmt::format("{}: only orbBasic programs can be formatted", display_name(path)));
+  if (language == Language::Macro && numbering) {
+    print_error(context, fmt::format("{}: macros have no line numbers", display_name(path)));
     context.exit = ExitCode::Usage;
     return;
   }
   const Source source(display_name(path), *std::move(text));
-  const auto formatted = format_text(context, source, numbering);
+  const auto formatted = language == Language::Macro ? format_macro(context, source)
+                                                     : format_text(context, source, numbering);
   if (!formatted)
     return;
   const bool changed = *formatted != source.text();
@@ -131,7 +147,7 @@ void run(Context& context, const Options& options) {
 } // namespace
 
 void add_fmt(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "fmt", "lay programs out in one canonical way",
+  auto* command = add_command(app, "fmt", "lay programs and macros out in one canonical way",
                               "orb fmt square.bas\n"
                               "orb fmt -w *.bas\n"
                               "orb fmt --renumber=100:10 --diff square.bas");

@@ -14,8 +14,6 @@
 namespace orb::compiler {
 namespace {
 
-constexpr auto npos = std::string_view::npos;
-
 std::string lower(std::string_view text) {
   std::string out(text);
   for (auto& c : out)
