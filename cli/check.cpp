@@ -8,6 +8,7 @@
 #include "cli/policy.h"
 #include "cli/target.h"
 #include "cli/values.h"
+#include "cli/watch.h"
 
 #include <algorithm>
 #include <deque>
@@ -26,6 +27,7 @@ struct Options {
   Policy policy;
   assembler::LintOptions macro;
   bool fix = false;
+  bool watch = false;
 };
 
 struct Input {
@@ -161,6 +163,7 @@ void add_check(CLI::App& app, Context& context) {
                               "orb check square.bas\n"
                               "orb check --target 1.2 --ram 1024 *.bas\n"
                               "orb check --fix square.bas\n"
+                              "orb check --watch square.bas\n"
                               "orb check --format sarif *.bas *.macro > findings.sarif");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
@@ -176,7 +179,13 @@ void add_check(CLI::App& app, Context& context) {
       ->capture_default_str();
   add_policy_options(*command, options->policy);
   command->add_flag("--fix", options->fix, "make the safe fixes and write the files back");
-  command->callback([&context, options] { run(context, *options); });
+  command->add_flag("--watch", options->watch, "check again whenever a file changes");
+  command->callback([&context, options] {
+    if (options->watch)
+      watch(context, options->files, [&] { run(context, *options); });
+    else
+      run(context, *options);
+  });
 }
 
 } // namespace orb::cli

@@ -28,7 +28,7 @@ constexpr auto starters = std::to_array<Starter>({
 50 delay 1200
 60 goroll S * 90,0,0
 70 delay 700
-80 print "corner" ,S + 1 ": " xpos "," ypos
+80 print "corner", S + 1 ": " xpos "," ypos
 90 next S
 100 LEDC 6
 110 delay 50

@@ -8,7 +8,7 @@
 60 read C
 70 next I
 80 LEDC C
-90 if Q ! L then print "facing quarter" ,Q
+90 if Q ! L then print "facing quarter", Q
 100 L = Q
 110 backLED yaw * 255 / 359
 120 delay 100

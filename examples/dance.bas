@@ -3,7 +3,7 @@
 10 data 1,2,1,3,4,2,1,4
 20 for B = 1 to 8
 30 read F
-40 print "figure" ,F
+40 print "figure", F
 50 on F gosub 100,200,300,400
 60 next B
 70 goroll 0,0,0

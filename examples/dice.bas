@@ -8,7 +8,7 @@
 60 delay 40 + F * 8
 70 next F
 80 D = rnd 6
-90 print "thrown:" ,D
+90 print "thrown:", D
 100 for F = 1 to D
 110 RGB 0,0,0
 120 delay 180

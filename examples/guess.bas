@@ -9,9 +9,9 @@
 70 if X < N then LEDC 3 else LEDC 1
 80 if X < N then print X " is too low" else print X " is too high"
 90 if G < 6 then goto 30
-100 print "it was" ,N
+100 print "it was", N
 110 end
-120 print "yes! in" ,G " tries"
+120 print "yes! in", G " tries"
 130 for F = 1 to 7
 140 LEDC F
 150 delay 150

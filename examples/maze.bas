@@ -8,7 +8,7 @@
 ' rolling on: the speed stays up until something stops the ball
 60 if speed > 45 then goto 60
 70 RGB 255,0,0
-80 print "bump" ,B ":" ,xpos ,ypos
+80 print "bump", B ":", xpos, ypos
 90 H = (H + 90) % 360
 100 goroll H,0,0
 110 delay 600

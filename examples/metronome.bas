@@ -3,7 +3,7 @@
 10 print "beats per minute?"
 20 input T,3000,120
 30 if T < 30 or T > 240 then T = 120
-40 print "tempo" ,T
+40 print "tempo", T
 50 timerA = 60000 / T
 60 for B = 1 to 16
 70 if B % 4 = 1 then RGB 255,60,0 else RGB 0,60,255

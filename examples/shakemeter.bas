@@ -5,7 +5,7 @@
 30 if M > W then W = M
 40 if W > 255 then W = 255
 50 RGB W,0,255 - W
-60 if W > 200 and P < 201 then ?"hot!"
+60 if W > 200 and P < 201 then ? "hot!"
 70 P = W
 80 if W > 1 then W = W - 2
 90 delay 25

@@ -9,7 +9,7 @@
 60 if accelone < 300 then goto 60
 70 T = timerA
 80 C = C + 1
-90 print "toss" ,C ": " T " ms"
+90 print "toss", C ": " T " ms"
 100 RGB 255,0,0
 110 delay 500
 120 if C < 3 then goto 20

@@ -72,6 +72,24 @@ TEST(Floors, OnlyParsersSeePegtl) {
       }
 }
 
+TEST(Golden, EveryExampleIsCheckedAndRun) {
+  std::string transcripts;
+  for (const auto& file : files_below(root / "tests" / "golden" / "examples", {".txt"}))
+    transcripts += read_all(file);
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(root / "examples")) {
+    const auto name = "examples/" + entry.path().filename().string();
+    if (!name.ends_with(".bas") && !name.ends_with(".macro"))
+      continue;
+    ++count;
+    const std::regex checked("orb check [^\n]*" + name);
+    const std::regex run("orb run [^\n]*" + name);
+    EXPECT_TRUE(std::regex_search(transcripts, checked)) << name;
+    EXPECT_TRUE(std::regex_search(transcripts, run)) << name;
+  }
+  EXPECT_GE(count, 20U);
+}
+
 TEST(Golden, EveryTranscriptSaysWhatItShows) {
   for (const auto& file : files_below(root / "tests" / "golden", {".txt"})) {
     const auto text = read_all(file);
