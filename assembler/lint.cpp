@@ -292,7 +292,8 @@ private:
     Background fade;
     Background rotation;
     const PlacedCommand* unstabilized = nullptr;
-    const auto result = walk(assembly_, start, [&](const Visit& visit) {
+    const auto result = walk(assembly_, start, budget_, [&](const Visit& visit) {
+      --budget_;
       seen[visit.macro] = true;
       const auto& command = assembly_.macros[visit.macro].commands[visit.command];
       if (command.info == nullptr || command.origin == Origin::Broken)
@@ -357,6 +358,7 @@ private:
   const Ids& known_;
   std::vector<Diagnostic> diagnostics_;
   std::set<std::pair<std::string_view, std::uint32_t>> reported_;
+  std::size_t budget_ = longest_walk; ///< commands to follow yet, all macros together
 };
 
 /// What the files of one ball share: ids, heap and index.

@@ -28,7 +28,7 @@ TimingNote note_of(const WalkResult& result) {
 MacroTiming time_macro(const Assembly& assembly, std::size_t macro) {
   MacroTiming timing;
   timing.commands.resize(assembly.macros[macro].commands.size());
-  const auto result = walk(assembly, macro, [&](const Visit& visit) {
+  const auto result = walk(assembly, macro, longest_walk, [&](const Visit& visit) {
     if (visit.macro != macro)
       return;
     auto& command = timing.commands[visit.command];

@@ -5,6 +5,7 @@
 #include "assembler/assemble.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <tuple>
@@ -42,6 +43,17 @@ struct WalkResult {
 
 inline constexpr std::size_t longest_walk = 500'000; ///< commands
 
+/// Which macro has an id; nowhere where none has.
+inline constexpr std::size_t nowhere = SIZE_MAX;
+
+inline std::array<std::size_t, 256> macros_by_id(const Assembly& assembly) {
+  std::array<std::size_t, 256> found;
+  found.fill(nowhere);
+  for (std::size_t i = assembly.macros.size(); i-- > 0;)
+    found[assembly.macros[i].id.value_or(spec::macro_id_temporary)] = i;
+  return found;
+}
+
 /// How long a command waits, given the system delays: earliest and latest.
 struct Wait {
   std::int64_t least_ms = 0;
@@ -64,9 +76,9 @@ inline Wait wait_of(const PlacedCommand& command, std::int32_t sd1_ms, std::int3
   return {};
 }
 
-/// Calls `visit(Visit)` for each command in the order in which they run.
+/// Calls `visit(Visit)` for each command in the order in which they run, `most` of them.
 template <class Visitor>
-WalkResult walk(const Assembly& assembly, std::size_t start, Visitor visit) {
+WalkResult walk(const Assembly& assembly, std::size_t start, std::size_t most, Visitor visit) {
   using spec::MacroCommand;
   struct Place {
     std::size_t macro = 0;
@@ -85,19 +97,15 @@ WalkResult walk(const Assembly& assembly, std::size_t start, Visitor visit) {
   std::set<std::tuple<std::size_t, std::int32_t, std::int32_t, std::size_t, std::size_t,
                       std::int32_t, std::size_t>>
       jumps;
-  const auto find = [&](std::int32_t id) {
-    for (std::size_t i = 0; i < assembly.macros.size(); ++i)
-      if (assembly.macros[i].id.value_or(spec::macro_id_temporary) == id)
-        return i;
-    return SIZE_MAX;
-  };
+  const auto by_id = macros_by_id(assembly);
+  const auto find = [&](std::int32_t id) { return by_id[static_cast<std::uint8_t>(id)]; };
   const auto ended = [&](WalkEnd end) {
     result.end = end;
     result.earliest_ms = now.earliest_ms;
     result.latest_ms = now.latest_ms;
     return result;
   };
-  for (std::size_t steps = 0; steps < longest_walk; ++steps) {
+  for (std::size_t steps = 0; steps < most; ++steps) {
     const auto& macro = assembly.macros[now.macro];
     const bool at_end = now.command >= macro.commands.size();
     if (!at_end)
@@ -141,7 +149,7 @@ WalkResult walk(const Assembly& assembly, std::size_t start, Visitor visit) {
         loop = {};
     } else if (kind == MacroCommand::Goto) {
       const auto target = find(command->value[0]);
-      if (target == SIZE_MAX)
+      if (target == nowhere)
         return ended(WalkEnd::Leaves);
       now.macro = target;
       now.command = 0;
@@ -152,7 +160,7 @@ WalkResult walk(const Assembly& assembly, std::size_t start, Visitor visit) {
         return ended(WalkEnd::Endless);
     } else if (kind == MacroCommand::Gosub && !now.in_gosub && macro.id != spec::macro_id_stream) {
       const auto target = find(command->value[0]);
-      if (target == SIZE_MAX) {
+      if (target == nowhere) {
         result.calls_unknown = true;
         continue;
       }
