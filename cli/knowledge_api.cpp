@@ -51,7 +51,7 @@ std::string describe(const spec::Field& field) {
   if (field.least < field.most)
     out += fmt::format(" {} to {}{}", field.least, field.most,
                        spec::is_number(field.type) ? "" : " bytes");
-  if (!field.unit.empty())
+  if (!field.unit.empty() && field.unit != field.name)
     out += fmt::format(" {}", field.unit);
   if (field.presence == spec::Presence::Optional)
     out += " (may be missing)";
