@@ -59,7 +59,7 @@ private:
   /// Notes where a statement jumps; returns whether the next line can follow.
   bool follow(const StatementNode& statement) {
     if (statement.error)
-      return false;
+      return true; // once mended it goes on; lint asks may_steer() first
     switch (statement.kind) {
     case spec::Statement::Goto: add_targets(statement, false); return false;
     case spec::Statement::Gosub: add_targets(statement, true); return true;

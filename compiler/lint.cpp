@@ -57,7 +57,10 @@ public:
     check_lines();
     check_statements();
     check_letters();
-    if (program_.faults.empty()) // a line that does not parse may be the jump that another misses
+    const bool jumps_known =
+        std::none_of(program_.faults.begin(), program_.faults.end(),
+                     [&](const Fault& fault) { return may_steer(program_, fault); });
+    if (jumps_known)
       lint_flow(program_, flow_, findings_);
     check_size();
     silence();
@@ -397,7 +400,7 @@ private:
       check(statement);
       if (!statement.error && statement.kind == spec::Statement::If)
         check_branches(statement);
-      falls = code.falls;
+      falls = code.falls && !statement.error; // a line that does not parse may set anything
       for (const auto& jump : flow_.jumps_of(code))
         if (jump.call)
           falls = false; // the subroutine may change everything

@@ -428,4 +428,30 @@ Diagnostic explain(const Program& program, const Fault& fault) {
   return Explainer(program, fault).explain();
 }
 
+bool may_steer(const Program& program, const Fault& fault) {
+  auto meant = std::optional(fault.statement);
+  if (fault.reason == Reason::UnknownWord) {
+    const auto word = closest(program.text_of(fault.span), statement_words());
+    meant = word ? spec::find_statement(*word) : std::nullopt;
+  }
+  if (!meant || fault.reason == Reason::MissingNumber || fault.reason == Reason::BadNumber)
+    return true;
+  switch (spec::info(*meant).form) {
+  case spec::Form::Conditional:
+  case spec::Form::Loop:
+  case spec::Form::LoopEnd:
+  case spec::Form::Branch:
+  case spec::Form::IndexedBranch: return true;
+  case spec::Form::Assignment:
+  case spec::Form::Output:
+  case spec::Form::Entry:
+  case spec::Form::Values:
+  case spec::Form::Variables: return false;
+  case spec::Form::Arguments:
+    return *meant == spec::Statement::Return || *meant == spec::Statement::End ||
+           *meant == spec::Statement::Reset || *meant == spec::Statement::Sleep;
+  }
+  return true;
+}
+
 } // namespace orb::compiler
