@@ -15,6 +15,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
+#include <utility>
 #include <variant>
 
 namespace orb::cli {
@@ -528,28 +529,33 @@ bool ends_part(const Program& program, const compiler::Line& line) {
 
 std::vector<Symbol> outline(const Source& source) {
   const auto program = compiler::parse(source.text());
-  std::map<std::uint32_t, bool> targets; // whether one of the jumps is a call
+  struct Target {
+    bool is_called = false;
+    bool is_listed = false; ///< of lines of equal numbers only the first is reached by a jump
+  };
+  std::map<std::uint32_t, Target> targets;
   for (const auto& name : line_names(program))
     if (name.is_target)
-      targets[name.number] = targets[name.number] || name.calls;
+      targets[name.number].is_called |= name.calls;
   std::vector<Symbol> symbols;
+  std::size_t part_end = 0; // the last line of the subroutine at hand
   for (std::size_t i = 0; i < program.lines.size(); ++i) {
     const auto& line = program.lines[i];
-    const auto target = line.has_number() ? targets.find(line.number) : targets.end();
-    if (target == targets.end())
+    const auto found = line.has_number() ? targets.find(line.number) : targets.end();
+    if (found == targets.end() || std::exchange(found->second.is_listed, true))
       continue;
-    const bool first = find_line(program, line.number) == &line;
-    if (!first)
-      continue; // of equals only the first is ever reached by a jump
-    auto end = i;
-    while (target->second && end + 1 < program.lines.size() &&
-           !ends_part(program, program.lines[end]))
-      ++end;
+    const bool is_called = found->second.is_called;
+    if (is_called) { // one that begins inside another ends where that one does
+      part_end = std::max(part_end, i);
+      while (part_end + 1 < program.lines.size() && !ends_part(program, program.lines[part_end]))
+        ++part_end;
+    }
+    const auto& last = program.lines[is_called ? part_end : i];
     const auto title = title_above(program, i);
     symbols.push_back(
         {title.empty() ? fmt::format("{}", line.number) : fmt::format("{} {}", line.number, title),
-         std::string(target->second ? "subroutine" : "jump target"),
-         {line.span.begin, std::max(program.lines[end].span.end, line.span.end)},
+         std::string(is_called ? "subroutine" : "jump target"),
+         {line.span.begin, std::max(last.span.end, line.span.end)},
          line.number_span});
   }
   return symbols;
