@@ -64,10 +64,13 @@ void add_commands(CLI::App& app, Context& context) {
       ->check(one_of({"auto", "always", "never"}))
       ->capture_default_str();
   add_asm(app, context);
+  add_ball(app, context);
   add_build(app, context);
   add_check(app, context);
   add_completion(app, context);
+  add_decode(app, context);
   add_disasm(app, context);
+  add_encode(app, context);
   add_explain(app, context);
   add_fmt(app, context);
   add_lsp(app, context);

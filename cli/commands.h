@@ -9,14 +9,17 @@ namespace orb::cli {
 /// Builds the whole option model: every command with its options, help and examples. Parsing it
 /// runs the chosen command, which leaves its exit code in `context`. Completion and the man pages
 /// are printed from the same model.
-void add_commands(CLI::App& app, Context& context);
+void add_asm(CLI::App& app, Context& context);
 
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
-void add_asm(CLI::App& app, Context& context);
+void add_ball(CLI::App& app, Context& context);
 void add_build(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
+void add_commands(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
+void add_decode(CLI::App& app, Context& context);
 void add_disasm(CLI::App& app, Context& context);
+void add_encode(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_fmt(CLI::App& app, Context& context);
 void add_lsp(CLI::App& app, Context& context);

@@ -113,6 +113,8 @@ std::string print_markdown(const Section& section) {
                          section.id, section.title);
   if (fits_table(section))
     return out + table(section);
+  if (!section.overview.empty())
+    out += section.overview + "\n";
   for (const auto& entry : section.entries)
     out += chapter(entry);
   out.pop_back(); // one line end at the end of the file

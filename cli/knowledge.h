@@ -23,6 +23,7 @@ struct Section {
   std::string_view title; ///< `Statements`
   std::string_view kind;  ///< what one entry is: `statement`
   std::vector<Entry> entries;
+  std::string overview = {}; ///< Markdown in front of the entries of the page; may be empty
 };
 
 /// Everything the tables know, in the order in which a reader wants it.

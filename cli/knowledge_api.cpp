@@ -69,6 +69,7 @@ std::string describe(std::span<const spec::Field> fields) {
 
 Section api_commands_section() {
   Section section{"api-commands", "API commands", "API command", {}};
+  section.overview = "| DID CID | command | virtual ball | source |\n|---|---|---|---|\n";
   for (const auto& row : spec::api_commands) {
     const auto did = spec::did(row.command);
     const auto cid = spec::cid(row.command);
@@ -76,6 +77,8 @@ Section api_commands_section() {
     entry.name = row.name;
     entry.aliases = {fmt::format("{:02X}h {:02X}h", did, cid)};
     entry.summary = row.summary;
+    section.overview += fmt::format("| {:02X}h {:02X}h | [{}](#{}) | {} | {} |\n", did, cid,
+                                    row.name, row.name, describe(row.status), row.source);
     entry.facts.emplace_back("DID CID", fmt::format("{:02X}h {:02X}h", did, cid));
     if (const auto fields = spec::operands(row.command); !fields.empty())
       entry.facts.emplace_back("takes", describe(fields));

@@ -139,21 +139,22 @@ std::string Describer::response(const Item& item) {
   const auto ok = item.code == static_cast<std::uint8_t>(spec::ResponseCode::Ok);
   const auto fields =
       row == nullptr || !ok ? std::span<const spec::Field>{} : spec::answer(row->command);
-  return fmt::format("response{}: mrsp {:02X} ({}), seq {:02X}, dlen {:02X}{}, chk {:02X}",
-                     row == nullptr ? "" : fmt::format(" to {}", row->name), item.code,
-                     code == nullptr ? "unknown" : code->meaning, item.seq, item.raw[4],
-                     fields_text(fields, item.data), check_byte(item));
+  return fmt::format(
+      "response{}: sop2 {:02X}, mrsp {:02X} ({}), seq {:02X}, dlen {:02X}{}, chk {:02X}",
+      row == nullptr ? "" : fmt::format(" to {}", row->name), item.flags, item.code,
+      code == nullptr ? "unknown" : code->meaning, item.seq, item.raw[4],
+      fields_text(fields, item.data), check_byte(item));
 }
 
 std::string Describer::async(const Item& item) const {
   const auto* row = spec::find_async(item.code);
   const auto fields = row == nullptr ? std::span<const spec::Field>{} : spec::fields(row->id);
   const auto is_stream = row != nullptr && row->id == spec::AsyncId::SensorData;
-  return fmt::format("message {}: id {:02X}, dlen {:04X}{}, chk {:02X}",
-                     row == nullptr ? "unknown" : row->name, item.code, read_u16(item.raw, 3),
-                     is_stream ? frames_text(stream_mask_, item.data)
-                               : fields_text(fields, item.data),
-                     check_byte(item));
+  return fmt::format(
+      "message {}: sop2 {:02X}, id {:02X}, dlen {:04X}{}, chk {:02X}",
+      row == nullptr ? "unknown" : row->name, item.flags, item.code, read_u16(item.raw, 3),
+      is_stream ? frames_text(stream_mask_, item.data) : fields_text(fields, item.data),
+      check_byte(item));
 }
 
 } // namespace orb::protocol

@@ -12,7 +12,7 @@ struct Command {
   std::uint8_t seq = 0; ///< echoed in the answer
   /// The SOP2 byte: F8h to FFh, whose low bits ask for an answer and reset the inactivity timer.
   std::uint8_t flags = spec::sop2_default;
-  Bytes data;
+  Bytes data{};
 
   friend bool operator==(const Command&, const Command&) = default;
 };
@@ -21,7 +21,7 @@ struct Command {
 struct Response {
   std::uint8_t code = 0; ///< spec::ResponseCode, or a value that no document names
   std::uint8_t seq = 0;
-  Bytes data; ///< at most spec::max_payload bytes
+  Bytes data{}; ///< at most spec::max_payload bytes
 
   friend bool operator==(const Response&, const Response&) = default;
 };
@@ -29,7 +29,7 @@ struct Response {
 /// A message that the ball sends unasked. Source: API §Sphero Asynchronous Packets.
 struct Async {
   std::uint8_t id = 0; ///< spec::AsyncId, or a value that no document names
-  Bytes data;          ///< at most spec::max_async_payload bytes
+  Bytes data{};        ///< at most spec::max_async_payload bytes
 
   friend bool operator==(const Async&, const Async&) = default;
 };

@@ -114,7 +114,7 @@ Bytes Ball::take_output() {
 void Ball::send(const protocol::Response& response) {
   if (!connected_)
     return;
-  output_.push(protocol::encode(response), now_);
+  output_.push(protocol::encode(response), now_, Output::Kind::Answer);
   ++sent_;
 }
 
@@ -132,7 +132,7 @@ void Ball::send(const protocol::Async& async) {
     ++dropped_;
     return;
   }
-  output_.push(protocol::encode(async), now_);
+  output_.push(protocol::encode(async), now_, Output::Kind::Message);
   ++sent_;
 }
 
@@ -842,7 +842,7 @@ std::optional<Instant> Ball::print(std::string_view text, Instant now) {
     const std::size_t room = print_queue_bytes - std::min(print_queue_bytes, packet.size());
     if (const Instant ready = output_.drained_to(room, now); ready > now)
       return ready;
-    output_.push(std::move(packet), now);
+    output_.push(std::move(packet), now, Output::Kind::Message);
     ++sent_;
   }
   trace(event::Print{std::string(text)});

@@ -49,6 +49,7 @@ struct BallOptions {
       spec::value_of(spec::Limit::LinesPerSecond)); ///< from 1 to 1 000 000 000
   spec::Firmware firmware = spec::default_firmware;
   std::size_t ram_bytes = static_cast<std::size_t>(spec::value_of(spec::Limit::RamBytes));
+  Wire wire = Wire::Paced;
   Loader loader = nullptr;      ///< without it every program is empty
   Observer* observer = nullptr; ///< must outlive the ball
   bool trace_lines = false;     ///< the observer is told every line
@@ -237,7 +238,7 @@ private:
   MacroExecutive macros_;
   Dispatcher dispatcher_;
   Streamer streamer_;
-  Output output_;
+  Output output_{options_.wire};
   Settings settings_;
   std::array<std::string, 2> areas_; ///< by Area
   Area running_area_ = Area::Ram;

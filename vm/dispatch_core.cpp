@@ -12,7 +12,7 @@ namespace {
 using spec::ResponseCode;
 
 constexpr std::string_view default_name = "Sphero-RGB";
-constexpr std::string_view id_color_letters = "RGB";  // [?]
+constexpr std::uint8_t id_colors[] = {1, 2, 3};       // red, green, blue as LEDC counts them [P]
 constexpr std::string_view address_prefix = "6886E7"; // the vendor's block of Bluetooth addresses
 constexpr std::size_t reported_name_size = 16;        // API §Get Bluetooth Info
 constexpr std::uint16_t deep_sleep = 0xFFFF;          // API §Sleep: not supported by this hardware
@@ -65,7 +65,7 @@ HANDLE(GetBluetoothInfo) {
   const auto address = own_address(seed_);
   reply.data.insert(reply.data.end(), address.begin(), address.end());
   reply.data.push_back(0);
-  reply.data.insert(reply.data.end(), id_color_letters.begin(), id_color_letters.end());
+  reply.data.insert(reply.data.end(), std::begin(id_colors), std::end(id_colors));
   return reply;
 }
 

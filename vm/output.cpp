@@ -20,9 +20,10 @@ constexpr Duration time_of(std::size_t bytes) {
 
 } // namespace
 
-void Output::push(Bytes packet, Instant now) {
-  idle_at_ = std::max(idle_at_, now) + time_of(packet.size());
-  packets_.push_back({idle_at_, std::move(packet)});
+void Output::push(Bytes packet, Instant now, Kind kind) {
+  if (wire_ == Wire::Paced || kind == Kind::Message)
+    idle_at_ = std::max(idle_at_, now) + time_of(packet.size());
+  packets_.push_back({wire_ == Wire::Paced ? idle_at_ : now, std::move(packet)});
 }
 
 std::size_t Output::waiting(Instant now) const {

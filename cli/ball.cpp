@@ -1,0 +1,145 @@
+#include "cli/commands.h"
+#include "cli/files.h"
+#include "cli/serve.h"
+#include "cli/values.h"
+
+#include "base/render.h"
+#include "compiler/load.h"
+#include "spec/firmware.h"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+struct BallArguments {
+  std::optional<std::string> pty;
+  std::string tcp;
+  int count = 1;
+  double speed = 1;
+  std::uint64_t seed = 1;
+  std::string firmware{spec::info(spec::default_firmware).name};
+  std::string fault;
+  std::string stimulus;
+  std::string state;
+  std::string log;
+};
+
+/// `HOST:PORT`, `:PORT` or `[V6]:PORT`.
+std::optional<ServeOptions::Tcp> parse_address(std::string_view text) {
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos)
+    return std::nullopt;
+  auto host = text.substr(0, colon);
+  const auto digits = text.substr(colon + 1);
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size())
+    return std::nullopt;
+  if (host.starts_with('[') && host.ends_with(']'))
+    host = host.substr(1, host.size() - 2);
+  return ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), port};
+}
+
+void fail(Context& context, std::string_view message, ExitCode code) {
+  print_error(context, message);
+  context.exit = code;
+}
+
+void run_ball(Context& context, const BallArguments& arguments) {
+  ServeOptions options;
+  options.count = arguments.count;
+  options.speed = arguments.speed;
+  options.state_file = arguments.state;
+  options.log_file = arguments.log;
+  options.pty = arguments.pty.has_value() || arguments.tcp.empty();
+  options.pty_link = arguments.pty.value_or("");
+  if (!arguments.tcp.empty()) {
+    options.tcp = parse_address(arguments.tcp);
+    if (!options.tcp)
+      return fail(
+          context,
+          fmt::format("`{}` is no address; write HOST:PORT such as 127.0.0.1:4242", arguments.tcp),
+          ExitCode::Usage);
+  }
+  const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
+  options.ball.seed = arguments.seed;
+  options.ball.firmware = firmware.firmware;
+  options.ball.ram_bytes = firmware.ram_bytes;
+  options.ball.loader = compiler::load;
+  if (!arguments.fault.empty()) {
+    const auto plan = protocol::parse_fault_plan(arguments.fault);
+    if (!plan)
+      return fail(context, plan.error(), ExitCode::Usage);
+    options.fault = *plan;
+  }
+  if (!arguments.stimulus.empty()) {
+    const auto text = read_file(arguments.stimulus);
+    if (!text)
+      return fail(context, text.error().message, ExitCode::File);
+    const Source source(display_name(arguments.stimulus), *text);
+    auto script = vm::parse_stimulus(source);
+    for (const auto& diagnostic : script.diagnostics)
+      print_err(render_text(source, diagnostic, context.err_style()));
+    if (!script.diagnostics.empty()) {
+      context.exit = ExitCode::BadInput;
+      return;
+    }
+    options.stimulus = std::move(script.events);
+  }
+  if (const auto served = serve(options); !served)
+    fail(context, served.error().message, ExitCode::File);
+}
+
+std::vector<std::string> firmware_names() {
+  std::vector<std::string> names;
+  for (const auto& row : spec::firmwares)
+    names.emplace_back(row.name);
+  return names;
+}
+
+} // namespace
+
+void add_ball(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "ball", "serve virtual balls that real clients can connect to",
+                              "orb ball\norb ball --tcp 127.0.0.1:4242\n"
+                              "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
+                              "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7");
+  auto arguments = std::make_shared<BallArguments>();
+  command
+      ->add_option("--pty", arguments->pty,
+                   "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
+      ->expected(0, 1)
+      ->type_name("LINK");
+  command->add_option("--tcp", arguments->tcp, "serve on HOST:PORT; port 0 picks a free one")
+      ->type_name("HOST:PORT");
+  command
+      ->add_option("--count", arguments->count,
+                   "how many balls; ports count up, links and files get -1, -2, …")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--speed", arguments->speed, "seconds of the ball in a second")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--seed", arguments->seed, "of everything random; the address follows from it")
+      ->capture_default_str();
+  command->add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
+      ->check(one_of(firmware_names()))
+      ->capture_default_str();
+  command
+      ->add_option("--fault", arguments->fault,
+                   "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
+      ->type_name("PLAN");
+  command->add_option("--stimulus", arguments->stimulus, "a script of what the world does to it")
+      ->type_name("FILE");
+  command->add_option("--state", arguments->state, "keeps flash and settings across runs")
+      ->type_name("FILE");
+  command->add_option("--log", arguments->log, "records every byte, as `replay://` reads it")
+      ->type_name("FILE");
+  command->callback([&context, arguments] { run_ball(context, *arguments); });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,181 @@
+#include "protocol/packet_v2.h"
+
+#include "protocol/packet.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::protocol {
+namespace {
+
+constexpr bool is_special(std::uint8_t byte) {
+  return byte == spec::v2_start || byte == spec::v2_end || byte == spec::v2_escape;
+}
+
+/// Header, data and checksum as they are before escaping; nothing where an escape is wrong.
+std::optional<Bytes> unescape(ByteView bytes) {
+  Bytes out;
+  out.reserve(bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (bytes[i] != spec::v2_escape) {
+      out.push_back(bytes[i]);
+      continue;
+    }
+    if (++i == bytes.size())
+      return std::nullopt;
+    const auto byte = static_cast<std::uint8_t>(bytes[i] | spec::v2_escape_bits);
+    if (bytes[i] == byte || !is_special(byte))
+      return std::nullopt;
+    out.push_back(byte);
+  }
+  return out;
+}
+
+/// Reads the header fields; false where the packet is too short for them.
+bool read_packet(ByteView bytes, PacketV2& packet) {
+  std::size_t at = 0;
+  const auto take = [&](std::uint8_t& field) {
+    if (at == bytes.size())
+      return false;
+    field = bytes[at++];
+    return true;
+  };
+  if (!take(packet.flags))
+    return false;
+  for (auto flags = packet.flags; spec::has(flags, spec::V2Flag::Extended);) {
+    if (!take(flags))
+      return false;
+    packet.extended_flags.push_back(flags);
+  }
+  if (spec::has(packet.flags, spec::V2Flag::HasTarget) && !take(packet.target))
+    return false;
+  if (spec::has(packet.flags, spec::V2Flag::HasSource) && !take(packet.source))
+    return false;
+  if (!take(packet.did) || !take(packet.cid) || !take(packet.seq))
+    return false;
+  if (spec::has(packet.flags, spec::V2Flag::Response) && !take(packet.error))
+    return false;
+  packet.data.assign(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end());
+  return true;
+}
+
+std::string flag_names(std::uint8_t flags) {
+  std::string out;
+  for (const auto& row : spec::v2_flags)
+    if (spec::has(flags, row.flag))
+      out += fmt::format("{}{}", out.empty() ? "" : ", ", row.name);
+  return out.empty() ? "none" : out;
+}
+
+} // namespace
+
+Bytes encode(const PacketV2& packet) {
+  Bytes plain{packet.flags};
+  plain.insert(plain.end(), packet.extended_flags.begin(), packet.extended_flags.end());
+  if (spec::has(packet.flags, spec::V2Flag::HasTarget))
+    plain.push_back(packet.target);
+  if (spec::has(packet.flags, spec::V2Flag::HasSource))
+    plain.push_back(packet.source);
+  plain.insert(plain.end(), {packet.did, packet.cid, packet.seq});
+  if (spec::has(packet.flags, spec::V2Flag::Response))
+    plain.push_back(packet.error);
+  plain.insert(plain.end(), packet.data.begin(), packet.data.end());
+  plain.push_back(checksum(plain));
+
+  Bytes out{spec::v2_start};
+  for (const auto byte : plain) {
+    if (is_special(byte)) {
+      out.push_back(spec::v2_escape);
+      out.push_back(static_cast<std::uint8_t>(byte & ~spec::v2_escape_bits));
+    } else {
+      out.push_back(byte);
+    }
+  }
+  out.push_back(spec::v2_end);
+  return out;
+}
+
+void DecoderV2::feed(ByteView bytes) {
+  kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(at_));
+  at_ = 0;
+  kept_.insert(kept_.end(), bytes.begin(), bytes.end());
+}
+
+ItemV2 DecoderV2::take(std::size_t size, ItemV2::Kind kind) {
+  ItemV2 item;
+  item.kind = kind;
+  const auto from = kept_.begin() + static_cast<std::ptrdiff_t>(at_);
+  item.raw.assign(from, from + static_cast<std::ptrdiff_t>(size));
+  at_ += size;
+  return item;
+}
+
+std::optional<ItemV2> DecoderV2::next() {
+  const auto bytes = ByteView(kept_).subspan(at_);
+  if (bytes.empty()) {
+    expired_ = false;
+    return std::nullopt;
+  }
+  const auto start =
+      static_cast<std::size_t>(std::ranges::find(bytes, spec::v2_start) - bytes.begin());
+  if (start > 0)
+    return take(start, ItemV2::Kind::Noise);
+  const auto is_border = [](std::uint8_t byte) {
+    return byte == spec::v2_start || byte == spec::v2_end;
+  };
+  const auto end = static_cast<std::size_t>(
+      std::ranges::find_if(bytes.begin() + 1, bytes.end(), is_border) - bytes.begin());
+  if (end == bytes.size() && end <= spec::v2_max_packet && !expired_)
+    return std::nullopt;
+  if (end == bytes.size())
+    return take(end, expired_ ? ItemV2::Kind::Incomplete : ItemV2::Kind::Noise);
+  if (bytes[end] == spec::v2_start)
+    return take(end, ItemV2::Kind::Noise); // its end was lost
+
+  auto plain = unescape(bytes.subspan(1, end - 1));
+  auto item = take(end + 1, ItemV2::Kind::Noise);
+  if (!plain || plain->empty())
+    return item;
+  item.checksum = plain->back();
+  plain->pop_back();
+  item.right_checksum = checksum(*plain);
+  if (!read_packet(*plain, item.packet))
+    return item;
+  item.kind =
+      item.checksum == item.right_checksum ? ItemV2::Kind::Packet : ItemV2::Kind::BadChecksum;
+  return item;
+}
+
+std::string describe(const ItemV2& item) {
+  const auto& packet = item.packet;
+  switch (item.kind) {
+  case ItemV2::Kind::Noise: return fmt::format("noise {}", to_hex(item.raw));
+  case ItemV2::Kind::Incomplete: return fmt::format("incomplete {}", to_hex(item.raw));
+  case ItemV2::Kind::BadChecksum:
+    return fmt::format("bad checksum {}, {:02X} would be right", to_hex(item.raw),
+                       item.right_checksum);
+  case ItemV2::Kind::Packet: break;
+  }
+  const auto is_response = spec::has(packet.flags, spec::V2Flag::Response);
+  auto out = fmt::format("{}: flags {:02X} ({})", is_response ? "response" : "command",
+                         packet.flags, flag_names(packet.flags));
+  if (!packet.extended_flags.empty())
+    out += fmt::format(", extended flags {}", to_hex(packet.extended_flags));
+  if (spec::has(packet.flags, spec::V2Flag::HasTarget))
+    out += fmt::format(", tid {:02X} (port {}, node {})", packet.target, packet.target >> 4,
+                       packet.target & 15);
+  if (spec::has(packet.flags, spec::V2Flag::HasSource))
+    out += fmt::format(", sid {:02X} (port {}, node {})", packet.source, packet.source >> 4,
+                       packet.source & 15);
+  out += fmt::format(", did {:02X}, cid {:02X}, seq {:02X}", packet.did, packet.cid, packet.seq);
+  if (is_response) {
+    const auto* error = spec::find_v2_error(packet.error);
+    out += fmt::format(", err {:02X} ({})", packet.error,
+                       error == nullptr ? "unknown" : error->meaning);
+  }
+  if (!packet.data.empty())
+    out += fmt::format(", data {}", to_hex(packet.data));
+  return out + fmt::format(", chk {:02X}", item.checksum);
+}
+
+} // namespace orb::protocol
