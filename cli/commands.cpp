@@ -53,9 +53,9 @@ std::string examples_of(const CLI::App& command) {
 }
 
 void add_commands(CLI::App& app, Context& context) {
-  app.formatter(
-      std::make_shared<HelpFormatter>(indent("orb check program.bas\norb run program.bas\norb "
-                                             "upload program.bas --port /dev/rfcomm0 --run")));
+  app.formatter(std::make_shared<HelpFormatter>(
+      indent("orb new robot\norb check program.bas\norb run program.bas\norb "
+             "upload program.bas --port /dev/rfcomm0 --run")));
   app.require_subcommand(0, 1); // a word behind a command is never a second one: `orb man run`
   app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION));
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");

@@ -1,12 +1,17 @@
 #include "cli/files.h"
 
+#include "base/suggest.h"
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <vector>
 
 namespace orb::cli {
 namespace {
@@ -27,14 +32,32 @@ private:
   int fd_;
 };
 
+/// What to do about a file that is not there: the file beside it that was probably meant.
+std::string missing_help(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path wanted(path);
+  std::vector<std::string> names;
+  std::error_code error;
+  const auto folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  if (const auto meant = closest(wanted.filename().string(), views))
+    return fmt::format("; did you mean `{}`?", (wanted.parent_path() / *meant).string());
+  return "; check the name and the folder";
+}
+
 tl::unexpected<IoError> failure(std::string_view action, const std::string& path) {
+  const int reason = errno;
   std::string help;
-  if (errno == ENOENT && action == "read")
-    help = "; check the name and the folder";
-  else if (errno == EACCES)
+  if (reason == ENOENT && action == "read")
+    help = missing_help(path);
+  else if (reason == EACCES)
     help = "; check the permissions of the file and its folder";
   return tl::unexpected(
-      IoError{fmt::format("cannot {} {}: {}{}", action, path, std::strerror(errno), help)});
+      IoError{fmt::format("cannot {} {}: {}{}", action, path, std::strerror(reason), help)});
 }
 
 tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& name) {

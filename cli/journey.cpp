@@ -95,6 +95,7 @@ void Journey::add(Duration t, const vm::Event& event) {
                              seen.command),
                  std::to_string(seen.marker));
         } else if constexpr (std::is_same_v<Seen, of::Macro>) {
+          ++totals_.commands;
           const auto found = commands_.find(std::pair{seen.id, seen.command});
           if (found != commands_.end())
             visit(t, found->second);

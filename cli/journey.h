@@ -101,6 +101,7 @@ public:
   };
   struct Totals {
     std::uint64_t lines = 0;
+    std::uint64_t commands = 0; ///< of macros
     double distance_cm = 0;
     double top_speed_cm_s = 0;
     std::array<std::uint64_t, Happening::kind_count> happenings{};

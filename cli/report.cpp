@@ -200,8 +200,10 @@ std::string thousands(std::uint64_t value) {
   return digits;
 }
 
+/// Whole milliseconds that have passed, as in the last line of `orb run`.
 std::string seconds(Duration t) {
-  return fmt::format("{:.3f} s", static_cast<double>(t.count()) / 1e9);
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(t).count();
+  return fmt::format("{}.{:03} s", ms / 1000, ms % 1000);
 }
 
 std::string distance(double cm) {
@@ -214,7 +216,9 @@ ordered_json totals(const Journey& journey) {
       {"robot time", seconds(journey.end().t), "time"},
       {"distance", distance(totals.distance_cm), "distance"},
       {"top speed", fmt::format("{:.1f} cm/s", totals.top_speed_cm_s), "top-speed"},
-      {"lines run", thousands(totals.lines), "lines"},
+      totals.lines == 0 && totals.commands > 0
+          ? ordered_json{"commands run", thousands(totals.commands), "commands"}
+          : ordered_json{"lines run", thousands(totals.lines), "lines"},
   });
 }
 

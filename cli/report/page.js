@@ -13,7 +13,13 @@ const pose = {
 };
 const led = { t: sums(run.led.t), rgb: run.led.rgb };
 const backled = { t: sums(run.backled.t), value: run.backled.value };
-const step = { t: sums(run.line.t), file: run.line.file, line: run.line.line };
+// Where the run was, file by file: a program and a macro run side by side.
+const steps = run.files.map(() => ({ t: [], line: [] }));
+sums(run.line.t).forEach((t, i) => {
+  const own = steps[run.line.file[i]];
+  own.t.push(t);
+  own.line.push(run.line.line[i]);
+});
 const events = run.events;
 const end = Math.max(run.end.t, 1);
 
@@ -28,11 +34,12 @@ function last_at(list, t) {
 }
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-const seconds = (t, digits = 3) => (t / 1e6).toFixed(digits);
+/** Whole milliseconds that have passed, as `orb run` itself counts them. */
+const seconds = t => (Math.floor(t / 1000) / 1000).toFixed(3);
 function clock_text(t) {
   const minutes = Math.floor(t / 60e6);
-  const rest = (t % 60e6) / 1e6;
-  return minutes ? `${minutes}:${rest.toFixed(3).padStart(6, "0")}` : rest.toFixed(3);
+  const rest = seconds(t % 60e6);
+  return minutes ? `${minutes}:${rest.padStart(6, "0")}` : rest;
 }
 const trim = (value, digits) => String(Number(value.toFixed(digits)));
 
@@ -383,14 +390,11 @@ if (run.files.length > 1) {
 }
 let current_row = null;
 function show_line() {
-  const i = last_at(step.t, now);
-  const inside = i >= 0 && step.line[i] > 0;
-  if (inside && step.file[i] !== shown_file && playing) {
-    $("file").value = step.file[i];
-    show_file(step.file[i]);
-  }
-  const row = inside && step.file[i] === shown_file ? rows[step.line[i] - 1] : null;
-  readings.line.textContent = inside ? String(step.line[i]) : "none";
+  const own = steps[shown_file];
+  const i = own ? last_at(own.t, now) : -1;
+  const inside = i >= 0;
+  const row = inside ? rows[own.line[i] - 1] : null;
+  readings.line.textContent = inside ? String(own.line[i]) : "none";
   if (row === current_row) return;
   if (current_row) { current_row.classList.remove("current"); current_row.removeAttribute("aria-current"); }
   current_row = row ?? null;

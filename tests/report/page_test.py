@@ -89,7 +89,7 @@ class Report(unittest.TestCase):
         poses = self.dance.of("pose")
         self.assertGreater(len(poses), 50)
         self.assertEqual(page.evaluate(total("lines")).replace(",", ""), str(end["lines"]))
-        self.assertEqual(page.evaluate(total("time")), f"{self.dance.events[-1]['t'] / 1000:.3f} s")
+        self.assertEqual(page.evaluate(total("time")), f"{int(self.dance.events[-1]['t']) / 1000:.3f} s")
         top = max(pose["speed"] for pose in poses)
         self.assertAlmostEqual(float(page.evaluate(total("top-speed")).split()[0]), top, delta=0.051)
         way = sum(((b["x"] - a["x"]) ** 2 + (b["y"] - a["y"]) ** 2) ** 0.5 for a, b in zip(poses, poses[1:]))
@@ -246,9 +246,21 @@ class Report(unittest.TestCase):
         page = self.open(run)
         markers = run.of("marker")
         self.assertGreater(len(markers), 3)
+        self.assertEqual(page.evaluate(total("commands")), str(len(run.of("macro"))))
+        self.assertTrue(page.evaluate("document.querySelectorAll('#source .ran[data-count=\"1\"]').length > 20"))
         for i, marker in enumerate(markers):
             page.evaluate(f"document.querySelectorAll('#events [data-kind=marker]')[{i}].click()")
             self.assertEqual(page.evaluate(now), micro(marker["t"]))
+
+    def test_a_program_and_a_macro_side_by_side(self):
+        run = Run(self.folder.name, "pair", example("conductor.bas"), example("orchestra.macro"))
+        page = self.open(run)
+        self.assertEqual(page.evaluate("document.getElementById('file').options.length"), 2)
+        t = next(event["t"] for event in run.of("macro") if event["id"] == 41)
+        page.evaluate(f"{seek}({micro(t)})")
+        self.assertRegex(page.evaluate("document.querySelector('#source .current').textContent"), "[0-9]+ (delay|if|macrun)")
+        page.evaluate("(file => { file.value = 1; file.dispatchEvent(new Event('change')); })(document.getElementById('file'))")
+        self.assertIn("rgb 255 160 0", page.evaluate("document.querySelector('#source .current').textContent"))
 
 
 if __name__ == "__main__":
