@@ -790,9 +790,12 @@ private:
       for (auto i = statement.items_begin + 3; i < statement.items_end; i += 4)
         check_gap(program_.items[i - 1].span.end, program_.items[i + 1].span.begin,
                   program_.items[i].kind == ItemKind::And ? "and" : "or");
+      // A branch without text has no side that a blank could stand on.
       const auto& then = program_.statements[statement.then_branch].span;
-      check_gap(program_.items[statement.items_end - 1].span.end, then.begin, "then");
-      if (statement.else_branch != none)
+      if (then.size() > 0)
+        check_gap(program_.items[statement.items_end - 1].span.end, then.begin, "then");
+      if (then.size() > 0 && statement.else_branch != none &&
+          program_.statements[statement.else_branch].span.size() > 0)
         check_gap(then.end, program_.statements[statement.else_branch].span.begin, "else");
     } else if (statement.kind == spec::Statement::On) {
       check_gap(item(statement, 0).span.end, item(statement, 1).span.begin,
@@ -876,18 +879,29 @@ private:
     const auto version = target_.version;
     if (version == spec::BasicVersion::V0_9)
       d.severity = Severity::Error;
+    // Behind an operator, or before one that binds more strongly than minus, only parentheses keep
+    // the sign with its operand.
     auto before = node.span.begin;
     while (before > 0 && is_blank(program_.text[before - 1]))
       --before;
+    auto after = node.span.end;
+    while (after < program_.text.size() && is_blank(program_.text[after]))
+      ++after;
+    const bool bound = before > 0 && spec::find_operator(program_.text[before - 1]);
+    const auto next = after < program_.text.size() ? spec::find_operator(program_.text[after])
+                                                   : std::optional<spec::Operator>();
+    const bool binds = next && spec::info(*next).level == spec::Level::Medium;
     const auto begin = node.span.begin;
-    if (before > 0 && spec::find_operator(program_.text[before - 1])) {
-      d.help = fmt::format("write `(0{})`", program_.text_of(node.span));
-      d.fix = Fix{
-          d.help, {{{begin, begin}, "(0"}, {{node.span.end, node.span.end}, ")"}}, Safety::Safe};
-    } else {
+    if (!bound && !binds) {
       d.help = fmt::format("write `0{}`", program_.text_of(node.span));
       d.fix = single_fix(d.help, {begin, begin}, "0");
+      return;
     }
+    d.help = fmt::format("write `(0{})`", program_.text_of(node.span));
+    // Each function around it may get parentheses in the same round, which also count.
+    if (2 * node.depth + 1 + deepest_below(node) <= spec::value_of(spec::Limit::ExpressionLevels))
+      d.fix = Fix{
+          d.help, {{{begin, begin}, "(0"}, {{node.span.end, node.span.end}, ")"}}, Safety::Safe};
   }
 
   Range read_system(const Node& node) {
@@ -976,7 +990,9 @@ private:
         fmt::format("`{}` takes all of `{}`", row.word, program_.text_of(operand.span)),
         fmt::format("write `{} ({})`, or `({} …)` for less", row.word,
                     program_.text_of(operand.span), row.word));
-    if (deepest_in(operand) < spec::value_of(spec::Limit::ExpressionLevels))
+    // Other fixes of the same round may put parentheses around and into this operand.
+    const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
+    if (levels <= spec::value_of(spec::Limit::ExpressionLevels))
       d.fix = Fix{"put the operand into parentheses",
                   {{{operand.span.begin, operand.span.begin},
                     program_.text[operand.span.begin - 1] == ' ' ? "(" : " ("},
@@ -984,12 +1000,16 @@ private:
                   Safety::Safe};
   }
 
-  int deepest_in(const Node& root) const {
-    int depth = 0;
+  /// How many levels a subtree has, and at most can get by fixes: functions and signs count twice.
+  int deepest_below(const Node& root) const {
+    int levels = 0;
     const auto index = static_cast<std::uint32_t>(&root - program_.nodes.data());
-    for (auto i = root.first; i <= index + 1 && i < program_.nodes.size(); ++i)
-      depth = std::max<int>(depth, program_.nodes[i].depth);
-    return depth;
+    for (auto i = root.first; i < index; ++i) {
+      const auto kind = program_.nodes[i].kind;
+      levels += kind == NodeKind::Group || kind == NodeKind::Negate ? 1 : 0;
+      levels += kind == NodeKind::Call ? 2 : 0;
+    }
+    return levels;
   }
 
   static constexpr std::uint32_t unknown_data = none;

@@ -141,6 +141,12 @@ private:
   }
 
   Diagnostic missing_number() const {
+    if (lower(token()) == "rem") {
+      auto d = make(rules::Rem, fmt::format("`{}` is not a statement", token()),
+                    "write `'`: comments need no number and are stripped before upload");
+      set_fix(d, "write `'`", fault_.span, "'", Safety::Safe);
+      return d;
+    }
     return make(rules::MissingLineNumber, fmt::format("expected a line number, found {}", found()),
                 "each line begins with a number from 1 to 65535");
   }

@@ -230,7 +230,23 @@ private:
            program_.text[node(index).span.begin] == '-';
   }
 
+  /// Whether the parentheses follow a function's word and hold more than one operand. That a function
+  /// takes the whole expression is a decision, not a document, so these stay.
+  bool bounds_operand(std::uint32_t index) const {
+    if (node(inside(index)).kind != NodeKind::Binary)
+      return false;
+    auto at = node(index).span.begin;
+    while (at > 0 && is_blank(program_.text[at - 1]))
+      --at;
+    auto begin = at;
+    while (begin > 0 && is_letter(program_.text[begin - 1]))
+      --begin;
+    return find_word(program_.text.substr(begin, at - begin)).kind == WordKind::Function;
+  }
+
   void drop(const Node& group) {
+    if (bounds_operand(static_cast<std::uint32_t>(&group - program_.nodes.data())))
+      return;
     dropped_.push_back(group.span.begin);
     dropped_.push_back(group.span.end - 1);
   }
@@ -254,12 +270,7 @@ private:
         if (node(i - 1).kind == NodeKind::Group)
           drop(node(i - 1));
         break;
-      case NodeKind::Call:
-        // That a function takes the whole expression is a decision, not a document: where it
-        // matters the parentheses stay.
-        if (node(inside(i - 1)).kind != NodeKind::Binary)
-          drop_whole(i - 1);
-        break;
+      case NodeKind::Call: drop_whole(i - 1); break;
       case NodeKind::Number:
       case NodeKind::Letter:
       case NodeKind::Indexed:

@@ -90,6 +90,22 @@ TEST(Golden, EveryExampleIsCheckedAndRun) {
   EXPECT_GE(count, 20U);
 }
 
+TEST(Golden, EveryRuleIsShown) {
+  std::string shown;
+  for (const auto& file : files_below(root / "tests" / "golden", {".txt"}))
+    shown += read_all(file);
+  const std::regex row(R"re(ORB_RULE\(\w+,\s*"([a-z-]+)")re");
+  for (const auto* table : {"compiler/rules.def"}) { // the table of each linter
+    const auto text = read_all(root / table);
+    const std::sregex_iterator end;
+    std::size_t rows = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), row); at != end; ++at, ++rows)
+      EXPECT_NE(shown.find("[" + (*at)[1].str() + "]"), std::string::npos)
+          << (*at)[1] << " of " << table << " occurs in no transcript";
+    EXPECT_GT(rows, 10U) << table;
+  }
+}
+
 TEST(Golden, EveryTranscriptSaysWhatItShows) {
   for (const auto& file : files_below(root / "tests" / "golden", {".txt"})) {
     const auto text = read_all(file);
