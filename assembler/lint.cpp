@@ -361,6 +361,54 @@ private:
   std::size_t budget_ = longest_walk; ///< commands to follow yet, all macros together
 };
 
+/// Where the remark of a line begins; the end of the line where it has none.
+std::size_t remark_of(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (quoted && line[i] == '\\')
+      ++i;
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (line[i] == '#' || line[i] == ';'))
+      return i;
+  }
+  return line.size();
+}
+
+/// Leaves out what remarks allow.
+void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
+  constexpr std::string_view mark = "orb: allow";
+  constexpr std::string_view blanks = " ,\t";
+  std::set<std::pair<std::uint32_t, const Rule*>> allowed;
+  for (auto found = source.text().find(mark); found != std::string_view::npos;
+       found = source.text().find(mark, found + mark.size())) {
+    const auto number = source.position(static_cast<std::uint32_t>(found)).line;
+    const auto line = source.line(number);
+    const auto remark = remark_of(line);
+    const auto start = source.line_start(number);
+    if (found < start + remark)
+      continue; // in a text
+    const bool alone = line.substr(0, remark).find_first_not_of(" \t") == std::string_view::npos;
+    for (auto at = found - start + mark.size(); at < line.size();) {
+      const auto begin = std::min(line.find_first_not_of(blanks, at), line.size());
+      const auto end = std::min(line.find_first_of(blanks, begin), line.size());
+      const auto name = line.substr(begin, end - begin);
+      if (const auto* rule = rules::find(name))
+        allowed.emplace(alone ? number + 1 : number, rule);
+      else if (!name.empty())
+        diagnostics.push_back(finding(
+            rules::UnknownRule,
+            {start + static_cast<std::uint32_t>(begin), start + static_cast<std::uint32_t>(end)},
+            fmt::format("there is no rule `{}`", name)));
+      at = end;
+    }
+  }
+  if (!allowed.empty())
+    std::erase_if(diagnostics, [&](const Diagnostic& diagnostic) {
+      return allowed.contains({source.position(diagnostic.span.begin).line, diagnostic.rule});
+    });
+}
+
 /// What the files of one ball share: ids, heap and index.
 void check_shared(std::span<const Assembly> assemblies, std::span<const Source* const> sources,
                   std::vector<FileFindings>& files) {
@@ -403,8 +451,11 @@ void check_shared(std::span<const Assembly> assemblies, std::span<const Source* 
 
 } // namespace
 
-std::vector<Diagnostic> lint(const Assembly& assembly, const LintOptions& options) {
-  return Linter(assembly, options, ids_of(assembly)).run();
+std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
+                             const LintOptions& options) {
+  auto found = Linter(assembly, options, ids_of(assembly)).run();
+  silence(source, found);
+  return found;
 }
 
 std::vector<FileFindings> check(std::span<const Source* const> sources,
@@ -421,6 +472,7 @@ std::vector<FileFindings> check(std::span<const Source* const> sources,
     file.source = sources[i];
     file.diagnostics = assemblies[i].diagnostics;
     auto found = Linter(assemblies[i], options, known).run();
+    silence(*sources[i], found);
     file.diagnostics.insert(file.diagnostics.end(), std::make_move_iterator(found.begin()),
                             std::make_move_iterator(found.end()));
     if (assemblies[i].has_errors())

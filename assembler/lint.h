@@ -13,8 +13,10 @@ struct LintOptions {
 };
 
 /// What the linter has to say about an assembled file by itself, the assembler's own findings not
-/// included. Targets of goto that the file does not define count as unknown.
-std::vector<Diagnostic> lint(const Assembly& assembly, const LintOptions& options = {});
+/// included. Targets of goto that the file does not define count as unknown. What a remark
+/// `# orb: allow RULE` names is left out on its line, or on the next one when it stands alone.
+std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
+                             const LintOptions& options = {});
 
 /// All findings about one file of macro source, the assembler's and the linter's, by place.
 std::vector<Diagnostic> check(const Source& source, const LintOptions& options = {});

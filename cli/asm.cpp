@@ -73,7 +73,7 @@ std::string print(const Format& format, const std::string& name, const Source& s
 /// The findings, and whether the bytes are of no use. What a macro does wrong while its bytes can
 /// be sent is a warning here; `orb check` weighs it.
 bool report(const Context& context, const Source& source, Assembly& assembly) {
-  auto found = assembler::lint(assembly);
+  auto found = assembler::lint(source, assembly);
   bool fatal = assembly.has_errors();
   for (auto& diagnostic : found) {
     const bool blocks = assembler::cannot_be_sent(diagnostic);
