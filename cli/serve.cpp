@@ -41,6 +41,8 @@ constexpr Duration pty_interval = std::chrono::milliseconds{20};
 /// A client that does not read is not read from while this much waits for it.
 constexpr std::size_t backlog_most = 256 * 1024;
 constexpr std::size_t read_size = 64 * 1024;
+/// How much a client that has left is still heard when the next one knocks.
+constexpr int farewell_reads = 64;
 
 IoError failure(std::string_view action, const std::string& what, int error,
                 std::string_view help = "") {
@@ -176,6 +178,7 @@ private:
 
   void accept();
   void on_accept(tcp::socket socket);
+  bool peer_left();
   void look_at_pty();
   void join(Client client);
   void leave();
@@ -192,6 +195,7 @@ private:
   void send_faulty(ByteView packet);
   void write(ByteView bytes);
   void write_backlog();
+  void lose_client();
   void arm();
   void log(char direction, ByteView bytes);
 
@@ -330,10 +334,12 @@ void Served::accept() {
 }
 
 void Served::on_accept(tcp::socket socket) {
-  if (client_ == Client::Tcp) {
-    // The client before may have left without our having read so.
-    char byte = 0;
-    if (::recv(client_fd(), &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0)
+  if (client_ == Client::Tcp && peer_left()) {
+    // Hear what it said at last before the next one is let in.
+    const auto session = session_;
+    for (int i = 0; i < farewell_reads && session == session_; ++i)
+      on_input();
+    if (session == session_)
       leave();
   }
   if (client_ != Client::None)
@@ -344,6 +350,11 @@ void Served::on_accept(tcp::socket socket) {
   socket.native_non_blocking(true, ignored);
   socket_ = std::move(socket);
   join(Client::Tcp);
+}
+
+bool Served::peer_left() {
+  pollfd query{client_fd(), POLLRDHUP, 0};
+  return ::poll(&query, 1, 0) > 0;
 }
 
 void Served::look_at_pty() {
@@ -545,12 +556,20 @@ void Served::write(ByteView bytes) {
     if (sent > 0)
       bytes = bytes.subspan(static_cast<std::size_t>(sent));
     else if (sent < 0 && errno != EAGAIN && errno != EINTR)
-      return; // the reading side finds out that the client has left
+      return lose_client();
   }
   if (bytes.empty())
     return;
   backlog_.insert(backlog_.end(), bytes.begin(), bytes.end());
   write_backlog();
+}
+
+/// Leaves as soon as whoever writes has returned.
+void Served::lose_client() {
+  asio::post(timer_.get_executor(), [this, session = session_] {
+    if (session == session_)
+      leave();
+  });
 }
 
 void Served::write_backlog() {
@@ -564,7 +583,7 @@ void Served::write_backlog() {
                           ? ::send(client_fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL)
                           : ::write(client_fd(), bytes.data(), bytes.size());
     if (sent < 0 && errno != EAGAIN && errno != EINTR)
-      return;
+      return leave();
     backlog_.assign(bytes.begin() + std::max<std::ptrdiff_t>(0, sent), bytes.end());
     if (!backlog_.empty())
       write_backlog();

@@ -1,5 +1,6 @@
 #include "vm/dispatcher.h"
 
+#include "compiler/load.h"
 #include "vm/ball.h"
 
 #include <gtest/gtest.h>
@@ -27,6 +28,7 @@ public:
   explicit Client(spec::Firmware firmware = spec::default_firmware) {
     BallOptions options;
     options.firmware = firmware;
+    options.loader = compiler::load;
     ball = std::make_unique<Ball>(options);
     ball->connect();
   }
@@ -413,6 +415,78 @@ TEST(Dispatcher, MacrosAnswerAndMarkAsTheRecordedSessionsDid) {
   EXPECT_EQ(markers[1].data, (Bytes{0xBB, 0xFF, 0, 2}));
   EXPECT_EQ(markers[2].data, (Bytes{0x00, 0xFF, 0, 3}));
   EXPECT_EQ(client.code(ApiCommand::RunMacro, {77}), ResponseCode::ExecuteFailed);
+}
+
+/// Uploads a program to RAM.
+void upload(Client& client, std::string_view text) {
+  Bytes data{spec::area::ram};
+  data.insert(data.end(), text.begin(), text.end());
+  data.push_back(0);
+  EXPECT_EQ(client.code(ApiCommand::EraseOrbbasicStorage, {spec::area::ram}), ResponseCode::Ok);
+  EXPECT_EQ(client.code(ApiCommand::AppendOrbbasicFragment, data), ResponseCode::Ok);
+}
+
+TEST(Dispatcher, ProgramsPrintAfterTheAnswerAndReportErrorsTwice) {
+  Client client;
+  upload(client, "10 print \"hi\"\n20 A = 1/0\n");
+  EXPECT_EQ(client.ask(ApiCommand::ExecuteOrbbasicProgram, {0, 0, 10}).code, 0);
+  ASSERT_EQ(client.messages(AsyncId::BasicPrint).size(), 1u);
+  EXPECT_EQ(as_text(client.messages(AsyncId::BasicPrint)[0].data), "hi\n");
+  ASSERT_EQ(client.messages(AsyncId::BasicErrorText).size(), 1u);
+  ASSERT_EQ(client.messages(AsyncId::BasicError).size(), 1u);
+  EXPECT_EQ(client.messages(AsyncId::BasicError)[0].data, (Bytes{0, 20, 0, 8}));
+}
+
+TEST(Dispatcher, AbortingAProgramIsAnsweredThenReportedAsUserAbort) {
+  Client client;
+  upload(client, "10 goto 10\n");
+  client.ask(ApiCommand::ExecuteOrbbasicProgram, {0, 0, 10});
+  EXPECT_EQ(client.code(ApiCommand::ExecuteOrbbasicProgram, {0, 0, 10}),
+            ResponseCode::ExecuteFailed);
+  EXPECT_EQ(client.code(ApiCommand::EraseOrbbasicStorage, {0}), ResponseCode::ExecuteFailed);
+  EXPECT_EQ(client.code(ApiCommand::AppendOrbbasicFragment, {0, 'x'}), ResponseCode::ExecuteFailed);
+  client.ask(ApiCommand::AbortOrbbasicProgram);
+  ASSERT_EQ(client.messages(AsyncId::BasicError).size(), 1u);
+  EXPECT_EQ(client.messages(AsyncId::BasicError)[0].data, (Bytes{0, 10, 0, 0x0D}));
+}
+
+TEST(Dispatcher, CommitCopiesRamToFlashUnderBothNumbers) {
+  for (const auto command : {ApiCommand::CommitRamToFlash, ApiCommand::CommitRamToFlash70}) {
+    Client client;
+    upload(client, "10 goto 10\n");
+    EXPECT_EQ(client.code(command), ResponseCode::Ok);
+    EXPECT_EQ(client.ball->basic_text(Area::Flash), client.ball->basic_text(Area::Ram));
+    client.ask(ApiCommand::ExecuteOrbbasicProgram, {1, 0, 10});
+    EXPECT_EQ(client.code(command), ResponseCode::ExecuteFailed);
+  }
+}
+
+TEST(Dispatcher, AFullAreaRefusesAFragmentWhole) {
+  Client client;
+  const Bytes line(253, ' ');
+  Bytes data{0};
+  data.insert(data.end(), line.begin(), line.end());
+  for (int i = 0; i < 16; ++i)
+    EXPECT_EQ(client.code(ApiCommand::AppendOrbbasicFragment, data), ResponseCode::Ok);
+  EXPECT_EQ(client.code(ApiCommand::AppendOrbbasicFragment, data), ResponseCode::ExecuteFailed);
+  EXPECT_EQ(client.ball->basic_text(Area::Ram).size(), 16u * 253);
+  EXPECT_EQ(client.code(ApiCommand::EraseOrbbasicStorage, {2}), ResponseCode::BadParameter);
+}
+
+TEST(Dispatcher, StopOnDisconnectIsObeyedOnce) {
+  Client client;
+  client.ask(ApiCommand::SetTemporaryOptionFlags, {0xFF, 0xFF, 0xFF, 0xFF});
+  EXPECT_EQ(client.ask(ApiCommand::GetTemporaryOptionFlags).data, (Bytes{0, 0, 0, 1}));
+  client.ask(ApiCommand::Roll, {100, 0, 0, 1});
+  client.ball->disconnect();
+  client.ball->advance_to(client.ball->now() + 3s);
+  EXPECT_TRUE(client.ball->body().stopped());
+  client.ball->connect();
+  EXPECT_EQ(client.ask(ApiCommand::GetTemporaryOptionFlags).data, (Bytes{0, 0, 0, 0}));
+  client.ask(ApiCommand::Roll, {100, 0, 0, 1});
+  client.ball->disconnect();
+  client.ball->advance_to(client.ball->now() + 3s);
+  EXPECT_FALSE(client.ball->body().stopped());
 }
 
 TEST(Dispatcher, SleepIsAnsweredThenObeyedAndWakesByItself) {
