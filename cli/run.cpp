@@ -414,9 +414,10 @@ RunResult<void> write_pictures(const RunOptions& options, const Journey& journey
       return refuse(ExitCode::File, done.error().message);
     return {};
   };
-  if (auto done = write(options.report, options.report.empty()
-                                            ? std::string()
-                                            : report_page(journey, options.files.front()));
+  if (auto done =
+          write(options.report, options.report.empty()
+                                    ? std::string()
+                                    : report_page(journey, display_name(options.files.front())));
       !done)
     return done;
   return write(options.svg, options.svg.empty() ? std::string() : path_svg(journey));

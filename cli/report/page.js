@@ -345,7 +345,9 @@ if (!moved) {
 const readings = {};
 for (const [name, words] of [["position", "at"], ["speed", "speed"], ["heading", "heading"], ["led", "LED"], ["line", "line"]]) {
   readings[name] = element("dd", { "data-now": name });
-  $("now").append(element("dt", {}, words), readings[name]);
+  const pair = element("div");
+  pair.append(element("dt", {}, words), readings[name]);
+  $("now").append(pair);
 }
 readings.led.append(element("span", { class: "swatch" }), document.createTextNode(""));
 
@@ -477,8 +479,9 @@ $("next").addEventListener("click", () => jump(1));
 
 // ---- values over time ----
 const lanes = [];
-/** `series`: [{name, t, v, digits}]; `cyclic`: 360 where a value wraps round. */
-function add_lane({ id, name, unit, series, cyclic, low, high, held }) {
+/** `series`: [{name, t, v, digits}]; `cyclic`: 360 where a value wraps round; `between`: what a state
+ *  between two poses says, where values are not held. */
+function add_lane({ id, name, unit, series, cyclic, low, high, held, between }) {
   const values = series.flatMap(one => one.v.length ? [Math.min(...one.v), Math.max(...one.v)] : [0]);
   let from = low ?? Math.min(...values), to = high ?? Math.max(...values);
   if (to - from < 1e-9) { to += 1; from -= low === undefined ? 1 : 0; }
@@ -499,7 +502,7 @@ function add_lane({ id, name, unit, series, cyclic, low, high, held }) {
   plot.append(playhead);
   lane.append(words, plot);
   $("lanes").append(lane);
-  const made = { plot, art, playhead, outputs, series, from, to, cyclic, held, unit };
+  const made = { plot, art, playhead, outputs, series, from, to, cyclic, held, between };
   plot.addEventListener("pointerdown", event => scrub(event, plot));
   lanes.push(made);
 }
@@ -557,14 +560,15 @@ function draw_axis() {
     shape("text", { x: t / end * width, y: 19, "text-anchor": "middle" }, art).textContent = words;
   }
 }
-function show_lanes() {
+function show_lanes(state) {
   const share = `${now / end * 100}%`;
   led_playhead.style.left = share;
   for (const lane of lanes) {
     lane.playhead.style.left = share;
     lane.series.forEach((one, k) => {
       const i = last_at(one.t, now);
-      lane.outputs[k].textContent = i < 0 ? "0" : one.v[i].toFixed(one.digits);
+      const value = lane.between ? lane.between(state) : i < 0 ? 0 : one.v[i];
+      lane.outputs[k].textContent = value.toFixed(one.digits);
     });
   }
 }
@@ -583,8 +587,10 @@ const led_plot = add_thin_lane("LED", "led-lane");
 const led_art = shape("svg", { preserveAspectRatio: "none" }, led_plot);
 const led_playhead = element("div", { class: "playhead" });
 led_plot.append(led_playhead);
-add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 2 }] });
-add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
+add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, between: state => state.speed, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 1 }] });
+add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, between: state => state.heading, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
+if (backled.t.length)
+  add_lane({ id: "backled", name: "Aiming light", unit: "", low: 0, high: 255, held: true, series: [{ name: "backLED", t: backled.t, v: backled.value, digits: 0 }] });
 for (const group of run.sensors) {
   const t = sums(group.t);
   add_lane({ id: group.id, name: group.name, unit: group.unit, held: true,
@@ -634,7 +640,7 @@ function show() {
   slider.setAttribute("aria-valuetext", `${seconds(now)} of ${seconds(end)} seconds`);
   show_line();
   show_event();
-  show_lanes();
+  show_lanes(state);
 }
 function redraw() {
   draw_map();

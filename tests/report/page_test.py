@@ -203,6 +203,9 @@ class Report(unittest.TestCase):
         for width in (320, 390):
             page = self.open(self.dance, width, 780, mobile=True)
             self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+            page.key("End")
+            self.assertEqual(page.evaluate("""[...document.querySelectorAll('.now dd, .totals dd, .tools button, .transport *')]
+              .filter(one => one.getBoundingClientRect().right > innerWidth).length"""), 0)
             self.assertGreater(page.evaluate("document.getElementById('map').getBoundingClientRect().height"), 150)
 
     def test_a_minute_of_driving_is_small(self):
