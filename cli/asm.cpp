@@ -202,7 +202,7 @@ ExitCode run_asm(const Context& context, const AsmOptions& options) {
 }
 
 void add_asm(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "asm", "assembles macro source into the bytes of a ball",
+  auto* command = add_command(app, "asm", "assemble macro source into the bytes of a ball",
                               "orb asm dance.macro -o dance.sphero\norb asm dance.macro --listing\n"
                               "orb asm set.macro --format bin -o build/");
   auto options = std::make_shared<AsmOptions>();

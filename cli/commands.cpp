@@ -57,7 +57,9 @@ void add_commands(CLI::App& app, Context& context) {
       indent("orb new robot\norb check program.bas\norb run program.bas\norb "
              "upload program.bas --port /dev/rfcomm0 --run")));
   app.require_subcommand(0, 1); // a word behind a command is never a second one: `orb man run`
-  app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION));
+  app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION),
+                       "print the version and end");
+  app.set_help_flag("-h,--help", "print this help and end");
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");
   app.add_option("--color", context.color, "auto, always or never")

@@ -105,7 +105,7 @@ constexpr std::array<Shell, 3> shells = {
 } // namespace
 
 void add_completion(CLI::App& app, Context&) {
-  auto* command = add_command(app, "completion", "prints the completion script of a shell",
+  auto* command = add_command(app, "completion", "print the completion script of a shell",
                               "eval \"$(orb completion bash)\"\n"
                               "orb completion zsh > ~/.zfunc/_orb\n"
                               "orb completion fish > ~/.config/fish/completions/orb.fish");

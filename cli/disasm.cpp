@@ -80,7 +80,7 @@ ExitCode run(const Context& context, const Options& options) {
 } // namespace
 
 void add_disasm(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "disasm", "turns the bytes of a macro back into source",
+  auto* command = add_command(app, "disasm", "turn the bytes of a macro back into source",
                               "orb disasm dance.sphero\norb disasm saved.bin -o saved.macro\n"
                               "orb disasm capture.dat --framed");
   auto options = std::make_shared<Options>();

@@ -53,7 +53,7 @@ void run(Context& context, const std::string& word) {
 } // namespace
 
 void add_explain(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "explain", "says all that the tables know about a word",
+  auto* command = add_command(app, "explain", "say all that the tables know about a word",
                               "orb explain goroll\norb explain 08h\norb explain unknown-statement");
   auto word = std::make_shared<std::string>();
   command->add_option("WORD", *word, "a rule, statement, error, variable or command")->required();

@@ -40,7 +40,7 @@ ExitCode serve() {
 
 void add_lsp(CLI::App& app, Context& context) {
   auto* command =
-      add_command(app, "lsp", "serves editors over stdin and stdout (Language Server Protocol)",
+      add_command(app, "lsp", "serve editors over stdin and stdout (Language Server Protocol)",
                   "orb lsp\n"
                   "orb lsp --stdio");
   auto stdio = std::make_shared<bool>(false);

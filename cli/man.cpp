@@ -56,7 +56,7 @@ void write_pages(Context& context, const std::vector<ManualPage>& pages,
 } // namespace
 
 void add_man(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "man", "prints a page of the manual, or writes all of them",
+  auto* command = add_command(app, "man", "print a page of the manual, or write all of them",
                               "orb man run | man -l -\n"
                               "orb man orbbasic > orbbasic.7\n"
                               "orb man --all man");

@@ -515,7 +515,7 @@ void run_and_report(Context& context, const RunOptions& options) {
 
 void add_run(CLI::App& app, Context& context) {
   auto* command =
-      add_command(app, "run", "runs programs and macros on a virtual ball, in virtual time",
+      add_command(app, "run", "run programs and macros on a virtual ball, in virtual time",
                   "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
                   "--input 50,25,37 --for 2min\norb run maze.bas --stimulus maze.stimulus --svg "
                   "maze.svg\norb run dance.bas waltz.sphero --expect done");

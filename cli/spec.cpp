@@ -90,7 +90,7 @@ void run(Context& context, const Options& options) {
 } // namespace
 
 void add_spec(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "spec", "prints the tables of the robot and the tools",
+  auto* command = add_command(app, "spec", "print the tables of the robot and the tools",
                               "orb spec\norb spec statements\norb spec --json > spec.json");
   auto options = std::make_shared<Options>();
   command->add_option("SECTION", options->section, "one table; all where none is named");

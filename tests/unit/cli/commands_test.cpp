@@ -1,9 +1,12 @@
 // What holds for every command of the option model.
 
 #include "cli/commands.h"
+#include "cli/manual.h"
 #include "cli/values.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -57,6 +60,19 @@ TEST(Commands, EveryHelpShowsTwoExamplesThatCanBePasted) {
         }
     }
   }
+}
+
+TEST(Commands, EveryCommandHasAPageOfTheManual) {
+  Model model;
+  std::set<std::string> files;
+  for (const auto& page : manual(model.app)) {
+    EXPECT_FALSE(page.text.empty()) << page.file;
+    files.insert(page.file);
+  }
+  for (const auto* command : model.commands)
+    EXPECT_TRUE(files.contains("orb-" + command->get_name() + ".1")) << command->get_name();
+  for (const auto* other : {"orb.1", "orbbasic.7", "orb-macro.7"})
+    EXPECT_TRUE(files.contains(other)) << other;
 }
 
 TEST(Commands, EveryCommandAndOptionSaysWhatItDoes) {
