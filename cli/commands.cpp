@@ -65,21 +65,30 @@ void add_commands(CLI::App& app, Context& context) {
   app.add_option("--color", context.color, "auto, always or never")
       ->check(one_of({"auto", "always", "never"}))
       ->capture_default_str();
+  add_abort(app, context);
   add_asm(app, context);
   add_ball(app, context);
   add_build(app, context);
   add_check(app, context);
+  add_commit(app, context);
   add_completion(app, context);
   add_decode(app, context);
   add_disasm(app, context);
+  add_doctor(app, context);
   add_encode(app, context);
+  add_erase(app, context);
+  add_exec(app, context);
   add_explain(app, context);
   add_fmt(app, context);
+  add_info(app, context);
   add_lsp(app, context);
   add_man(app, context);
+  add_monitor(app, context);
   add_new(app, context);
+  add_ports(app, context);
   add_run(app, context);
   add_spec(app, context);
+  add_upload(app, context);
 }
 
 } // namespace orb::cli

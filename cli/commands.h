@@ -12,21 +12,31 @@ namespace orb::cli {
 void add_asm(CLI::App& app, Context& context);
 
 // One function per command, each in the file of its name. It adds the subcommand to `app`.
+void add_abort(CLI::App& app, Context& context);
+void add_asm(CLI::App& app, Context& context);
 void add_ball(CLI::App& app, Context& context);
 void add_build(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_commands(CLI::App& app, Context& context);
+void add_commit(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 void add_decode(CLI::App& app, Context& context);
 void add_disasm(CLI::App& app, Context& context);
+void add_doctor(CLI::App& app, Context& context);
 void add_encode(CLI::App& app, Context& context);
+void add_erase(CLI::App& app, Context& context);
+void add_exec(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_fmt(CLI::App& app, Context& context);
+void add_info(CLI::App& app, Context& context);
 void add_lsp(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);
+void add_monitor(CLI::App& app, Context& context);
 void add_new(CLI::App& app, Context& context);
+void add_ports(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_spec(CLI::App& app, Context& context);
+void add_upload(CLI::App& app, Context& context);
 
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples);

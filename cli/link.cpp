@@ -2,12 +2,12 @@
 
 #include "cli/config.h"
 #include "cli/interrupt.h"
+#include "cli/run_inputs.h"
 #include "compiler/load.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <fmt/format.h>
 #include <random>
 
@@ -43,23 +43,6 @@ std::uint8_t first_seq_of(const Endpoint& endpoint) {
 
 } // namespace
 
-std::optional<Duration> read_duration(std::string_view text) {
-  auto unit = Duration(1s);
-  if (text.ends_with("ms")) {
-    text.remove_suffix(2);
-    unit = 1ms;
-  } else if (text.ends_with("s")) {
-    text.remove_suffix(1);
-  }
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  constexpr double most_s = 3600;
-  const auto seconds = value * static_cast<double>(unit.count()) / 1e9;
-  if (error != std::errc() || end != text.data() + text.size() || value < 0 || seconds > most_s)
-    return std::nullopt;
-  return Duration(static_cast<Duration::rep>(seconds * 1e9));
-}
-
 void add_port_options(CLI::App& command, PortOptions& options) {
   command
       .add_option("-p,--port", options.port,
@@ -92,15 +75,33 @@ tl::expected<void, IoError> Link::finish() const {
   return write_file(record_file, as_bytes(log->recording()));
 }
 
-tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options) {
+namespace {
+
+tl::expected<Endpoint, LinkFailure> find_endpoint(const Context& context,
+                                                  const PortOptions& options) {
   const auto url = resolve_port(context.config, options.port);
   if (!url)
     return failure(ExitCode::Usage, url.error().message);
   const auto endpoint = uploader::parse_endpoint(*url);
   if (!endpoint)
     return failure(ExitCode::Usage, endpoint.error());
+  return *endpoint;
+}
+
+} // namespace
+
+tl::expected<void, LinkFailure> check_port(const Context& context, const PortOptions& options) {
+  if (const auto endpoint = find_endpoint(context, options); !endpoint)
+    return tl::unexpected(endpoint.error());
+  return {};
+}
+
+tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options) {
+  const auto endpoint = find_endpoint(context, options);
+  if (!endpoint)
+    return tl::unexpected(endpoint.error());
   Link link;
-  link.name = *url;
+  link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.first_seq = first_seq_of(*endpoint);
   link.budgets.answer = read_duration(options.answer).value_or(link.budgets.answer);
@@ -138,9 +139,9 @@ ExitCode exit_code(const Report& report) {
   return ExitCode::Bug;
 }
 
-void with_ball(Context& context, const PortOptions& options,
-               const std::function<ExitCode(Link&, uploader::Session&,
-                                            const uploader::Greeting&)>& work) {
+void with_ball(
+    Context& context, const PortOptions& options,
+    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
   const InterruptGuard guard;
   auto link = open_link(context, options);
   if (!link) {

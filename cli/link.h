@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 
@@ -30,9 +29,6 @@ struct PortOptions {
 
 /// Adds `--port`, which the environment may give as ORB_PORT, `--record` and `--timeout`.
 void add_port_options(CLI::App& command, PortOptions& options);
-
-/// Reads `2s`, `500ms` or a number of seconds; nothing for other words or more than an hour.
-std::optional<Duration> read_duration(std::string_view text);
 
 /// Hears the wire for a recording and for `-vv`.
 class WireLog final : public uploader::WireListener {
@@ -67,6 +63,9 @@ struct LinkFailure {
   std::string message;
 };
 
+/// Whether the options name a port at all, in words where not; nothing is opened.
+tl::expected<void, LinkFailure> check_port(const Context& context, const PortOptions& options);
+
 /// Opens the link that the options name: a URL, a bare path or `@ball`.
 tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options);
 
@@ -75,8 +74,8 @@ ExitCode exit_code(const uploader::Report& report);
 
 /// Opens the link, greets the ball, lets `work` do its job and closes: the shape of the small
 /// commands. Errors are printed; the exit code is left in the context.
-void with_ball(Context& context, const PortOptions& options,
-               const std::function<ExitCode(Link&, uploader::Session&,
-                                            const uploader::Greeting&)>& work);
+void with_ball(
+    Context& context, const PortOptions& options,
+    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work);
 
 } // namespace orb::cli

@@ -20,9 +20,9 @@ bool can_animate() {
 }
 
 double fraction(const Status& status) {
-  return status.bytes_total == 0 ? 0.0
-                                 : static_cast<double>(status.bytes_sent) /
-                                       static_cast<double>(status.bytes_total);
+  return status.bytes_total == 0
+             ? 0.0
+             : static_cast<double>(status.bytes_sent) / static_cast<double>(status.bytes_total);
 }
 
 } // namespace

@@ -42,6 +42,7 @@ std::string describe(Content content, Route route) {
     case Content::ErasedOrUnchanged: return "the ball's macros may have been cleared";
     case Content::Erased: return "the ball's macros have been cleared";
     case Content::Incomplete: return "the ball may hold a part of the macro";
+    case Content::Uncommitted:
     case Content::Unconfirmed: return "the macro may be there or not";
     case Content::Stored: return "the macro is stored";
     }
@@ -53,6 +54,7 @@ std::string describe(Content content, Route route) {
     return fmt::format("the program in {} is erased or unchanged{}", place, tail);
   case Content::Erased: return fmt::format("the program in {} is erased{}", place, tail);
   case Content::Incomplete: return fmt::format("the program in {} is incomplete{}", place, tail);
+  case Content::Uncommitted: return "the program is in RAM, the one in flash is unchanged";
   case Content::Unconfirmed:
     return committed ? "the program in flash is the old one or the new one"
                      : fmt::format("whether the program in {} is complete is not known", place);
@@ -112,7 +114,8 @@ public:
   }
 
   /// Sends a harmless command until it is answered; nothing when the answer is OK.
-  std::optional<Report> ask(ApiCommand command, const Bytes& data = {}) {
+  std::optional<Report> ask(ApiCommand command, const Bytes& data = {},
+                            std::optional<Content> if_refused = std::nullopt) {
     const auto answer = session_.ask(command, data);
     if (!answer)
       return lost(command, answer.error());
@@ -120,6 +123,7 @@ public:
       return std::nullopt;
     if (retry_of(answer->code) == Retry::SameAgain)
       return lost(command, NoAnswer{});
+    content = if_refused.value_or(content);
     return refused(command, *answer);
   }
 
@@ -198,15 +202,12 @@ tl::expected<Sent, Report> attempt(Job& job, ByteView image, Area area, Route ro
   job.show(Stage::Preparing);
   if (auto failed = job.ask(ApiCommand::AbortOrbbasicProgram))
     return tl::unexpected(*failed);
-  if (job.content == Content::Unchanged)
+  const auto before = job.content;
+  if (before == Content::Unchanged)
     job.content = Content::ErasedOrUnchanged;
-  if (auto failed = job.ask(ApiCommand::EraseOrbbasicStorage, {static_cast<std::uint8_t>(area)})) {
-    if (failed->kind == Report::Kind::Refused && job.content == Content::ErasedOrUnchanged) {
-      job.content = Content::Unchanged;
-      failed->content = Content::Unchanged;
-    }
+  if (auto failed =
+          job.ask(ApiCommand::EraseOrbbasicStorage, {static_cast<std::uint8_t>(area)}, before))
     return tl::unexpected(*failed);
-  }
   job.content = Content::Erased;
   job.session().watch_duplicates();
   const auto sent = send_program(job, image, area);
@@ -294,8 +295,8 @@ tl::expected<std::optional<Response>, NoAnswer> offer(Session& session, const By
 Report give_up_chunks(Job& job, ApiCommand command, const NoAnswer& failure) {
   job.content = Content::Unconfirmed;
   auto report = job.lost(command, failure);
-  const auto link_works = failure.kind == NoAnswer::Kind::TimedOut ||
-                          failure.link.kind == LinkError::Kind::Interrupted;
+  const auto link_works =
+      failure.kind == NoAnswer::Kind::TimedOut || failure.link.kind == LinkError::Kind::Interrupted;
   if (link_works && job.session().ask(ApiCommand::AbortMacro))
     report.message += "; the macro was aborted";
   return report;
@@ -487,29 +488,55 @@ tl::expected<Response, Report> request(Session& session, ApiCommand command, con
   return *answer;
 }
 
+Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery) {
+  if (!greeting.firmware.can_commit)
+    return {Report::Kind::Refused, Content::Unchanged,
+            "this firmware cannot commit RAM to flash (API 1.47 can); upload with `--area flash`",
+            0};
+  if (auto low = check_battery(greeting, battery))
+    return *low;
+  NullProgress nobody;
+  Job job(session, nobody, Route::RamThenFlash);
+  if (auto failed = job.ask(ApiCommand::AbortOrbbasicProgram))
+    return *failed;
+  job.content = Content::Unconfirmed;
+  if (auto failed = job.ask(ApiCommand::CommitRamToFlash, {}, Content::Uncommitted))
+    return *failed;
+  return job.done("the program in RAM is in flash now");
+}
+
 Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
                Progress& progress) {
   const auto greeting = greet(session);
   if (!greeting)
     return greeting.error();
-  const auto several = delivery.macros.size() + (delivery.program ? 1 : 0) > 1;
   Report report;
-  const auto named = [&](const std::string& name) {
+  std::string stored;
+  const auto several = delivery.macros.size() + (delivery.program ? 1 : 0) > 1;
+  const auto done = [&](const std::string& name, Report next) {
+    report = std::move(next);
+    const auto is_done = report.kind == Report::Kind::Done;
     if (several)
       report.message = fmt::format("{}: {}", name, report.message);
-    return report;
+    if (is_done)
+      stored += (stored.empty() ? "" : "; ") + report.message;
+    else if (!stored.empty())
+      report.message += fmt::format(" (before that: {})", stored);
+    return is_done;
   };
   for (const auto& macro : delivery.macros) {
     progress.on_item(macro.name);
-    report = upload(session, macro.job, progress);
-    if (report.kind != Report::Kind::Done)
-      return named(macro.name);
+    if (!done(macro.name, upload(session, macro.job, progress)))
+      return report;
   }
-  if (!delivery.program)
-    return report;
-  progress.on_item(delivery.program_name);
-  report = upload(session, *delivery.program, *greeting, battery, progress);
-  return report.kind == Report::Kind::Done ? report : named(delivery.program_name);
+  if (delivery.program) {
+    progress.on_item(delivery.program_name);
+    if (!done(delivery.program_name,
+              upload(session, *delivery.program, *greeting, battery, progress)))
+      return report;
+  }
+  report.message = stored;
+  return report;
 }
 
 Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,
@@ -544,11 +571,8 @@ Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,
   if (plan->route == Route::RamThenFlash) {
     work.show(Stage::Storing);
     work.content = Content::Unconfirmed;
-    if (auto failed = work.ask(ApiCommand::CommitRamToFlash)) {
-      if (failed->kind == Report::Kind::Refused)
-        failed->message += "; the program in flash is unchanged";
+    if (auto failed = work.ask(ApiCommand::CommitRamToFlash, {}, Content::Uncommitted))
       return *failed;
-    }
   }
   work.content = Content::Stored;
   if (job.start_line)
@@ -598,6 +622,8 @@ Report upload(Session& session, const MacroJob& job, Progress& progress) {
   }
   if (failed)
     return *failed;
+  work.status.bytes_sent = work.status.bytes_total;
+  work.status.packets = work.status.packets_total;
   const auto in_pieces =
       plan->route == Route::TemporaryChunks || plan->route == Route::StreamedMacro;
   if (!in_pieces)
@@ -609,8 +635,6 @@ Report upload(Session& session, const MacroJob& job, Progress& progress) {
     return {Report::Kind::Unknown, Content::Unconfirmed,
             "a packet was answered twice: the macro on the ball may be damaged; upload again", 0};
   work.content = Content::Stored;
-  work.status.bytes_sent = work.status.bytes_total;
-  work.status.packets = work.status.packets_total;
   if (job.run && plan->route != Route::StreamedMacro)
     if (auto not_started = start_macro(work, image.id))
       return *not_started;

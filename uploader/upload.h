@@ -16,6 +16,7 @@ enum class Content : std::uint8_t {
   ErasedOrUnchanged, ///< the erase was sent, its answer is missing
   Erased,
   Incomplete,  ///< a front part of the program or macro, perhaps all of it
+  Uncommitted, ///< RAM holds the program, flash is unchanged
   Unconfirmed, ///< all of it was sent; whether it is there is not known
   Stored
 };
@@ -113,6 +114,9 @@ struct Delivery {
 /// several, the message says which one it speaks of.
 Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
                Progress& progress);
+
+/// Stops what runs and commits the program in RAM to flash.
+Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery);
 
 /// Sends one command and says how it went: until it is answered where that does no harm, else once.
 tl::expected<protocol::Response, Report> request(Session& session, spec::ApiCommand command,

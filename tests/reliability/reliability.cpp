@@ -108,6 +108,7 @@ bool is_true(const Report& report, const vm::Ball& ball, const ProgramJob& job) 
   case Content::ErasedOrUnchanged: return (ram.empty() || ram == old_program) && kept;
   case Content::Erased: return ram.empty() && kept;
   case Content::Incomplete: return kept;
+  case Content::Uncommitted: return ram == image && kept;
   case Content::Unconfirmed: return text == image || text == old_program || job.area == Area::Ram;
   case Content::Stored: return text == image;
   }

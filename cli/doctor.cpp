@@ -1,0 +1,186 @@
+#include "cli/commands.h"
+#include "cli/config.h"
+#include "cli/interrupt.h"
+#include "cli/link.h"
+#include "cli/ports.h"
+#include "uploader/endpoint.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using uploader::Endpoint;
+using uploader::Scheme;
+
+constexpr int rfcomm_protocol = 3; // BTPROTO_RFCOMM
+constexpr std::string_view rfkill_folder = "/sys/class/rfkill";
+constexpr std::string_view adapters_folder = "/sys/class/bluetooth";
+
+/// Prints one finding a line, and knows whether one was bad.
+class Findings {
+public:
+  explicit Findings(const Context& context) : style_(context.out_style()) {}
+
+  void good(std::string_view text) {
+    print_out(fmt::format("{}    {}\n", style_.paint(Role::Good, "ok"), text));
+  }
+  /// What is wrong, and the command or act that mends it.
+  void bad(std::string_view text, std::string_view remedy) {
+    healthy_ = false;
+    print_out(fmt::format("{} {}\n      {}\n", style_.paint(Role::Error, "wrong"), text, remedy));
+  }
+  bool healthy() const { return healthy_; }
+
+private:
+  Style style_;
+  bool healthy_ = true;
+};
+
+std::string first_line(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+/// Whether a radio switch holds Bluetooth back.
+void check_rfkill(Findings& findings) {
+  std::error_code error;
+  for (fs::directory_iterator entry(rfkill_folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (first_line(entry->path() / "type") != "bluetooth")
+      continue;
+    if (first_line(entry->path() / "hard") == "1")
+      findings.bad("Bluetooth is switched off in hardware", "turn the radio switch on");
+    else if (first_line(entry->path() / "soft") == "1")
+      findings.bad("Bluetooth is blocked", "`rfkill unblock bluetooth`");
+    else
+      findings.good("no radio switch blocks Bluetooth");
+  }
+}
+
+void check_bluetooth(Findings& findings) {
+  const auto handle = ::socket(AF_BLUETOOTH, SOCK_STREAM, rfcomm_protocol);
+  if (handle < 0) {
+    findings.bad(
+        fmt::format("this system has no Bluetooth sockets: {}", std::strerror(errno)),
+        "`sudo modprobe rfcomm`; in a container use tcp:// and a relay on the host: `socat "
+        "FILE:/dev/rfcomm0,raw TCP-LISTEN:4242`");
+    return;
+  }
+  ::close(handle);
+  findings.good("Bluetooth sockets are there");
+  std::error_code error;
+  if (fs::is_empty(adapters_folder, error) || error)
+    findings.bad("there is no Bluetooth adapter", "plug one in; `bluetoothctl list` shows them");
+  check_rfkill(findings);
+}
+
+/// Whether the node is there, is a device and may be opened; it is not opened here.
+bool check_node(Findings& findings, const Endpoint& endpoint) {
+  struct stat status {};
+  if (::stat(endpoint.path.c_str(), &status) != 0) {
+    findings.bad(fmt::format("{}: {}", endpoint.path, std::strerror(errno)),
+                 endpoint.scheme == Scheme::Pty
+                     ? "start a virtual ball: `orb ball --pty`"
+                     : "`orb ports` lists what there is; `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1` "
+                       "makes one for a paired ball");
+    return false;
+  }
+  if (!S_ISCHR(status.st_mode)) {
+    findings.bad(fmt::format("{} is {}, not a device", endpoint.path,
+                             S_ISDIR(status.st_mode) ? "a directory" : "a file"),
+                 "give the path of a device; `orb ports` lists them");
+    return false;
+  }
+  findings.good(fmt::format("{} is a device", endpoint.path));
+  if (::access(endpoint.path.c_str(), R_OK | W_OK) != 0) {
+    findings.bad(fmt::format("you may not read and write {}", endpoint.path),
+                 "`sudo usermod -aG dialout $USER`, then log in again");
+    return false;
+  }
+  findings.good("you may read and write it");
+  return true;
+}
+
+/// Opens the link and greets the ball.
+void check_ball(Context& context, Findings& findings, const PortOptions& options) {
+  const InterruptGuard guard;
+  auto link = open_link(context, options);
+  if (!link) {
+    findings.bad("the link does not open", link.error().message);
+    return;
+  }
+  findings.good(fmt::format("{} opens", link->name));
+  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  const auto greeting = uploader::greet(session);
+  if (!greeting) {
+    findings.bad("no ball answers", greeting.error().message);
+    return;
+  }
+  findings.good("a ball answers");
+  if (const auto noise = session.counts().noise_in; noise > 0)
+    findings.good(fmt::format("{} stray bytes came before that, as real balls send them", noise));
+  const auto state = greeting->power_state();
+  if (state == spec::power_state::low || state == spec::power_state::critical)
+    findings.bad(fmt::format("its battery is {}", spec::value_name("power state", state)),
+                 "put it on the charger");
+  else if (state != 0)
+    findings.good(fmt::format("its battery is {}", spec::value_name("power state", state)));
+}
+
+void run(Context& context, const PortOptions& options) {
+  Findings findings(context);
+  const auto url = resolve_port(context.config, options.port);
+  const auto endpoint =
+      url ? uploader::parse_endpoint(*url)
+          : tl::expected<Endpoint, std::string>(tl::unexpected(url.error().message));
+  if (!endpoint) {
+    print_error(context, endpoint.error());
+    context.exit = ExitCode::Usage;
+    return;
+  }
+  auto reachable = true;
+  switch (endpoint->scheme) {
+  case Scheme::Serial:
+  case Scheme::Pty: reachable = check_node(findings, *endpoint); break;
+  case Scheme::Rfcomm: check_bluetooth(findings); break;
+  case Scheme::Tcp:
+  case Scheme::Replay: break;
+  case Scheme::Sim: {
+    Findings system(context); // what is amiss here keeps nobody from the built-in ball
+    for (const auto& port : find_ports(context.config))
+      system.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer",
+                              port.url, port.what, port.url));
+    check_bluetooth(system);
+    break;
+  }
+  }
+  if (reachable)
+    check_ball(context, findings, options);
+  if (!findings.healthy())
+    context.exit = ExitCode::NoBall;
+}
+
+} // namespace
+
+void add_doctor(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "doctor", "find out why a connection fails, and what mends it",
+                              "orb doctor --port /dev/rfcomm0\n"
+                              "orb doctor --port rfcomm://68:86:E7:00:11:22");
+  auto options = std::make_shared<PortOptions>();
+  add_port_options(*command, *options);
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli

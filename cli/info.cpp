@@ -1,0 +1,103 @@
+#include "cli/commands.h"
+#include "cli/link.h"
+#include "protocol/payload.h"
+#include "spec/firmware.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+using spec::ApiCommand;
+
+/// The fields of an answer by name, as text.
+class Fields {
+public:
+  Fields(ApiCommand command, ByteView data)
+      : values_(protocol::read_fields(spec::answer(command), data)) {}
+
+  std::optional<std::int64_t> number(std::string_view name) const {
+    for (const auto& value : values_)
+      if (value.field->name == name)
+        return value.number;
+    return std::nullopt;
+  }
+  /// A version in two nibbles: `1.6`.
+  std::string nibbles(std::string_view name) const {
+    const auto value = number(name).value_or(0);
+    return fmt::format("{}.{}", value >> 4, value & 15);
+  }
+  std::string text(std::string_view name) const {
+    for (const auto& value : values_)
+      if (value.field->name == name) {
+        const auto bytes = as_text(value.bytes);
+        return std::string(bytes.substr(0, bytes.find('\0')));
+      }
+    return {};
+  }
+
+private:
+  std::vector<protocol::FieldValue> values_;
+};
+
+std::string versions_text(const uploader::Greeting& greeting) {
+  const Fields fields(ApiCommand::GetVersioning, greeting.versions);
+  auto text = fmt::format("model     {:02X}h, hardware {}\n", fields.number("model").value_or(0),
+                          fields.number("hardware").value_or(0));
+  text +=
+      fmt::format("firmware  {}.{}, bootloader {}\n", fields.number("firmware version").value_or(0),
+                  fields.number("firmware revision").value_or(0), fields.nibbles("bootloader"));
+  const auto& firmware = greeting.firmware;
+  text += firmware.has_basic
+              ? fmt::format("orbBasic  {}, {} bytes of RAM, {} of flash{}\n",
+                            fields.nibbles("orbBasic"), firmware.ram_bytes, firmware.flash_bytes,
+                            firmware.can_commit ? "" : ", no commit to flash")
+              : std::string("orbBasic  none: only macros run on this ball\n");
+  text += fmt::format("macros    executive {}\n", fields.nibbles("macro executive"));
+  if (const auto major = fields.number("api major"))
+    text += fmt::format("API       {}.{}\n", *major, fields.number("api minor").value_or(0));
+  return text;
+}
+
+std::string power_text(ByteView power) {
+  const Fields fields(ApiCommand::GetPowerState, power);
+  const auto state = static_cast<std::uint32_t>(fields.number("power state").value_or(0));
+  return fmt::format("battery   {}, {:.2f} V, {} charges, {} s awake since the last\n",
+                     spec::value_name("power state", state),
+                     static_cast<double>(fields.number("voltage").value_or(0)) / 100,
+                     fields.number("charges").value_or(0),
+                     fields.number("since charge").value_or(0));
+}
+
+void run(Context& context, const PortOptions& options) {
+  with_ball(context, options,
+            [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
+              auto text = fmt::format("port      {}\n", link.name) + versions_text(greeting);
+              if (greeting.power)
+                text += power_text(*greeting.power);
+              if (const auto radio = request(session, ApiCommand::GetBluetoothInfo)) {
+                const Fields fields(ApiCommand::GetBluetoothInfo, radio->data);
+                text += fmt::format("name      {}\naddress   {}\n", fields.text("name"),
+                                    fields.text("address"));
+              } else if (radio.error().kind != uploader::Report::Kind::Refused) {
+                print_error(context, radio.error().message);
+                return exit_code(radio.error());
+              }
+              print_out(text);
+              return ExitCode::Done;
+            });
+}
+
+} // namespace
+
+void add_info(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "info", "show a ball's model, versions, battery and name",
+                              "orb info --port /dev/rfcomm0\n"
+                              "orb info --port rfcomm://68:86:E7:00:11:22");
+  auto options = std::make_shared<PortOptions>();
+  add_port_options(*command, *options);
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,66 @@
+#include "cli/ports.h"
+
+#include "cli/commands.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Pattern {
+  std::string_view prefix; ///< of the name below /dev
+  std::string_view what;
+};
+
+constexpr std::string_view device_folder = "/dev";
+constexpr Pattern patterns[] = {
+    {"rfcomm", "Bluetooth serial port (rfcomm bind)"},
+    {"cu.Sphero", "Bluetooth serial port of a paired Sphero"},
+    {"cu.BB-8", "Bluetooth serial port of a paired BB-8"},
+    {"ttyUSB", "USB serial adapter"},
+    {"ttyACM", "USB modem or microcontroller"},
+};
+
+} // namespace
+
+std::vector<Port> find_ports(const Config& config) {
+  std::vector<Port> ports;
+  for (const auto& [name, url] : config.balls)
+    ports.push_back({"@" + name, url});
+  std::vector<Port> devices;
+  std::error_code error;
+  for (fs::directory_iterator entry(device_folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto name = entry->path().filename().string();
+    for (const auto& pattern : patterns)
+      if (name.starts_with(pattern.prefix) && entry->is_character_file(error))
+        devices.push_back({entry->path().string(), std::string(pattern.what)});
+  }
+  std::sort(devices.begin(), devices.end(),
+            [](const Port& a, const Port& b) { return a.url < b.url; });
+  ports.insert(ports.end(), devices.begin(), devices.end());
+  return ports;
+}
+
+void add_ports(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "ports", "list where a ball could be",
+                              "orb ports\norb info --port /dev/rfcomm0");
+  command->callback([&context] {
+    const auto ports = find_ports(context.config);
+    for (const auto& port : ports)
+      print_out(fmt::format("{:<16} {}\n", port.url, port.what));
+    print_out(fmt::format("{:<16} {}\n", "sim:", "a ball in this process"));
+    if (ports.empty())
+      print_note(context,
+                 "no serial port was found; for a paired Sphero make one with `sudo rfcomm "
+                 "bind 0 AA:BB:CC:DD:EE:FF 1`, or use its address: "
+                 "rfcomm://AA:BB:CC:DD:EE:FF");
+  });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "cli/config.h"
+
+#include <string>
+#include <vector>
+
+namespace orb::cli {
+
+/// Something that could be a ball.
+struct Port {
+  std::string url;
+  std::string what;
+};
+
+/// Named balls, then serial ports that a ball may be behind, by name.
+std::vector<Port> find_ports(const Config& config);
+
+} // namespace orb::cli

@@ -1,0 +1,277 @@
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/link.h"
+#include "cli/monitoring.h"
+#include "cli/payload.h"
+#include "cli/progress_bar.h"
+#include "cli/run_inputs.h"
+#include "cli/target.h"
+#include "cli/values.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <set>
+
+namespace orb::cli {
+namespace {
+
+using uploader::Report;
+
+struct Options {
+  std::vector<std::string> files;
+  std::string lang;
+  TargetOptions target;
+  PortOptions port;
+  bool run = false;
+  std::optional<int> run_line;
+  std::string as;
+  std::optional<int> id;
+  bool clear_macros = false;
+  bool force = false;
+  bool monitor = false;
+  bool dry_run = false;
+  bool no_check = false;
+  int attempts = uploader::Budgets{}.attempts;
+};
+
+ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
+  print_error(context, message);
+  return exit;
+}
+
+std::vector<Payload> load_all(Context& context, const Options& options) {
+  std::vector<Payload> payloads;
+  auto errors = false;
+  for (const auto& file : options.files) {
+    auto payload = load_payload(file, options.lang, options.target.target(),
+                                options.no_check ? Findings::None : Findings::Lint);
+    if (!payload) {
+      context.exit = fail(context, payload.error().exit, payload.error().message);
+      return {};
+    }
+    errors = print_findings(context, *payload) || errors;
+    payloads.push_back(*std::move(payload));
+  }
+  if (errors) {
+    context.exit = fail(context, ExitCode::BadInput,
+                        "nothing was sent: mend the errors above, or send it as it is with "
+                        "`--no-check`");
+    return {};
+  }
+  return payloads;
+}
+
+/// The kind of macro that the user or the file asks for.
+uploader::MacroKind macro_kind(const Options& options, const MacroPayload& macro) {
+  if (options.as == "temp")
+    return uploader::MacroKind::Temporary;
+  if (options.as == "user")
+    return uploader::MacroKind::User;
+  if (options.as == "stream")
+    return uploader::MacroKind::Stream;
+  if (options.id)
+    return uploader::MacroKind::User;
+  return uploader::natural_kind(macro.image);
+}
+
+/// The line that a program starts at: the one that is named, or its first.
+std::uint16_t start_line(const Options& options, const compiler::Image& image) {
+  if (options.run_line)
+    return static_cast<std::uint16_t>(*options.run_line);
+  for (const auto& line : image.lines)
+    if (line.number != compiler::none)
+      return static_cast<std::uint16_t>(line.number);
+  return 1;
+}
+
+/// Puts the files into the order in which they go: macros first, then the program.
+tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
+                                                      const std::vector<Payload>& payloads) {
+  uploader::Delivery delivery;
+  std::set<std::uint8_t> ids;
+  for (const auto& payload : payloads) {
+    for (const auto& macro : payload.macros) {
+      uploader::MacroJob job{macro.image, macro_kind(options, macro), false, false};
+      if (options.id)
+        job.image.id = static_cast<std::uint8_t>(*options.id);
+      if (job.kind == uploader::MacroKind::User && !ids.insert(job.image.id).second)
+        return tl::unexpected(fmt::format("{}: two macros have id {}", macro.name, job.image.id));
+      job.clear_others = options.clear_macros && delivery.macros.empty();
+      delivery.macros.push_back({macro.name, std::move(job)});
+    }
+    if (!payload.program)
+      continue;
+    if (delivery.program)
+      return tl::unexpected(fmt::format("{}: a ball holds one program, and {} is one already",
+                                        payload.source->name(), delivery.program_name));
+    delivery.program_name = payload.source->name();
+    const auto& bytes = payload.program->bytes;
+    delivery.program = uploader::ProgramJob{
+        {bytes.begin(), bytes.end()},
+        options.target.area == "flash" ? uploader::Area::Flash : uploader::Area::Ram,
+        options.run ? std::optional(start_line(options, *payload.program)) : std::nullopt};
+  }
+  const auto kept = [](const uploader::Delivery::NamedMacro& macro) {
+    return macro.job.kind != uploader::MacroKind::User;
+  };
+  if (std::count_if(delivery.macros.begin(), delivery.macros.end(), kept) > 1)
+    return tl::unexpected(
+        std::string("a ball holds one temporary or streamed macro; give the others ids from "
+                    "32 to 253"));
+  if (options.run && !delivery.program && !delivery.macros.empty())
+    delivery.macros.back().job.run = true;
+  return delivery;
+}
+
+void print_plan(std::string_view name, const uploader::Plan& plan) {
+  auto text = fmt::format("{}: {} bytes to {} in {} packets, over within {:g} s\n", name, plan.size,
+                          to_string(plan.route), plan.steps.size(),
+                          static_cast<double>(plan.deadline.count()) / 1e9);
+  if (!plan.note.empty())
+    text += fmt::format("note: {}\n", plan.note);
+  for (const auto& step : plan.steps) {
+    const auto* row = spec::find_command(step.command.did, step.command.cid);
+    text += fmt::format("{:<28} {}\n", row == nullptr ? std::string_view("?") : row->name,
+                        to_hex(encode(step.command)));
+  }
+  print_out(text);
+}
+
+ExitCode dry_run(const Context& context, const Options& options,
+                 const uploader::Delivery& delivery) {
+  uploader::Budgets budgets;
+  budgets.answer = read_duration(options.port.answer).value_or(budgets.answer);
+  budgets.attempts = options.attempts;
+  for (const auto& macro : delivery.macros) {
+    const auto plan = make_plan(macro.job, budgets, 0);
+    if (!plan)
+      return fail(context, ExitCode::BadInput,
+                  fmt::format("{}: {}", macro.name, plan.error().message));
+    print_plan(macro.name, *plan);
+  }
+  if (delivery.program) {
+    auto firmware = uploader::default_firmware();
+    if (options.target.ram != 0)
+      firmware.ram_bytes = static_cast<std::size_t>(options.target.ram);
+    const auto plan = make_plan(*delivery.program, firmware, budgets, 0);
+    if (!plan)
+      return fail(context, ExitCode::BadInput,
+                  fmt::format("{}: {}", delivery.program_name, plan.error().message));
+    print_plan(delivery.program_name, *plan);
+  }
+  return ExitCode::Done;
+}
+
+LineMap lines_of(const std::vector<Payload>& payloads) {
+  for (const auto& payload : payloads)
+    if (payload.program)
+      return line_map(payload.source->name(), *payload.program);
+  return {};
+}
+
+/// Tells how it ended, and watches what runs where that was asked for.
+ExitCode finish(const Context& context, const Options& options, Link& link,
+                uploader::Session& session, const Report& report, Duration took,
+                const LineMap& lines) {
+  if (report.kind != Report::Kind::Done)
+    return fail(context, exit_code(report), report.message);
+  print_note(context,
+             fmt::format("{}, {} packets sent, {:.2f} s{}", report.message,
+                         session.counts().packets_out, static_cast<double>(took.count()) / 1e9,
+                         link.is_sim ? ", on the built-in virtual ball" : ""));
+  if (!options.monitor)
+    return ExitCode::Done;
+  const auto watched = monitor(context, link, session, lines);
+  return watched.faulted ? ExitCode::BadInput : watched.lost ? ExitCode::LinkLost : ExitCode::Done;
+}
+
+ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
+              const LineMap& lines) {
+  const InterruptGuard guard;
+  auto link = open_link(context, options.port);
+  if (!link)
+    return fail(context, link.error().exit, link.error().message);
+  link->budgets.attempts = options.attempts;
+  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  const auto start = session.now();
+  Report report;
+  {
+    ProgressBar progress(context);
+    report =
+        deliver(session, delivery,
+                options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse,
+                progress);
+  }
+  auto exit = finish(context, options, *link, session, report, session.now() - start, lines);
+  if (const auto written = link->finish(); !written)
+    exit = fail(context, ExitCode::File, written.error().message);
+  return exit;
+}
+
+void run(Context& context, const Options& options) {
+  if (const auto port = check_port(context, options.port); !port) {
+    context.exit = fail(context, port.error().exit, port.error().message);
+    return;
+  }
+  const auto payloads = load_all(context, options);
+  if (payloads.empty())
+    return;
+  const auto delivery = arrange(options, payloads);
+  if (!delivery) {
+    context.exit = fail(context, ExitCode::Usage, delivery.error());
+    return;
+  }
+  context.exit = options.dry_run ? dry_run(context, options, *delivery)
+                                 : send(context, options, *delivery, lines_of(payloads));
+}
+
+} // namespace
+
+void add_upload(CLI::App& app, Context& context) {
+  auto* command = add_command(
+      app, "upload", "put programs and macros into a ball",
+      "orb upload square.bas --port /dev/rfcomm0 --run\n"
+      "orb upload dance.macro square.bas --port rfcomm://68:86:E7:00:11:22 --area flash\n"
+      "orb upload square.bas --dry-run");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "sources or built macros; macros are sent first")
+      ->required();
+  command->add_option("--lang", options->lang, "what the files are, whatever their names")
+      ->check(one_of({"basic", "macro"}));
+  add_port_options(*command, options->port);
+  add_target_options(*command, options->target);
+  command
+      ->add_option_function<std::string>(
+          "--run",
+          [options](const std::string& line) {
+            options->run = true;
+            if (!line.empty())
+              options->run_line = std::stoi(line);
+          },
+          "run it; a program at its first line, or at LINE")
+      ->expected(0, 1)
+      ->type_name("LINE")
+      ->check(CLI::Range(1, 65535) | CLI::IsMember({""}));
+  command->add_option("--as", options->as, "how macros are kept")
+      ->check(one_of({"temp", "user", "stream"}));
+  command->add_option("--id", options->id, "the id to save a macro under, 32 to 253")
+      ->check(CLI::Range(static_cast<int>(spec::macro_id_user_first),
+                         static_cast<int>(spec::macro_id_user_last)))
+      ->type_name("N");
+  command->add_flag("--clear-macros", options->clear_macros,
+                    "make the ball forget all its user macros first");
+  command->add_flag("--force", options->force, "write to flash although the battery is low");
+  command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command->add_flag("--dry-run", options->dry_run, "print the packets and send nothing");
+  command->add_flag("--no-check", options->no_check, "send it although it has errors");
+  constexpr int most_attempts = 1000;
+  command
+      ->add_option("--attempts", options->attempts, "how often a program is sent before giving up")
+      ->check(CLI::Range(1, most_attempts))
+      ->type_name("N")
+      ->capture_default_str();
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli
