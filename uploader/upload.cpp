@@ -67,7 +67,8 @@ std::string describe(Content content, Route route) {
 /// Carries one job out: knows what is on the ball at each moment.
 class Job {
 public:
-  Job(Session& session, Progress& progress, Route route)
+  /// Without a route nothing is said of what is on the ball.
+  Job(Session& session, Progress& progress, std::optional<Route> route)
       : session_(session), progress_(progress), route_(route) {}
 
   Status status;
@@ -87,8 +88,8 @@ public:
   Report refused(ApiCommand command, const Response& response) const {
     const auto* row = spec::find_response(response.code);
     return {Report::Kind::Refused, content,
-            fmt::format("the ball refused {}: {}; {}{}{}", spec::info(command).name,
-                        describe_code(response.code), describe(content, route_),
+            fmt::format("the ball refused {}: {}{}{}{}", spec::info(command).name,
+                        describe_code(response.code), state(),
                         row == nullptr || row->remedy.empty() ? "" : "; ",
                         row == nullptr ? "" : row->remedy),
             response.code};
@@ -109,7 +110,7 @@ public:
       what = fmt::format("link lost during {}: {}", spec::info(command).name, failure.link.message);
     }
     report.message =
-        fmt::format("{}; {}{}", what, describe(content, route_), unknown ? "" : "; upload again");
+        fmt::format("{}{}{}", what, state(), unknown || !route_ ? "" : "; upload again");
     return report;
   }
 
@@ -130,7 +131,10 @@ public:
 private:
   Session& session_;
   Progress& progress_;
-  Route route_;
+  /// What is on the ball, behind a message.
+  std::string state() const { return route_ ? "; " + describe(content, *route_) : std::string(); }
+
+  std::optional<Route> route_;
 };
 
 /// What came of sending a piece or all pieces once.
@@ -462,7 +466,7 @@ tl::expected<Greeting, Report> greet(Session& session) {
   if (!power) {
     NullProgress nobody;
     return tl::unexpected(
-        Job(session, nobody, Route::Ram).lost(ApiCommand::GetPowerState, power.error()));
+        Job(session, nobody, std::nullopt).lost(ApiCommand::GetPowerState, power.error()));
   }
   if (is_ok(*power))
     greeting.power = power->data;
@@ -471,7 +475,7 @@ tl::expected<Greeting, Report> greet(Session& session) {
 
 tl::expected<Response, Report> request(Session& session, ApiCommand command, const Bytes& data) {
   NullProgress nobody;
-  Job job(session, nobody, Route::Ram);
+  Job job(session, nobody, std::nullopt);
   const auto harmless = spec::info(command).idempotent == spec::Idempotent::Yes;
   const auto answer = harmless ? session.ask(command, data) : session.exchange(command, data);
   if (!answer) {

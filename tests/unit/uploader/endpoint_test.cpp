@@ -1,14 +1,21 @@
 #include "uploader/endpoint.h"
 
+#include "base/random.h"
+#include "uploader/upload.h"
+
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <functional>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <termios.h>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -192,6 +199,68 @@ TEST(Open, ConnectsOverTcp) {
   const auto read = (*link)->read((*link)->now() + 10s);
   ASSERT_FALSE(read.has_value());
   EXPECT_EQ(read.error().kind, protocol::LinkError::Kind::Closed);
+}
+
+/// Short enough for a test in real time.
+Budgets hurried() {
+  Budgets budgets;
+  budgets.answer = 20ms;
+  budgets.drain = 10ms;
+  budgets.backoff_first = 1ms;
+  budgets.backoff_most = 2ms;
+  return budgets;
+}
+
+/// Greets what a talker on the master of a pty plays, which gets what the client sent.
+Report greet_talker(const std::function<Bytes(ByteView)>& talker) {
+  Pty pty;
+  auto link = open(endpoint_of(pty.path), hurried());
+  EXPECT_TRUE(link.has_value());
+  ::fcntl(pty.master.fd, F_SETFL, O_NONBLOCK);
+  std::atomic<bool> over = false;
+  std::thread thread([&] {
+    while (!over) {
+      std::array<std::uint8_t, 256> buffer{};
+      pollfd poll{pty.master.fd, POLLIN, 0};
+      ::poll(&poll, 1, 1);
+      const auto size = std::max<ssize_t>(0, ::read(pty.master.fd, buffer.data(), buffer.size()));
+      const auto reply = talker(ByteView(buffer).first(static_cast<std::size_t>(size)));
+      if (!reply.empty() && ::write(pty.master.fd, reply.data(), reply.size()) < 0 &&
+          errno != EAGAIN)
+        return;
+    }
+  });
+  Session session(**link, hurried(), 0x31);
+  const auto start = steady_time();
+  const auto greeting = greet(session);
+  over = true;
+  thread.join();
+  EXPECT_LT(steady_time() - start, 2s);
+  EXPECT_FALSE(greeting.has_value());
+  return greeting ? Report{} : greeting.error();
+}
+
+TEST(Greeting, EndsInTimeWithATalkerThatIsNoBall) {
+  const auto echo = greet_talker([](ByteView sent) { return Bytes(sent.begin(), sent.end()); });
+  EXPECT_EQ(echo.kind, Report::Kind::NoBall);
+  EXPECT_NE(echo.message.find("echo"), std::string::npos) << echo.message;
+  Random random{7};
+  const auto noise = greet_talker([&](ByteView) {
+    Bytes bytes(64);
+    for (auto& byte : bytes)
+      byte = static_cast<std::uint8_t>(random.next());
+    return bytes;
+  });
+  EXPECT_EQ(noise.kind, Report::Kind::NoBall);
+  EXPECT_NE(noise.message.find("not a ball"), std::string::npos) << noise.message;
+  const auto shell = greet_talker([](ByteView sent) {
+    const std::string_view prompt = "sh: not found\n$ ";
+    return sent.empty() ? Bytes{} : Bytes(prompt.begin(), prompt.end());
+  });
+  EXPECT_EQ(shell.kind, Report::Kind::NoBall);
+  const auto silence = greet_talker([](ByteView) { return Bytes{}; });
+  EXPECT_EQ(silence.kind, Report::Kind::NoBall);
+  EXPECT_NE(silence.message.find("awake"), std::string::npos) << silence.message;
 }
 
 } // namespace
