@@ -3,6 +3,7 @@
 #include "cli/complete.h"
 #include "cli/values.h"
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <fmt/format.h>
@@ -87,6 +88,30 @@ tl::expected<void, orb::cli::ConfigError> configure(CLI::App& app, Context& cont
   return orb::cli::apply_config(context.config, app);
 }
 
+/// The words of the command line, last first as CLI11 takes them. An option whose value is optional
+/// takes it only as `--option=value`: a bare one is moved behind all others, where there is no file
+/// that it could take for its value.
+std::vector<std::string> words_for(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const CLI::App* command = nullptr;
+  for (const auto* known : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (std::find(words.begin(), words.end(), known->get_name()) != words.end() &&
+        (command == nullptr || std::find(words.begin(), words.end(), known->get_name()) <
+                                   std::find(words.begin(), words.end(), command->get_name())))
+      command = known;
+  const auto is_bare = [&](const std::string& word) {
+    const auto* option = command == nullptr || !word.starts_with("--") || word == "--"
+                             ? nullptr
+                             : command->get_option_no_throw(word);
+    return option != nullptr && option->get_items_expected_min() == 0 &&
+           option->get_items_expected_max() > 0;
+  };
+  const auto end = std::find(words.begin(), words.end(), "--");
+  std::stable_partition(words.begin(), end, [&](const auto& word) { return !is_bare(word); });
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 /// Answers a completion script. A broken configuration costs the named balls, nothing else.
 void answer_completion(const CLI::App& app, std::vector<std::string> words) {
   if (!words.empty() && words.front() == "--")
@@ -115,7 +140,7 @@ int run(int argc, char** argv) {
     return static_cast<int>(ExitCode::Usage);
   }
   try {
-    app.parse(argc, argv);
+    app.parse(words_for(app, argc, argv));
   } catch (const CLI::Success& success) { // --help and --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {

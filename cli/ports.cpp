@@ -48,8 +48,8 @@ std::vector<Port> find_ports(const Config& config) {
 }
 
 void add_ports(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "ports", "list where a ball could be",
-                              "orb ports\norb info --port /dev/rfcomm0");
+  auto* command =
+      add_command(app, "ports", "list where a ball could be", "orb ports\norb ports --quiet");
   command->callback([&context] {
     const auto ports = find_ports(context.config);
     for (const auto& port : ports)

@@ -9,6 +9,7 @@
 #include "cli/values.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 #include <set>
@@ -252,7 +253,14 @@ void add_upload(CLI::App& app, Context& context) {
           "run it; a program at its first line, or at LINE")
       ->expected(0, 1)
       ->type_name("LINE")
-      ->check(CLI::Range(1, 65535) | CLI::IsMember({""}));
+      ->check([](const std::string& text) {
+        std::uint16_t line = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line);
+        const auto good = error == std::errc() && end == text.data() + text.size() && line > 0;
+        return text.empty() || good
+                   ? std::string()
+                   : "`" + text + "` is no line number, which goes from 1 to 65535";
+      });
   command->add_option("--as", options->as, "how macros are kept")
       ->check(one_of({"temp", "user", "stream"}));
   command->add_option("--id", options->id, "the id to save a macro under, 32 to 253")
