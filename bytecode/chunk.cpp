@@ -10,8 +10,8 @@ namespace orb::bytecode {
 
 namespace {
 
-std::array<std::uint16_t, 4> operands(const Instruction& instruction) {
-  return {instruction.a, instruction.b, instruction.c, instruction.d};
+std::array<std::uint16_t, 5> operands(const Instruction& instruction) {
+  return {instruction.a, instruction.b, instruction.c, instruction.d, instruction.e};
 }
 
 std::optional<std::string> verify(const Chunk& chunk, const Instruction& instruction) {
@@ -20,7 +20,8 @@ std::optional<std::string> verify(const Chunk& chunk, const Instruction& instruc
   for (std::size_t i = 0; i < values.size(); ++i) {
     const char kind = row.operands[i];
     const std::size_t limit = kind == 'w' ? chunk.first_constant() : chunk.register_count();
-    if ((kind == 'r' || kind == 'w') && values[i] >= limit)
+    const bool is_register = kind == 'r' || kind == 'w' || kind == 'p';
+    if (is_register && values[i] + (kind == 'p' ? 1u : 0u) >= limit)
       return fmt::format("register {} does not exist", values[i]);
     if (kind == 'x' && values[i] >= chunk.texts.size())
       return fmt::format("text {} does not exist", values[i]);
@@ -61,12 +62,6 @@ std::optional<std::string> verify_meaning(const Chunk& chunk, std::size_t at) {
   } else if (instruction.op == Op::Input || instruction.op == Op::InputTimed) {
     if (!variable(instruction.a))
       return "the input has no variable";
-  } else if (instruction.op == Op::IndexLoad || instruction.op == Op::IndexStore) {
-    // The second line stands by itself, too: the machine may have to stop between the two.
-    if (at + 2 >= chunk.code.size() ||
-        chunk.code[at + 1].op !=
-            (instruction.op == Op::IndexLoad ? Op::LoadElementLine : Op::StoreElementLine))
-      return "the second line is missing";
   }
   return std::nullopt;
 }
@@ -88,11 +83,18 @@ std::optional<std::string> verify(const Chunk& chunk) {
       return fmt::format("instruction {} ({}): {}", at, info(chunk.code[at].op).name, *problem);
   }
   std::uint32_t expected = 0;
+  std::vector<bool> begins(chunk.code.size() + 1);
   for (const auto& line : chunk.lines) {
     if (line.begin < expected || line.begin >= chunk.code.size())
       return fmt::format("line {} begins at {}", line.number, line.begin);
+    begins[line.begin] = true;
     expected = line.begin + 1;
   }
+  begins[chunk.code.size() - 1] = true;
+  for (std::size_t at = 0; at < chunk.code.size(); ++at)
+    if (info(chunk.code[at].op).ends == Ends::Lines &&
+        (at + 2 >= chunk.code.size() || !begins[at + 1] || !begins[at + 2]))
+      return fmt::format("instruction {}: the second line does not follow by itself", at);
   return std::nullopt;
 }
 
@@ -137,6 +139,7 @@ std::string listing(const Chunk& chunk) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       switch (row.operands[i]) {
       case 'r':
+      case 'p':
       case 'w': out += ' ' + register_name(chunk, values[i]); break;
       case 'n': fmt::format_to(std::back_inserter(out), " #{}", values[i]); break;
       case 'x':

@@ -17,6 +17,7 @@ struct Instruction {
   std::uint16_t b = 0;
   std::uint16_t c = 0;
   std::uint16_t d = 0;
+  std::uint16_t e = 0;
   std::uint32_t target = 0;
 
   friend bool operator==(const Instruction&, const Instruction&) = default;

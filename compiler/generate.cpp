@@ -52,13 +52,20 @@ std::optional<Op> right_chain(Arithmetic first, Arithmetic second, Ends ends) {
   return std::nullopt;
 }
 
-/// What a test does: If ends the line when it is not true, Unless jumps, Goto jumps when it is.
-enum class Then : std::uint8_t { If, Unless, Goto };
+/// What a test does: If ends the line when it is not true, Unless jumps, Goto jumps when it is;
+/// Select takes one of two values, AddGoto counts before it tests.
+enum class Then : std::uint8_t { If, Unless, Goto, Select, AddGoto };
 
 Op test(Relation relation, Then then) {
 #define ORB_TEST(rel, sign)                                                                        \
   if (relation == Relation::rel)                                                                   \
-    return then == Then::If ? Op::If##rel : then == Then::Unless ? Op::Unless##rel : Op::Goto##rel;
+    switch (then) {                                                                                \
+    case Then::If: return Op::If##rel;                                                             \
+    case Then::Unless: return Op::Unless##rel;                                                     \
+    case Then::Goto: return Op::Goto##rel;                                                         \
+    case Then::Select: return Op::Select##rel;                                                     \
+    case Then::AddGoto: return Op::AddGoto##rel;                                                   \
+    }
 #include "bytecode/op.def"
   return Op::IfEqual;
 }
@@ -66,9 +73,13 @@ Op test(Relation relation, Then then) {
 std::optional<Op> calculated_test(Arithmetic op, Relation relation, Then then) {
 #define ORB_CALC_TEST(name, s, rel, sign)                                                          \
   if (op == Arithmetic::name && relation == Relation::rel)                                         \
-    return then == Then::If       ? Op::If##name##rel                                              \
-           : then == Then::Unless ? Op::Unless##name##rel                                          \
-                                  : Op::Goto##name##rel;
+    switch (then) {                                                                                \
+    case Then::If: return Op::If##name##rel;                                                       \
+    case Then::Unless: return Op::Unless##name##rel;                                               \
+    case Then::Goto: return Op::Goto##name##rel;                                                   \
+    case Then::Select: return Op::Select##name##rel;                                               \
+    case Then::AddGoto: break;                                                                     \
+    }
 #include "bytecode/op.def"
   return std::nullopt;
 }
@@ -79,6 +90,21 @@ Op two_tests(Glue glue, Relation first, Relation second, Then then) {
     return then == Then::If ? Op::If##rel1##name##rel2 : Op::Unless##rel1##name##rel2;
 #include "bytecode/op.def"
   return Op::IfEqualAndEqual;
+}
+
+/// The instruction that also does the `next` behind a line that ends with `op`.
+std::optional<Op> with_next(Op op) {
+#define ORB_CALC(name, sign)                                                                       \
+  if (op == Op::name##Line)                                                                        \
+    return Op::name##Next;
+#define ORB_LEFT(op1, s1, op2, s2)                                                                 \
+  if (op == Op::op1##Then##op2##Line)                                                              \
+    return Op::op1##Then##op2##Next;
+#define ORB_RIGHT(op1, s1, op2, s2)                                                                \
+  if (op == Op::op1##Of##op2##Line)                                                                \
+    return Op::op1##Of##op2##Next;
+#include "bytecode/op.def"
+  return std::nullopt;
 }
 
 Arithmetic arithmetic(Operator op) {
@@ -139,8 +165,10 @@ public:
         continue;
       const auto number = line.number <= 0xFFFF ? line.number : 0;
       chunk_.lines.push_back({static_cast<std::uint16_t>(number), here()});
-      if (!indexed_pair(i))
+      if (!indexed_pair(i) && !counting_pair(i)) {
         statement(program_.statements[line.statement]);
+        join_next(i);
+      }
       if (overflow_)
         give_up(begins_[i]);
     }
@@ -154,8 +182,8 @@ private:
   std::uint32_t here() const { return static_cast<std::uint32_t>(chunk_.code.size()); }
 
   std::uint32_t emit(Op op, std::uint16_t a = 0, std::uint16_t b = 0, std::uint16_t c = 0,
-                     std::uint16_t d = 0) {
-    chunk_.code.push_back({op, a, b, c, d, 0});
+                     std::uint16_t d = 0, std::uint16_t e = 0) {
+    chunk_.code.push_back({op, a, b, c, d, e, 0});
     return here() - 1;
   }
 
@@ -188,6 +216,7 @@ private:
       place(instruction.b, operands[1]);
       place(instruction.c, operands[2]);
       place(instruction.d, operands[3]);
+      place(instruction.e, operands[4]);
     }
   }
 
@@ -202,7 +231,9 @@ private:
       return;
     auto& before = chunk_.code[begin - 1];
     if (before.op == Op::IndexLoad || before.op == Op::IndexStore) // its second line is gone
-      before = {Op::AddLine, bytecode::index_variable, before.b, before.c, 0, 0};
+      before = {Op::AddLine, bytecode::index_variable, before.b, before.c, 0, 0, 0};
+    else if (bytecode::info(before.op).ends == Ends::Lines)
+      before = {Op::AddLine, before.a, before.b, before.c, 0, 0, 0};
   }
 
   // Registers.
@@ -268,11 +299,31 @@ private:
     return true;
   }
 
+  /// The cheapest way to compute a Calc: powers of two need no reciprocal.
+  Arithmetic by_power(const Value& value) const {
+    const auto divisor = constant_in(value.y);
+    if (!divisor || *divisor < 2 || (*divisor & (*divisor - 1)) != 0)
+      return value.op1;
+    if (value.op1 == Arithmetic::DivideBy)
+      return Arithmetic::DivideByPower;
+    if (value.op1 == Arithmetic::RemainderBy)
+      return Arithmetic::RemainderByPower;
+    return value.op1;
+  }
+
+  /// A test of a Calc in one instruction, where there is one.
+  std::optional<Op> fused_test(const Value& value, Relation relation, Then then) const {
+    if (value.kind != Value::Kind::Calc)
+      return std::nullopt;
+    const auto best = calculated_test(by_power(value), relation, then);
+    return best ? best : calculated_test(value.op1, relation, then);
+  }
+
   void emit(const Value& value, std::uint16_t to, Ends ends) {
     const bool line = ends == Ends::Line;
     switch (value.kind) {
     case Value::Kind::Register: emit(line ? Op::CopyLine : Op::Copy, to, value.x); return;
-    case Value::Kind::Calc: emit(*calculation(value.op1, ends), to, value.x, value.y); return;
+    case Value::Kind::Calc: emit(*calculation(by_power(value), ends), to, value.x, value.y); return;
     case Value::Kind::Left:
       emit(*left_chain(value.op1, value.op2, ends), to, value.x, value.y, value.z);
       return;
@@ -310,10 +361,17 @@ private:
       if (i + 1 == stack_.size() && uses(value, operand) && is_temporary(operand) &&
           (to == 0 || operand < to))
         to = operand;
-    if (to == 0)
+    if (to == 0) {
       to = temporary();
-    else
-      next_temporary_ = static_cast<std::uint16_t>(to + 1);
+    } else {
+      // Free are those behind it, and behind what settling put there for the values below.
+      std::uint16_t last = to;
+      for (std::size_t below = 0; below < i; ++below)
+        for (const std::uint16_t operand : {stack_[below].x, stack_[below].y, stack_[below].z})
+          if (uses(stack_[below], operand) && is_temporary(operand))
+            last = std::max(last, operand);
+      next_temporary_ = static_cast<std::uint16_t>(last + 1);
+    }
     emit(value, to, Ends::Value);
     stack_[i] = {Value::Kind::Register, {}, {}, to, 0, 0};
     return to;
@@ -564,20 +622,56 @@ private:
     return std::nullopt;
   }
 
-  /// `Y = b + c` followed by a line that moves Z, as one instruction. The second line is also
-  /// generated by itself: branches lead to it, and the machine may have to stop between the two.
+  struct Sum {
+    std::uint16_t b = 0;
+    std::uint16_t c = 0;
+  };
+
+  /// `b`, `b + c` or `b - 3`, of variables and numbers; everything as a sum.
+  std::optional<Sum> sum(std::uint32_t root) {
+    if (const auto b = leaf(root))
+      return Sum{*b, constant(0)};
+    const auto& node = program_.nodes[root];
+    if (node.kind != NodeKind::Binary || root - node.first != 2)
+      return std::nullopt;
+    const auto b = leaf(node.first);
+    const auto c = leaf(root - 1);
+    if (!b || !c)
+      return std::nullopt;
+    const auto op = static_cast<Operator>(node.what);
+    if (op == Operator::Add)
+      return Sum{*b, *c};
+    if (op == Operator::Subtract && constant_in(*c))
+      return Sum{*b, constant(bytecode::subtract(0, *constant_in(*c)))};
+    return std::nullopt;
+  }
+
+  /// The statement of `line`, when it is one of that kind that parsed.
+  const StatementNode* statement_at(std::uint32_t line, Statement kind) const {
+    if (line >= program_.lines.size() || !program_.lines[line].has_statement())
+      return nullptr;
+    const auto& node = program_.statements[program_.lines[line].statement];
+    return node.kind == kind && !node.error ? &node : nullptr;
+  }
+
+  std::uint32_t following(std::uint32_t line) const {
+    do
+      ++line;
+    while (line < program_.lines.size() && !program_.lines[line].has_statement());
+    return line;
+  }
+
+  // Two lines that often follow each other become one instruction. The second line is also
+  // generated by itself: branches lead to it, and the machine may have to stop between the two.
+
+  /// `Y = b + c`, then a line that moves Z.
   bool indexed_pair(std::uint32_t line) {
-    const auto* first = assignment(line);
-    if (!first)
+    const auto* first = statement_at(line, Statement::Let);
+    const auto* second = statement_at(following(line), Statement::Let);
+    if (!first || !second)
       return false;
     const auto y = program_.items_of(*first);
     if (y[0].kind != ItemKind::Letter || y[0].value != bytecode::index_variable)
-      return false;
-    std::uint32_t following = line + 1;
-    while (following < program_.lines.size() && !program_.lines[following].has_statement())
-      ++following;
-    const auto* second = assignment(following);
-    if (!second)
       return false;
     const auto z = program_.items_of(*second);
     const bool loads =
@@ -585,39 +679,119 @@ private:
     const bool stores = z[0].kind == ItemKind::Indexed && leaf(z[1].value);
     if (!loads && !stores)
       return false;
-
-    const auto& root = program_.nodes[y[1].value];
-    std::optional<std::uint16_t> b = leaf(y[1].value);
-    std::optional<std::uint16_t> c = constant(0);
-    if (!b && root.kind == NodeKind::Binary && y[1].value - root.first == 2) {
-      b = leaf(root.first);
-      c = leaf(y[1].value - 1);
-      const auto op = static_cast<Operator>(root.what);
-      if (op == Operator::Subtract && c && constant_in(*c))
-        c = constant(bytecode::subtract(0, *constant_in(*c)));
-      else if (op != Operator::Add)
-        return false;
-    }
-    if (!b || !c)
+    const auto index = sum(y[1].value);
+    if (!index)
       return false;
     if (loads)
-      emit(Op::IndexLoad, static_cast<std::uint16_t>(z[0].value), *b, *c);
+      emit(Op::IndexLoad, static_cast<std::uint16_t>(z[0].value), index->b, index->c);
     else
-      emit(Op::IndexStore, *leaf(z[1].value), *b, *c);
+      emit(Op::IndexStore, *leaf(z[1].value), index->b, index->c);
     return true;
   }
 
-  const StatementNode* assignment(std::uint32_t line) const {
-    if (line >= program_.lines.size() || !program_.lines[line].has_statement())
-      return nullptr;
-    const auto& node = program_.statements[program_.lines[line].statement];
-    return node.kind == Statement::Let && !node.error ? &node : nullptr;
+  /// `v = b + c`, then `if d rel e then goto n`.
+  bool counting_pair(std::uint32_t line) {
+    const auto* first = statement_at(line, Statement::Let);
+    const auto* second = statement_at(following(line), Statement::If);
+    if (!first || !second || second->else_branch != none)
+      return false;
+    const auto& then = program_.statements[second->then_branch];
+    const auto count = program_.items_of(*first);
+    const auto test_items = program_.items_of(*second);
+    if (count[0].kind != ItemKind::Letter || test_items.size() != 3 || then.error ||
+        then.kind != Statement::Goto || !line_of_.contains(program_.items_of(then)[0].value))
+      return false;
+    const auto left = leaf(test_items[0].value);
+    const auto right = leaf(test_items[2].value);
+    if (!left || !right)
+      return false;
+    const auto value = sum(count[1].value);
+    if (!value)
+      return false;
+    const auto at =
+        emit(test(static_cast<Relation>(test_items[1].value), Then::AddGoto),
+             static_cast<std::uint16_t>(count[0].value), value->b, value->c, *left, *right);
+    lead_to(at, program_.items_of(then)[0].value);
+    return true;
+  }
+
+  /// An assignment that has just been generated, then `next`.
+  void join_next(std::uint32_t line) {
+    const auto* next = statement_at(following(line), Statement::Next);
+    if (!next || !statement_at(line, Statement::Let))
+      return;
+    const auto variable = program_.items_of(*next)[0];
+    const auto joined = with_next(chunk_.code.back().op);
+    if (variable.kind != ItemKind::Letter || !joined)
+      return;
+    chunk_.code.back().op = *joined;
+    chunk_.code.back().e = static_cast<std::uint16_t>(variable.value);
+  }
+
+  /// Whether evaluating can neither fail nor be noticed: numbers, A to Y, and what cannot go wrong.
+  bool harmless(std::uint32_t root) const {
+    for (std::uint32_t i = program_.nodes[root].first; i <= root; ++i) {
+      const auto& node = program_.nodes[i];
+      if (node.depth > spec::value_of(spec::Limit::ExpressionLevels))
+        return false;
+      switch (node.kind) {
+      case NodeKind::Number:
+      case NodeKind::Letter:
+      case NodeKind::Group:
+      case NodeKind::Negate: break;
+      case NodeKind::Indexed:
+      case NodeKind::System:
+      case NodeKind::Call: return false;
+      case NodeKind::Binary: {
+        const auto op = static_cast<Operator>(node.what);
+        const auto& right = program_.nodes[i - 1];
+        const bool by_constant = right.kind == NodeKind::Number && right.value > 1;
+        if (op == Operator::ShiftLeft || op == Operator::ShiftRight ||
+            ((op == Operator::Divide || op == Operator::Remainder) && !by_constant))
+          return false;
+        break;
+      }
+      }
+    }
+    return true;
+  }
+
+  /// `if … then v = x else v = y` where x and y are harmless: both are computed and one is taken,
+  /// so that the processor has no jump to guess. The condition is on the stack.
+  bool select(const StatementNode& node, Relation relation) {
+    if (node.else_branch == none)
+      return false;
+    const auto& then = program_.statements[node.then_branch];
+    const auto& otherwise = program_.statements[node.else_branch];
+    if (then.kind != Statement::Let || then.error || otherwise.kind != Statement::Let ||
+        otherwise.error)
+      return false;
+    const auto x = program_.items_of(then);
+    const auto y = program_.items_of(otherwise);
+    if (x[0].kind != ItemKind::Letter || y[0].kind != ItemKind::Letter ||
+        x[0].value != y[0].value || !harmless(x[1].value) || !harmless(y[1].value))
+      return false;
+    const std::uint16_t pair = temporary();
+    const std::uint16_t second = temporary();
+    into(x[1].value, pair, Ends::Value);
+    into(y[1].value, second, Ends::Value);
+    const auto to = static_cast<std::uint16_t>(x[0].value);
+    const std::uint16_t right = stack_[1].x;
+    const Value left = stack_[0];
+    const auto fused = fused_test(left, relation, Then::Select);
+    if (fused) {
+      emit(*fused, to, left.x, left.y, right, pair);
+    } else {
+      const std::uint16_t condition = materialize(0);
+      emit(test(relation, Then::Select), to, condition, right, pair);
+    }
+    return true;
   }
 
   void branch(Op op, std::uint32_t number) {
     const std::uint32_t at = emit(op);
     if (!lead_to(at, number))
-      chunk_.code[at] = {Op::Trap, spec::code(BasicError::BadLineNumber), 0, 0, 0, 0};
+      chunk_.code[at] = {Op::Trap, spec::code(BasicError::BadLineNumber), 0, 0, 0, 0, 0};
   }
 
   void choose(Op op, std::span<const Item> items) {
@@ -666,14 +840,15 @@ private:
         return;
       const auto relation = static_cast<Relation>(items[1].value);
       materialize(1);
+      if (select(node, relation))
+        return;
       const std::uint16_t right = stack_[1].x;
       // `then goto` is part of the test where nothing else remains to be done.
       const bool jumps = !has_else && then.kind == Statement::Goto && !then.error &&
                          line_of_.contains(program_.items_of(then)[0].value);
       const auto shape = jumps ? Then::Goto : kind;
       const Value left = stack_[0];
-      const auto fused = left.kind == Value::Kind::Calc ? calculated_test(left.op1, relation, shape)
-                                                        : std::nullopt;
+      const auto fused = fused_test(left, relation, shape);
       if (fused) {
         at = emit(*fused, left.x, left.y, right);
       } else {

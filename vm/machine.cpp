@@ -263,7 +263,9 @@ void Machine::link(const bytecode::Chunk& chunk) {
                      instruction.c,
                      instruction.d,
                      distance(i, instruction.target),
-                     distance(i, following)};
+                     bytecode::info(instruction.op).operands[4] == '-'
+                         ? distance(i, following)
+                         : static_cast<std::int32_t>(instruction.e)};
   }
 }
 

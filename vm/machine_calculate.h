@@ -5,6 +5,8 @@
 #include "spec/limits.h"
 #include "vm/machine_core.h"
 
+#include <bit>
+
 namespace orb::vm {
 
 // What the blocks of machine_loop.h are made of; each is inlined and decided at compile time.
@@ -61,6 +63,12 @@ inline BasicError calculate(std::int32_t x, std::int32_t y, const std::int64_t* 
     out = x | y;
   } else if constexpr (op == Arithmetic::DivideBy) {
     out = divide_by(x, *reciprocal);
+  } else if constexpr (op == Arithmetic::DivideByPower) {
+    const std::int32_t upward = x >> 31 & (y - 1); // negative numbers round toward zero
+    out = (x + upward) >> std::countr_zero(static_cast<std::uint32_t>(y));
+  } else if constexpr (op == Arithmetic::RemainderByPower) {
+    const std::int32_t upward = x >> 31 & (y - 1);
+    out = ((x + upward) & (y - 1)) - upward;
   } else if constexpr (op == Arithmetic::RemainderBy) {
     out = bytecode::subtract(x, bytecode::multiply(divide_by(x, *reciprocal), y));
   }

@@ -22,10 +22,11 @@ struct Code {
   std::uint16_t c = 0;
   std::uint16_t d = 0;
   std::int32_t jump = 0; ///< from here to the target
-  std::int32_t next = 0; ///< from here to the line that follows
+  std::int32_t next = 0; ///< from here to the line that follows; of what has one, operand e
 
   const Code* target() const { return away(jump); }
   const Code* following_line() const { return away(next); }
+  std::size_t e() const { return static_cast<std::size_t>(next); }
 
 private:
   const Code* away(std::int32_t distance) const {

@@ -51,17 +51,40 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
       FAULT(what);                                                                                 \
   } while (false)
 
-// The element of Z that Y names.
-#define ELEMENT(index)                                                                             \
-  if (static_cast<std::uint32_t>(r[index_variable]) - 1u >= element_count)                         \
+// The element of Z that `y` names.
+#define ELEMENT(index, y)                                                                          \
+  if (static_cast<std::uint32_t>(y) - 1u >= element_count)                                         \
     FAULT(BasicError::IllegalIndex);                                                               \
-  const std::size_t index = first_element + static_cast<std::size_t>(r[index_variable]) - 1
+  const std::size_t index = first_element + static_cast<std::size_t>(y) - 1
 
 NEXT_LINE();
 
 #ifdef ORB_SWITCH
 dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler))) {
 #endif
+
+// The following line, a `next` of the loop variable `name`, within the same block.
+#define AND_NEXT(name)                                                                             \
+  do {                                                                                             \
+    const std::size_t counter = name;                                                              \
+    ++pc;                                                                                          \
+    if (--budget < 0)                                                                              \
+      goto out_of_budget;                                                                          \
+    NEXT_OF(counter);                                                                              \
+  } while (false)
+
+#define NEXT_OF(counter)                                                                           \
+  if (loop->variable != counter)                                                                   \
+    FAULT(BasicError::NextWithoutFor);                                                             \
+  const std::int32_t value = bytecode::add(r[counter], loop->step);                                \
+  r[counter] = value;                                                                              \
+  if (loop->step > 0 ? value <= loop->end : value >= loop->end) {                                  \
+    pc = loop->body;                                                                               \
+    NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  --loop;                                                                                          \
+  ++pc;                                                                                            \
+  NEXT_LINE()
 
   // --- values -----------------------------------------------------------------------------------
 #define ORB_CALC(op, sign)                                                                         \
@@ -74,38 +97,52 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     CALCULATE(op, r[pc->b], r[pc->c], pc->c, r[pc->a]);                                            \
     ++pc;                                                                                          \
     NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  OP(op##Next) {                                                                                   \
+    CALCULATE(op, r[pc->b], r[pc->c], pc->c, r[pc->a]);                                            \
+    AND_NEXT(pc->e());                                                                             \
   }
 
 #define CHAIN_LEFT(op1, op2)                                                                       \
   std::int32_t inner;                                                                              \
   CALCULATE(op1, r[pc->b], r[pc->c], pc->c, inner);                                                \
-  CALCULATE(op2, inner, r[pc->d], pc->d, r[pc->a]);                                                \
-  ++pc
+  CALCULATE(op2, inner, r[pc->d], pc->d, r[pc->a])
 
 #define ORB_LEFT(op1, s1, op2, s2)                                                                 \
   OP(op1##Then##op2) {                                                                             \
     CHAIN_LEFT(op1, op2);                                                                          \
+    ++pc;                                                                                          \
     DISPATCH();                                                                                    \
   }                                                                                                \
   OP(op1##Then##op2##Line) {                                                                       \
     CHAIN_LEFT(op1, op2);                                                                          \
+    ++pc;                                                                                          \
     NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  OP(op1##Then##op2##Next) {                                                                       \
+    CHAIN_LEFT(op1, op2);                                                                          \
+    AND_NEXT(pc->e());                                                                             \
   }
 
 #define CHAIN_RIGHT(op1, op2)                                                                      \
   std::int32_t inner;                                                                              \
   CALCULATE(op2, r[pc->c], r[pc->d], pc->d, inner);                                                \
-  CALCULATE(op1, r[pc->b], inner, 0, r[pc->a]);                                                    \
-  ++pc
+  CALCULATE(op1, r[pc->b], inner, 0, r[pc->a])
 
 #define ORB_RIGHT(op1, s1, op2, s2)                                                                \
   OP(op1##Of##op2) {                                                                               \
     CHAIN_RIGHT(op1, op2);                                                                         \
+    ++pc;                                                                                          \
     DISPATCH();                                                                                    \
   }                                                                                                \
   OP(op1##Of##op2##Line) {                                                                         \
     CHAIN_RIGHT(op1, op2);                                                                         \
+    ++pc;                                                                                          \
     NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  OP(op1##Of##op2##Next) {                                                                         \
+    CHAIN_RIGHT(op1, op2);                                                                         \
+    AND_NEXT(pc->e());                                                                             \
   }
 
   // --- decisions --------------------------------------------------------------------------------
@@ -132,6 +169,14 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
   ++pc;                                                                                            \
   NEXT_LINE()
 
+// Both values are read before the condition is known.
+#define SELECT(pair, condition)                                                                    \
+  const std::int32_t where_true = r[pair];                                                         \
+  const std::int32_t where_false = r[(pair) + 1u];                                                 \
+  r[pc->a] = (condition) ? where_true : where_false;                                               \
+  ++pc;                                                                                            \
+  NEXT_LINE()
+
 #define SIMPLE(rel) holds<Relation::rel>(r[pc->a], r[pc->b])
 #define ORB_TEST(rel, sign)                                                                        \
   OP(If##rel) {                                                                                    \
@@ -140,8 +185,19 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
   OP(Unless##rel) {                                                                                \
     TEST_UNLESS(SIMPLE(rel));                                                                      \
   }                                                                                                \
-  OP(Goto##rel) {                                                                                  \
-    TEST_GOTO(SIMPLE(rel));                                                                        \
+  OP(Goto##rel) { TEST_GOTO(SIMPLE(rel)); }                                                        \
+  OP(Select##rel) { SELECT(pc->d, holds<Relation::rel>(r[pc->b], r[pc->c])); }                     \
+  OP(AddGoto##rel) {                                                                               \
+    r[pc->a] = bytecode::add(r[pc->b], r[pc->c]);                                                  \
+    if (--budget < 0) {                                                                            \
+      ++pc;                                                                                        \
+      goto out_of_budget;                                                                          \
+    }                                                                                              \
+    if (holds<Relation::rel>(r[pc->d], r[pc->e()]))                                                \
+      pc = pc->target();                                                                           \
+    else                                                                                           \
+      pc += 2;                                                                                     \
+    NEXT_LINE();                                                                                   \
   }
 
 #define CALCULATED(op)                                                                             \
@@ -159,6 +215,11 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
   OP(Goto##op##rel) {                                                                              \
     CALCULATED(op);                                                                                \
     TEST_GOTO(holds<Relation::rel>(value, r[pc->c]));                                              \
+  }                                                                                                \
+  OP(Select##op##rel) {                                                                            \
+    std::int32_t value;                                                                            \
+    CALCULATE(op, r[pc->b], r[pc->c], pc->c, value);                                               \
+    SELECT(pc->e(), holds<Relation::rel>(value, r[pc->d]));                                        \
   }
 
 #define TWO(glue, rel1, rel2)                                                                      \
@@ -185,47 +246,49 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     NEXT_LINE();
   }
   OP(LoadElement) {
-    ELEMENT(index);
+    ELEMENT(index, r[index_variable]);
     r[pc->a] = r[index];
     ++pc;
     DISPATCH();
   }
   OP(LoadElementLine) {
-    ELEMENT(index);
+    ELEMENT(index, r[index_variable]);
     r[pc->a] = r[index];
     ++pc;
     NEXT_LINE();
   }
   OP(StoreElement) {
-    ELEMENT(index);
+    ELEMENT(index, r[index_variable]);
     r[index] = r[pc->a];
     ++pc;
     DISPATCH();
   }
   OP(StoreElementLine) {
-    ELEMENT(index);
+    ELEMENT(index, r[index_variable]);
     r[index] = r[pc->a];
     ++pc;
     NEXT_LINE();
   }
   OP(IndexLoad) {
-    r[index_variable] = bytecode::add(r[pc->b], r[pc->c]);
+    const std::int32_t y = bytecode::add(r[pc->b], r[pc->c]);
     const std::uint16_t to = pc->a;
+    r[index_variable] = y;
     ++pc;
     if (--budget < 0)
       goto out_of_budget;
-    ELEMENT(index);
+    ELEMENT(index, y);
     r[to] = r[index];
     ++pc;
     NEXT_LINE();
   }
   OP(IndexStore) {
-    r[index_variable] = bytecode::add(r[pc->b], r[pc->c]);
+    const std::int32_t y = bytecode::add(r[pc->b], r[pc->c]);
     const std::uint16_t from = pc->a;
+    r[index_variable] = y;
     ++pc;
     if (--budget < 0)
       goto out_of_budget;
-    ELEMENT(index);
+    ELEMENT(index, y);
     r[index] = r[from];
     ++pc;
     NEXT_LINE();
@@ -320,22 +383,13 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     NEXT_LINE();
   }
   OP(Next) {
-    if (loop->variable != pc->a)
-      FAULT(BasicError::NextWithoutFor);
-    const std::int32_t value = bytecode::add(r[pc->a], loop->step);
-    r[pc->a] = value;
-    if (loop->step > 0 ? value <= loop->end : value >= loop->end) {
-      pc = loop->body;
-      NEXT_LINE();
-    }
-    --loop;
-    ++pc;
-    NEXT_LINE();
+    const std::size_t counter = pc->a;
+    NEXT_OF(counter);
   }
   OP(NextElement) {
     if (loop->variable != element_by_index)
       FAULT(BasicError::NextWithoutFor);
-    ELEMENT(index);
+    ELEMENT(index, r[index_variable]);
     const std::int32_t value = bytecode::add(r[index], loop->step);
     r[index] = value;
     if (loop->step > 0 ? value <= loop->end : value >= loop->end) {
@@ -451,6 +505,9 @@ core.budget = 0;
 return Exit::Budget;
 
 #undef NEXT_LINE
+#undef AND_NEXT
+#undef NEXT_OF
+#undef SELECT
 #undef FAULT
 #undef SYNC
 #undef SLOW
