@@ -1,0 +1,13 @@
+// Any text as a stimulus script: it is read, and what could be read is played.
+
+#include "vm/ball.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace orb;
+  const Source source("fuzz", std::string(as_text({data, size})));
+  const auto script = vm::parse_stimulus(source);
+  vm::Ball ball({});
+  ball.schedule(script.events);
+  ball.advance_to(ball.now() + 100ms);
+  return 0;
+}

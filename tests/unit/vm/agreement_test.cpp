@@ -1,0 +1,112 @@
+#include "plain_evaluator.h"
+#include "random_lines.h"
+#include "tests/random_program.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace orb::vm {
+namespace {
+
+constexpr std::uint64_t most_lines = 300;
+constexpr std::uint32_t speed = 3000;
+
+/// How many programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second.
+std::uint64_t how_many() {
+  const char* wanted = std::getenv("ORB_PROGRAMS");
+  return wanted ? std::strtoull(wanted, nullptr, 10) : 2000;
+}
+
+void prepare(NotebookHost& host) {
+  host.values[spec::Variable::Speed] = 77;
+  host.values[spec::Variable::Yaw] = 350;
+  host.values[spec::Variable::Cmdroll] = 1;
+}
+
+/// Runs as many lines as the evaluator may, in pieces whose lengths change all the time.
+void run_machine(Machine& machine, NotebookHost& host, std::uint64_t seed) {
+  Instant limit{};
+  for (std::uint64_t piece = seed; machine.running() && machine.lines() < most_lines; ++piece) {
+    // Never beyond the last line that counts: lines end on a grid while nothing waits.
+    limit = std::max(limit, std::min(machine.next_event(), never - 1h)) +
+            Duration{1 + static_cast<std::int64_t>(piece % 5) * 400'000};
+    const auto left = static_cast<std::int64_t>(most_lines - machine.lines());
+    limit = std::min(limit, machine.next_event() == never
+                                ? never
+                                : machine.next_event() +
+                                      Duration{(left - 1) * (1'000'000'000 / speed)} + Duration{1});
+    if (machine.next_event() == never)
+      return;
+    machine.run(limit, host);
+  }
+  // The evaluator's last line ends with its wait.
+  if (machine.waits_for_input() && machine.next_event() != never)
+    machine.run(machine.next_event() + Duration{1}, host);
+}
+
+std::string write_program(std::uint64_t seed) {
+  if (seed % 2 == 0)
+    return RandomLines(seed).write();
+  return testing::RandomProgram(seed, {.lines = 25, .broken = 0.01}).write();
+}
+
+void compare(std::uint64_t seed, Dispatch dispatch) {
+  const auto text = write_program(seed);
+  SCOPED_TRACE("seed " + std::to_string(seed) + ":\n" + text +
+               bytecode::listing(compiler::load(text)));
+  NotebookHost plain_host;
+  prepare(plain_host);
+  PlainEvaluator plain(text, plain_host, speed, seed);
+  plain.run(most_lines);
+
+  NotebookHost host;
+  prepare(host);
+  Machine machine(speed, seed, dispatch);
+  auto chunk = compiler::load(text);
+  ASSERT_EQ(bytecode::verify(chunk), std::nullopt);
+  const int line = chunk.lines.front().number;
+  machine.start(std::move(chunk), line, Instant{});
+  run_machine(machine, host, seed);
+
+  std::string end = "running";
+  if (const auto stop = machine.take_stop())
+    end = stop->error ? "Line " + std::to_string(stop->line) + ": " +
+                            std::string(spec::info(*stop->error).text)
+                      : "end";
+  ASSERT_EQ(machine.lines(), plain.lines);
+  if (plain.lines < most_lines) {
+    ASSERT_EQ(end, plain.end);
+  }
+  ASSERT_EQ(host.printed, plain_host.printed);
+  ASSERT_EQ(host.notes, plain_host.notes);
+  ASSERT_EQ(host.times, plain_host.times);
+  ASSERT_EQ(host.print_times, plain_host.print_times);
+  for (std::size_t i = 0; i < 25; ++i) {
+    ASSERT_EQ(machine.variable(i), plain.letter(i)) << static_cast<char>('A' + i);
+    ASSERT_EQ(machine.variable(bytecode::first_element + i), plain.element(i)) << "Z " << i + 1;
+  }
+}
+
+TEST(Agreement, TheMachineDoesWhatTheTextSays) {
+  const auto programs = how_many();
+  for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
+    compare(seed, seed % 4 == 0 ? Dispatch::Switch : Dispatch::Threaded);
+}
+
+TEST(Agreement, RandomLinesRunFar) {
+  // Programs that all stop at once would prove nothing.
+  std::uint64_t lines = 0;
+  std::uint64_t long_ones = 0;
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    NotebookHost host;
+    PlainEvaluator plain(RandomLines(seed).write(), host, speed, seed);
+    plain.run(most_lines);
+    lines += plain.lines;
+    long_ones += plain.lines >= 50 ? 1 : 0;
+  }
+  EXPECT_GT(lines, 500 * 15u);
+  EXPECT_GT(long_ones, 30u);
+}
+
+} // namespace
+} // namespace orb::vm

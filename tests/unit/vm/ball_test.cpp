@@ -1,0 +1,259 @@
+#include "compiler/load.h"
+#include "protocol/decoder.h"
+#include "vm/ball.h"
+
+#include <gtest/gtest.h>
+
+namespace orb::vm {
+namespace {
+
+/// Writes down what happens.
+class Notebook final : public Observer {
+public:
+  void on_event(Instant at, const Event& event) override { events.push_back({at, event}); }
+  template <class Kind>
+  std::vector<Kind> all() const {
+    std::vector<Kind> found;
+    for (const auto& [at, event] : events)
+      if (const auto* one = std::get_if<Kind>(&event))
+        found.push_back(*one);
+    return found;
+  }
+  std::vector<std::pair<Instant, Event>> events;
+};
+
+class TheBall : public testing::Test {
+protected:
+  TheBall() : ball(options()) { ball.connect(); }
+
+  BallOptions options() {
+    BallOptions made;
+    made.loader = compiler::load;
+    made.observer = &notebook;
+    return made;
+  }
+  void run(std::string_view text, Duration time, int line = 10) {
+    ball.append_basic(Area::Ram, as_bytes(text));
+    ASSERT_EQ(ball.execute_basic(Area::Ram, line), Outcome::Done);
+    ball.advance_to(ball.now() + time);
+  }
+  std::vector<protocol::Async> messages() {
+    std::vector<protocol::Async> found;
+    const Bytes bytes = ball.take_output();
+    protocol::Decoder decoder(protocol::Direction::FromBall);
+    decoder.feed(bytes);
+    while (const auto item = decoder.next())
+      if (item->kind == protocol::Item::Kind::Async)
+        found.push_back(item->async());
+    return found;
+  }
+
+  Notebook notebook;
+  Ball ball;
+};
+
+TEST_F(TheBall, RollsAsClientsExpect) {
+  ball.roll(Actor::Client, {0, 120, Go::Drive});
+  ball.advance_to(ball.now() + 900ms);
+  EXPECT_GT(ball.body().pose().y_cm, 5);
+  EXPECT_NEAR(ball.body().pose().x_cm, 0, 1e-9);
+  ball.roll(Actor::Client, {0, 0, Go::Brake});
+  ball.advance_to(ball.now() + 3s);
+  EXPECT_TRUE(ball.body().stopped());
+  EXPECT_EQ(ball.body().next_step(), never) << "a ball at rest costs nothing";
+}
+
+TEST_F(TheBall, Heading90IsToTheRight) {
+  ball.roll(Actor::Client, {90, 0, Go::Drive});
+  ball.advance_to(ball.now() + 1s);
+  EXPECT_DOUBLE_EQ(ball.body().yaw_deg(), 90);
+  ball.roll(Actor::Client, {90, 255, Go::Drive});
+  ball.advance_to(ball.now() + 4s);
+  EXPECT_GT(ball.body().pose().x_cm, 300);
+  EXPECT_EQ(ball.body().speed(), 255);
+  EXPECT_NEAR(ball.body().pose().speed_cm_s, 200, 1e-6);
+}
+
+TEST_F(TheBall, TurnsAtTheRotationRateWhileItDrives) {
+  ball.roll(Actor::Client, {0, 255, Go::Drive});
+  ball.advance_to(ball.now() + 3s);
+  ball.roll(Actor::Client, {90, 255, Go::Drive});
+  ball.advance_to(ball.now() + 250ms);
+  EXPECT_NEAR(ball.body().yaw_deg(), 156.8 * 0.25, 0.5);
+  ball.roll(Actor::Client, {180, 255, Go::FastTurn});
+  ball.advance_to(ball.now() + 100ms);
+  EXPECT_NEAR(ball.body().yaw_deg(), 156.8 * 0.25 + 100, 3);
+}
+
+TEST_F(TheBall, SetHeadingKeepsTheLocatorsAxes) {
+  ball.roll(Actor::Client, {90, 0, Go::Drive});
+  ball.advance_to(ball.now() + 1s);
+  ball.set_heading(Actor::Client, 0);
+  EXPECT_DOUBLE_EQ(ball.body().yaw_deg(), 0);
+  ball.roll(Actor::Client, {0, 200, Go::Drive});
+  ball.advance_to(ball.now() + 1s);
+  EXPECT_GT(ball.body().pose().x_cm, 20) << "still driving along the old 90 degrees";
+  EXPECT_NEAR(ball.body().pose().y_cm, 0, 1e-6);
+}
+
+TEST_F(TheBall, AWallStopsItAndIsACollision) {
+  ball.apply(Wall{Wall::Axis::Y, 50});
+  ball.settings().collisions = {1, 0, 0, 50, 0, 100};
+  ball.roll(Actor::Client, {0, 200, Go::Drive});
+  ball.advance_to(ball.now() + 5s);
+  EXPECT_LT(ball.body().pose().y_cm, 50);
+  const auto collisions = notebook.all<event::Collision>();
+  ASSERT_FALSE(collisions.empty());
+  EXPECT_EQ(collisions[0].axis, 2);
+  EXPECT_GT(collisions[0].y, 0) << "the front was hit";
+  bool told = false;
+  for (const auto& message : messages())
+    told |= message.id == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
+            message.data.size() == 16;
+  EXPECT_TRUE(told);
+}
+
+TEST_F(TheBall, ReportsErrorsOnBothChannels) {
+  run("10 A = 1\n20 print 1/0\n", 1s);
+  const auto found = messages();
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].id, static_cast<std::uint8_t>(spec::AsyncId::BasicErrorText));
+  EXPECT_EQ(as_text(found[0].data), "Line 20: Divide by zero\n");
+  EXPECT_EQ(found[1].id, static_cast<std::uint8_t>(spec::AsyncId::BasicError));
+  EXPECT_EQ(found[1].data, (Bytes{0, 20, 0, 8}));
+}
+
+TEST_F(TheBall, AbortIsReported) {
+  run("10 goto 10\n", 1s);
+  ball.abort_basic();
+  ball.advance_to(ball.now() + 1s);
+  const auto found = messages();
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(as_text(found[0].data), "Line 10: User abort\n");
+}
+
+TEST_F(TheBall, AFullQueuePausesTheProgramAndLosesNothing) {
+  run("10 A = A + 1\n20 print A\n30 goto 10\n", 1s);
+  std::string text;
+  std::size_t wire = 0;
+  for (const auto& message : messages()) {
+    wire += message.data.size() + 6;
+    text += as_text(message.data);
+  }
+  EXPECT_LE(wire, 11520u);
+  EXPECT_GT(wire, 9500u);
+  std::string expected;
+  for (int n = 1; expected.size() < text.size(); ++n)
+    expected += std::to_string(n) + "\n";
+  EXPECT_EQ(text, expected);
+}
+
+TEST_F(TheBall, WithoutAClientPrintsDoNotPause) {
+  ball.disconnect();
+  run("10 A = A + 1\n20 print A\n30 goto 10\n", 1s);
+  EXPECT_EQ(ball.machine().lines(), 3000u);
+}
+
+TEST_F(TheBall, TheProgramsColourGoesBeforeTheClients) {
+  ball.set_led(Actor::Client, {1, 2, 3});
+  run("10 RGB 9,8,7\n20 delay 1000\n", 500ms);
+  EXPECT_EQ(ball.led(), (Color{9, 8, 7}));
+  ball.set_led(Actor::Client, {4, 5, 6});
+  EXPECT_EQ(ball.led(), (Color{9, 8, 7}));
+  ball.apply(stimulus::Battery{6.8});
+  EXPECT_EQ(ball.led(), (Color{255, 0, 0})) << "the battery's warning goes before all";
+  ball.apply(stimulus::Battery{7.8});
+  ball.advance_to(ball.now() + 1s);
+  EXPECT_EQ(ball.led(), (Color{4, 5, 6}));
+}
+
+TEST_F(TheBall, AnExclusiveProgramDrivesAlone) {
+  run("10 basflg 1\n20 goroll 0,100,1\n30 delay 1000\n40 print cmdroll,hdgval,spdval\n", 500ms);
+  ball.roll(Actor::Client, {180, 255, Go::Drive});
+  ball.advance_to(ball.now() + 200ms);
+  EXPECT_DOUBLE_EQ(ball.body().heading_setpoint_deg(), 0);
+  ball.advance_to(ball.now() + 1s);
+  const auto prints = notebook.all<event::Print>();
+  ASSERT_EQ(prints.size(), 1u);
+  EXPECT_EQ(prints[0].text, "1 180 255\n") << "the program sees what the client wanted";
+  ball.roll(Actor::Client, {180, 255, Go::Drive});
+  EXPECT_DOUBLE_EQ(ball.body().heading_setpoint_deg(), 180) << "the flag ended with the program";
+}
+
+TEST_F(TheBall, SleepsAfterInactivityUnlessAProgramRuns) {
+  ball.advance_to(Instant{599s});
+  EXPECT_FALSE(ball.asleep());
+  ball.advance_to(Instant{601s});
+  EXPECT_TRUE(ball.asleep());
+  ball.connect();
+  EXPECT_FALSE(ball.asleep());
+  run("10 goto 10\n", 700s);
+  EXPECT_FALSE(ball.asleep());
+  ball.abort_basic();
+  run("", 0s, 10); // text and program are still there
+  ball.abort_basic();
+}
+
+TEST_F(TheBall, WakesIntoFlash) {
+  ball.append_basic(Area::Flash, as_bytes("100 print \"up\", isconn\n"));
+  run("10 sleep 3,0,100\n20 print \"never\"\n", 2s);
+  EXPECT_TRUE(ball.asleep());
+  EXPECT_TRUE(ball.basic_text(Area::Ram).empty()) << "RAM is lost in sleep";
+  ball.advance_to(ball.now() + 2s);
+  EXPECT_FALSE(ball.asleep());
+  const auto prints = notebook.all<event::Print>();
+  ASSERT_EQ(prints.size(), 1u);
+  EXPECT_EQ(prints[0].text, "up 0\n");
+}
+
+TEST_F(TheBall, StopsOnDisconnectWhenAsked) {
+  ball.settings().temporary_flags = option::stop_on_disconnect;
+  ball.roll(Actor::Client, {0, 200, Go::Drive});
+  ball.advance_to(ball.now() + 1s);
+  ball.disconnect();
+  ball.advance_to(ball.now() + 2s);
+  EXPECT_TRUE(ball.body().stopped());
+  EXPECT_EQ(ball.settings().temporary_flags, 0u) << "once";
+}
+
+TEST_F(TheBall, MotionTimesOutWhenAsked) {
+  ball.settings().permanent_flags = option::motion_timeout;
+  ball.settings_changed();
+  ball.roll(Actor::Client, {0, 100, Go::Drive});
+  ball.advance_to(ball.now() + 5s);
+  EXPECT_TRUE(ball.body().stopped());
+}
+
+TEST_F(TheBall, StoresWhatFits) {
+  const std::string half(2048, 'x');
+  EXPECT_EQ(ball.append_basic(Area::Ram, as_bytes(half)), Outcome::Done);
+  EXPECT_EQ(ball.append_basic(Area::Ram, as_bytes(half + "y")), Outcome::Refused);
+  EXPECT_EQ(ball.basic_text(Area::Ram).size(), 2048u) << "nothing of what did not fit";
+  EXPECT_EQ(ball.append_basic(Area::Ram, as_bytes(std::string_view("10 end\n\0zzz", 11))),
+            Outcome::Done);
+  EXPECT_EQ(ball.basic_text(Area::Ram).size(), 2048u + 8) << "up to the final NUL";
+  EXPECT_EQ(ball.erase_basic(Area::Ram), Outcome::Done);
+  EXPECT_TRUE(ball.basic_text(Area::Ram).empty());
+}
+
+TEST(Stimulus, ScriptsAreReadLineByLine) {
+  const Source source("s", "wall x=200\nat 1.5s shake # twice\n\nat 200ms push 90 120\nat 1min "
+                           "battery 6.9\nat 2s jump\nat 5 shake\nat 1s tilt 1\nat 1s shake 1\n");
+  const auto script = parse_stimulus(source);
+  ASSERT_EQ(script.events.size(), 4u);
+  EXPECT_EQ(script.events[1].at, Duration{200ms});
+  EXPECT_EQ(script.events[3].at, Duration{60s});
+  EXPECT_EQ(script.diagnostics.size(), 4u);
+}
+
+TEST(Stimulus, EveryRuleHasAnExampleThatRaisesIt) {
+  for (const auto& rule : stimulus_rules()) {
+    const auto bad = parse_stimulus(Source("bad", std::string(rule.bad)));
+    ASSERT_EQ(bad.diagnostics.size(), 1u) << rule.id;
+    EXPECT_EQ(bad.diagnostics[0].rule->id, rule.id);
+    EXPECT_TRUE(parse_stimulus(Source("good", std::string(rule.good))).diagnostics.empty());
+  }
+}
+
+} // namespace
+} // namespace orb::vm

@@ -1,0 +1,165 @@
+#include "compiler/load.h"
+#include "random_lines.h"
+#include "vm/ball.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+namespace orb::vm {
+namespace {
+
+/// FNV-1a over everything that an observer is told, numbers to the last bit.
+class TraceHash final : public Observer {
+public:
+  void on_event(Instant at, const Event& event) override {
+    mix(static_cast<std::uint64_t>(at.time_since_epoch().count()));
+    mix(event.index());
+    std::visit([&](const auto& one) { take(one); }, event);
+    ++events;
+  }
+  std::uint64_t hash = 14695981039346656037u;
+  std::uint64_t events = 0;
+
+private:
+  void mix(std::uint64_t value) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash = (hash ^ (value >> byte * 8 & 0xFF)) * 1099511628211u;
+    }
+  }
+  void mix_real(double value) {
+    std::uint64_t bits = 0;
+    static_assert(sizeof bits == sizeof value);
+    std::memcpy(&bits, &value, sizeof bits);
+    mix(bits);
+  }
+  void mix_int(int value) { mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
+  void take(const event::Print& x) {
+    for (const char c : x.text)
+      mix(static_cast<unsigned char>(c));
+  }
+  void take(const event::Error& x) {
+    mix_int(x.line);
+    mix(spec::code(x.code));
+  }
+  void take(const event::Led& x) { mix(x.color.red << 16 | x.color.green << 8 | x.color.blue); }
+  void take(const event::BackLed& x) { mix_int(x.value); }
+  void take(const event::Drive& x) {
+    mix_int(x.roll.heading_deg);
+    mix_int(x.roll.speed);
+  }
+  void take(const event::Position& x) {
+    mix_real(x.pose.x_cm);
+    mix_real(x.pose.y_cm);
+    mix_real(x.pose.heading_deg);
+    mix_real(x.pose.speed_cm_s);
+  }
+  void take(const event::Marker& x) { mix_int(x.marker); }
+  void take(const event::Macro& x) { mix_int(x.command); }
+  void take(const event::Line& x) { mix_int(x.line); }
+  void take(const event::Collision& x) {
+    mix_int(x.x);
+    mix_int(x.y);
+  }
+  void take(const event::Sleep& x) { mix_int(x.seconds); }
+  void take(const event::End& x) { mix(x.lines); }
+};
+
+/// Drives, blinks, reads every sensor, draws random numbers and bumps into walls.
+constexpr std::string_view lively =
+    "10 basflg 1\n"
+    "20 H = rnd 360 - 1\n"
+    "30 goroll H,40 + rnd 200,1\n"
+    "40 for T = 1 to 20\n"
+    "50 RGB speed,yaw/2,T*12\n"
+    "60 print xpos,ypos,yaw;\n"
+    "70 A = A + accelX + accelY * 3 + gyroZ - Qzero + Vbatt\n"
+    "80 if accelone > 2000 then print \"bump\", accelone\n"
+    "90 delay 20 + rnd 30\n"
+    "100 next T\n"
+    "110 if A % 3 = 0 then heading A & 127 else raw 1,rnd 255,2,rnd 255\n"
+    "120 delay 100\n"
+    "130 ctrl = 1\n"
+    "140 goto 20\n";
+
+TraceHash trace(std::string_view text, Duration time, std::uint64_t seed, Dispatch dispatch,
+                Duration piece = 1s) {
+  TraceHash hash;
+  BallOptions options;
+  options.seed = seed;
+  options.loader = compiler::load;
+  options.observer = &hash;
+  options.dispatch = dispatch;
+  Ball ball(options);
+  ball.connect();
+  ball.apply(Wall{Wall::Axis::X, 60});
+  ball.apply(Wall{Wall::Axis::Y, -45});
+  ball.apply(stimulus::Noise{Switch::On});
+  ball.settings().collisions = {1, 20, 20, 20, 20, 10};
+  ball.append_basic(Area::Ram, as_bytes(text));
+  ball.execute_basic(Area::Ram, 10);
+  for (Instant at = ball.now(); at < Instant{time}; at += piece) {
+    ball.advance_to(at + piece);
+    ball.take_output();
+  }
+  return hash;
+}
+
+std::string shown(const TraceHash& trace) {
+  return fmt::format("{:016x} {}", trace.hash, trace.events);
+}
+
+// The same from every compiler and at every level of optimisation: ./dev fuzz builds them all.
+TEST(Trace, IsTheSameEverywhere) {
+  EXPECT_EQ(shown(trace(lively, 60s, 1, Dispatch::Threaded)), "9bbbd894344db658 4140");
+  EXPECT_EQ(shown(trace(lively, 60s, 2, Dispatch::Switch)), "8e676587356b8a6b 4105");
+}
+
+TEST(Trace, DoesNotDependOnHowTimeIsCut) {
+  const auto whole = shown(trace(lively, 8s, 7, Dispatch::Threaded));
+  EXPECT_EQ(shown(trace(lively, 8s, 7, Dispatch::Threaded, 1ms)), whole);
+  EXPECT_EQ(shown(trace(lively, 8s, 7, Dispatch::Switch, 160ms)), whole);
+}
+
+TEST(Trace, OfRandomPrograms) {
+  TraceHash all;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const auto one = trace(RandomLines(seed).write(), 1s, seed, Dispatch::Threaded);
+    all.hash = (all.hash ^ one.hash) * 1099511628211u;
+    all.events += one.events;
+  }
+  EXPECT_EQ(shown(all), "9732b2dd6a58a699 2774");
+}
+
+/// ORB_SOAK_HOURS simulated hours by 20 seeds, which ./dev fuzz sets to 24; a minute in ./dev test.
+TEST(Trace, SoakTakesNoMemory) {
+  const char* wanted = std::getenv("ORB_SOAK_HOURS");
+  const Duration time = wanted ? std::atoi(wanted) * Duration{1h} : Duration{1min};
+  const auto used = [] {
+    const auto info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    BallOptions options;
+    options.seed = seed;
+    options.loader = compiler::load;
+    Ball ball(options);
+    ball.connect();
+    ball.append_basic(Area::Ram, as_bytes(lively));
+    ball.execute_basic(Area::Ram, 10);
+    ball.advance_to(ball.now() + 10s);
+    ball.take_output();
+    const auto before = used();
+    for (Duration passed{}; passed < time; passed += 10s) {
+      ball.advance_to(ball.now() + 10s);
+      ball.take_output();
+    }
+    EXPECT_LT(used(), before + 65536) << "seed " << seed;
+    EXPECT_TRUE(ball.basic_running());
+  }
+}
+
+} // namespace
+} // namespace orb::vm
