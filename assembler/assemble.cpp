@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  std::string_view text(Span span) const { return source_.text(span); }
+  std::string_view text(Span span) const { return source_.text().substr(span.begin, span.size()); }
 
   Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
     assembly_.diagnostics.push_back(finding(rule, span, std::move(message), std::move(help)));
