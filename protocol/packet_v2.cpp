@@ -24,7 +24,7 @@ std::optional<Bytes> unescape(ByteView bytes) {
     if (++i == bytes.size())
       return std::nullopt;
     const auto byte = static_cast<std::uint8_t>(bytes[i] | spec::v2_escape_bits);
-    if (bytes[i] == byte || !is_special(byte))
+    if ((bytes[i] & spec::v2_escape_bits) != 0 || !is_special(byte))
       return std::nullopt;
     out.push_back(byte);
   }

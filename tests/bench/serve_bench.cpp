@@ -106,7 +106,7 @@ void Pings64InFlight(benchmark::State& state) {
   for (std::size_t i = 0; i < window; ++i)
     pings.insert(pings.end(), ping.begin(), ping.end());
   Bytes answers(window * answer_size);
-  std::size_t waiting = window, received = 0, answered = 0;
+  std::size_t received = 0, answered = 0;
   bool alive = ::send(fd, pings.data(), pings.size(), 0) == static_cast<ssize_t>(pings.size());
   for (auto _ : state) {
     const auto got = ::recv(fd, answers.data(), answers.size(), 0);
@@ -116,10 +116,8 @@ void Pings64InFlight(benchmark::State& state) {
     const auto fresh = received / answer_size;
     received %= answer_size;
     answered += fresh;
-    waiting -= fresh;
     const auto bytes = fresh * ping.size();
     alive = ::send(fd, pings.data(), bytes, 0) == static_cast<ssize_t>(bytes);
-    waiting += fresh;
   }
   state.counters["pings"] =
       benchmark::Counter(static_cast<double>(answered), benchmark::Counter::kIsRate);
@@ -143,7 +141,7 @@ void TwoHundredBalls(benchmark::State& state) {
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
     for (int round = 0; round < 5 * per_second; ++round) {
-      std::this_thread::sleep_until(start + std::chrono::seconds{round} / per_second);
+      std::this_thread::sleep_until(start + std::chrono::milliseconds{1000 * round / per_second});
       for (const auto fd : fds)
         if (::send(fd, roll.data(), roll.size(), 0) < 0)
           return state.SkipWithError("a ball hung up");

@@ -57,6 +57,13 @@ TEST(PacketV2, FindsPacketsAfterNoiseLostEndsAndBadChecksums) {
   EXPECT_EQ(items[4].kind, ItemV2::Kind::Incomplete);
 }
 
+TEST(PacketV2, AnEscapeOfAnyOtherByteIsNoise) {
+  // 2Bh with the bits 88h is ABh too, but only 23h is its escape.
+  const auto items = decode({0x8D, 0x02, 0x01, 0x02, 0x03, 0xAB, 0x2B, 0x4C, 0xD8});
+  ASSERT_EQ(items.size(), 1u);
+  EXPECT_EQ(items[0].kind, ItemV2::Kind::Noise);
+}
+
 TEST(PacketV2, AnEndlessPacketIsGivenUp) {
   DecoderV2 decoder;
   const Bytes endless(spec::v2_max_packet + 1, spec::v2_start ^ 1);
