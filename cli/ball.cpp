@@ -14,6 +14,9 @@
 namespace orb::cli {
 namespace {
 
+/// What a flag without a value holds.
+constexpr const char* bare_flag = "true";
+
 struct BallArguments {
   std::optional<std::string> pty;
   std::string tcp;
@@ -55,7 +58,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   options.state_file = arguments.state;
   options.log_file = arguments.log;
   options.pty = arguments.pty.has_value() || arguments.tcp.empty();
-  options.pty_link = arguments.pty.value_or("");
+  options.pty_link = arguments.pty.value_or(bare_flag) == bare_flag ? "" : *arguments.pty;
   if (!arguments.tcp.empty()) {
     options.tcp = parse_address(arguments.tcp);
     if (!options.tcp)
@@ -108,10 +111,10 @@ void add_ball(CLI::App& app, Context& context) {
                               "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
                               "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7");
   auto arguments = std::make_shared<BallArguments>();
+  // A flag, because flags take a value only behind `=`.
   command
-      ->add_option("--pty", arguments->pty,
-                   "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
-      ->expected(0, 1)
+      ->add_flag("--pty", arguments->pty,
+                 "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
       ->type_name("LINK");
   command->add_option("--tcp", arguments->tcp, "serve on HOST:PORT; port 0 picks a free one")
       ->type_name("HOST:PORT");
