@@ -206,26 +206,35 @@ private:
       d.fix = single_fix("remove the number", {line.span.begin, line.comment.begin}, "");
   }
 
-  bool is_target(std::uint32_t number) const {
-    return std::any_of(program_.items.begin(), program_.items.end(), [&](const Item& item) {
-      return item.kind == ItemKind::Target && item.value == number;
-    });
+  /// Whether some jump names the line; the jumps are sorted once, when this is first asked.
+  bool is_target(std::uint32_t number) {
+    if (!targets_sorted_) {
+      targets_sorted_ = true;
+      for (const auto& part : program_.items)
+        if (part.kind == ItemKind::Target)
+          targets_.push_back(part.value);
+      std::sort(targets_.begin(), targets_.end());
+    }
+    return std::binary_search(targets_.begin(), targets_.end(), number);
   }
 
   void check_duplicates() {
+    constexpr std::size_t most_fixes = 64; // the rest gets its turn when these are mended
+    std::size_t first = 0;
+    std::size_t found = 0;
     for (std::size_t i = 1; i < flow_.numbers.size(); ++i) {
       const auto& row = flow_.numbers[i];
-      const auto& before = flow_.numbers[i - 1];
-      if (row.number != before.number)
+      if (row.number != flow_.numbers[first].number) {
+        first = i;
         continue;
+      }
       const auto& line = program_.lines[row.line];
-      std::size_t first = i - 1;
-      while (first > 0 && flow_.numbers[first - 1].number == row.number)
-        --first;
       auto& d = findings_.add(rules::DuplicateLine, row.line, line.number_span,
                               fmt::format("line number {} is taken already", row.number));
       const auto& original = program_.lines[flow_.numbers[first].line];
       d.notes.push_back({original.number_span, "the first line of that number"});
+      if (++found > most_fixes)
+        continue;
       if (const auto free = free_number(row.line)) {
         d.help = fmt::format("{} is free here", *free);
         d.fix = single_fix(fmt::format("renumber to {}", *free), line.number_span,
@@ -235,7 +244,7 @@ private:
   }
 
   /// A number between those of the neighbours that no line and no jump has.
-  std::optional<std::uint32_t> free_number(std::uint32_t index) const {
+  std::optional<std::uint32_t> free_number(std::uint32_t index) {
     std::uint32_t below = 0;
     for (std::uint32_t i = 0; i <= index; ++i)
       if (program_.lines[i].has_number())
@@ -1018,6 +1027,8 @@ private:
   const Target& target_;
   Findings findings_;
   Flow flow_;
+  std::vector<std::uint32_t> targets_;
+  bool targets_sorted_ = false;
   std::array<Letter, letters> letters_{};
   std::vector<Range> ranges_;
 
