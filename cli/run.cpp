@@ -2,6 +2,7 @@
 #include "cli/files.h"
 #include "cli/journey.h"
 #include "cli/report.h"
+#include "cli/run_hints.h"
 #include "cli/run_inputs.h"
 #include "cli/svg.h"
 #include "cli/trace.h"
@@ -493,6 +494,9 @@ RunResult<void> run(Context& context, const RunOptions& options) {
     if (auto done = write_pictures(options, *watcher.journey); !done)
       return done;
   }
+  if (options.stimulus.empty() && !inputs->programs.empty())
+    if (const auto hint = run_hint(reason, inputs->programs.front()->program); !hint.empty())
+      print_note(context, "hint: " + hint);
   print_note(context, words);
   if (watcher.forbidden.seen())
     return refuse(ExitCode::BadInput, fmt::format("the program printed `{}`", options.fail_text));
