@@ -62,6 +62,22 @@ TEST(Commands, EveryHelpShowsTwoExamplesThatCanBePasted) {
   }
 }
 
+TEST(Commands, TheHelpOfOrbItselfShowsExamplesOfCommands) {
+  Model model;
+  const auto examples = shown_examples(model.app);
+  EXPECT_GE(examples.size(), 2U);
+  for (const auto& example : examples) {
+    std::istringstream words(example);
+    std::string orb;
+    std::string name;
+    words >> orb >> name;
+    EXPECT_EQ(orb, "orb") << example;
+    EXPECT_TRUE(std::any_of(model.commands.begin(), model.commands.end(), [&](const auto* command) {
+      return command->get_name() == name;
+    })) << example;
+  }
+}
+
 TEST(Commands, EveryCommandHasAPageOfTheManual) {
   Model model;
   std::set<std::string> files;
