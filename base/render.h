@@ -16,7 +16,7 @@ std::string render_gcc(const Source& source, const Diagnostic& diagnostic);
 /// The closing line of the text form: `2 errors, 1 warning in 3 files`.
 std::string render_summary(const std::vector<FileFindings>& files);
 
-/// All findings as one JSON document of schema `orb.check/1` (docs/reference/json.md).
+/// All findings as one JSON document of schema `orb.check/1` (docs/findings.md).
 std::string render_json(const std::vector<FileFindings>& files);
 
 /// All findings as one SARIF 2.1.0 log. Columns count code points; bytes that are not UTF-8 appear

@@ -33,6 +33,31 @@ std::string shown(Range range) {
                           : fmt::format("{} to {}", range.lo, range.hi);
 }
 
+bool is_unusual(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x7F || (byte < ' ' && c != '\n');
+}
+
+/// Whether a byte other than printable ASCII and LF occurs. Eight bytes are asked at once whether
+/// one may be: a text is read faster than it is parsed.
+bool has_unusual_byte(std::string_view text) {
+  constexpr std::uint64_t ones = 0x0101010101010101;
+  constexpr std::uint64_t high = 0x80 * ones;
+  const auto any = [](std::string_view part) {
+    return std::any_of(part.begin(), part.end(), is_unusual);
+  };
+  while (text.size() >= sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data(), sizeof word);
+    const auto below_blank = (word - ' ' * ones) & ~word & high;
+    const auto above_tilde = (word + ones) & high;
+    if (((below_blank | above_tilde | (word & high)) != 0) && any(text.substr(0, sizeof word)))
+      return true;
+    text.remove_prefix(sizeof word);
+  }
+  return any(text);
+}
+
 /// How a letter gets its values, over the whole program.
 struct Letter {
   std::uint32_t first_set = none;  ///< statement
@@ -72,16 +97,11 @@ private:
   // ---- the whole text
 
   void check_bytes() {
-    const auto text = program_.text;
-    bool special = false;
-    for (const char c : text)
-      special |= static_cast<unsigned char>(c) >= 0x7F ||
-                 (static_cast<unsigned char>(c) < ' ' && c != '\n');
-    if (special)
-      for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
-        check_bytes_of(i);
-    if (special)
-      check_line_ends();
+    if (!has_unusual_byte(program_.text))
+      return;
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
+      check_bytes_of(i);
+    check_line_ends();
   }
 
   void check_bytes_of(std::uint32_t index) {
