@@ -288,7 +288,7 @@ TEST(Dispatcher, CountsWhatItReceives) {
   EXPECT_EQ(counter(0x07), 0u);
 }
 
-TEST(Dispatcher, Level1IsOver1KOfText) {
+TEST(Dispatcher, Level1IsAReportInPlainText) {
   Client client;
   client.ask(ApiCommand::PerformLevel1Diagnostics);
   ASSERT_EQ(client.messages(AsyncId::Level1Diagnostics).size(), 1u);
