@@ -104,7 +104,7 @@ void against_lua(const std::string& folder) {
       Kernel{"nested", "nested loops, arithmetic"}, Kernel{"collatz", "branches, division"},
       Kernel{"calls", "subroutines"}, Kernel{"sort", "a sort through Z"}};
   constexpr std::array<std::uint32_t, 2> speeds{3'000'000, 3000};
-  fmt::print("{:<26}{:>10}{:>12}{:>12}{:>12}{:>9}{:>9}\n", "kernel", "lines", "luajit -joff",
+  fmt::print("{:<26}{:>10}{:>14}{:>10}{:>12}{:>9}{:>9}\n", "kernel", "lines", "luajit -joff",
              "orb 3M/s", "orb 3000/s", "3M/s", "3000/s");
   std::array<double, 2> product{1, 1};
   for (const auto& kernel : kernels) {

@@ -1,3 +1,4 @@
+#include "base/random.h"
 #include "plain_evaluator.h"
 #include "random_lines.h"
 #include "tests/random_program.h"
@@ -91,6 +92,33 @@ TEST(Agreement, TheMachineDoesWhatTheTextSays) {
   const auto programs = how_many();
   for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
     compare(seed, seed % 4 == 0 ? Dispatch::Switch : Dispatch::Threaded);
+}
+
+/// A program of which some bytes have been changed, lost or doubled.
+std::string damaged(std::uint64_t seed) {
+  Random random{seed};
+  auto text = write_program(seed);
+  for (std::uint64_t n = 1 + random.below(12); n > 0 && !text.empty(); --n) {
+    const auto at = static_cast<std::size_t>(random.below(text.size()));
+    switch (random.below(3)) {
+    case 0: text[at] = static_cast<char>(random.below(256)); break;
+    case 1: text.erase(at, 1); break;
+    default: text.insert(at, text.substr(at, static_cast<std::size_t>(random.below(20)))); break;
+    }
+  }
+  return text;
+}
+
+TEST(AnyText, RunsTheSameOnBothEngines) {
+  for (std::uint64_t seed = 1; seed <= how_many() / 4; ++seed) {
+    const auto text = damaged(seed);
+    ASSERT_EQ(bytecode::verify(compiler::load(text)), std::nullopt) << text;
+    const auto threaded = run_basic(text, 100ms, -1, Dispatch::Threaded);
+    const auto by_switch = run_basic(text, 100ms, -1, Dispatch::Switch);
+    ASSERT_EQ(threaded.printed, by_switch.printed) << text;
+    ASSERT_EQ(threaded.end, by_switch.end) << text;
+    ASSERT_EQ(threaded.lines, by_switch.lines) << text;
+  }
 }
 
 TEST(Agreement, RandomLinesRunFar) {
