@@ -9,7 +9,8 @@
 
 namespace orb::vm {
 
-/// Writes orbBasic programs at random, the same text for the same seed everywhere. Beside
+/// Writes orbBasic programs at random, the same text for the same seed and compiler: the order in
+/// which parts of a sum are drawn is the compiler's. Beside
 /// tests/random_program.h, which knows every statement and spelling, these keep to what runs far
 /// and to the pairs of lines that the machine runs as one.
 class RandomLines {

@@ -1,5 +1,4 @@
 #include "compiler/load.h"
-#include "random_lines.h"
 #include "vm/ball.h"
 
 #include <cstdlib>
@@ -121,16 +120,6 @@ TEST(Trace, DoesNotDependOnHowTimeIsCut) {
   const auto whole = shown(trace(lively, 8s, 7, Dispatch::Threaded));
   EXPECT_EQ(shown(trace(lively, 8s, 7, Dispatch::Threaded, 1ms)), whole);
   EXPECT_EQ(shown(trace(lively, 8s, 7, Dispatch::Switch, 160ms)), whole);
-}
-
-TEST(Trace, OfRandomPrograms) {
-  TraceHash all;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const auto one = trace(RandomLines(seed).write(), 1s, seed, Dispatch::Threaded);
-    all.hash = (all.hash ^ one.hash) * 1099511628211u;
-    all.events += one.events;
-  }
-  EXPECT_EQ(shown(all), "9732b2dd6a58a699 2774");
 }
 
 /// ORB_SOAK_HOURS simulated hours by 20 seeds, which ./dev fuzz sets to 24; a minute in ./dev test.
