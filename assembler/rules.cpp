@@ -1,5 +1,7 @@
 #include "assembler/rules.h"
 
+#include "base/rules.h"
+
 #include <array>
 #include <cstddef>
 
@@ -19,14 +21,7 @@ constexpr auto table = std::to_array<Rule>({
 #undef ORB_RULE
 });
 
-consteval bool ids_are_unique() {
-  for (std::size_t i = 0; i < table.size(); ++i)
-    for (std::size_t j = i + 1; j < table.size(); ++j)
-      if (table[i].id == table[j].id)
-        return false;
-  return true;
-}
-static_assert(ids_are_unique());
+static_assert(ids_are_unique(table));
 
 } // namespace
 
@@ -39,10 +34,7 @@ std::span<const Rule> all() {
 }
 
 const Rule* find(std::string_view id) {
-  for (const auto& rule : table)
-    if (rule.id == id)
-      return &rule;
-  return nullptr;
+  return find_rule(table, id);
 }
 
 } // namespace orb::assembler::rules

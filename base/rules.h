@@ -1,0 +1,29 @@
+#pragma once
+
+// What every table of rules needs: the linters' tables include this, nobody else has to.
+
+#include "base/diagnostic.h"
+
+#include <span>
+#include <string_view>
+
+namespace orb {
+
+/// Whether no two rules of a table share an id.
+consteval bool ids_are_unique(std::span<const Rule> table) {
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t j = i + 1; j < table.size(); ++j)
+      if (table[i].id == table[j].id)
+        return false;
+  return true;
+}
+
+/// The rule of that id, or null.
+constexpr const Rule* find_rule(std::span<const Rule> table, std::string_view id) {
+  for (const auto& rule : table)
+    if (rule.id == id)
+      return &rule;
+  return nullptr;
+}
+
+} // namespace orb
