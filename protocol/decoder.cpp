@@ -108,6 +108,23 @@ bool complete(ByteView bytes, std::size_t header, std::size_t payload, Item& ite
 
 } // namespace
 
+/// Whether the first SOP1 is a stray byte in front of a whole packet, as in FF FF FF 00 01 ….
+/// `bytes` end before the packet that would begin here does: as if they arrived one by one, what is
+/// whole first counts, so the answer does not depend on the pieces in which they come.
+bool Decoder::is_stray(ByteView bytes) const {
+  const auto other = std::find_if(bytes.begin(), bytes.end(),
+                                  [](std::uint8_t byte) { return byte != spec::sop1; });
+  const auto run = static_cast<std::size_t>(other - bytes.begin());
+  if (run < spec::sop_size)
+    return false;
+  Item behind;
+  // The packet's SOP1 and SOP2 are the last two of the run, or SOP2 is another byte behind it.
+  for (const auto start : {run - 2, run - 1})
+    if (start > 0 && match_command(bytes.subspan(start), behind) == Match::Whole)
+      return true;
+  return false;
+}
+
 Decoder::Match Decoder::match_command(ByteView bytes, Item& item) const {
   item = {};
   if (bytes.size() >= spec::sop_size && !spec::is_sop2(bytes[1]))
@@ -125,13 +142,11 @@ Decoder::Match Decoder::match_command(ByteView bytes, Item& item) const {
     return Match::No;
   const auto fixed = dlen == spec::dlen_long ? spec::long_payload(item.did, item.cid) : 0;
   const auto payload = fixed != 0 ? fixed : dlen - std::size_t{1};
-  if (bytes.size() < command_header + payload + 1) {
-    // FF FF FF …: a stray FFh in front of a packet must not hold it up until the time-out.
-    Item behind;
-    if (item.did == spec::sop1 && match_command(bytes.subspan(1), behind) == Match::Whole)
-      return Match::No;
+  const auto size = command_header + payload + 1;
+  if (is_stray(bytes.first(std::min(bytes.size(), size - 1))))
+    return Match::No;
+  if (bytes.size() < size)
     return Match::Incomplete;
-  }
   item.kind = Item::Kind::Command;
   return complete(bytes, command_header, payload, item) ? Match::Whole : Match::Damaged;
 }

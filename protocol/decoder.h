@@ -68,6 +68,7 @@ private:
 
   Match match(ByteView bytes, Item& item) const;
   Match match_command(ByteView bytes, Item& item) const;
+  bool is_stray(ByteView bytes) const;
   Match match_answer(ByteView bytes, Item& item) const;
   void keep_rest();
 

@@ -174,6 +174,25 @@ rc::Gen<Bytes> stream() {
                       });
 }
 
+TEST(Decoder, AStrayStartByteIsJudgedAlikeHoweverTheBytesArrive) {
+  // Read from its first byte this is a packet to device FFh of 53h bytes, read from its second a
+  // ping: the ping is whole first.
+  auto bytes = Bytes{spec::sop1};
+  encode(make_command(spec::ApiCommand::Ping, {}, 0x52), bytes);
+  bytes.resize(100, 0);
+  for (const std::size_t piece : {std::size_t{1}, bytes.size()}) {
+    Decoder decoder(Direction::ToBall);
+    std::vector<Found> found;
+    for (std::size_t at = 0; at < bytes.size(); at += piece) {
+      decoder.feed(ByteView(bytes).subspan(at, piece));
+      drain(decoder, found);
+    }
+    ASSERT_GE(found.size(), 2U) << piece;
+    EXPECT_EQ(found[0].kind, Kind::Noise) << piece;
+    EXPECT_EQ(found[1].kind, Kind::Command) << piece;
+  }
+}
+
 RC_GTEST_PROP(Decoder, FindsTheSameHoweverTheBytesArrive, (bool to_ball)) {
   const auto bytes = *stream();
   const auto direction = to_ball ? Direction::ToBall : Direction::FromBall;
