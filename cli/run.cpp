@@ -5,6 +5,7 @@
 #include "cli/run_hints.h"
 #include "cli/run_inputs.h"
 #include "cli/svg.h"
+#include "cli/target.h"
 #include "cli/trace.h"
 #include "cli/values.h"
 #include "cli/watch.h"
@@ -37,7 +38,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::string input;
   bool disconnected = false;
-  std::string area = "ram";
+  TargetOptions target;
   std::string firmware = std::string(spec::info(spec::default_firmware).name);
   std::string stimulus;
   std::uint32_t lines_per_second =
@@ -355,7 +356,7 @@ std::string ending_words(std::string_view reason, Duration time, std::uint64_t l
 }
 
 /// Where a fault is in the user's file, and what the linter knows about that line.
-void print_fault(const Fault& fault, const ProgramFile& file) {
+void print_fault(const Fault& fault, const ProgramFile& file, const compiler::Target& target) {
   const auto& lines = file.program.lines;
   const auto line = std::find_if(lines.begin(), lines.end(), [&](const auto& candidate) {
     return candidate.number == static_cast<std::uint32_t>(fault.line) && candidate.has_statement();
@@ -368,7 +369,7 @@ void print_fault(const Fault& fault, const ProgramFile& file) {
   const auto span = file.program.statements[line->statement].span;
   const auto place = file.source.position(span.begin);
   print_err(fmt::format("{}:{}:{}: {}\n", file.source.name(), place.line, place.column, message));
-  const auto checked = compiler::check(file.source.text(), {});
+  const auto checked = compiler::check(file.source.text(), target);
   for (const auto& diagnostic : checked.diagnostics)
     if (diagnostic.rule->robot_error == spec::code(fault.code) &&
         file.source.position(diagnostic.span.begin).line == place.line) {
@@ -450,14 +451,15 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   ball_options.seed = options.seed;
   ball_options.lines_per_second = options.lines_per_second;
   ball_options.firmware = firmware->firmware;
-  ball_options.ram_bytes = firmware->ram_bytes;
+  ball_options.ram_bytes =
+      options.target.ram != 0 ? static_cast<std::size_t>(options.target.ram) : firmware->ram_bytes;
   ball_options.loader = compiler::load;
   ball_options.observer = &watcher;
   ball_options.trace_lines = options.trace_lines || watcher.journey;
   vm::Ball ball(ball_options);
   vm::BallTransport transport(ball);
   uploader::Session session(transport, {}, 0);
-  const auto area = options.area == "flash" ? vm::Area::Flash : vm::Area::Ram;
+  const auto area = options.target.area == "flash" ? vm::Area::Flash : vm::Area::Ram;
   if (auto done = upload_all(*inputs, area, session); !done)
     return done;
 
@@ -483,7 +485,7 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   watcher.trace.finish(lasted, reason, lines);
   for (const auto& fault : watcher.faults) {
     const bool first = fault.area == area || inputs->programs.size() < 2;
-    print_fault(fault, *inputs->programs[first ? 0 : 1]);
+    print_fault(fault, *inputs->programs[first ? 0 : 1], options.target.target());
   }
   watcher.ball = nullptr;
   const auto words = ending_words(reason, lasted, lines);
@@ -535,9 +537,7 @@ void add_run(CLI::App& app, Context& context) {
   command->add_option("--input", options->input,
                       "numbers for `input`, parted by commas; @stdin reads them as they are asked");
   command->add_flag("--disconnected", options->disconnected, "no client is connected");
-  command->add_option("--area", options->area, "where the program lies")
-      ->check(one_of({"ram", "flash"}))
-      ->capture_default_str();
+  add_target_options(*command, options->target);
   std::vector<std::string> names;
   for (const auto& row : spec::firmwares)
     names.emplace_back(row.name);

@@ -133,6 +133,8 @@ Route choose_route(const MacroJob& job) {
 }
 
 MacroKind natural_kind(const protocol::MacroImage& image) {
+  if (image.id == spec::macro_id_stream)
+    return MacroKind::Stream;
   if (spec::macro_id_kind(image.id) == spec::MacroIdKind::User)
     return MacroKind::User;
   return encode(image).size() <= spec::macro_buffer_planned ? MacroKind::Temporary
@@ -239,7 +241,7 @@ tl::expected<std::vector<Bytes>, PlanError> stream_pieces(const protocol::MacroI
       return tl::unexpected(PlanError{fmt::format(
           "the {} at offset {} takes {} bytes; a streamed piece holds {}", step.info->mnemonic,
           step.offset, step.size, stream_piece_most - header.size())});
-    ends = step.info->command == spec::MacroCommand::StreamEnd;
+    ends = ends || step.info->command == spec::MacroCommand::StreamEnd;
     add(ByteView(image.body).subspan(step.offset, step.size));
   }
   if (!ends)

@@ -111,7 +111,8 @@ std::size_t chunk_size(ByteView rest, std::uint8_t seq);
 tl::expected<std::vector<Bytes>, PlanError> stream_pieces(const protocol::MacroImage& image);
 
 /// The kind of macro that is meant where the user names none: a user macro where the image has a
-/// user id, else a temporary one, else, where it is too long for that, a stream.
+/// user id, a stream where it has the stream's, else a temporary one, else, where it is too long for
+/// that, a stream.
 MacroKind natural_kind(const protocol::MacroImage& image);
 
 } // namespace orb::uploader
