@@ -4,6 +4,7 @@
 #include "cli/knowledge_sections.h"
 #include "compiler/rules.h"
 #include "spec/basic.h"
+#include "vm/stimulus.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,13 @@ Section rules_section() {
 Section macro_rules_section() {
   Section section{"macro-rules", "Rules for macros", "macro rule", {}};
   for (const auto& rule : assembler::rules::all())
+    add(section, rule);
+  return section;
+}
+
+Section stimulus_rules_section() {
+  Section section{"stimulus-rules", "Rules for stimulus scripts", "stimulus rule", {}};
+  for (const auto& rule : vm::stimulus_rules())
     add(section, rule);
   return section;
 }

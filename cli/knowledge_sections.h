@@ -17,6 +17,7 @@ Section basic_flags_section();
 Section macro_commands_section();
 Section macro_flags_section();
 Section macro_rules_section();
+Section stimulus_rules_section();
 Section api_commands_section();
 Section api_messages_section();
 Section responses_section();
