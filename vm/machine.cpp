@@ -425,7 +425,9 @@ void Machine::run(Instant limit, Host& host) {
     const int line = single ? line_of(core_.pc) : 0;
     core_.allowed = core_.budget = single ? 1 : lines;
     const Exit exit = engine_.run(core_);
-    if (core_.pc->handler == engine_.handlers[static_cast<std::size_t>(Op::Skip)])
+    // A program that has ended may stand behind its last instruction.
+    const bool goes_on = exit == Exit::Budget || exit == Exit::Leave;
+    if (goes_on && core_.pc->handler == engine_.handlers[static_cast<std::size_t>(Op::Skip)])
       core_.pc = core_.pc->target();
 
     const std::int64_t executed = core_.allowed - core_.budget;

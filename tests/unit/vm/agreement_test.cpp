@@ -127,7 +127,8 @@ TEST(Agreement, RandomLinesRunFar) {
   std::uint64_t long_ones = 0;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     NotebookHost host;
-    PlainEvaluator plain(RandomLines(seed).write(), host, speed, seed);
+    const auto text = RandomLines(seed).write(); // the evaluator views it
+    PlainEvaluator plain(text, host, speed, seed);
     plain.run(most_lines);
     lines += plain.lines;
     long_ones += plain.lines >= 50 ? 1 : 0;
