@@ -103,11 +103,9 @@ struct LineName {
 
 /// The line number that `sleep` takes as its last argument, where it is written out; 0 is none.
 std::optional<LineName> sleep_target(const Program& program, const compiler::StatementNode& node) {
-  const auto items = program.items_of(node);
-  const auto last = spec::info(spec::Statement::Sleep).parameters().size();
-  if (node.kind != spec::Statement::Sleep || node.error || items.size() < last)
+  if (node.kind != spec::Statement::Sleep || node.error)
     return std::nullopt;
-  const auto& root = program.nodes[items[last - 1].value];
+  const auto& root = program.nodes[program.as<compiler::SleepView>(node).line.value];
   if (root.kind != NodeKind::Number || root.value <= 0)
     return std::nullopt;
   return LineName{static_cast<std::uint32_t>(root.value), root.span, true, false};

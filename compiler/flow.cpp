@@ -15,10 +15,7 @@ public:
       auto& code = flow_.code[i];
       code.jumps_begin = static_cast<std::uint32_t>(flow_.jumps.size());
       const auto& statement = program_.statements[code.statement];
-      bool falls = follow(statement);
-      if (statement.kind == spec::Statement::If && !statement.error)
-        falls = follow_branches(statement);
-      code.falls = falls;
+      code.falls = statement.then_branch != none ? follow_branches(statement) : follow(statement);
       code.jumps_end = static_cast<std::uint32_t>(flow_.jumps.size());
     }
     return std::move(flow_);
@@ -100,12 +97,11 @@ private:
   }
 
   void add_targets(const StatementNode& statement, bool call) {
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& item = program_.items[i];
+    for (const auto& item : program_.items_of(statement)) {
       if (item.kind != ItemKind::Target)
         continue;
       Flow::Jump jump;
-      jump.item = i;
+      jump.item = static_cast<std::uint32_t>(&item - program_.items.data());
       jump.call = call;
       if (const auto* number = flow_.find(item.value))
         jump.to = number->code;

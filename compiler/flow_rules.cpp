@@ -59,22 +59,20 @@ private:
   }
   std::uint32_t line_of(std::uint32_t code) const { return flow_.code[code].line; }
   std::uint32_t number_of(std::uint32_t code) const { return program_.lines[line_of(code)].number; }
-  const Item& item(const StatementNode& node, std::uint32_t n) const {
-    return program_.items[node.items_begin + n];
+  /// The variable of a `for`.
+  std::uint32_t counter_of(const StatementNode& node) const {
+    return variable_of(program_.as<ForView>(node).variable);
+  }
+  /// The variable of a `next`.
+  std::uint32_t stepped_by(const StatementNode& node) const {
+    return variable_of(program_.as<NextView>(node).variable);
   }
 
-  /// Calls `visit` with the statement of a line and those in its branches.
-  template <typename Visit>
-  void each_statement(std::uint32_t code, Visit visit) const {
-    const auto& whole = statement(code);
-    if (whole.error)
-      return;
-    visit(whole, false);
-    if (whole.kind != spec::Statement::If)
-      return;
-    visit(program_.statements[whole.then_branch], true);
-    if (whole.else_branch != none)
-      visit(program_.statements[whole.else_branch], true);
+  /// Whether the statement of a line, or one in its branches, is one that `test` holds for.
+  template <typename Test>
+  bool any_of_line(std::uint32_t code, Test test) const {
+    const auto whole = program_.whole(statement(code));
+    return std::any_of(whole.begin(), whole.end(), test);
   }
 
   void read_facts() {
@@ -82,9 +80,9 @@ private:
       if (node.error)
         continue;
       if (node.kind == spec::Statement::For)
-        loops_set_ |= std::uint32_t{1} << variable_of(item(node, 0));
+        loops_set_ |= std::uint32_t{1} << counter_of(node);
       else if (node.kind == spec::Statement::Next)
-        loops_stepped_ |= std::uint32_t{1} << variable_of(item(node, 0));
+        loops_stepped_ |= std::uint32_t{1} << stepped_by(node);
       else if (node.kind == spec::Statement::Return)
         has_return_ = true;
       else if (node.kind == spec::Statement::Delay || node.kind == spec::Statement::Input)
@@ -125,7 +123,7 @@ private:
     // A line that is named as a wake-up line is an entry of its own.
     for (const auto& node : program_.statements)
       if (!node.error && node.kind == spec::Statement::Sleep) {
-        const auto& root = program_.nodes[item(node, 2).value];
+        const auto& root = program_.nodes[program_.as<SleepView>(node).line.value];
         if (root.kind == NodeKind::Number && root.value > 0)
           if (const auto* number = flow_.find(static_cast<std::uint32_t>(root.value)))
             spread(number->code, reached_, true);
@@ -169,9 +167,8 @@ private:
       }
       innermost[i] = open.empty() ? none : open.back();
       if (!node.error && node.kind == spec::Statement::Next) {
-        const auto variable = variable_of(item(node, 0));
-        while (!open.empty() &&
-               variable_of(item(statement(pairs[open.back()].begin), 0)) != variable)
+        const auto variable = stepped_by(node);
+        while (!open.empty() && counter_of(statement(pairs[open.back()].begin)) != variable)
           open.pop_back();
         if (!open.empty()) {
           pairs[open.back()].end = i;
@@ -197,7 +194,7 @@ private:
     }
     for (const auto& node : program_.statements)
       if (!node.error && node.kind == spec::Statement::For) {
-        const auto variable = variable_of(item(node, 0));
+        const auto variable = counter_of(node);
         if ((loops_stepped_ >> variable & 1) == 0)
           findings_.add(rules::ForWithoutNext, line_of_span(node.span), node.span,
                         fmt::format("the loop has no `next {}`", name_of(variable)));
@@ -260,16 +257,14 @@ private:
       if (flow_.code[i].called)
         spread(i, inside, true);
     for (std::uint32_t i = 0; i < size_; ++i) {
-      bool loops = false;
-      if (inside[i] != 0)
-        each_statement(i, [&](const StatementNode& node, bool) {
-          loops = loops || node.error || node.kind == spec::Statement::For ||
-                  node.kind == spec::Statement::Next;
-        });
-      if (loops)
+      if (inside[i] != 0 && any_of_line(i, is_loop_part))
         return true;
     }
     return false;
+  }
+
+  static bool is_loop_part(const StatementNode& node) {
+    return !node.error && (node.kind == spec::Statement::For || node.kind == spec::Statement::Next);
   }
 
   /// The loops behind line `i`; `stops` where the line ends the program for certain.
@@ -277,19 +272,12 @@ private:
     const auto& node = statement(i);
     if (node.error)
       return loops;
-    if (node.kind == spec::Statement::If) {
-      bool touched = false;
-      each_statement(i, [&](const StatementNode& inner, bool in_branch) {
-        touched = touched ||
-                  (in_branch && !inner.error &&
-                   (inner.kind == spec::Statement::For || inner.kind == spec::Statement::Next));
-      });
-      return touched ? unknown() : loops;
-    }
+    if (node.kind == spec::Statement::If)
+      return any_of_line(i, is_loop_part) ? unknown() : loops;
     if (loops.state != Loops::State::Known)
       return loops;
     if (node.kind == spec::Statement::For) {
-      const auto variable = static_cast<std::uint8_t>(variable_of(item(node, 0)));
+      const auto variable = static_cast<std::uint8_t>(counter_of(node));
       if (loops.count > 0 && loops.variables[loops.count - 1] == variable)
         return loops; // the innermost loop is begun anew
       if (loops.count == loops.variables.size()) {
@@ -298,7 +286,7 @@ private:
       }
       loops.variables[loops.count++] = variable;
     } else if (node.kind == spec::Statement::Next) {
-      const auto variable = variable_of(item(node, 0));
+      const auto variable = stepped_by(node);
       if (loops.count == 0 || loops.variables[loops.count - 1] != variable) {
         stops = true;
         return loops;
@@ -310,12 +298,11 @@ private:
 
   void report_loops(std::uint32_t i, const Loops& loops) {
     const auto& node = statement(i);
-    if (node.error || (node.kind != spec::Statement::For && node.kind != spec::Statement::Next))
+    if (!is_loop_part(node))
       return;
-    const auto variable = variable_of(item(node, 0));
-    if (node.kind == spec::Statement::Next && (loops_set_ >> variable & 1) == 0) {
+    if (node.kind == spec::Statement::Next && (loops_set_ >> stepped_by(node) & 1) == 0) {
       findings_.add(rules::NextWithoutFor, line_of(i), node.span,
-                    fmt::format("there is no `for {}`", name_of(variable)));
+                    fmt::format("there is no `for {}`", name_of(stepped_by(node))));
       return;
     }
     bool stops = false;
@@ -355,15 +342,15 @@ private:
     for (std::uint32_t i = 0; i < size_; ++i) {
       if (main_[i] == 0)
         continue;
-      each_statement(i, [&](const StatementNode& node, bool) {
-        if (node.error || node.kind != spec::Statement::Return)
-          return;
+      for (const auto& node : program_.whole(statement(i))) {
+        if (!is_return(node))
+          continue;
         if (inside_[i] == 0)
           findings_.add(rules::ReturnWithoutGosub, line_of(i), node.span,
                         "no `gosub` leads to this `return`", "end the program with `end`");
         else
           falls_into = true;
-      });
+      }
     }
     if (!falls_into)
       return;
@@ -392,18 +379,16 @@ private:
                           "call it with `gosub`");
   }
 
+  static bool is_return(const StatementNode& node) {
+    return !node.error && node.kind == spec::Statement::Return;
+  }
+
   bool returns_from(std::uint32_t start) {
     std::vector<std::uint8_t> marks(size_, 0);
     spread(start, marks, false);
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      bool returns = false;
-      if (marks[i] != 0)
-        each_statement(i, [&](const StatementNode& node, bool) {
-          returns = returns || (!node.error && node.kind == spec::Statement::Return);
-        });
-      if (returns)
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (marks[i] != 0 && any_of_line(i, is_return))
         return true;
-    }
     return false;
   }
 
@@ -513,11 +498,9 @@ private:
         if (jump.call ? has_wait_ : (jump.to < first || jump.to > last))
           return true;
       }
-      bool stops = false;
-      each_statement(i, [&](const StatementNode& node, bool) {
-        stops = stops || node.error || stops_or_waits(node.kind) || reads_timer(node);
-      });
-      if (stops)
+      if (any_of_line(i, [&](const StatementNode& node) {
+            return node.error || stops_or_waits(node.kind) || reads_timer(node);
+          }))
         return true;
     }
     return false;
@@ -530,8 +513,7 @@ private:
   }
 
   bool reads_timer(const StatementNode& node) const {
-    for (auto i = node.items_begin; i < node.items_end; ++i) {
-      const auto& part = program_.items[i];
+    for (const auto& part : program_.items_of(node)) {
       if (part.kind != ItemKind::Expression && part.kind != ItemKind::Character)
         continue;
       for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)

@@ -544,23 +544,19 @@ private:
     }
     const auto items = program_.items_of(node);
     switch (node.kind) {
-    case Statement::Let: assign(items[0], items[1].value); return;
-    case Statement::If: decide(node, items); return;
-    case Statement::For: begin_loop(items); return;
-    case Statement::Next:
-      if (items[0].kind == ItemKind::Letter)
-        emit(Op::Next, static_cast<std::uint16_t>(items[0].value));
-      else
-        emit(Op::NextElement);
-      return;
-    case Statement::Goto: branch(Op::Goto, items[0].value); return;
-    case Statement::Gosub: branch(Op::Gosub, items[0].value); return;
+    case Statement::Let: assign(program_.as<LetView>(node)); return;
+    case Statement::If: decide(node); return;
+    case Statement::For: begin_loop(program_.as<ForView>(node)); return;
+    case Statement::Next: end_loop(program_.as<NextView>(node).variable); return;
+    case Statement::Goto: branch(Op::Goto, target_of(node)); return;
+    case Statement::Gosub: branch(Op::Gosub, target_of(node)); return;
     case Statement::Return: emit(Op::Return); return;
     case Statement::On:
-      choose(node.spelling == Spelling::OnGosub ? Op::OnGosub : Op::OnGoto, items);
+      choose(node.spelling == Spelling::OnGosub ? Op::OnGosub : Op::OnGoto,
+             program_.as<OnView>(node));
       return;
     case Statement::Print: print(items); return;
-    case Statement::Input: input(items); return;
+    case Statement::Input: input(program_.as<InputView>(node)); return;
     case Statement::Delay:
       if (const auto time = in_register(items[0].value))
         emit(Op::Delay, *time);
@@ -597,7 +593,9 @@ private:
       emit(Op::WriteSystem, static_cast<std::uint16_t>(variable.value), from);
   }
 
-  void assign(const Item& variable, std::uint32_t root) {
+  void assign(const LetView& let) {
+    const auto& variable = let.variable;
+    const auto root = let.expression.value;
     if (variable.kind == ItemKind::Letter) {
       into(root, static_cast<std::uint16_t>(variable.value), Ends::Line);
       return;
@@ -654,6 +652,20 @@ private:
     return node.kind == kind && !node.error ? &node : nullptr;
   }
 
+  static Relation relation_of(const Comparison& comparison) {
+    return static_cast<Relation>(comparison.relation.value);
+  }
+
+  /// The line number behind `goto` or `gosub`.
+  std::uint32_t target_of(const StatementNode& node) const {
+    return program_.as<BranchView>(node).target.value;
+  }
+
+  /// Whether it is a `goto` to a line that there is.
+  bool leads_to_line(const StatementNode& node) const {
+    return node.kind == Statement::Goto && !node.error && line_of_.contains(target_of(node));
+  }
+
   std::uint32_t following(std::uint32_t line) const {
     do
       ++line;
@@ -670,22 +682,22 @@ private:
     const auto* second = statement_at(following(line), Statement::Let);
     if (!first || !second)
       return false;
-    const auto y = program_.items_of(*first);
-    if (y[0].kind != ItemKind::Letter || y[0].value != bytecode::index_variable)
+    const auto y = program_.as<LetView>(*first);
+    if (y.variable.kind != ItemKind::Letter || y.variable.value != bytecode::index_variable)
       return false;
-    const auto z = program_.items_of(*second);
-    const bool loads =
-        z[0].kind == ItemKind::Letter && program_.nodes[z[1].value].kind == NodeKind::Indexed;
-    const bool stores = z[0].kind == ItemKind::Indexed && leaf(z[1].value);
+    const auto z = program_.as<LetView>(*second);
+    const bool loads = z.variable.kind == ItemKind::Letter &&
+                       program_.nodes[z.expression.value].kind == NodeKind::Indexed;
+    const bool stores = z.variable.kind == ItemKind::Indexed && leaf(z.expression.value);
     if (!loads && !stores)
       return false;
-    const auto index = sum(y[1].value);
+    const auto index = sum(y.expression.value);
     if (!index)
       return false;
     if (loads)
-      emit(Op::IndexLoad, static_cast<std::uint16_t>(z[0].value), index->b, index->c);
+      emit(Op::IndexLoad, static_cast<std::uint16_t>(z.variable.value), index->b, index->c);
     else
-      emit(Op::IndexStore, *leaf(z[1].value), index->b, index->c);
+      emit(Op::IndexStore, *leaf(z.expression.value), index->b, index->c);
     return true;
   }
 
@@ -696,22 +708,21 @@ private:
     if (!first || !second || second->else_branch != none)
       return false;
     const auto& then = program_.statements[second->then_branch];
-    const auto count = program_.items_of(*first);
-    const auto test_items = program_.items_of(*second);
-    if (count[0].kind != ItemKind::Letter || test_items.size() != 3 || then.error ||
-        then.kind != Statement::Goto || !line_of_.contains(program_.items_of(then)[0].value))
+    const auto count = program_.as<LetView>(*first);
+    const auto condition = program_.as<IfView>(*second);
+    if (count.variable.kind != ItemKind::Letter || condition.second || !leads_to_line(then))
       return false;
-    const auto left = leaf(test_items[0].value);
-    const auto right = leaf(test_items[2].value);
+    const auto left = leaf(condition.first.left.value);
+    const auto right = leaf(condition.first.right.value);
     if (!left || !right)
       return false;
-    const auto value = sum(count[1].value);
+    const auto value = sum(count.expression.value);
     if (!value)
       return false;
     const auto at =
-        emit(test(static_cast<Relation>(test_items[1].value), Then::AddGoto),
-             static_cast<std::uint16_t>(count[0].value), value->b, value->c, *left, *right);
-    lead_to(at, program_.items_of(then)[0].value);
+        emit(test(relation_of(condition.first), Then::AddGoto),
+             static_cast<std::uint16_t>(count.variable.value), value->b, value->c, *left, *right);
+    lead_to(at, target_of(then));
     return true;
   }
 
@@ -720,7 +731,7 @@ private:
     const auto* next = statement_at(following(line), Statement::Next);
     if (!next || !statement_at(line, Statement::Let))
       return;
-    const auto variable = program_.items_of(*next)[0];
+    const auto& variable = program_.as<NextView>(*next).variable;
     const auto joined = with_next(chunk_.code.back().op);
     if (variable.kind != ItemKind::Letter || !joined)
       return;
@@ -766,16 +777,17 @@ private:
     if (then.kind != Statement::Let || then.error || otherwise.kind != Statement::Let ||
         otherwise.error)
       return false;
-    const auto x = program_.items_of(then);
-    const auto y = program_.items_of(otherwise);
-    if (x[0].kind != ItemKind::Letter || y[0].kind != ItemKind::Letter ||
-        x[0].value != y[0].value || !harmless(x[1].value) || !harmless(y[1].value))
+    const auto x = program_.as<LetView>(then);
+    const auto y = program_.as<LetView>(otherwise);
+    if (x.variable.kind != ItemKind::Letter || y.variable.kind != ItemKind::Letter ||
+        x.variable.value != y.variable.value || !harmless(x.expression.value) ||
+        !harmless(y.expression.value))
       return false;
     const std::uint16_t pair = temporary();
     const std::uint16_t second = temporary();
-    into(x[1].value, pair, Ends::Value);
-    into(y[1].value, second, Ends::Value);
-    const auto to = static_cast<std::uint16_t>(x[0].value);
+    into(x.expression.value, pair, Ends::Value);
+    into(y.expression.value, second, Ends::Value);
+    const auto to = static_cast<std::uint16_t>(x.variable.value);
     const std::uint16_t right = stack_[1].x;
     const Value left = stack_[0];
     const auto fused = fused_test(left, relation, Then::Select);
@@ -794,33 +806,32 @@ private:
       chunk_.code[at] = {Op::Trap, spec::code(BasicError::BadLineNumber), 0, 0, 0, 0, 0};
   }
 
-  void choose(Op op, std::span<const Item> items) {
-    const auto index = in_register(items[0].value);
+  void choose(Op op, const OnView& on) {
+    const auto index = in_register(on.selector.value);
     if (!index)
       return;
-    const auto targets = items.subspan(1);
-    emit(op, *index, static_cast<std::uint16_t>(targets.size()));
-    for (const auto& target : targets) {
+    emit(op, *index, static_cast<std::uint16_t>(on.targets.size()));
+    for (const auto& target : on.targets) {
       const std::uint32_t row = emit(Op::Target);
       if (!lead_to(row, target.value))
         chunk_.code[row].a = spec::code(BasicError::BadLineNumber);
     }
   }
 
-  void begin_loop(std::span<const Item> items) {
+  void begin_loop(const ForView& loop) {
     const auto step_of = [&]() -> std::optional<std::uint16_t> {
-      return items.size() > 3 ? in_register(items[3].value) : constant(1);
+      return loop.step != nullptr ? in_register(loop.step->value) : constant(1);
     };
-    const auto start = in_register(items[1].value);
+    const auto start = in_register(loop.start.value);
     if (!start)
       return;
-    const bool letter = items[0].kind == ItemKind::Letter;
-    const auto variable = static_cast<std::uint16_t>(items[0].value);
+    const bool letter = loop.variable.kind == ItemKind::Letter;
+    const auto variable = static_cast<std::uint16_t>(loop.variable.value);
     const bool simple =
-        letter && leaf(items[2].value) && (items.size() <= 3 || leaf(items[3].value));
+        letter && leaf(loop.end.value) && (loop.step == nullptr || leaf(loop.step->value));
     if (!simple) // the start is assigned before end and step are evaluated
-      store(items[0], *start);
-    const auto end = in_register(items[2].value);
+      store(loop.variable, *start);
+    const auto end = in_register(loop.end.value);
     const auto step = end ? step_of() : std::nullopt;
     if (!step)
       return;
@@ -830,22 +841,29 @@ private:
       emit(Op::ForElement, 0, *end, *step);
   }
 
-  void decide(const StatementNode& node, std::span<const Item> items) {
+  void end_loop(const Item& variable) {
+    if (variable.kind == ItemKind::Letter)
+      emit(Op::Next, static_cast<std::uint16_t>(variable.value));
+    else
+      emit(Op::NextElement);
+  }
+
+  void decide(const StatementNode& node) {
+    const auto condition = program_.as<IfView>(node);
     const auto& then = program_.statements[node.then_branch];
     const bool has_else = node.else_branch != none;
     const auto kind = has_else ? Then::Unless : Then::If;
     std::uint32_t at = 0;
-    if (items.size() == 3) {
-      if (!expression(items[0].value) || !expression(items[2].value))
+    if (!condition.second) {
+      if (!expression(condition.first.left.value) || !expression(condition.first.right.value))
         return;
-      const auto relation = static_cast<Relation>(items[1].value);
+      const auto relation = relation_of(condition.first);
       materialize(1);
       if (select(node, relation))
         return;
       const std::uint16_t right = stack_[1].x;
       // `then goto` is part of the test where nothing else remains to be done.
-      const bool jumps = !has_else && then.kind == Statement::Goto && !then.error &&
-                         line_of_.contains(program_.items_of(then)[0].value);
+      const bool jumps = !has_else && leads_to_line(then);
       const auto shape = jumps ? Then::Goto : kind;
       const Value left = stack_[0];
       const auto fused = fused_test(left, relation, shape);
@@ -857,21 +875,22 @@ private:
         at = emit(test(relation, shape), x, right);
       }
       if (jumps) {
-        lead_to(at, program_.items_of(then)[0].value);
+        lead_to(at, target_of(then));
         return;
       }
     } else {
       // Both relations are evaluated.
       std::array<std::uint16_t, 4> values{};
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto value = in_register_apart(items[i * 2].value);
+      const std::array operands{&condition.first.left, &condition.first.right,
+                                &condition.second->left, &condition.second->right};
+      for (std::size_t i = 0; i < operands.size(); ++i) {
+        const auto value = in_register_apart(operands[i]->value);
         if (!value)
           return;
         values[i] = *value;
       }
-      const auto glue = items[3].kind == ItemKind::And ? Glue::And : Glue::Or;
-      at = emit(two_tests(glue, static_cast<Relation>(items[1].value),
-                          static_cast<Relation>(items[5].value), kind),
+      const auto glue = condition.joint->kind == ItemKind::And ? Glue::And : Glue::Or;
+      at = emit(two_tests(glue, relation_of(condition.first), relation_of(*condition.second), kind),
                 values[0], values[1], values[2], values[3]);
     }
     statement(then);
@@ -929,16 +948,16 @@ private:
     emit(open ? Op::PrintOpen : Op::PrintLine);
   }
 
-  void input(std::span<const Item> items) {
-    const auto variable = items[0].kind == ItemKind::Letter
-                              ? static_cast<std::uint16_t>(items[0].value)
+  void input(const InputView& input) {
+    const auto variable = input.variable.kind == ItemKind::Letter
+                              ? static_cast<std::uint16_t>(input.variable.value)
                               : bytecode::element_by_index;
-    if (items.size() == 1) {
+    if (input.milliseconds == nullptr) {
       emit(Op::Input, variable);
       return;
     }
-    const auto time = in_register_apart(items[1].value);
-    const auto fallback = time ? in_register_apart(items[2].value) : std::nullopt;
+    const auto time = in_register_apart(input.milliseconds->value);
+    const auto fallback = time ? in_register_apart(input.fallback->value) : std::nullopt;
     if (fallback)
       emit(Op::InputTimed, variable, *time, *fallback);
   }

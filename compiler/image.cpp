@@ -12,7 +12,7 @@ namespace {
 Span let_span(const Program& program, const StatementNode& statement) {
   if (statement.error || statement.spelling != Spelling::Let)
     return {};
-  return {statement.word.begin, program.items[statement.items_begin].span.begin};
+  return {statement.word.begin, program.as<LetView>(statement).variable.span.begin};
 }
 
 /// Copies source text; a tab outside of strings becomes a blank.
@@ -33,12 +33,8 @@ void copy_statement(std::string& out, const Program& program, const StatementNod
     copy(out, program.text.substr(at, span.begin - at));
     at = span.end;
   };
-  skip(let_span(program, statement));
-  if (!statement.error && statement.kind == spec::Statement::If) {
-    skip(let_span(program, program.statements[statement.then_branch]));
-    if (statement.else_branch != none)
-      skip(let_span(program, program.statements[statement.else_branch]));
-  }
+  for (const auto& part : program.whole(statement))
+    skip(let_span(program, part));
   copy(out, program.text.substr(at, statement.span.end - at));
 }
 
@@ -84,12 +80,8 @@ std::size_t image_size(const Program& program, std::uint32_t index) {
   std::size_t size = statement.span.size() + 1;
   if (line.number_span.size() > 0)
     size += line.number_span.size() + 1;
-  size -= let_span(program, statement).size();
-  if (!statement.error && statement.kind == spec::Statement::If) {
-    size -= let_span(program, program.statements[statement.then_branch]).size();
-    if (statement.else_branch != none)
-      size -= let_span(program, program.statements[statement.else_branch]).size();
-  }
+  for (const auto& part : program.whole(statement))
+    size -= let_span(program, part).size();
   return size;
 }
 

@@ -60,7 +60,7 @@ bool has_unusual_byte(std::string_view text) {
 
 /// How a letter gets its values, over the whole program.
 struct Letter {
-  std::uint32_t first_set = none;  ///< statement
+  const Item* first_set = nullptr; ///< null where nothing sets it
   std::uint32_t first_used = none; ///< node
   std::uint32_t set_line = none;
   std::uint32_t used_line = none;
@@ -349,26 +349,20 @@ private:
 
   void collect_letters() {
     for (const auto& code : flow_.code) {
-      const auto& statement = program_.statements[code.statement];
-      collect_set(statement, code.line);
-      if (statement.kind == spec::Statement::If && !statement.error) {
-        collect_set(program_.statements[statement.then_branch], code.line);
-        if (statement.else_branch != none)
-          collect_set(program_.statements[statement.else_branch], code.line);
-      }
+      for (const auto& statement : program_.whole(program_.statements[code.statement]))
+        collect_set(statement, code.line);
     }
   }
 
   void collect_set(const StatementNode& statement, std::uint32_t line) {
     if (statement.error)
       return;
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& item = program_.items[i];
+    for (const auto& item : program_.items_of(statement)) {
       if (item.kind != ItemKind::Letter || statement.kind == spec::Statement::Next)
         continue;
       auto& letter = letters_[item.value];
-      if (letter.first_set == none) {
-        letter.first_set = i;
+      if (letter.first_set == nullptr) {
+        letter.first_set = &item;
         letter.set_line = line;
       }
       (statement.kind == spec::Statement::For ? letter.counted : letter.assigned) = true;
@@ -380,9 +374,9 @@ private:
     for (std::uint32_t i = 0; i < letters && !silent; ++i) {
       const auto& letter = letters_[i];
       const bool used = letter.first_used != none;
-      const bool set = letter.first_set != none;
+      const bool set = letter.first_set != nullptr;
       if (set && !used && !letter.counted && !(i == index_letter && indexed_used_)) {
-        findings_.add(rules::UnusedVariable, letter.set_line, program_.items[letter.first_set].span,
+        findings_.add(rules::UnusedVariable, letter.set_line, letter.first_set->span,
                       fmt::format("`{}` is set but never used", letter_name(i)));
       } else if (used && !set) {
         findings_.add(rules::NeverAssigned, letter.used_line,
@@ -396,7 +390,7 @@ private:
 
   /// What is known about a letter at the start of a block, and until it is set within it.
   Range unknown_letter(std::uint32_t index) const {
-    return letters_[index].first_set == none ? Range::only(0) : Range{};
+    return letters_[index].first_set == nullptr ? Range::only(0) : Range{};
   }
 
   Range value_of_letter(std::uint32_t index) const {
@@ -506,12 +500,6 @@ private:
                               spec::info(since).text, spec::info(target_.version).text));
   }
 
-  const Item& item(const StatementNode& statement, std::uint32_t n) const {
-    return program_.items[statement.items_begin + n];
-  }
-  static std::uint32_t size(const StatementNode& statement) {
-    return statement.items_end - statement.items_begin;
-  }
   Range range_of(const Item& expression) const { return ranges_[expression.value]; }
 
   void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter) {
@@ -527,22 +515,23 @@ private:
   void check_arguments(const StatementNode& statement) {
     const auto& row = spec::info(statement.kind);
     const auto parameters = row.parameters();
-    for (std::uint32_t i = 0; i < size(statement); ++i)
-      check_range(item(statement, i), row.word, parameters[i]);
-    if (statement.kind == spec::Statement::Goroll && size(statement) == 2)
-      add_two_values(statement);
+    const auto arguments = program_.items_of(statement);
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+      check_range(arguments[i], row.word, parameters[i]);
+    if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size())
+      add_missing_go(statement, arguments.back());
     if (statement.kind == spec::Statement::Basflg)
-      check_flags(item(statement, 0));
+      check_flags(arguments.front());
     if (statement.kind == spec::Statement::Sleep)
-      check_sleep(item(statement, 2));
+      check_sleep(program_.as<SleepView>(statement).line);
   }
 
-  void add_two_values(const StatementNode& statement) {
-    const auto speed = range_of(item(statement, 1));
+  void add_missing_go(const StatementNode& statement, const Item& last) {
+    const auto speed = range_of(last);
     auto& d =
         findings_.add(rules::MissingGo, line_, statement.span, "`goroll` takes 3 values, found 2",
                       "add the go value: 1 drives, 0 brakes");
-    const auto end = item(statement, 1).span.end;
+    const auto end = last.span.end;
     if (speed.constant())
       d.fix =
           single_fix("add the go value", {end, end}, speed.lo > 0 ? ",1" : ",0", Safety::Unsafe);
@@ -576,13 +565,12 @@ private:
   }
 
   void check_let(const StatementNode& statement) {
+    const auto& [variable, value] = program_.as<LetView>(statement);
     if (statement.spelling == Spelling::Let) {
       auto& d = findings_.add(rules::UndocumentedLet, line_, statement.word,
                               "`let` is in no document", "leave it out");
-      d.fix = single_fix("remove `let`", {statement.word.begin, item(statement, 0).span.begin}, "");
+      d.fix = single_fix("remove `let`", {statement.word.begin, variable.span.begin}, "");
     }
-    const auto& variable = item(statement, 0);
-    const auto& value = item(statement, 1);
     if (variable.kind == ItemKind::Letter) {
       set_letter(variable.value, range_of(value));
     } else if (variable.kind == ItemKind::Indexed) {
@@ -594,20 +582,20 @@ private:
   }
 
   void check_for(const StatementNode& statement) {
-    const auto& variable = item(statement, 0);
-    const auto start = range_of(item(statement, 1));
-    const auto end = range_of(item(statement, 2));
-    const auto step = size(statement) > 3 ? range_of(item(statement, 3)) : Range::only(1);
+    const auto loop = program_.as<ForView>(statement);
+    const auto& variable = loop.variable;
+    const auto start = range_of(loop.start);
+    const auto end = range_of(loop.end);
+    const auto step = loop.step != nullptr ? range_of(*loop.step) : Range::only(1);
     if (step == Range::only(0))
-      findings_.add(rules::ZeroStep, line_, item(statement, 3).span, "the step of the loop is 0");
+      findings_.add(rules::ZeroStep, line_, loop.step->span, "the step of the loop is 0");
     const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
     if (away) {
-      auto& d = findings_.add(
-          rules::LoopRunsOnce, line_,
-          {item(statement, 1).span.begin, program_.items[statement.items_end - 1].span.end},
-          fmt::format("the loop counts from {} away from {}, so it runs once", shown(start),
-                      shown(end)));
-      if (size(statement) == 3)
+      auto& d =
+          findings_.add(rules::LoopRunsOnce, line_, {loop.start.span.begin, loop.last().span.end},
+                        fmt::format("the loop counts from {} away from {}, so it runs once",
+                                    shown(start), shown(end)));
+      if (loop.step == nullptr)
         d.help = "to count down write `step -1`";
     }
     if (variable.kind == ItemKind::Indexed) {
@@ -625,8 +613,7 @@ private:
 
   /// A variable gets a value that is not known.
   void forget(const StatementNode& statement) {
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& variable = program_.items[i];
+    for (const auto& variable : program_.items_of(statement)) {
       if (variable.kind == ItemKind::Letter)
         set_letter(variable.value, {});
       else if (variable.kind == ItemKind::Indexed)
@@ -642,7 +629,7 @@ private:
     if (range.misses(1, most)) {
       findings_.add(
           rules::IndexRange, line_, span,
-          index.first_set == none
+          index.first_set == nullptr
               ? "`Z` is used, but `Y` is never set and 0 names no element"
               : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
     } else if (index.set_line > line_ && !before_y_) {
@@ -653,8 +640,7 @@ private:
   }
 
   void check_targets(const StatementNode& statement) {
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& target = program_.items[i];
+    for (const auto& target : program_.items_of(statement)) {
       if (target.kind != ItemKind::Target)
         continue;
       const auto* number = flow_.find(target.value);
@@ -681,8 +667,8 @@ private:
 
   void check_on(const StatementNode& statement) {
     check_targets(statement);
-    const auto& selector = item(statement, 0);
-    const auto count = static_cast<std::int32_t>(size(statement)) - 1;
+    const auto& [selector, targets] = program_.as<OnView>(statement);
+    const auto count = static_cast<std::int32_t>(targets.size());
     const auto range = range_of(selector);
     if (range.misses(1, count))
       findings_.add(rules::SelectorRange, line_, selector.span,
@@ -693,8 +679,9 @@ private:
   void check_print(const StatementNode& statement) {
     std::uint64_t least = 0;
     std::uint64_t most = 0;
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& part = program_.items[i];
+    const auto items = program_.items_of(statement);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const auto& part = items[i];
       if (part.kind == ItemKind::String) {
         least += part.span.size() - 2;
         most += part.span.size() - 2;
@@ -703,8 +690,8 @@ private:
         least += digits.least;
         most += digits.most;
       } else if (part.kind == ItemKind::Semicolon) {
-        if (i + 1 < statement.items_end)
-          add_semicolon(part, program_.items[i + 1]);
+        if (i + 1 < items.size())
+          add_semicolon(part, items[i + 1]);
       } else {
         ++least;
         ++most;
@@ -732,24 +719,25 @@ private:
   void check_input(const StatementNode& statement) {
     forget(statement);
     read_flags_ = 0;
-    if (size(statement) > 1)
-      check_range(item(statement, 1), spec::info(statement.kind).word,
+    if (const auto* milliseconds = program_.as<InputView>(statement).milliseconds)
+      check_range(*milliseconds, spec::info(statement.kind).word,
                   spec::info(statement.kind).parameters()[0]);
   }
 
   void check_data(const StatementNode& statement) {
-    const auto count = size(statement);
+    const auto values = program_.items_of(statement);
+    const auto count = static_cast<std::uint32_t>(values.size());
     const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues));
     if (count > most)
-      findings_.add(rules::TooManyDataValues, line_, item(statement, most).span,
+      findings_.add(rules::TooManyDataValues, line_, values[most].span,
                     fmt::format("the line holds {} values; the robot ignores those after the {}th",
                                 count, most));
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto& root = program_.nodes[item(statement, i).value];
-      const bool negative = root.kind == NodeKind::Negate &&
-                            program_.nodes[item(statement, i).value - 1].kind == NodeKind::Number;
+    for (const auto& value : values) {
+      const auto& root = program_.nodes[value.value];
+      const bool negative =
+          root.kind == NodeKind::Negate && program_.nodes[value.value - 1].kind == NodeKind::Number;
       if (root.kind != NodeKind::Number && !negative) {
-        findings_.add(rules::DataExpression, line_, item(statement, i).span,
+        findings_.add(rules::DataExpression, line_, value.span,
                       "a `data` value is a plain number in the documents");
         break;
       }
@@ -770,11 +758,11 @@ private:
   void check_read(const StatementNode& statement) {
     forget(statement);
     data_unread_ = none;
-    if (size(statement) > 1)
+    const auto count = program_.items_of(statement).size();
+    if (count > 1)
       findings_.add(rules::ReadSeveral, line_, statement.span,
                     "some firmware reads one variable in a `read`",
                     "write one `read` for each variable");
-    const auto count = size(statement);
     if (conditional_) {
       data_left_ = unknown_data;
       return;
@@ -792,7 +780,7 @@ private:
       data_left_ = unknown_data;
       return;
     }
-    data_left_ -= count;
+    data_left_ -= static_cast<std::uint32_t>(count);
   }
 
   bool has_data() {
@@ -812,22 +800,25 @@ private:
     if (statement.word.size() > 0 && statement.spelling != Spelling::QuestionMark)
       check_gap_after(statement.word.end, statement.span.end, spec::info(statement.kind).word);
     if (statement.kind == spec::Statement::For) {
-      check_gap(item(statement, 1).span.end, item(statement, 2).span.begin, "to");
-      if (size(statement) > 3)
-        check_gap(item(statement, 2).span.end, item(statement, 3).span.begin, "step");
+      const auto loop = program_.as<ForView>(statement);
+      check_gap(loop.start.span.end, loop.end.span.begin, "to");
+      if (loop.step != nullptr)
+        check_gap(loop.end.span.end, loop.step->span.begin, "step");
     } else if (statement.kind == spec::Statement::If) {
-      for (auto i = statement.items_begin + 3; i < statement.items_end; i += 4)
-        check_gap(program_.items[i - 1].span.end, program_.items[i + 1].span.begin,
-                  program_.items[i].kind == ItemKind::And ? "and" : "or");
+      const auto condition = program_.as<IfView>(statement);
+      if (condition.second)
+        check_gap(condition.first.right.span.end, condition.second->left.span.begin,
+                  condition.joint->kind == ItemKind::And ? "and" : "or");
       // A branch without text has no side that a blank could stand on.
       const auto& then = program_.statements[statement.then_branch].span;
       if (then.size() > 0)
-        check_gap(program_.items[statement.items_end - 1].span.end, then.begin, "then");
+        check_gap(condition.last().right.span.end, then.begin, "then");
       if (then.size() > 0 && statement.else_branch != none &&
           program_.statements[statement.else_branch].span.size() > 0)
         check_gap(then.end, program_.statements[statement.else_branch].span.begin, "else");
     } else if (statement.kind == spec::Statement::On) {
-      check_gap(item(statement, 0).span.end, item(statement, 1).span.begin,
+      const auto& [selector, targets] = program_.as<OnView>(statement);
+      check_gap(selector.span.end, targets.front().span.begin,
                 statement.spelling == Spelling::OnGosub ? "gosub" : "goto");
     }
   }
@@ -851,14 +842,14 @@ private:
 
   /// Goes through the nodes of a statement in the order in which they are computed.
   void evaluate(const StatementNode& statement) {
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& part = program_.items[i];
+    const auto* step =
+        statement.kind == spec::Statement::For ? program_.as<ForView>(statement).step : nullptr;
+    for (const auto& part : program_.items_of(statement)) {
       if (part.kind != ItemKind::Expression && part.kind != ItemKind::Character)
         continue;
-      const bool after_step =
-          statement.kind == spec::Statement::For && i == statement.items_begin + 3;
+      const auto sign_allowed_at = &part == step ? part.span.begin : none;
       for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
-        ranges_[n] = evaluate(n, after_step ? part.span.begin : none);
+        ranges_[n] = evaluate(n, sign_allowed_at);
     }
   }
 

@@ -4,6 +4,7 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -59,35 +60,23 @@ private:
     }
     put_word(statement);
     switch (spec::info(statement.kind).form) {
-    case spec::Form::Assignment:
-      put_item(item(statement, 0));
-      put_sign("=");
-      put_item(item(statement, 1));
-      break;
+    case spec::Form::Assignment: put_assignment(program_.as<LetView>(statement)); break;
     case spec::Form::Conditional: put_conditional(statement); break;
-    case spec::Form::Loop:
-      put_item(item(statement, 0));
-      put_sign("=");
-      put_item(item(statement, 1));
-      put_sign("to");
-      put_item(item(statement, 2));
-      if (statement.items_end - statement.items_begin > 3) {
-        put_sign("step");
-        put_item(item(statement, 3));
-      }
-      break;
-    case spec::Form::IndexedBranch:
-      put_item(item(statement, 0));
+    case spec::Form::Loop: put_loop(program_.as<ForView>(statement)); break;
+    case spec::Form::IndexedBranch: {
+      const auto on = program_.as<OnView>(statement);
+      put_item(on.selector);
       put_sign(statement.spelling == Spelling::OnGosub ? "gosub" : "goto");
-      put_list(statement, 1);
+      put_list(on.targets);
       break;
+    }
     case spec::Form::Output: put_output(statement); break;
     case spec::Form::LoopEnd:
     case spec::Form::Branch:
     case spec::Form::Entry:
     case spec::Form::Values:
     case spec::Form::Variables:
-    case spec::Form::Arguments: put_list(statement, 0); break;
+    case spec::Form::Arguments: put_list(program_.items_of(statement)); break;
     }
   }
 
@@ -100,10 +89,6 @@ private:
     blank();
   }
 
-  const Item& item(const StatementNode& statement, std::uint32_t n) const {
-    return program_.items[statement.items_begin + n];
-  }
-
   /// A sign or a word with a blank on both sides.
   void put_sign(std::string_view sign) {
     blank();
@@ -111,17 +96,34 @@ private:
     blank();
   }
 
-  void put_list(const StatementNode& statement, std::uint32_t from) {
-    for (auto i = statement.items_begin + from; i < statement.items_end; ++i) {
-      if (i > statement.items_begin + from)
+  void put_list(std::span<const Item> items) {
+    for (const auto& part : items) {
+      if (&part != items.data())
         put(",");
-      put_item(program_.items[i]);
+      put_item(part);
     }
   }
 
+  void put_assignment(const LetView& let) {
+    put_item(let.variable);
+    put_sign("=");
+    put_item(let.expression);
+  }
+
+  void put_loop(const ForView& loop) {
+    put_item(loop.variable);
+    put_sign("=");
+    put_item(loop.start);
+    put_sign("to");
+    put_item(loop.end);
+    if (loop.step == nullptr)
+      return;
+    put_sign("step");
+    put_item(*loop.step);
+  }
+
   void put_conditional(const StatementNode& statement) {
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& part = program_.items[i];
+    for (const auto& part : program_.items_of(statement)) {
       if (part.kind == ItemKind::Expression)
         put_item(part);
       else
@@ -136,10 +138,10 @@ private:
   }
 
   void put_output(const StatementNode& statement) {
-    for (auto i = statement.items_begin; i < statement.items_end; ++i) {
-      const auto& part = program_.items[i];
+    const auto items = program_.items_of(statement);
+    for (const auto& part : items) {
       const bool sign = part.kind == ItemKind::Comma || part.kind == ItemKind::Semicolon;
-      if (sign && i > statement.items_begin)
+      if (sign && &part != items.data())
         blank_wanted_ = false;
       put_item(part);
       blank();
@@ -230,8 +232,8 @@ private:
            program_.text[node(index).span.begin] == '-';
   }
 
-  /// Whether the parentheses follow a function's word and hold more than one operand. That a function
-  /// takes the whole expression is a decision, not a document, so these stay.
+  /// Whether the parentheses follow a function's word and hold more than one operand. That a
+  /// function takes the whole expression is a decision, not a document, so these stay.
   bool bounds_operand(std::uint32_t index) const {
     if (node(inside(index)).kind != NodeKind::Binary)
       return false;

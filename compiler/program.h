@@ -6,6 +6,8 @@
 #include "base/source.h"
 #include "spec/basic.h"
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -56,12 +58,9 @@ enum class ItemKind : std::uint8_t {
   Or,
 };
 
-/// A part of a statement, in the order of the text:
-///   Let [variable, Expression] · If [Expression, Relation, Expression] and again behind And or Or
-///   · For [variable, Expression start, Expression end, Expression step where given] · Next
-///   [variable] · Goto, Gosub [Target] · On [Expression, Target…] · Print [Expression, Character,
-///   String, Comma, Semicolon…] · Input [variable] or [variable, Expression, Expression] · Read
-///   [variable…] · all others [Expression…].
+/// A part of a statement, in the order of the text. Which part means what is said by the views
+/// below. Print holds [Expression, Character, String, Comma, Semicolon…], Read [variable…], Data
+/// and all others [Expression…].
 struct Item {
   ItemKind kind = ItemKind::Expression;
   std::uint32_t value = 0;
@@ -88,6 +87,99 @@ struct StatementNode {
   std::uint32_t else_branch = none; ///< If: a statement, or none
   Span word;                        ///< the statement's word; empty for `v = e`
   Span span;
+};
+
+// The parts of a statement by their names: `program.as<ForView>(statement)`, asked only of a
+// statement of that form which has no error. A view refers to the program and is made where it is
+// needed.
+
+struct LetView {
+  static constexpr auto form = spec::Form::Assignment;
+  const Item& variable;
+  const Item& expression;
+
+  explicit LetView(std::span<const Item> items) : variable(items[0]), expression(items[1]) {}
+};
+
+struct Comparison {
+  const Item& left;
+  const Item& relation;
+  const Item& right;
+
+  explicit Comparison(std::span<const Item> items)
+      : left(items[0]), relation(items[1]), right(items[2]) {}
+};
+
+struct IfView {
+  static constexpr auto form = spec::Form::Conditional;
+  Comparison first;
+  const Item* joint = nullptr; ///< And or Or; null where there is one comparison
+  std::optional<Comparison> second;
+
+  explicit IfView(std::span<const Item> items) : first(items.first(3)) {
+    if (items.size() == 3)
+      return;
+    joint = &items[3];
+    second.emplace(items.subspan(4));
+  }
+  const Comparison& last() const { return second ? *second : first; }
+};
+
+struct ForView {
+  static constexpr auto form = spec::Form::Loop;
+  const Item& variable;
+  const Item& start;
+  const Item& end;
+  const Item* step; ///< null where none is written
+
+  explicit ForView(std::span<const Item> items)
+      : variable(items[0]), start(items[1]), end(items[2]),
+        step(items.size() > 3 ? &items[3] : nullptr) {}
+  const Item& last() const { return step != nullptr ? *step : end; }
+};
+
+struct NextView {
+  static constexpr auto form = spec::Form::LoopEnd;
+  const Item& variable;
+
+  explicit NextView(std::span<const Item> items) : variable(items[0]) {}
+};
+
+/// `goto` and `gosub`.
+struct BranchView {
+  static constexpr auto form = spec::Form::Branch;
+  const Item& target;
+
+  explicit BranchView(std::span<const Item> items) : target(items[0]) {}
+};
+
+struct OnView {
+  static constexpr auto form = spec::Form::IndexedBranch;
+  const Item& selector;
+  std::span<const Item> targets;
+
+  explicit OnView(std::span<const Item> items) : selector(items[0]), targets(items.subspan(1)) {}
+};
+
+struct InputView {
+  static constexpr auto form = spec::Form::Entry;
+  const Item& variable;
+  const Item* milliseconds; ///< null, like the next one, where the statement waits without bound
+  const Item* fallback;
+
+  explicit InputView(std::span<const Item> items)
+      : variable(items[0]), milliseconds(items.size() > 1 ? &items[1] : nullptr),
+        fallback(items.size() > 2 ? &items[2] : nullptr) {}
+};
+
+struct SleepView {
+  static constexpr auto form = spec::Form::Arguments;
+  const Item& seconds;
+  const Item& macro;
+  const Item& line;
+
+  explicit SleepView(std::span<const Item> items)
+      : seconds(items[0]), macro(items[1]), line(items[2]) {}
 };
 
 /// One line of the text. Blank lines and lines that hold only a comment have neither number nor
@@ -151,6 +243,17 @@ struct Program {
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.size()); }
   std::span<const Item> items_of(const StatementNode& statement) const {
     return {items.data() + statement.items_begin, items.data() + statement.items_end};
+  }
+  template <typename View>
+  View as(const StatementNode& statement) const {
+    assert(!statement.error && spec::info(statement.kind).form == View::form);
+    return View(items_of(statement));
+  }
+  /// The statement of a line and those in its branches, which stand right behind it.
+  std::span<const StatementNode> whole(const StatementNode& statement) const {
+    const bool has_then = statement.then_branch != none;
+    const bool has_else = statement.else_branch != none;
+    return {&statement, std::size_t{1} + (has_then ? 1 : 0) + (has_else ? 1 : 0)};
   }
 };
 

@@ -66,7 +66,7 @@ private:
     for (const auto& statement : program_.statements) {
       if (statement.error || statement.kind != spec::Statement::Sleep)
         continue;
-      const auto& item = program_.items[statement.items_begin + 2];
+      const auto& item = program_.as<SleepView>(statement).line;
       const auto& root = program_.nodes[item.value];
       if (root.kind != NodeKind::Number)
         return Obstacle{item.span, "the wake-up line is computed, so it cannot be followed"};
