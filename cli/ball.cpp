@@ -70,7 +70,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
   options.ball.seed = arguments.seed;
   options.ball.firmware = firmware.firmware;
-  options.ball.ram_bytes = firmware.ram_bytes;
+  options.ball.ram_bytes = firmware.ram_bytes();
   options.ball.loader = compiler::load;
   if (!arguments.fault.empty()) {
     const auto plan = protocol::parse_fault_plan(arguments.fault);

@@ -88,7 +88,7 @@ Section api_commands_section() {
     entry.facts.emplace_back("may be repeated",
                              row.idempotent == spec::Idempotent::Yes ? "yes" : "no");
     entry.facts.emplace_back("since",
-                             fmt::format("API {}.{:02}", row.since_major, row.since_minor));
+                             fmt::format("API {}.{:02}", row.since.major, row.since.minor));
     entry.facts.emplace_back("source", row.source);
     entry.code.emplace_back("example", fmt::format("orb encode {}{}{}", row.name,
                                                    row.example.empty() ? "" : " ", row.example));
@@ -153,9 +153,9 @@ Section firmwares_section() {
       record += fmt::format("{}{:02X}", record.empty() ? "" : " ", byte);
     entry.facts.emplace_back("version record", record);
     entry.facts.emplace_back("orbBasic RAM", row.has_orbbasic()
-                                                 ? fmt::format("{} bytes", row.ram_bytes)
+                                                 ? fmt::format("{} bytes", row.ram_bytes())
                                                  : "no orbBasic");
-    entry.facts.emplace_back("API", fmt::format("{}.{:02}", row.api_major, row.api_minor));
+    entry.facts.emplace_back("API", fmt::format("{}.{:02}", row.api.major, row.api.minor));
     section.entries.push_back(std::move(entry));
   }
   return section;

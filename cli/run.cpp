@@ -452,7 +452,7 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   ball_options.lines_per_second = options.lines_per_second;
   ball_options.firmware = firmware->firmware;
   ball_options.ram_bytes =
-      options.target.ram != 0 ? static_cast<std::size_t>(options.target.ram) : firmware->ram_bytes;
+      options.target.ram != 0 ? static_cast<std::size_t>(options.target.ram) : firmware->ram_bytes();
   ball_options.loader = compiler::load;
   ball_options.observer = &watcher;
   ball_options.trace_lines = options.trace_lines || watcher.journey;

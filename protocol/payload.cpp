@@ -142,6 +142,25 @@ std::vector<FieldValue> read_fields(std::span<const Field> fields, ByteView data
   return out;
 }
 
+Bytes write_fields(std::span<const Field> fields, std::span<const std::int64_t> values,
+                   ByteView rest) {
+  Bytes out;
+  for (const auto& field : fields) {
+    if (spec::is_number(field.type)) {
+      append_number(out, field.type, values.front());
+      values = values.subspan(1);
+    } else {
+      out.insert(out.end(), rest.begin(), rest.end());
+    }
+  }
+  return out;
+}
+
+Async make_async(spec::AsyncId id, std::initializer_list<std::int64_t> values, ByteView rest) {
+  return {static_cast<std::uint8_t>(id),
+          write_fields(spec::fields(id), {values.begin(), values.size()}, rest)};
+}
+
 tl::expected<Operands, PayloadFault> Operands::read(spec::ApiCommand command, ByteView data) {
   Operands out;
   const Field* wrong = nullptr;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "base/bytes.h"
-#include "spec/api.h"
+#include "protocol/packet.h"
 
 #include <array>
 #include <optional>
@@ -28,6 +27,14 @@ struct PayloadFault {
 /// The fields of `data` by their rows. Fields that the data is too short for are left out; bytes
 /// behind the last field are ignored: records grow with the firmware.
 std::vector<FieldValue> read_fields(std::span<const spec::Field> fields, ByteView data);
+
+/// The bytes of a payload by its rows: `values` has one value per field that is a number, in order;
+/// `rest` fills a field of bytes.
+Bytes write_fields(std::span<const spec::Field> fields, std::span<const std::int64_t> values,
+                   ByteView rest = {});
+
+/// A message with the payload that its rows in spec/async.def describe.
+Async make_async(spec::AsyncId id, std::initializer_list<std::int64_t> values, ByteView rest = {});
 
 /// The checked operands of one command, without allocation.
 class Operands {

@@ -17,18 +17,6 @@ constexpr auto operand_rows = std::to_array<Field>({
 #include "spec/api.def"
 });
 
-constexpr auto answer_rows = std::to_array<Field>({
-#define ANSWER(enumerator, type, name, unit)                                                       \
-  {static_cast<std::uint16_t>(ApiCommand::enumerator),                                             \
-   FieldType::type,                                                                                \
-   name,                                                                                           \
-   0,                                                                                              \
-   0,                                                                                              \
-   Presence::Required,                                                                             \
-   unit},
-#include "spec/api.def"
-});
-
 constexpr auto async_rows = std::to_array<Field>({
 #define ASYNC_FIELD(enumerator, type, name, unit)                                                  \
   {static_cast<std::uint16_t>(AsyncId::enumerator),                                                \

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -154,13 +155,20 @@ struct Field {
   std::string_view unit; ///< a unit, or a subject of spec/names.def with blanks for `_`
 };
 
+/// A revision of the API document.
+struct Revision {
+  std::uint8_t major = 0;
+  std::uint8_t minor = 0;
+
+  friend constexpr auto operator<=>(const Revision&, const Revision&) = default;
+};
+
 struct CommandInfo {
   ApiCommand command;
   std::string_view name; ///< kebab-case, as `orb encode` and `orb exec` take it
   Status status;
   Idempotent idempotent;
-  std::uint8_t since_major; ///< the API revision that documents it first
-  std::uint8_t since_minor;
+  Revision since; ///< documents it first
   std::string_view source;
   std::string_view example; ///< operands as `orb encode NAME` takes them
   std::string_view summary;
@@ -169,17 +177,36 @@ struct CommandInfo {
 inline constexpr auto api_commands = std::to_array<CommandInfo>({
 #define COMMAND(enumerator, did, cid, name, status, idempotent, major, minor, source, example,     \
                 summary)                                                                           \
-  {ApiCommand::enumerator,                                                                         \
-   name,                                                                                           \
-   Status::status,                                                                                 \
-   Idempotent::idempotent,                                                                         \
-   major,                                                                                          \
-   minor,                                                                                          \
-   source,                                                                                         \
-   example,                                                                                        \
-   summary},
+  {ApiCommand::enumerator, name,   Status::status, Idempotent::idempotent,                         \
+   {major, minor},         source, example,        summary},
 #include "spec/api.def"
 });
+
+/// The fields of all answers, in the order of the commands.
+inline constexpr auto answer_rows = std::to_array<Field>({
+#define ANSWER(enumerator, type, name, unit)                                                       \
+  {static_cast<std::uint16_t>(ApiCommand::enumerator),                                             \
+   FieldType::type,                                                                                \
+   name,                                                                                           \
+   0,                                                                                              \
+   0,                                                                                              \
+   Presence::Required,                                                                             \
+   unit},
+#include "spec/api.def"
+});
+
+/// Where a field of an answer begins; a name that the answer does not have does not compile.
+consteval std::size_t answer_offset(ApiCommand command, std::string_view field) {
+  std::size_t offset = 0;
+  for (const auto& row : answer_rows) {
+    if (row.owner != static_cast<std::uint16_t>(command))
+      continue;
+    if (row.name == field)
+      return offset;
+    offset += field_size(row.type);
+  }
+  throw "the answer has no such field";
+}
 
 /// The operands of a command in the order of the wire.
 std::span<const Field> operands(ApiCommand command);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spec/api.h"
+#include "spec/limits.h"
 
 #include <array>
 #include <cstddef>
@@ -12,24 +13,42 @@
 namespace orb::spec {
 
 enum class Firmware : std::uint8_t {
-#define FIRMWARE(enumerator, name, ram, record, major, minor, summary) enumerator,
+#define FIRMWARE(enumerator, ...) enumerator,
 #include "spec/firmware.def"
-#undef FIRMWARE
 };
 
-/// The places of the version record. Source: API §Get Versioning.
-inline constexpr std::size_t version_record_max = 10;
-inline constexpr std::size_t version_orbbasic_at = 6;
-inline constexpr std::size_t version_macro_at = 7;
+/// The places of the version record, which ended before the API revision at first.
+inline constexpr auto version_firmware_at =
+    answer_offset(ApiCommand::GetVersioning, "firmware version");
+inline constexpr auto version_orbbasic_at = answer_offset(ApiCommand::GetVersioning, "orbBasic");
+inline constexpr auto version_macro_at =
+    answer_offset(ApiCommand::GetVersioning, "macro executive");
+inline constexpr auto version_api_at = answer_offset(ApiCommand::GetVersioning, "api major");
+inline constexpr auto version_record_max =
+    answer_offset(ApiCommand::GetVersioning, "api minor") + 1;
+
+/// The RAM area for orbBasic by the revision of the API, in bytes, the final NUL included.
+constexpr std::uint16_t ram_bytes_of(Revision api) {
+  struct Row {
+    Revision since;
+    Limit limit;
+  };
+  constexpr auto rows = std::to_array<Row>({
+#define ORBBASIC_RAM(major, minor, limit) {{major, minor}, Limit::limit},
+#include "spec/firmware.def"
+  });
+  for (const auto& row : rows)
+    if (api >= row.since)
+      return static_cast<std::uint16_t>(value_of(row.limit));
+  return 0;
+}
 
 struct FirmwareInfo {
   Firmware firmware;
-  std::string_view name;   ///< as `--firmware` takes it
-  std::uint16_t ram_bytes; ///< of the orbBasic RAM area, the final NUL included; 0 without orbBasic
+  std::string_view name; ///< as `--firmware` takes it
   std::array<std::uint8_t, version_record_max> record_bytes;
   std::uint8_t record_size; ///< 8 or 10
-  std::uint8_t api_major;
-  std::uint8_t api_minor;
+  Revision api;
   std::string_view summary;
 
   /// The answer of Get Versioning.
@@ -39,20 +58,22 @@ struct FirmwareInfo {
   /// The orbBasic version in packed nibbles: 16h is 1.6; 0 where there is none.
   constexpr std::uint8_t orbbasic() const { return record_bytes[version_orbbasic_at]; }
   constexpr bool has_orbbasic() const { return orbbasic() != 0; }
+  /// Of the orbBasic RAM area, the final NUL included; 0 without orbBasic.
+  constexpr std::uint16_t ram_bytes() const {
+    return has_orbbasic() ? ram_bytes_of(api) : std::uint16_t{0};
+  }
 
   /// Whether bit 1 of SOP2 decides if a command resets the inactivity timer; earlier every one did.
   /// Since firmware 1.26 (API §Client Command Packets).
   constexpr bool has_option_bits() const {
-    constexpr std::size_t version_at = 3; // MSA-ver, MSA-rev
-    return record_bytes[version_at] > 1 ||
-           (record_bytes[version_at] == 1 && record_bytes[version_at + 1] >= 26);
+    constexpr Revision first{1, 26};
+    return Revision{record_bytes[version_firmware_at], record_bytes[version_firmware_at + 1]} >=
+           first;
   }
 
   /// Whether this firmware has the command: by the API revision, and orbBasic's only with orbBasic.
   constexpr bool knows(const CommandInfo& command) const {
-    const auto newer = command.since_major > api_major ||
-                       (command.since_major == api_major && command.since_minor > api_minor);
-    return !newer && (has_orbbasic() || !is_orbbasic(command.command));
+    return command.since <= api && (has_orbbasic() || !is_orbbasic(command.command));
   }
 };
 
@@ -72,10 +93,9 @@ constexpr VersionRecord version_record(Byte... bytes) {
 
 inline constexpr auto firmwares = std::to_array<FirmwareInfo>({
 #define VERSIONS(...) detail::version_record(__VA_ARGS__)
-#define FIRMWARE(enumerator, name, ram, record, major, minor, summary)                             \
-  {Firmware::enumerator, name, ram, record.bytes, record.size, major, minor, summary},
+#define FIRMWARE(enumerator, name, record, major, minor, summary)                                  \
+  {Firmware::enumerator, name, record.bytes, record.size, {major, minor}, summary},
 #include "spec/firmware.def"
-#undef FIRMWARE
 #undef VERSIONS
 });
 

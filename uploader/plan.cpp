@@ -15,11 +15,6 @@ using protocol::make_command;
 using spec::ApiCommand;
 using spec::Limit;
 
-constexpr std::size_t record_api_major_at = 8; // API §Get Versioning
-constexpr std::size_t record_api_minor_at = 9;
-constexpr std::uint16_t api_146 = 1 << 8 | 46;
-constexpr std::uint16_t api_147 = 1 << 8 | 47;
-
 constexpr std::size_t fragment_most = spec::max_payload - 1; // the area byte
 /// Of a streamed piece, id and flags included; what the vendor's clients send.
 constexpr std::size_t stream_piece_most = 250;
@@ -84,18 +79,14 @@ Bytes run_data(Area area, std::uint16_t line) {
 } // namespace
 
 Firmware read_firmware(ByteView record) {
-  Firmware firmware;
-  firmware.flash_bytes = limit_bytes(Limit::FlashBytes);
-  firmware.has_basic =
-      record.size() > spec::version_orbbasic_at && record[spec::version_orbbasic_at] != 0;
-  const auto api = record.size() > record_api_minor_at
-                       ? record[record_api_major_at] << 8 | record[record_api_minor_at]
-                       : 0;
-  firmware.can_commit = api >= api_147;
-  firmware.ram_bytes = limit_bytes(api >= api_147   ? Limit::RamBytes
-                                   : api >= api_146 ? Limit::RamBytesUntil147
-                                                    : Limit::RamBytesUntil146);
-  return firmware;
+  const auto field = [&](std::size_t at) {
+    return at < record.size() ? record[at] : std::uint8_t{0};
+  };
+  const spec::Revision api{field(spec::version_api_at), field(spec::version_api_at + 1)};
+  return {.ram_bytes = spec::ram_bytes_of(api),
+          .flash_bytes = limit_bytes(Limit::FlashBytes),
+          .has_basic = field(spec::version_orbbasic_at) != 0,
+          .can_commit = api >= spec::info(ApiCommand::CommitRamToFlash).since};
 }
 
 Firmware default_firmware() {

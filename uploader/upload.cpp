@@ -11,7 +11,7 @@ using protocol::Response;
 using spec::ApiCommand;
 using spec::Retry;
 
-constexpr std::size_t power_state_at = 1; // API §Get Power State
+constexpr auto power_state_at = spec::answer_offset(ApiCommand::GetPowerState, "power state");
 
 Retry retry_of(std::uint8_t code) {
   const auto* row = spec::find_response(code);

@@ -1,5 +1,6 @@
 #include "protocol/payload.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace orb::protocol {
@@ -46,6 +47,33 @@ TEST(Payload, ReadsWhatItWrote) {
   ASSERT_TRUE(operands);
   EXPECT_EQ(operands->number(1), -300);
   EXPECT_EQ(operands->number(3), -90);
+}
+
+TEST(Payload, EveryMessageIsReadAsItWasWritten) {
+  const Bytes rest = {0x61, 0x62};
+  for (const auto& row : spec::asyncs) {
+    const auto fields = spec::fields(row.id);
+    std::vector<std::int64_t> values;
+    for (const auto& field : fields)
+      if (spec::is_number(field.type))
+        values.push_back(static_cast<std::int64_t>(100 + values.size()));
+    const auto payload = write_fields(fields, values, rest);
+    const auto read = read_fields(fields, payload);
+    ASSERT_EQ(read.size(), fields.size()) << row.name;
+    std::size_t number = 0;
+    for (const auto& value : read) {
+      if (spec::is_number(value.field->type))
+        EXPECT_EQ(value.number, values[number++]) << row.name << ' ' << value.field->name;
+      else
+        EXPECT_TRUE(std::ranges::equal(value.bytes, rest)) << row.name;
+    }
+  }
+}
+
+TEST(Payload, AMessageHasItsNumbersInTheOrderOfTheRows) {
+  EXPECT_EQ(make_async(spec::AsyncId::MacroMarker, {20, 255, 0x0102}),
+            (Async{0x06, {20, 255, 0x01, 0x02}}));
+  EXPECT_EQ(make_async(spec::AsyncId::Collision, {-1, 2, 0, 1, 3, 4, 5, 6}).data.size(), 16U);
 }
 
 TEST(Payload, EveryNumberOutsideItsRangeIsRefusedWith07) {

@@ -89,8 +89,8 @@ TEST(Firmware, TheDefaultAnswersTheDocumentedRecord) {
 TEST(Firmware, RecordsOfTenBytesCarryTheirApiRevision) {
   for (const auto& row : firmwares)
     if (row.record().size() == version_record_max) {
-      EXPECT_EQ(row.record()[8], row.api_major) << row.name;
-      EXPECT_EQ(row.record()[9], row.api_minor) << row.name;
+      EXPECT_EQ(row.record()[version_api_at], row.api.major) << row.name;
+      EXPECT_EQ(row.record()[version_api_at + 1], row.api.minor) << row.name;
     }
 }
 
