@@ -3,6 +3,7 @@
 #include "assembler/rules.h"
 #include "assembler/timing.h"
 #include "assembler/walk.h"
+#include "base/silence.h"
 
 #include <algorithm>
 #include <bitset>
@@ -377,36 +378,25 @@ std::size_t remark_of(std::string_view line) {
 
 /// Leaves out what remarks allow.
 void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
-  constexpr std::string_view mark = "orb: allow";
-  constexpr std::string_view blanks = " ,\t";
-  std::set<std::pair<std::uint32_t, const Rule*>> allowed;
-  for (auto found = source.text().find(mark); found != std::string_view::npos;
-       found = source.text().find(mark, found + mark.size())) {
+  std::vector<AllowComment> comments;
+  for (auto found = source.text().find(allow_mark); found != std::string_view::npos;
+       found = source.text().find(allow_mark, found + allow_mark.size())) {
     const auto number = source.position(static_cast<std::uint32_t>(found)).line;
     const auto line = source.line(number);
     const auto remark = remark_of(line);
     const auto start = source.line_start(number);
     if (found < start + remark)
       continue; // in a text
+    const auto end = start + static_cast<std::uint32_t>(line.size());
     const bool alone = line.substr(0, remark).find_first_not_of(" \t") == std::string_view::npos;
-    for (auto at = found - start + mark.size(); at < line.size();) {
-      const auto begin = std::min(line.find_first_not_of(blanks, at), line.size());
-      const auto end = std::min(line.find_first_of(blanks, begin), line.size());
-      const auto name = line.substr(begin, end - begin);
-      if (const auto* rule = rules::find(name))
-        allowed.emplace(alone ? number + 1 : number, rule);
-      else if (!name.empty())
-        diagnostics.push_back(finding(
-            rules::UnknownRule,
-            {start + static_cast<std::uint32_t>(begin), start + static_cast<std::uint32_t>(end)},
-            fmt::format("there is no rule `{}`", name)));
-      at = end;
-    }
+    const auto about = alone ? number + 1 : number;
+    const auto about_end =
+        source.line_start(about) + static_cast<std::uint32_t>(source.line(about).size()) + 1;
+    comments.push_back(
+        {{static_cast<std::uint32_t>(found), end}, {source.line_start(about), about_end}});
   }
-  if (!allowed.empty())
-    std::erase_if(diagnostics, [&](const Diagnostic& diagnostic) {
-      return allowed.contains({source.position(diagnostic.span.begin).line, diagnostic.rule});
-    });
+  if (!comments.empty())
+    orb::silence(source.text(), comments, rules::all(), rules::UnknownRule, diagnostics);
 }
 
 /// What the files of one ball share: ids, heap and index.

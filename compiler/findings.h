@@ -4,6 +4,7 @@
 #include "compiler/flow.h"
 #include "compiler/program.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,17 @@ public:
   void add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
 
   std::vector<Diagnostic>& all() { return all_; }
+
+  /// Gives the findings that name no line yet the number of the line they stand in.
+  void place() {
+    for (auto& d : all_) {
+      const auto next = std::upper_bound(
+          program_.lines.begin(), program_.lines.end(), d.span.begin,
+          [](std::uint32_t offset, const Line& line) { return offset < line.span.begin; });
+      if (!d.basic_line && next != program_.lines.begin() && next[-1].has_number())
+        d.basic_line = next[-1].number;
+    }
+  }
 
 private:
   const Program& program_;

@@ -1,5 +1,6 @@
 #include "compiler/lint.h"
 
+#include "base/silence.h"
 #include "compiler/findings.h"
 #include "compiler/image.h"
 #include "compiler/messages.h"
@@ -298,52 +299,26 @@ private:
   /// What a comment `' orb: allow RULE` names is left out on its line, or on the next one when it
   /// stands alone.
   void silence() {
-    struct Allowed {
-      std::uint32_t line;
-      const Rule* rule;
-    };
-    std::vector<Allowed> allowed;
-    for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
+    std::vector<AllowComment> comments;
+    for (std::size_t i = 0; i < program_.lines.size(); ++i) {
       const auto& line = program_.lines[i];
-      if (line.comment.size() == 0)
-        continue;
-      const auto comment = program_.text_of(line.comment);
-      constexpr std::string_view mark = "orb: allow";
-      const auto at = comment.find(mark);
-      if (at == std::string_view::npos)
+      if (line.comment.size() == 0 ||
+          program_.text_of(line.comment).find(allow_mark) == std::string_view::npos)
         continue;
       const bool alone = !line.has_number() && !line.has_statement();
-      auto rest = comment.substr(at + mark.size());
-      auto offset = line.comment.begin + static_cast<std::uint32_t>(at + mark.size());
-      while (!rest.empty()) {
-        const auto begin = std::min(rest.find_first_not_of(" ,\t"), rest.size());
-        const auto end = std::min(rest.find_first_of(" ,\t", begin), rest.size());
-        const auto name = rest.substr(begin, end - begin);
-        const auto from = offset + static_cast<std::uint32_t>(begin);
-        if (const auto* rule = rules::find(name))
-          allowed.push_back({alone ? i + 1 : i, rule});
-        else if (!name.empty())
-          findings_.add(rules::UnknownRule, i,
-                        {from, from + static_cast<std::uint32_t>(name.size())},
-                        fmt::format("there is no rule `{}`", name));
-        rest.remove_prefix(end);
-        offset += static_cast<std::uint32_t>(end);
-      }
+      const auto about = alone ? i + 1 : i;
+      comments.push_back({line.comment, about < program_.lines.size()
+                                            ? line_span(program_.lines[about].span)
+                                            : Span{}});
     }
-    if (allowed.empty())
+    if (comments.empty())
       return;
-    auto& all = findings_.all();
-    const auto silenced = [&](const Diagnostic& d) {
-      const auto next = std::upper_bound(
-          program_.lines.begin(), program_.lines.end(), d.span.begin,
-          [](std::uint32_t offset, const Line& line) { return offset < line.span.begin; });
-      const auto line = static_cast<std::uint32_t>(next - program_.lines.begin()) - 1;
-      return std::any_of(allowed.begin(), allowed.end(), [&](const Allowed& entry) {
-        return entry.line == line && entry.rule == d.rule;
-      });
-    };
-    all.erase(std::remove_if(all.begin(), all.end(), silenced), all.end());
+    orb::silence(program_.text, comments, rules::all(), rules::UnknownRule, findings_.all());
+    findings_.place();
   }
+
+  /// With the place where the line ends.
+  static Span line_span(Span line) { return {line.begin, line.end + 1}; }
 
   // ---- letters
 
