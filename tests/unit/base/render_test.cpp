@@ -1,5 +1,6 @@
 #include "base/render.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace orb {
@@ -25,7 +26,7 @@ TEST(RenderText, CountsColumnsOfWhatIsShownNotBytes) {
 }
 
 TEST(RenderText, CutsLongLinesAroundTheCaret) {
-  const Source source("a.bas", std::string(500, 'a') + "B" + std::string(500, 'c'));
+  const Source source("a.bas", fmt::format("{:a>500}B{:c>500}", "", ""));
   const auto text = render_text(source, finding(shout, {500, 501}, "loud"), Style{});
   EXPECT_LT(text.size(), 400U);
   EXPECT_NE(text.find("aB"), std::string::npos);
