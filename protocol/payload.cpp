@@ -142,23 +142,25 @@ std::vector<FieldValue> read_fields(std::span<const Field> fields, ByteView data
   return out;
 }
 
-Bytes write_fields(std::span<const Field> fields, std::span<const std::int64_t> values,
-                   ByteView rest) {
+Bytes write_fields(std::span<const Field> fields, std::span<const FieldContent> contents) {
   Bytes out;
-  for (const auto& field : fields) {
-    if (spec::is_number(field.type)) {
-      append_number(out, field.type, values.front());
-      values = values.subspan(1);
-    } else {
-      out.insert(out.end(), rest.begin(), rest.end());
+  for (std::size_t i = 0; i < std::min(fields.size(), contents.size()); ++i) {
+    const auto& [number, bytes] = contents[i];
+    if (spec::is_number(fields[i].type)) {
+      append_number(out, fields[i].type, number);
+      continue;
     }
+    const auto end = out.size() + spec::field_size(fields[i].type);
+    out.insert(out.end(), bytes.begin(), bytes.end());
+    if (fields[i].type != FieldType::Data)
+      out.resize(end);
   }
   return out;
 }
 
-Async make_async(spec::AsyncId id, std::initializer_list<std::int64_t> values, ByteView rest) {
+Async make_async(spec::AsyncId id, std::initializer_list<FieldContent> contents) {
   return {static_cast<std::uint8_t>(id),
-          write_fields(spec::fields(id), {values.begin(), values.size()}, rest)};
+          write_fields(spec::fields(id), {contents.begin(), contents.size()})};
 }
 
 tl::expected<Operands, PayloadFault> Operands::read(spec::ApiCommand command, ByteView data) {

@@ -3,6 +3,8 @@
 #include "protocol/packet.h"
 
 #include <array>
+#include <concepts>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,13 +30,22 @@ struct PayloadFault {
 /// behind the last field are ignored: records grow with the firmware.
 std::vector<FieldValue> read_fields(std::span<const spec::Field> fields, ByteView data);
 
-/// The bytes of a payload by its rows: `values` has one value per field that is a number, in order;
-/// `rest` fills a field of bytes.
-Bytes write_fields(std::span<const spec::Field> fields, std::span<const std::int64_t> values,
-                   ByteView rest = {});
+/// What a field is filled with: a number, or bytes where the field is not a number.
+struct FieldContent {
+  FieldContent(std::integral auto value) : number(static_cast<std::int64_t>(value)) {}
+  FieldContent(ByteView value) : bytes(value) {}
+  FieldContent(const Bytes& value) : bytes(value) {}
 
-/// A message with the payload that its rows in spec/async.def describe.
-Async make_async(spec::AsyncId id, std::initializer_list<std::int64_t> values, ByteView rest = {});
+  std::int64_t number = 0;
+  ByteView bytes;
+};
+
+/// The payload of these fields, one content a field: numbers are cut to their width, bytes are cut
+/// or filled up with NUL where the row gives their size.
+Bytes write_fields(std::span<const spec::Field> fields, std::span<const FieldContent> contents);
+
+/// A message with the fields of its row.
+Async make_async(spec::AsyncId id, std::initializer_list<FieldContent> contents = {});
 
 /// The checked operands of one command, without allocation.
 class Operands {

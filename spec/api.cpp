@@ -29,6 +29,12 @@ constexpr auto async_rows = std::to_array<Field>({
 #include "spec/async.def"
 });
 
+constexpr auto config_rows = std::to_array<Field>({
+#define CONFIG_FIELD(enumerator, type, name, unit)                                                 \
+  {0, FieldType::type, name, 0, 0, Presence::Required, unit},
+#include "spec/config_block.def"
+});
+
 constexpr auto value_rows = std::to_array<Named>({
 #define NAMED_VALUE(subject, name, value, text) {#subject, value, text},
 #include "spec/names.def"
@@ -108,6 +114,10 @@ const CommandInfo& info(ApiCommand command) {
 
 std::span<const Field> fields(AsyncId id) {
   return owned_by(async_rows, static_cast<std::uint16_t>(id));
+}
+
+std::span<const Field> config_fields() {
+  return config_rows;
 }
 
 const AsyncInfo* find_async(std::uint8_t id) {

@@ -240,6 +240,16 @@ inline constexpr auto asyncs = std::to_array<AsyncInfo>({
 });
 
 std::span<const Field> fields(AsyncId id);
+
+/// The places of the fields of a configuration block in config_fields().
+namespace config_at {
+enum : std::size_t {
+#define CONFIG_FIELD(enumerator, type, name, unit) enumerator,
+#include "spec/config_block.def"
+};
+} // namespace config_at
+std::span<const Field> config_fields();
+
 /// The row of a message id; null when there is none.
 const AsyncInfo* find_async(std::uint8_t id);
 

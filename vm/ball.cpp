@@ -45,10 +45,6 @@ std::int32_t rounded_s16(double value) {
   return static_cast<std::int32_t>(std::lround(std::clamp(value, -32768.0, 32767.0)));
 }
 
-Bytes to_bytes(std::string_view text) {
-  return {text.begin(), text.end()};
-}
-
 } // namespace
 
 Ball::Ball(const BallOptions& options)
@@ -291,7 +287,7 @@ void Ball::keep_house() {
       client_was_active();
     if (!warned_ && now_ >= inactive_at_ - sleep_warning) {
       warned_ = true;
-      send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::PreSleepWarning), {}});
+      send(protocol::make_async(spec::AsyncId::PreSleepWarning));
     }
     if (now_ >= inactive_at_)
       sleep({});
@@ -406,16 +402,9 @@ void Ball::detect_collision(const Impact& impact) {
   collision.speed = impact.speed;
   trace(collision);
 
-  Bytes data;
-  append_u16(data, static_cast<std::uint32_t>(collision.x));
-  append_u16(data, static_cast<std::uint32_t>(collision.y));
-  append_u16(data, 0);
-  data.push_back(static_cast<std::uint8_t>(collision.axis));
-  append_u16(data, static_cast<std::uint32_t>(collision.x_magnitude));
-  append_u16(data, static_cast<std::uint32_t>(collision.y_magnitude));
-  data.push_back(static_cast<std::uint8_t>(collision.speed));
-  append_u32(data, clock_ms());
-  send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::Collision), std::move(data)});
+  send(protocol::make_async(spec::AsyncId::Collision,
+                            {collision.x, collision.y, 0, collision.axis, collision.x_magnitude,
+                             collision.y_magnitude, collision.speed, clock_ms()}));
   macros_.collide(now_);
   dispatcher_.on_collision(*this);
 }
@@ -606,9 +595,7 @@ void Ball::stop_motors() {
 
 void Ball::emit_marker(int marker, int macro, int command) {
   trace(event::Marker{marker, macro, command});
-  Bytes data{static_cast<std::uint8_t>(marker), static_cast<std::uint8_t>(macro)};
-  append_u16(data, static_cast<std::uint32_t>(command));
-  send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::MacroMarker), std::move(data)});
+  send(protocol::make_async(spec::AsyncId::MacroMarker, {marker, macro, command}));
 }
 
 void Ball::trace_command(int macro, int command) {
@@ -761,12 +748,9 @@ void Ball::deliver_input(std::int32_t value) {
 
 void Ball::report_error(int line, BasicError error) {
   trace(event::Error{line, error});
-  send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::BasicErrorText),
-                       to_bytes(fmt::format("Line {}: {}\n", line, spec::info(error).text))});
-  Bytes binary;
-  append_u16(binary, static_cast<std::uint32_t>(line));
-  append_u16(binary, spec::code(error));
-  send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::BasicError), std::move(binary)});
+  const auto text = fmt::format("Line {}: {}\n", line, spec::info(error).text);
+  send(protocol::make_async(spec::AsyncId::BasicErrorText, {as_bytes(text)}));
+  send(protocol::make_async(spec::AsyncId::BasicError, {line, spec::code(error)}));
 }
 
 void Ball::finish_basic() {
@@ -836,9 +820,9 @@ std::optional<BasicError> Ball::write(Variable, std::int32_t value, Instant now)
 
 std::optional<Instant> Ball::print(std::string_view text, Instant now) {
   now_ = now;
-  protocol::Async async{static_cast<std::uint8_t>(spec::AsyncId::BasicPrint), to_bytes(text)};
   if (connected_) {
-    Bytes packet = protocol::encode(async);
+    Bytes packet =
+        protocol::encode(protocol::make_async(spec::AsyncId::BasicPrint, {as_bytes(text)}));
     const std::size_t room = print_queue_bytes - std::min(print_queue_bytes, packet.size());
     if (const Instant ready = output_.drained_to(room, now); ready > now)
       return ready;

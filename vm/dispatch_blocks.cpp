@@ -9,7 +9,6 @@ namespace {
 
 using spec::ResponseCode;
 
-constexpr std::size_t application_block_size = 32;
 constexpr std::uint32_t chassis_base = 0x1000;                // [?]
 constexpr std::uint8_t factory_block = 0;                     // API §Get Configuration Block
 constexpr Duration consumable_time = std::chrono::seconds{3}; // how long its macro runs [?]
@@ -22,7 +21,7 @@ std::uint16_t chassis_id(std::uint64_t seed) {
 } // namespace
 
 HANDLE(GetApplicationConfigurationBlock) {
-  return {ResponseCode::Ok, Bytes(application_block_size)};
+  return call.answer({ByteView{}}); // nothing was ever stored
 }
 
 HANDLE(ReenableDemoMode) {
@@ -30,9 +29,7 @@ HANDLE(ReenableDemoMode) {
 }
 
 HANDLE(GetChassisId) {
-  Reply reply;
-  append_u16(reply.data, chassis_id(seed_));
-  return reply;
+  return call.answer({chassis_id(seed_)});
 }
 
 HANDLE(SetPermanentOptionFlags) {
@@ -44,9 +41,7 @@ HANDLE(SetPermanentOptionFlags) {
 }
 
 HANDLE(GetPermanentOptionFlags) {
-  Reply reply;
-  append_u32(reply.data, call.ball.settings().permanent_flags);
-  return reply;
+  return call.answer({call.ball.settings().permanent_flags});
 }
 
 HANDLE(SetTemporaryOptionFlags) {
@@ -56,9 +51,7 @@ HANDLE(SetTemporaryOptionFlags) {
 }
 
 HANDLE(GetTemporaryOptionFlags) {
-  Reply reply;
-  append_u32(reply.data, call.ball.settings().temporary_flags);
-  return reply;
+  return call.answer({call.ball.settings().temporary_flags});
 }
 
 HANDLE(GetConfigurationBlock) {
@@ -71,8 +64,7 @@ HANDLE(GetConfigurationBlock) {
   } else {
     block = config_block(call.ball.settings(), profile_);
   }
-  call.ball.send(
-      protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::ConfigBlock), std::move(block)});
+  call.ball.send(protocol::make_async(spec::AsyncId::ConfigBlock, {block}));
   return {};
 }
 
@@ -92,12 +84,11 @@ HANDLE(SetDeviceMode) {
 }
 
 HANDLE(GetDeviceMode) {
-  return {ResponseCode::Ok, {device_mode_}};
+  return call.answer({device_mode_});
 }
 
 HANDLE(GetSsb) {
-  call.ball.send(
-      protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::SoulBlock), profile_.soul.block()});
+  call.ball.send(protocol::make_async(spec::AsyncId::SoulBlock, {profile_.soul.block()}));
   return {};
 }
 
@@ -110,13 +101,10 @@ HANDLE(RefillBank) {
   if (soul_messages_) {
     const auto is_boost = bank == spec::bank::boost;
     call.ball.send(
-        protocol::Async{static_cast<std::uint8_t>(is_boost ? spec::AsyncId::BoostUpdate
-                                                           : spec::AsyncId::ShieldDamage),
-                        {is_boost ? profile_.soul.boost() : profile_.soul.shield()}});
+        protocol::make_async(is_boost ? spec::AsyncId::BoostUpdate : spec::AsyncId::ShieldDamage,
+                             {is_boost ? profile_.soul.boost() : profile_.soul.shield()}));
   }
-  Reply reply;
-  append_u32(reply.data, *cores);
-  return reply;
+  return call.answer({*cores});
 }
 
 HANDLE(BuyConsumable) {
@@ -124,10 +112,7 @@ HANDLE(BuyConsumable) {
   if (!profile_.soul.buy(consumable, call.operands.u8(1)))
     return {ResponseCode::ExecuteFailed, {}};
   persist();
-  Reply reply;
-  reply.data = {profile_.soul.count(consumable)};
-  append_u32(reply.data, profile_.soul.cores());
-  return reply;
+  return call.answer({profile_.soul.count(consumable), profile_.soul.cores()});
 }
 
 HANDLE(UseConsumable) {
@@ -135,13 +120,11 @@ HANDLE(UseConsumable) {
   if (call.ball.now() < consumable_until_ || !profile_.soul.use(consumable))
     return {ResponseCode::ExecuteFailed, {}};
   consumable_until_ = call.ball.now() + consumable_time;
-  return {ResponseCode::Ok, {consumable, profile_.soul.count(consumable)}};
+  return call.answer({consumable, profile_.soul.count(consumable)});
 }
 
 HANDLE(GetPasswordSeed) {
-  Reply reply;
-  append_u32(reply.data, static_cast<std::uint32_t>(seed_ * 0x9E3779B97F4A7C15u >> 32));
-  return reply;
+  return call.answer({seed_ * 0x9E3779B97F4A7C15u >> 32});
 }
 
 HANDLE(EnableSsbAsync) {

@@ -21,6 +21,10 @@ constexpr std::uint16_t level_2_record_version = 1;   // API §Perform Level 2 D
 constexpr std::uint8_t boot_reason_cold = 0;          // [?]
 constexpr std::size_t boot_counters = 16;             // API §Perform Level 2 Diagnostics
 constexpr std::size_t wake_up_counter = 2;            // [?]: after cold and warm
+constexpr auto version_hardware_at =
+    spec::answer_offset(spec::ApiCommand::GetVersioning, "hardware");
+constexpr auto version_bootloader_at =
+    spec::answer_offset(spec::ApiCommand::GetVersioning, "bootloader");
 
 std::uint16_t clamp_u16(std::uint64_t value) {
   return static_cast<std::uint16_t>(std::min<std::uint64_t>(value, UINT16_MAX));
@@ -58,15 +62,8 @@ HANDLE(SetDeviceName) {
 }
 
 HANDLE(GetBluetoothInfo) {
-  Reply reply;
-  const auto name = clip_utf8(own_name(profile_), reported_name_size);
-  reply.data.assign(name.begin(), name.end());
-  reply.data.resize(reported_name_size);
-  const auto address = own_address(seed_);
-  reply.data.insert(reply.data.end(), address.begin(), address.end());
-  reply.data.push_back(0);
-  reply.data.insert(reply.data.end(), std::begin(id_colors), std::end(id_colors));
-  return reply;
+  return call.answer({as_bytes(clip_utf8(own_name(profile_), reported_name_size)),
+                      as_bytes(own_address(seed_)), 0, id_colors[0], id_colors[1], id_colors[2]});
 }
 
 HANDLE(SetAutoReconnect) {
@@ -77,17 +74,13 @@ HANDLE(SetAutoReconnect) {
 }
 
 HANDLE(GetAutoReconnect) {
-  return {ResponseCode::Ok, {std::uint8_t{profile_.auto_reconnect}, profile_.auto_reconnect_s}};
+  return call.answer({profile_.auto_reconnect, profile_.auto_reconnect_s});
 }
 
 HANDLE(GetPowerState) {
   bring_up_to_date(call.ball);
-  Reply reply;
-  reply.data = {power_record_version, static_cast<std::uint8_t>(call.ball.battery_state())};
-  append_u16(reply.data, centivolts(call.ball));
-  append_u16(reply.data, profile_.charges);
-  append_u16(reply.data, clamp_u16(profile_.since_charge_s));
-  return reply;
+  return call.answer({power_record_version, call.ball.battery_state(), centivolts(call.ball),
+                      profile_.charges, clamp_u16(profile_.since_charge_s)});
 }
 
 HANDLE(SetPowerNotification) {
@@ -104,10 +97,8 @@ HANDLE(Sleep) {
 }
 
 HANDLE(GetVoltageTripPoints) {
-  Reply reply;
-  append_u16(reply.data, static_cast<std::uint32_t>(call.ball.settings().low_battery_cv));
-  append_u16(reply.data, static_cast<std::uint32_t>(call.ball.settings().critical_battery_cv));
-  return reply;
+  return call.answer(
+      {call.ball.settings().low_battery_cv, call.ball.settings().critical_battery_cv});
 }
 
 HANDLE(SetVoltageTripPoints) {
@@ -140,36 +131,20 @@ HANDLE(LeaveBootloader) {
 
 HANDLE(PerformLevel1Diagnostics) {
   const auto text = level_1(call.ball);
-  call.ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::Level1Diagnostics),
-                                 {text.begin(), text.end()}});
+  call.ball.send(protocol::make_async(spec::AsyncId::Level1Diagnostics, {as_bytes(text)}));
   return {};
 }
 
 HANDLE(PerformLevel2Diagnostics) {
   bring_up_to_date(call.ball);
-  Reply reply;
-  auto& out = reply.data;
-  append_u16(out, level_2_record_version);
-  out.push_back(0);
-  append_u32(out, counters_.good);
-  append_u32(out, counters_.bad_did);
-  append_u32(out, counters_.bad_dlen);
-  append_u32(out, counters_.bad_cid);
-  append_u32(out, counters_.bad_checksum);
-  append_u32(out, counters_.overruns);
-  append_u32(out, call.ball.sent());
-  append_u32(out, call.ball.dropped());
-  out.push_back(boot_reason_cold);
+  Bytes boots;
   for (std::size_t i = 0; i < boot_counters; ++i)
-    append_u16(out, i == 0 ? profile_.cold_boots : i == wake_up_counter ? profile_.wake_ups : 0);
-  append_u16(out, 0);
-  append_u16(out, profile_.charges);
-  append_u16(out, clamp_u16(profile_.since_charge_s));
-  append_u32(out, static_cast<std::uint32_t>(profile_.awake_s));
-  append_u32(out, static_cast<std::uint32_t>(profile_.rolled_cm + call.ball.body().rolled_cm()));
-  append_u16(out, 0);
-  append_u32(out, 0);
-  return reply;
+    append_u16(boots, i == 0 ? profile_.cold_boots : i == wake_up_counter ? profile_.wake_ups : 0);
+  return call.answer({level_2_record_version, 0, counters_.good, counters_.bad_did,
+                      counters_.bad_dlen, counters_.bad_cid, counters_.bad_checksum,
+                      counters_.overruns, call.ball.sent(), call.ball.dropped(), boot_reason_cold,
+                      boots, 0, profile_.charges, clamp_u16(profile_.since_charge_s),
+                      profile_.awake_s, profile_.rolled_cm + call.ball.body().rolled_cm(), 0, 0});
 }
 
 HANDLE(ClearCounters) {
@@ -186,11 +161,8 @@ HANDLE(AssignTimeValue) {
 }
 
 HANDLE(PollPacketTimes) {
-  Reply reply;
-  append_u32(reply.data, static_cast<std::uint32_t>(call.operands.number(0)));
-  append_u32(reply.data, call.ball.clock_ms()); // received and sent in the same millisecond
-  append_u32(reply.data, call.ball.clock_ms());
-  return reply;
+  // Received and sent in the same millisecond.
+  return call.answer({call.operands.number(0), call.ball.clock_ms(), call.ball.clock_ms()});
 }
 
 std::string Dispatcher::level_1(Ball& ball) {
@@ -216,7 +188,8 @@ std::string Dispatcher::level_1(Ball& ball) {
                      profile_.auto_reconnect ? 1 : 0, ball.macros().id(),
                      ball.basic_running() ? 1 : 0);
   out += fmt::format("Bootldr={}\nMA={}.{}\nBoard={}\nOrbBasic={}\nMacExec={}\n",
-                     nibbles(record[5]), record[3], record[4], record[2],
+                     nibbles(record[version_bootloader_at]), record[spec::version_firmware_at],
+                     record[spec::version_firmware_at + 1], record[version_hardware_at],
                      nibbles(firmware.orbbasic()), nibbles(record[spec::version_macro_at]));
   out += fmt::format(
       "[Network]\nRx good:{}, bad:{}, Tx:{}\nRx overruns:{}, Tx:{}\n", counters_.good,

@@ -19,8 +19,8 @@ int wrap_degrees(std::int64_t degrees) {
   return static_cast<int>((degrees % 360 + 360) % 360);
 }
 
-std::uint32_t s16(double value) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(value, -32768.0, 32767.0)));
+std::int64_t s16(double value) {
+  return std::lround(std::clamp<double>(value, INT16_MIN, INT16_MAX));
 }
 
 } // namespace
@@ -100,10 +100,8 @@ HANDLE(SetAccelerometerRange) {
 HANDLE(ReadLocator) {
   const auto pose = call.ball.body().pose();
   const auto velocity = call.ball.body().velocity_cm_s();
-  Reply reply;
-  for (const auto value : {pose.x_cm, pose.y_cm, velocity.x, velocity.y, pose.speed_cm_s})
-    append_u16(reply.data, s16(value));
-  return reply;
+  return call.answer(
+      {s16(pose.x_cm), s16(pose.y_cm), s16(velocity.x), s16(velocity.y), s16(pose.speed_cm_s)});
 }
 
 HANDLE(SetRgbLed) {
@@ -124,7 +122,7 @@ HANDLE(SetBackLed) {
 
 HANDLE(GetRgbLed) {
   const auto color = call.ball.settings().user_color;
-  return {ResponseCode::Ok, {color.red, color.green, color.blue}};
+  return call.answer({color.red, color.green, color.blue});
 }
 
 HANDLE(Roll) {

@@ -30,14 +30,6 @@ Area area(std::uint8_t operand) {
 
 } // namespace
 
-/// The answer of Abort Macro and Get Macro Status.
-Dispatcher::Reply Dispatcher::status_reply(const MacroStatus& status) {
-  Reply reply;
-  reply.data.push_back(status.id);
-  append_u16(reply.data, status.number);
-  return reply;
-}
-
 HANDLE(RunMacro) {
   const auto outcome = call.ball.macros().start(call.operands.u8(0), call.ball.now());
   call.ball.macros_changed();
@@ -65,11 +57,12 @@ HANDLE(ReinitMacroExecutive) {
 HANDLE(AbortMacro) {
   const auto aborted = call.ball.macros().abort(call.ball.now());
   call.ball.macros_changed();
-  return status_reply(aborted);
+  return call.answer({aborted.id, aborted.number});
 }
 
 HANDLE(GetMacroStatus) {
-  return status_reply(call.ball.macros().status());
+  const auto status = call.ball.macros().status();
+  return call.answer({status.id, status.number});
 }
 
 HANDLE(SetMacroParameter) {

@@ -125,7 +125,7 @@ Dispatcher::Reply Dispatcher::obey(const Item& item, Ball& ball) {
     return {refused, {}};
   if (!operands)
     return {operands.error().code, {}};
-  return (this->*Handlers::find(*row))({*operands, ball});
+  return (this->*Handlers::find(*row))({*operands, ball, row->command});
 }
 
 // What happens by itself.
@@ -143,8 +143,7 @@ void Dispatcher::run(Instant now, Ball& ball) {
   }
   if (now >= power_notice_at_) {
     power_notice_at_ = now + power_notice_interval;
-    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::PowerNotification),
-                              {static_cast<std::uint8_t>(ball.battery_state())}});
+    ball.send(protocol::make_async(spec::AsyncId::PowerNotification, {ball.battery_state()}));
   }
   self_level_.run(now, ball);
   if (now >= soul_tick_at_)
@@ -162,16 +161,14 @@ void Dispatcher::on_battery(Ball& ball) {
   }
   was_charging_ = charging;
   if (power_notice_at_ != never)
-    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::PowerNotification),
-                              {static_cast<std::uint8_t>(ball.battery_state())}});
+    ball.send(protocol::make_async(spec::AsyncId::PowerNotification, {ball.battery_state()}));
 }
 
 void Dispatcher::on_collision(Ball& ball) {
   if (!profile_.soul.damage_shield())
     return;
   if (soul_messages_)
-    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::ShieldDamage),
-                              {profile_.soul.shield()}});
+    ball.send(protocol::make_async(spec::AsyncId::ShieldDamage, {profile_.soul.shield()}));
   soul_tick_at_ = std::min(soul_tick_at_, ball.now() + Soul::tick_time);
 }
 
@@ -223,21 +220,14 @@ void Dispatcher::tick_soul(Ball& ball) {
   soul_tick_at_ = moving || soul.changing() ? ball.now() + Soul::tick_time : never;
   if (!soul_messages_)
     return;
-  const auto send = [&](spec::AsyncId id, Bytes data) {
-    ball.send(protocol::Async{static_cast<std::uint8_t>(id), std::move(data)});
-  };
-  if (changes.level) {
-    Bytes data;
-    append_u16(data, soul.level());
-    append_u16(data, soul.points());
-    send(spec::AsyncId::LevelUp, std::move(data));
-  }
+  if (changes.level)
+    ball.send(protocol::make_async(spec::AsyncId::LevelUp, {soul.level(), soul.points()}));
   if (changes.shield)
-    send(spec::AsyncId::ShieldDamage, {soul.shield()});
+    ball.send(protocol::make_async(spec::AsyncId::ShieldDamage, {soul.shield()}));
   if (changes.experience)
-    send(spec::AsyncId::XpUpdate, {soul.experience()});
+    ball.send(protocol::make_async(spec::AsyncId::XpUpdate, {soul.experience()}));
   if (changes.boost)
-    send(spec::AsyncId::BoostUpdate, {soul.boost()});
+    ball.send(protocol::make_async(spec::AsyncId::BoostUpdate, {soul.boost()}));
 }
 
 /// Looks for gyro limits only where somebody wants to know and the ball may turn.
@@ -261,7 +251,7 @@ void Dispatcher::check_gyro(Ball& ball) {
   if (exceeded != 0) {
     // Each axis once, until Set Heading clears the measurements.
     gyro_exceeded_ = static_cast<std::uint8_t>(gyro_exceeded_ | exceeded);
-    ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::GyroLimit), {exceeded}});
+    ball.send(protocol::make_async(spec::AsyncId::GyroLimit, {exceeded}));
   }
   gyro_check_at_ = ball.body().moving() ? ball.now() + gyro_check_interval : never;
 }

@@ -14,7 +14,6 @@
 namespace orb::vm {
 
 class Ball;
-struct MacroStatus;
 
 /// The API: finds packets in what a client sends, obeys them through Ball's actions with
 /// Actor::Client, and answers with `Ball::send`. What a command takes, and whether it is refused,
@@ -56,6 +55,13 @@ private:
   struct Call {
     const protocol::Operands& operands;
     Ball& ball;
+    spec::ApiCommand command;
+
+    /// OK with the fields of the command's answer.
+    Reply answer(std::initializer_list<protocol::FieldContent> contents) const {
+      return {spec::ResponseCode::Ok,
+              protocol::write_fields(spec::answer(command), {contents.begin(), contents.size()})};
+    }
   };
 
   // Source: API §Perform Level 2 Diagnostics.
@@ -79,7 +85,6 @@ private:
   using Handler = Reply (Dispatcher::*)(Call call);
   struct Handlers;
 
-  static Reply status_reply(const MacroStatus& status);
   std::string level_1(Ball& ball);
   void set_boost(bool on, Ball& ball);
   void tick_soul(Ball& ball);

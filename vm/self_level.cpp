@@ -67,7 +67,7 @@ void SelfLevel::finish(std::uint8_t result, Ball& ball) {
     ball.set_stabilization(Actor::Client, wants(spec::self_level_options::control_system)
                                               ? Stabilization::On
                                               : Stabilization::Off);
-  ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::SelfLevelResult), {result}});
+  ball.send(protocol::make_async(spec::AsyncId::SelfLevelResult, {result}));
   if (wants(spec::self_level_options::sleep) && result != spec::self_level_result::aborted)
     ball.sleep({});
 }

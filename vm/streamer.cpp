@@ -99,7 +99,7 @@ void Streamer::run(Instant now, Ball& ball) {
     }
   if (++collected_ < request_.frames)
     return;
-  ball.send(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::SensorData), data_});
+  ball.send(protocol::make_async(spec::AsyncId::SensorData, {data_}));
   data_.clear();
   collected_ = 0;
   if (++sent_ == request_.packets)

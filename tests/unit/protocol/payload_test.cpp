@@ -53,19 +53,16 @@ TEST(Payload, EveryMessageIsReadAsItWasWritten) {
   const Bytes rest = {0x61, 0x62};
   for (const auto& row : spec::asyncs) {
     const auto fields = spec::fields(row.id);
-    std::vector<std::int64_t> values;
+    std::vector<FieldContent> values;
     for (const auto& field : fields)
-      if (spec::is_number(field.type))
-        values.push_back(static_cast<std::int64_t>(100 + values.size()));
-    const auto payload = write_fields(fields, values, rest);
+      values.push_back(spec::is_number(field.type) ? FieldContent(100 + values.size())
+                                                   : FieldContent(rest));
+    const auto payload = write_fields(fields, values);
     const auto read = read_fields(fields, payload);
     ASSERT_EQ(read.size(), fields.size()) << row.name;
-    std::size_t number = 0;
-    for (const auto& value : read) {
-      if (spec::is_number(value.field->type))
-        EXPECT_EQ(value.number, values[number++]) << row.name << ' ' << value.field->name;
-      else
-        EXPECT_TRUE(std::ranges::equal(value.bytes, rest)) << row.name;
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      EXPECT_EQ(read[i].number, values[i].number) << row.name << ' ' << fields[i].name;
+      EXPECT_TRUE(std::ranges::equal(read[i].bytes, values[i].bytes)) << row.name;
     }
   }
 }
@@ -149,6 +146,15 @@ TEST(Payload, TakesNamesForValues) {
   EXPECT_EQ(encode_operands(ApiCommand::SetStabilization, words("off")).value(), Bytes{0});
   EXPECT_EQ(encode_operands(ApiCommand::SetRawMotorValues, words("forward 9 ignore 0")).value(),
             (Bytes{1, 9, 4, 0}));
+}
+
+TEST(Payload, FixedBytesAreFilledUpOrCut) {
+  const auto fields = spec::answer(ApiCommand::GetBluetoothInfo);
+  const FieldContent contents[] = {as_bytes("Red"), as_bytes("0123456789ABCDEF"), 0, 1, 2, 3};
+  const auto data = write_fields(fields, contents);
+  EXPECT_EQ(as_text(data), std::string_view("Red\0\0\0\0\0\0\0\0\0\0\0\0\0"
+                                            "0123456789AB\0\1\2\3",
+                                            32));
 }
 
 } // namespace
