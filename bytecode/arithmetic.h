@@ -1,6 +1,6 @@
 #pragma once
 
-#include "spec/basic.h"
+#include "spec/limits.h"
 
 #include <cstdint>
 #include <limits>
@@ -31,6 +31,9 @@ constexpr std::int32_t divide(std::int32_t x, std::int32_t y) {
 constexpr std::int32_t remainder(std::int32_t x, std::int32_t y) {
   return wrap(std::int64_t{x} % y);
 }
+constexpr bool is_shift_count(std::int32_t count) {
+  return count >= 0 && count <= spec::value_of(spec::Limit::GreatestShift);
+}
 /// `count` is 0 to 31.
 constexpr std::int32_t shift_left(std::int32_t x, std::int32_t count) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(x) << count);
@@ -41,6 +44,19 @@ constexpr std::int32_t shift_right(std::int32_t x, std::int32_t count) {
 }
 constexpr std::int32_t absolute(std::int32_t x) {
   return x < 0 ? subtract(0, x) : x;
+}
+
+__extension__ typedef __int128 Wide;
+
+/// What divide_by() multiplies with for a divisor above 1.
+constexpr std::int64_t reciprocal(std::int32_t divisor) {
+  return static_cast<std::int64_t>((std::uint64_t{1} << 63) / static_cast<std::uint64_t>(divisor)) +
+         1;
+}
+/// divide() by the divisor of `reciprocal`: the error of the product is less than 1 / divisor, so
+/// only the rounding of negative quotients remains to be mended.
+constexpr std::int32_t divide_by(std::int32_t x, std::int64_t reciprocal) {
+  return static_cast<std::int32_t>(Wide{x} * reciprocal >> 63) + (x < 0 ? 1 : 0);
 }
 
 } // namespace orb::bytecode

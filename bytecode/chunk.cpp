@@ -1,6 +1,7 @@
 #include "bytecode/chunk.h"
 
 #include "spec/basic.h"
+#include "spec/limits.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -10,8 +11,8 @@ namespace orb::bytecode {
 
 namespace {
 
-std::array<std::uint16_t, 5> operands(const Instruction& instruction) {
-  return {instruction.a, instruction.b, instruction.c, instruction.d, instruction.e};
+std::array<std::uint16_t, 4> operands(const Instruction& instruction) {
+  return {instruction.a, instruction.b, instruction.c, instruction.d};
 }
 
 std::optional<std::string> verify(const Chunk& chunk, const Instruction& instruction) {
@@ -28,6 +29,8 @@ std::optional<std::string> verify(const Chunk& chunk, const Instruction& instruc
   }
   if (row.has_target() && instruction.target >= chunk.code.size())
     return fmt::format("target {} is outside the code", instruction.target);
+  if (instruction.ends_line && row.ends != Ends::Either)
+    return "it cannot say whether the line ends";
   return std::nullopt;
 }
 
@@ -51,8 +54,9 @@ std::optional<std::string> verify_meaning(const Chunk& chunk, std::size_t at) {
     if (instruction.a >= spec::statements.size() || !registers_from(instruction.b, instruction.c))
       return "there is no such statement, or its arguments are no registers";
   } else if (instruction.op == Op::SetData) {
-    if (!registers_from(instruction.a, instruction.b))
-      return "the data are no registers";
+    if (!registers_from(instruction.a, instruction.b) ||
+        instruction.b > spec::value_of(spec::Limit::DataValues))
+      return "the data are too many, or no registers";
   } else if (instruction.op == Op::ReadSystem) {
     if (instruction.b >= spec::variables.size())
       return "there is no such system variable";
@@ -83,18 +87,11 @@ std::optional<std::string> verify(const Chunk& chunk) {
       return fmt::format("instruction {} ({}): {}", at, info(chunk.code[at].op).name, *problem);
   }
   std::uint32_t expected = 0;
-  std::vector<bool> begins(chunk.code.size() + 1);
   for (const auto& line : chunk.lines) {
     if (line.begin < expected || line.begin >= chunk.code.size())
       return fmt::format("line {} begins at {}", line.number, line.begin);
-    begins[line.begin] = true;
     expected = line.begin + 1;
   }
-  begins[chunk.code.size() - 1] = true;
-  for (std::size_t at = 0; at < chunk.code.size(); ++at)
-    if (info(chunk.code[at].op).ends == Ends::Lines &&
-        (at + 2 >= chunk.code.size() || !begins[at + 1] || !begins[at + 2]))
-      return fmt::format("instruction {}: the second line does not follow by itself", at);
   return std::nullopt;
 }
 
@@ -149,6 +146,8 @@ std::string listing(const Chunk& chunk) {
     }
     if (row.has_target())
       fmt::format_to(std::back_inserter(out), " -> {}", instruction.target);
+    if (instruction.ends_line)
+      out += " .";
     out += '\n';
   }
   return out;

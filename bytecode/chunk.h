@@ -13,11 +13,11 @@ namespace orb::bytecode {
 /// otherwise; `target` is the index of an instruction.
 struct Instruction {
   Op op{};
+  bool ends_line = false; ///< of an operation whose row says Ends::Either
   std::uint16_t a = 0;
   std::uint16_t b = 0;
   std::uint16_t c = 0;
   std::uint16_t d = 0;
-  std::uint16_t e = 0;
   std::uint32_t target = 0;
 
   friend bool operator==(const Instruction&, const Instruction&) = default;

@@ -13,16 +13,16 @@ enum class Op : std::uint16_t {
 #include "bytecode/op.def"
 };
 
-/// Whether the line goes on behind an instruction, ends with it, or even the following one does.
-enum class Ends : std::uint8_t { Value, Line, Lines };
+/// Whether the line goes on behind an instruction, or ends with it.
+enum class Ends : std::uint8_t { Value, Either, Line };
 
 struct OpInfo {
   std::string_view name;
   Ends ends;
-  std::string_view operands; ///< a letter for each of a to e, then t for a target
+  std::string_view operands; ///< a letter for each of a to d, then t for a target
   std::string_view effect;
 
-  constexpr bool has_target() const { return operands.size() == 6; }
+  constexpr bool has_target() const { return operands.size() == 5; }
 };
 
 inline constexpr auto ops = std::to_array<OpInfo>({
@@ -33,25 +33,5 @@ inline constexpr auto ops = std::to_array<OpInfo>({
 constexpr const OpInfo& info(Op op) {
   return ops[static_cast<std::size_t>(op)];
 }
-
-/// The operators of the language and, for dividing by constants, four of the machine's own.
-enum class Arithmetic : std::uint8_t {
-  Multiply,
-  Divide,
-  Remainder,
-  ShiftLeft,
-  ShiftRight,
-  Add,
-  Subtract,
-  And,
-  Or,
-  DivideBy,
-  RemainderBy,
-  DivideByPower,
-  RemainderByPower
-};
-
-/// How two relations are glued together.
-enum class Glue : std::uint8_t { And, Or };
 
 } // namespace orb::bytecode

@@ -1,5 +1,7 @@
 #include "vm/machine.h"
 
+#include "bytecode/arithmetic.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -112,10 +114,10 @@ void Core::print_number(std::int32_t value) {
   text.append(digits, end);
 }
 
-Flow Core::print(bool open) {
+Flow Core::print(PrintEnd end) {
   if (text.size() > print_bytes)
     text = too_long;
-  else if (!open)
+  else if (end == PrintEnd::Line)
     text += '\n';
   const Instant now = line_end();
   const auto again = host->print(text, now);
@@ -241,9 +243,7 @@ void Machine::link(const bytecode::Chunk& chunk) {
     const std::int32_t value = chunk.constants[i];
     core_.registers[chunk.first_constant() + i] = value;
     if (value > 1)
-      core_.reciprocals[chunk.first_constant() + i] =
-          static_cast<std::int64_t>((std::uint64_t{1} << 63) / static_cast<std::uint64_t>(value)) +
-          1;
+      core_.reciprocals[chunk.first_constant() + i] = bytecode::reciprocal(value);
   }
 
   const auto distance = [](std::size_t from, std::size_t to) {
@@ -257,22 +257,21 @@ void Machine::link(const bytecode::Chunk& chunk) {
       ++line;
     const std::size_t following = line < chunk.lines.size() ? chunk.lines[line].begin : size - 1;
     const auto& instruction = chunk.code[i];
-    core_.code[i] = {engine_.handlers[static_cast<std::size_t>(instruction.op)],
+    core_.code[i] = {engine_.handlers[2 * static_cast<std::size_t>(instruction.op) +
+                                      (instruction.ends_line ? 1 : 0)],
                      instruction.a,
                      instruction.b,
                      instruction.c,
                      instruction.d,
                      distance(i, instruction.target),
-                     bytecode::info(instruction.op).operands[4] == '-'
-                         ? distance(i, following)
-                         : static_cast<std::int32_t>(instruction.e)};
+                     distance(i, following)};
   }
 }
 
 void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
   if (bytecode::verify(chunk)) {
     chunk = {};
-    chunk.code.push_back({Op::EndOfProgram, 0, 0, 0, 0, 0});
+    chunk.code.push_back({Op::EndOfProgram});
   }
   link(chunk);
   now_ = core_.base = now;
@@ -425,11 +424,6 @@ void Machine::run(Instant limit, Host& host) {
     const int line = single ? line_of(core_.pc) : 0;
     core_.allowed = core_.budget = single ? 1 : lines;
     const Exit exit = engine_.run(core_);
-    // A program that has ended may stand behind its last instruction.
-    const bool goes_on = exit == Exit::Budget || exit == Exit::Leave;
-    if (goes_on && core_.pc->handler == engine_.handlers[static_cast<std::size_t>(Op::Skip)])
-      core_.pc = core_.pc->target();
-
     const std::int64_t executed = core_.allowed - core_.budget;
     now_ = core_.line_end();
     lines_ += static_cast<std::uint64_t>(executed);

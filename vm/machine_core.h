@@ -22,11 +22,10 @@ struct Code {
   std::uint16_t c = 0;
   std::uint16_t d = 0;
   std::int32_t jump = 0; ///< from here to the target
-  std::int32_t next = 0; ///< from here to the line that follows; of what has one, operand e
+  std::int32_t next = 0; ///< from here to the line that follows
 
   const Code* target() const { return away(jump); }
   const Code* following_line() const { return away(next); }
-  std::size_t e() const { return static_cast<std::size_t>(next); }
 
 private:
   const Code* away(std::int32_t distance) const {
@@ -36,7 +35,7 @@ private:
 
 /// A running `for`.
 struct Loop {
-  const Code* body = nullptr;
+  std::uint32_t body = 0; ///< where its first line begins in the code
   std::int32_t end = 0;
   std::int32_t step = 0;
   std::uint16_t variable = 0; ///< a register, or bytecode::element_by_index
@@ -48,6 +47,9 @@ enum class Flow : std::uint8_t {
   Fault, ///< the program stops with `error`
   Leave  ///< the line has ended; let the ball look at the world before the next one
 };
+
+/// How a print statement ends.
+enum class PrintEnd : std::uint8_t { Line, Open };
 
 /// Why the loop came back.
 enum class Exit : std::uint8_t { Budget, Leave, Fault, Ended };
@@ -66,16 +68,16 @@ struct Core {
   std::vector<bytecode::Line> lines;
   std::vector<std::string> texts;
   std::vector<std::int32_t> registers;
-  /// By register: 2^63 / constant + 1, for DivideBy and RemainderBy.
+  /// By register, of constants above 1: for DivideBy and RemainderBy.
   std::vector<std::int64_t> reciprocals;
 
   // Where it is.
   const Code* pc = nullptr; ///< what runs next
   const Code* at = nullptr; ///< what called a slow operation, or failed
   const Code* start = nullptr;
-  std::array<Loop, for_depth + 1> loops; ///< the first is below all loops
-  Loop* loop = nullptr;                  ///< the innermost
-  std::array<const Code*, gosub_depth> calls{};
+  std::array<Loop, for_depth + 1> loops;          ///< the first is below all loops
+  Loop* loop = nullptr;                           ///< the innermost
+  std::array<std::uint32_t, gosub_depth> calls{}; ///< where `return` goes on in the code
   std::size_t call_depth = 0;
   spec::BasicError error{};
 
@@ -111,6 +113,9 @@ struct Core {
 
   Host* host = nullptr;
 
+  std::uint32_t index_of(const Code* place) const {
+    return static_cast<std::uint32_t>(place - code.data());
+  }
   Instant time_of(std::int64_t line) const {
     return base + Duration{line * 1'000'000'000 / lines_per_second};
   }
@@ -128,7 +133,7 @@ struct Core {
   Flow square_root(const Code& code);
   Flow random_number(const Code& code);
   void print_number(std::int32_t value);
-  Flow print(bool open);
+  Flow print(PrintEnd end);
   Flow delay(std::int32_t milliseconds);
   Flow input(const Code& code);
   Flow input_timed(const Code& code);
@@ -144,7 +149,8 @@ struct Core {
 
 /// A way to run code: what to put into Code::handler for each operation, and the loop itself.
 struct Engine {
-  const void* const* handlers; ///< by bytecode::Op
+  /// By bytecode::Op: a pair for what goes on with the line and for what ends it.
+  const void* const* handlers;
   Exit (*run)(Core&);
 };
 

@@ -1,15 +1,23 @@
 // The loop that runs orbBasic: one block per instruction of bytecode/op.def. Included once by
 // machine_threaded.cpp and once by machine_switch.cpp, inside a function that has a Core& core;
 // they define
-//   OP(name)    begins the block of an instruction
-//   DISPATCH()  goes to the block of `pc`
+//   OP(name)       begins the block of an instruction
+//   OP_LINE(name)  begins its block where it ends the line, for those that may or may not
+//   DISPATCH()     goes to the block of `pc`
 //
 // A line ends with NEXT_LINE: one count down, one compare. Everything that can happen besides
 // (other parts of the ball, the end of `--for`, tracing) is behind that budget.
 
+using bytecode::element_by_index;
+using bytecode::element_count;
+using bytecode::first_element;
+using bytecode::index_variable;
+using spec::BasicError;
+
 const Code* pc = core.pc;
 Loop* loop = core.loop;
 std::int64_t budget = core.budget;
+const Code* const code = core.code.data();
 std::int32_t* const r = core.registers.data();
 const std::int64_t* const reciprocal = core.reciprocals.data();
 
@@ -20,401 +28,222 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     DISPATCH();                                                                                    \
   } while (false)
 
+// The line ends, and the one behind it in the text is next.
+#define FOLLOWING_LINE()                                                                           \
+  do {                                                                                             \
+    pc = pc->following_line();                                                                     \
+    NEXT_LINE();                                                                                   \
+  } while (false)
+
 #define FAULT(what)                                                                                \
   do {                                                                                             \
     core.error = what;                                                                             \
     goto fault;                                                                                    \
   } while (false)
 
-// What the slow operations need to know.
-#define SYNC()                                                                                     \
+// What the slow operations need to know; `next` is where a line that leaves the loop goes on.
+#define SYNC(next)                                                                                 \
   core.at = pc;                                                                                    \
-  core.pc = pc + 1;                                                                                \
+  core.pc = next;                                                                                  \
   core.loop = loop;                                                                                \
   core.budget = budget
 
-#define SLOW(call, go_on)                                                                          \
-  do {                                                                                             \
-    SYNC();                                                                                        \
-    const Flow flow = call;                                                                        \
-    if (flow == Flow::Next) {                                                                      \
-      ++pc;                                                                                        \
-      go_on();                                                                                     \
-    }                                                                                              \
-    return flow == Flow::Fault ? Exit::Fault : Exit::Leave;                                        \
-  } while (false)
+#define SLOW(next, call)                                                                           \
+  SYNC(next);                                                                                      \
+  if (const Flow flow = call; flow != Flow::Next)                                                  \
+  return flow == Flow::Fault ? Exit::Fault : Exit::Leave
 
-#define CALCULATE(op, x, y, divisor, out)                                                          \
-  do {                                                                                             \
-    if (const auto what = calculate<Arithmetic::op>(x, y, reciprocal + (divisor), out);            \
-        failed(what))                                                                              \
-      FAULT(what);                                                                                 \
-  } while (false)
-
-// The element of Z that `y` names.
-#define ELEMENT(index, y)                                                                          \
-  if (static_cast<std::uint32_t>(y) - 1u >= element_count)                                         \
+// The element of Z that Y names.
+#define ELEMENT(index)                                                                             \
+  if (static_cast<std::uint32_t>(r[index_variable]) - 1u >= element_count)                         \
     FAULT(BasicError::IllegalIndex);                                                               \
-  const std::size_t index = first_element + static_cast<std::size_t>(y) - 1
+  const auto index = first_element + static_cast<std::size_t>(r[index_variable]) - 1
+
+#define A r[pc->a]
+#define B r[pc->b]
+#define C r[pc->c]
+
+// An operation behind which the line may go on or end.
+#define VALUE(name, ...)                                                                           \
+  OP(name) {                                                                                       \
+    __VA_ARGS__;                                                                                   \
+    ++pc;                                                                                          \
+    DISPATCH();                                                                                    \
+  }                                                                                                \
+  OP_LINE(name) {                                                                                  \
+    __VA_ARGS__;                                                                                   \
+    ++pc;                                                                                          \
+    NEXT_LINE();                                                                                   \
+  }
+
+// A statement that the machine does outside of the loop, with which the line ends.
+#define STATEMENT(name, call)                                                                      \
+  OP(name) {                                                                                       \
+    SLOW(pc->following_line(), call);                                                              \
+    FOLLOWING_LINE();                                                                              \
+  }
 
 NEXT_LINE();
 
 #ifdef ORB_SWITCH
-dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler))) {
+dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
 #endif
 
-// The following line, a `next` of the loop variable `name`, within the same block.
-#define AND_NEXT(name)                                                                             \
-  do {                                                                                             \
-    const std::size_t counter = name;                                                              \
-    ++pc;                                                                                          \
-    if (--budget < 0)                                                                              \
-      goto out_of_budget;                                                                          \
-    NEXT_OF(counter);                                                                              \
-  } while (false)
-
-#define NEXT_OF(counter)                                                                           \
-  if (loop->variable != counter)                                                                   \
-    FAULT(BasicError::NextWithoutFor);                                                             \
-  const std::int32_t value = bytecode::add(r[counter], loop->step);                                \
-  r[counter] = value;                                                                              \
-  if (loop->step > 0 ? value <= loop->end : value >= loop->end) {                                  \
-    pc = loop->body;                                                                               \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  --loop;                                                                                          \
-  ++pc;                                                                                            \
-  NEXT_LINE()
-
   // --- values -----------------------------------------------------------------------------------
-#define ORB_CALC(op, sign)                                                                         \
-  OP(op) {                                                                                         \
-    CALCULATE(op, r[pc->b], r[pc->c], pc->c, r[pc->a]);                                            \
-    ++pc;                                                                                          \
-    DISPATCH();                                                                                    \
-  }                                                                                                \
-  OP(op##Line) {                                                                                   \
-    CALCULATE(op, r[pc->b], r[pc->c], pc->c, r[pc->a]);                                            \
-    ++pc;                                                                                          \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  OP(op##Next) {                                                                                   \
-    CALCULATE(op, r[pc->b], r[pc->c], pc->c, r[pc->a]);                                            \
-    AND_NEXT(pc->e());                                                                             \
-  }
-
-#define CHAIN_LEFT(op1, op2)                                                                       \
-  std::int32_t inner;                                                                              \
-  CALCULATE(op1, r[pc->b], r[pc->c], pc->c, inner);                                                \
-  CALCULATE(op2, inner, r[pc->d], pc->d, r[pc->a])
-
-#define ORB_LEFT(op1, s1, op2, s2)                                                                 \
-  OP(op1##Then##op2) {                                                                             \
-    CHAIN_LEFT(op1, op2);                                                                          \
-    ++pc;                                                                                          \
-    DISPATCH();                                                                                    \
-  }                                                                                                \
-  OP(op1##Then##op2##Line) {                                                                       \
-    CHAIN_LEFT(op1, op2);                                                                          \
-    ++pc;                                                                                          \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  OP(op1##Then##op2##Next) {                                                                       \
-    CHAIN_LEFT(op1, op2);                                                                          \
-    AND_NEXT(pc->e());                                                                             \
-  }
-
-#define CHAIN_RIGHT(op1, op2)                                                                      \
-  std::int32_t inner;                                                                              \
-  CALCULATE(op2, r[pc->c], r[pc->d], pc->d, inner);                                                \
-  CALCULATE(op1, r[pc->b], inner, 0, r[pc->a])
-
-#define ORB_RIGHT(op1, s1, op2, s2)                                                                \
-  OP(op1##Of##op2) {                                                                               \
-    CHAIN_RIGHT(op1, op2);                                                                         \
-    ++pc;                                                                                          \
-    DISPATCH();                                                                                    \
-  }                                                                                                \
-  OP(op1##Of##op2##Line) {                                                                         \
-    CHAIN_RIGHT(op1, op2);                                                                         \
-    ++pc;                                                                                          \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  OP(op1##Of##op2##Next) {                                                                         \
-    CHAIN_RIGHT(op1, op2);                                                                         \
-    AND_NEXT(pc->e());                                                                             \
-  }
+  VALUE(Copy, A = B)
+  VALUE(Add, A = bytecode::add(B, C))
+  VALUE(Subtract, A = bytecode::subtract(B, C))
+  VALUE(Multiply, A = bytecode::multiply(B, C))
+  VALUE(Divide, if (C == 0) FAULT(BasicError::DivideByZero); A = bytecode::divide(B, C))
+  VALUE(Remainder, if (C == 0) FAULT(BasicError::DivideByZero); A = bytecode::remainder(B, C))
+  VALUE(DivideBy, A = bytecode::divide_by(B, reciprocal[pc->c]))
+  VALUE(RemainderBy, const auto quotient = bytecode::divide_by(B, reciprocal[pc->c]);
+        A = bytecode::subtract(B, bytecode::multiply(quotient, C)))
+  VALUE(ShiftLeft, if (!bytecode::is_shift_count(C)) FAULT(BasicError::BadNumericParameter);
+        A = bytecode::shift_left(B, C))
+  VALUE(ShiftRight, if (!bytecode::is_shift_count(C)) FAULT(BasicError::BadNumericParameter);
+        A = bytecode::shift_right(B, C))
+  VALUE(And, A = B & C)
+  VALUE(Or, A = B | C)
+  VALUE(Abs, A = bytecode::absolute(B))
+  VALUE(Sqrt, SLOW(pc + 1, core.square_root(*pc)))
+  VALUE(Rnd, SLOW(pc + 1, core.random_number(*pc)))
+  VALUE(LoadElement, ELEMENT(index); A = r[index])
+  VALUE(StoreElement, ELEMENT(index); r[index] = A)
+  VALUE(ReadSystem, SLOW(pc + 1, core.read_system(*pc)))
+  VALUE(WriteSystem, SLOW(pc + 1, core.write_system(*pc)))
+  VALUE(ReadData, SLOW(pc + 1, core.read_data(*pc)))
 
   // --- decisions --------------------------------------------------------------------------------
-#define TEST_IF(condition)                                                                         \
-  if (condition) {                                                                                 \
-    ++pc;                                                                                          \
+#define TEST(relation, sign)                                                                       \
+  OP(Unless##relation) {                                                                           \
+    pc = A sign B ? pc + 1 : pc->target();                                                         \
     DISPATCH();                                                                                    \
   }                                                                                                \
-  pc = pc->target();                                                                               \
-  NEXT_LINE()
-
-#define TEST_UNLESS(condition)                                                                     \
-  if (condition)                                                                                   \
-    ++pc;                                                                                          \
-  else                                                                                             \
-    pc = pc->target();                                                                             \
-  DISPATCH()
-
-#define TEST_GOTO(condition)                                                                       \
-  if (condition) {                                                                                 \
-    pc = pc->target();                                                                             \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  ++pc;                                                                                            \
-  NEXT_LINE()
-
-// Both values are read before the condition is known.
-#define SELECT(pair, condition)                                                                    \
-  const std::int32_t where_true = r[pair];                                                         \
-  const std::int32_t where_false = r[(pair) + 1u];                                                 \
-  r[pc->a] = (condition) ? where_true : where_false;                                               \
-  ++pc;                                                                                            \
-  NEXT_LINE()
-
-#define SIMPLE(rel) holds<Relation::rel>(r[pc->a], r[pc->b])
-#define ORB_TEST(rel, sign)                                                                        \
-  OP(If##rel) {                                                                                    \
-    TEST_IF(SIMPLE(rel));                                                                          \
-  }                                                                                                \
-  OP(Unless##rel) {                                                                                \
-    TEST_UNLESS(SIMPLE(rel));                                                                      \
-  }                                                                                                \
-  OP(Goto##rel) { TEST_GOTO(SIMPLE(rel)); }                                                        \
-  OP(Select##rel) { SELECT(pc->d, holds<Relation::rel>(r[pc->b], r[pc->c])); }                     \
-  OP(AddGoto##rel) {                                                                               \
-    r[pc->a] = bytecode::add(r[pc->b], r[pc->c]);                                                  \
-    if (--budget < 0) {                                                                            \
+  OP_LINE(Unless##relation) {                                                                      \
+    if (A sign B) {                                                                                \
       ++pc;                                                                                        \
-      goto out_of_budget;                                                                          \
+      DISPATCH();                                                                                  \
     }                                                                                              \
-    if (holds<Relation::rel>(r[pc->d], r[pc->e()]))                                                \
+    pc = pc->target();                                                                             \
+    NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  OP(When##relation) {                                                                             \
+    pc = A sign B ? pc->target() : pc + 1;                                                         \
+    DISPATCH();                                                                                    \
+  }                                                                                                \
+  OP_LINE(When##relation) {                                                                        \
+    if (A sign B) {                                                                                \
       pc = pc->target();                                                                           \
-    else                                                                                           \
-      pc += 2;                                                                                     \
+      NEXT_LINE();                                                                                 \
+    }                                                                                              \
+    ++pc;                                                                                          \
+    NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  OP(Select##relation) {                                                                           \
+    const std::int32_t where_true = r[pc->d];                                                      \
+    const std::int32_t where_false = r[pc->d + 1u];                                                \
+    A = B sign C ? where_true : where_false;                                                       \
+    ++pc;                                                                                          \
     NEXT_LINE();                                                                                   \
   }
-
-#define CALCULATED(op)                                                                             \
-  std::int32_t value;                                                                              \
-  CALCULATE(op, r[pc->a], r[pc->b], pc->b, value)
-#define ORB_CALC_TEST(op, s, rel, sign)                                                            \
-  OP(If##op##rel) {                                                                                \
-    CALCULATED(op);                                                                                \
-    TEST_IF(holds<Relation::rel>(value, r[pc->c]));                                                \
-  }                                                                                                \
-  OP(Unless##op##rel) {                                                                            \
-    CALCULATED(op);                                                                                \
-    TEST_UNLESS(holds<Relation::rel>(value, r[pc->c]));                                            \
-  }                                                                                                \
-  OP(Goto##op##rel) {                                                                              \
-    CALCULATED(op);                                                                                \
-    TEST_GOTO(holds<Relation::rel>(value, r[pc->c]));                                              \
-  }                                                                                                \
-  OP(Select##op##rel) {                                                                            \
-    std::int32_t value;                                                                            \
-    CALCULATE(op, r[pc->b], r[pc->c], pc->c, value);                                               \
-    SELECT(pc->e(), holds<Relation::rel>(value, r[pc->d]));                                        \
-  }
-
-#define TWO(glue, rel1, rel2)                                                                      \
-  glued<Glue::glue>(holds<Relation::rel1>(r[pc->a], r[pc->b]),                                     \
-                    holds<Relation::rel2>(r[pc->c], r[pc->d]))
-#define ORB_TWO_TESTS(glue, rel1, s1, rel2, s2)                                                    \
-  OP(If##rel1##glue##rel2) {                                                                       \
-    TEST_IF(TWO(glue, rel1, rel2));                                                                \
-  }                                                                                                \
-  OP(Unless##rel1##glue##rel2) {                                                                   \
-    TEST_UNLESS(TWO(glue, rel1, rel2));                                                            \
-  }
-
-#include "bytecode/op.def"
-
-  OP(Copy) {
-    r[pc->a] = r[pc->b];
-    ++pc;
-    DISPATCH();
-  }
-  OP(CopyLine) {
-    r[pc->a] = r[pc->b];
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(LoadElement) {
-    ELEMENT(index, r[index_variable]);
-    r[pc->a] = r[index];
-    ++pc;
-    DISPATCH();
-  }
-  OP(LoadElementLine) {
-    ELEMENT(index, r[index_variable]);
-    r[pc->a] = r[index];
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(StoreElement) {
-    ELEMENT(index, r[index_variable]);
-    r[index] = r[pc->a];
-    ++pc;
-    DISPATCH();
-  }
-  OP(StoreElementLine) {
-    ELEMENT(index, r[index_variable]);
-    r[index] = r[pc->a];
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(IndexLoad) {
-    const std::int32_t y = bytecode::add(r[pc->b], r[pc->c]);
-    const std::uint16_t to = pc->a;
-    r[index_variable] = y;
-    ++pc;
-    if (--budget < 0)
-      goto out_of_budget;
-    ELEMENT(index, y);
-    r[to] = r[index];
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(IndexStore) {
-    const std::int32_t y = bytecode::add(r[pc->b], r[pc->c]);
-    const std::uint16_t from = pc->a;
-    r[index_variable] = y;
-    ++pc;
-    if (--budget < 0)
-      goto out_of_budget;
-    ELEMENT(index, y);
-    r[index] = r[from];
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(ReadSystem) {
-    SLOW(core.read_system(*pc), DISPATCH);
-  }
-  OP(WriteSystem) {
-    SLOW(core.write_system(*pc), DISPATCH);
-  }
-  OP(Sqrt) {
-    SLOW(core.square_root(*pc), DISPATCH);
-  }
-  OP(Rnd) {
-    SLOW(core.random_number(*pc), DISPATCH);
-  }
-  OP(Abs) {
-    r[pc->a] = bytecode::absolute(r[pc->b]);
-    ++pc;
-    DISPATCH();
-  }
+  TEST(Equal, ==)
+  TEST(NotEqual, !=)
+  TEST(Less, <)
+  TEST(Greater, >)
 
   // --- control ----------------------------------------------------------------------------------
   OP(Goto) {
+    pc = pc->target();
+    DISPATCH();
+  }
+  OP_LINE(Goto) {
     pc = pc->target();
     NEXT_LINE();
   }
   OP(Gosub) {
     if (core.call_depth == core.calls.size())
       FAULT(BasicError::GosubDepthExceeded);
-    core.calls[core.call_depth++] = pc->following_line();
+    core.calls[core.call_depth++] = core.index_of(pc->following_line());
     pc = pc->target();
     NEXT_LINE();
   }
   OP(Return) {
     if (core.call_depth == 0)
       FAULT(BasicError::ReturnWithoutGosub);
-    pc = core.calls[--core.call_depth];
+    pc = code + core.calls[--core.call_depth];
     NEXT_LINE();
   }
+
+// The row of the list that A names.
+#define CHOSEN(row)                                                                                \
+  if (static_cast<std::uint32_t>(A) - 1u >= pc->b)                                                 \
+    FAULT(BasicError::IllegalIndex);                                                               \
+  const Code* const row = pc + A;                                                                  \
+  if (row->a != 0)                                                                                 \
+  FAULT(static_cast<BasicError>(row->a))
+
   OP(OnGoto) {
-    const std::uint32_t chosen = static_cast<std::uint32_t>(r[pc->a]) - 1u;
-    if (chosen >= pc->b)
-      FAULT(BasicError::IllegalIndex);
-    const Code* const row = pc + 1 + chosen;
-    if (row->a != 0)
-      FAULT(static_cast<BasicError>(row->a));
-    pc = row;
-    pc = pc->target();
+    CHOSEN(row);
+    pc = row->target();
     NEXT_LINE();
   }
   OP(OnGosub) {
-    const std::uint32_t chosen = static_cast<std::uint32_t>(r[pc->a]) - 1u;
-    if (chosen >= pc->b)
-      FAULT(BasicError::IllegalIndex);
-    const Code* const row = pc + 1 + chosen;
-    if (row->a != 0)
-      FAULT(static_cast<BasicError>(row->a));
+    CHOSEN(row);
     if (core.call_depth == core.calls.size())
       FAULT(BasicError::GosubDepthExceeded);
-    core.calls[core.call_depth++] = pc->following_line();
-    pc = row;
-    pc = pc->target();
+    core.calls[core.call_depth++] = core.index_of(pc->following_line());
+    pc = row->target();
     NEXT_LINE();
   }
+
+// The innermost loop may begin again.
+#define BEGIN_LOOP(counter, last, by)                                                              \
+  if (by == 0)                                                                                     \
+    FAULT(BasicError::BadStepValue);                                                               \
+  if (loop->variable != (counter)) {                                                               \
+    if (loop == &core.loops.back())                                                                \
+      FAULT(BasicError::ForDepthExceeded);                                                         \
+    ++loop;                                                                                        \
+  }                                                                                                \
+  *loop = {core.index_of(pc->following_line()), last, by, counter};                                \
+  FOLLOWING_LINE()
+
+#define STEP_LOOP(counter)                                                                         \
+  const std::int32_t value = bytecode::add(counter, loop->step);                                   \
+  counter = value;                                                                                 \
+  if (loop->step > 0 ? value <= loop->end : value >= loop->end) {                                  \
+    pc = code + loop->body;                                                                        \
+    NEXT_LINE();                                                                                   \
+  }                                                                                                \
+  --loop;                                                                                          \
+  FOLLOWING_LINE()
+
   OP(For) {
-    r[pc->a] = r[pc->b];
-    const std::int32_t end = r[pc->c];
-    const std::int32_t step = r[pc->d];
-    if (step == 0)
-      FAULT(BasicError::BadStepValue);
-    if (loop->variable != pc->a) { // the innermost loop may begin again
-      if (loop == &core.loops.back())
-        FAULT(BasicError::ForDepthExceeded);
-      ++loop;
-    }
-    *loop = {pc->following_line(), end, step, pc->a};
-    pc = pc->following_line();
-    NEXT_LINE();
+    A = B;
+    BEGIN_LOOP(pc->a, C, r[pc->d]);
   }
   OP(ForElement) {
-    const std::int32_t step = r[pc->c];
-    if (step == 0)
-      FAULT(BasicError::BadStepValue);
-    if (loop->variable != element_by_index) {
-      if (loop == &core.loops.back())
-        FAULT(BasicError::ForDepthExceeded);
-      ++loop;
-    }
-    *loop = {pc->following_line(), r[pc->b], step, element_by_index};
-    pc = pc->following_line();
-    NEXT_LINE();
+    BEGIN_LOOP(element_by_index, B, C);
   }
   OP(Next) {
-    const std::size_t counter = pc->a;
-    NEXT_OF(counter);
+    if (loop->variable != pc->a)
+      FAULT(BasicError::NextWithoutFor);
+    STEP_LOOP(A);
   }
   OP(NextElement) {
     if (loop->variable != element_by_index)
       FAULT(BasicError::NextWithoutFor);
-    ELEMENT(index, r[index_variable]);
-    const std::int32_t value = bytecode::add(r[index], loop->step);
-    r[index] = value;
-    if (loop->step > 0 ? value <= loop->end : value >= loop->end) {
-      pc = loop->body;
-      NEXT_LINE();
-    }
-    --loop;
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(Skip) {
-    pc = pc->target();
-    DISPATCH();
-  }
-  OP(EndLine) {
-    ++pc;
-    NEXT_LINE();
+    ELEMENT(index);
+    STEP_LOOP(r[index]);
   }
   OP(End) {
-    SYNC();
+    SYNC(pc);
     return Exit::Ended;
   }
   OP(EndOfProgram) {
     ++budget; // no line of its own
-    SYNC();
+    SYNC(pc);
     return Exit::Ended;
   }
   OP(Target) // never executed
@@ -422,20 +251,19 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     FAULT(static_cast<BasicError>(pc->a));
   }
 
-  // --- statements
-  // ---------------------------------------------------------------------------------
+  // --- statements -------------------------------------------------------------------------------
   OP(PrintText) {
     core.text += core.texts[pc->a];
     ++pc;
     DISPATCH();
   }
   OP(PrintNumber) {
-    core.print_number(r[pc->a]);
+    core.print_number(A);
     ++pc;
     DISPATCH();
   }
   OP(PrintCharacter) {
-    core.text += static_cast<char>(static_cast<std::uint8_t>(r[pc->a]));
+    core.text += static_cast<char>(static_cast<std::uint8_t>(A));
     ++pc;
     DISPATCH();
   }
@@ -444,72 +272,55 @@ dispatch : switch (static_cast<Op>(reinterpret_cast<std::uintptr_t>(pc->handler)
     ++pc;
     DISPATCH();
   }
-  OP(PrintLine) {
-    SLOW(core.print(false), NEXT_LINE);
-  }
-  OP(PrintOpen) {
-    SLOW(core.print(true), NEXT_LINE);
-  }
-  OP(Delay) {
-    SLOW(core.delay(r[pc->a]), NEXT_LINE);
-  }
-  OP(Input) {
-    SLOW(core.input(*pc), NEXT_LINE);
-  }
-  OP(InputTimed) {
-    SLOW(core.input_timed(*pc), NEXT_LINE);
-  }
-  OP(SetData) {
-    SLOW(core.set_data(*pc), NEXT_LINE);
-  }
+  STATEMENT(PrintLine, core.print(PrintEnd::Line))
+  STATEMENT(PrintOpen, core.print(PrintEnd::Open))
+  STATEMENT(Delay, core.delay(A))
+  STATEMENT(Input, core.input(*pc))
+  STATEMENT(InputTimed, core.input_timed(*pc))
+  STATEMENT(SetData, core.set_data(*pc))
+  STATEMENT(Perform, core.perform(*pc))
+  STATEMENT(Reset, core.reset())
   OP(RestartData) {
     core.data_next = 0;
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(ReadData) {
-    SLOW(core.read_data(*pc), DISPATCH);
-  }
-  OP(Perform) {
-    SLOW(core.perform(*pc), NEXT_LINE);
+    FOLLOWING_LINE();
   }
   OP(Random) {
     core.reseed();
-    ++pc;
-    NEXT_LINE();
+    FOLLOWING_LINE();
   }
   OP(Tron) {
-    SYNC();
+    SYNC(pc->following_line());
     core.tron = true;
     return Exit::Leave;
   }
   OP(Troff) {
     core.tron = false;
-    ++pc;
-    NEXT_LINE();
-  }
-  OP(Reset) {
-    SLOW(core.reset(), NEXT_LINE);
+    FOLLOWING_LINE();
   }
 
 #ifdef ORB_SWITCH
 }
 #endif
 
-fault : SYNC();
+fault : SYNC(pc);
 return Exit::Fault;
 
-out_of_budget : SYNC();
-core.pc = pc;
+out_of_budget : SYNC(pc);
 core.budget = 0;
 return Exit::Budget;
 
 #undef NEXT_LINE
-#undef AND_NEXT
-#undef NEXT_OF
-#undef SELECT
+#undef FOLLOWING_LINE
 #undef FAULT
 #undef SYNC
 #undef SLOW
-#undef CALCULATE
 #undef ELEMENT
+#undef A
+#undef B
+#undef C
+#undef VALUE
+#undef STATEMENT
+#undef TEST
+#undef CHOSEN
+#undef BEGIN_LOOP
+#undef STEP_LOOP

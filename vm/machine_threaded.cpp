@@ -1,4 +1,4 @@
-#include "vm/machine_calculate.h"
+#include "bytecode/arithmetic.h"
 #include "vm/machine_core.h"
 
 // Each block jumps straight to the next one, so that the processor learns which instruction tends
@@ -15,7 +15,10 @@ namespace {
 /// Runs; without a core it only tells where its blocks are.
 Exit run_threaded(Core* machine, const void* const** table) {
   static const void* const handlers[] = {
-#define ORB_OP(name, ...) &&name,
+#define ORB_Value(name) &&name, &&name
+#define ORB_Either(name) &&name, &&name##Line
+#define ORB_Line(name) &&name, &&name
+#define ORB_OP(name, ends, ...) ORB_##ends(name),
 #include "bytecode/op.def"
   };
   if (!machine) {
@@ -25,6 +28,7 @@ Exit run_threaded(Core* machine, const void* const** table) {
   Core& core = *machine;
 #define OP(name)                                                                                   \
   name:
+#define OP_LINE(name) name##Line:
 #define DISPATCH() goto * pc->handler
 #include "vm/machine_loop.h"
 }

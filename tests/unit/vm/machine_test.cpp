@@ -68,11 +68,11 @@ const Case cases[] = {
     {"Z out of bounds", "10 Y=26\n20 Z=1\n", "", "Line 20: Illegal index"},
     {"Z holds 25", "10 for Y=1 to 25\n20 Z=Y*Y\n30 next Y\n40 Y=5\n50 A=Z\n60 Y=25\n70 ? A,Z\n",
      "25 625\n", "end"},
-    {"index pairs", "10 J=3\n20 Y=J\n30 Z=J\n40 Y=J-1\n50 Z=7\n60 Y=J+0\n70 A=Z\n80 Y=2\n90 Y=Z\n"
+    {"indices", "10 J=3\n20 Y=J\n30 Z=J\n40 Y=J-1\n50 Z=7\n60 Y=J+0\n70 A=Z\n80 Y=2\n90 Y=Z\n"
                     "100 ? A,Y\n",
      "3 7\n", "end"},
-    {"index pair stores the new Y", "10 Y=4\n20 Z=Y\n30 ? Z\n", "4\n", "end"},
-    {"index pair faults in its second line", "10 Y=30\n20 A=Z\n", "", "Line 20: Illegal index"},
+    {"an index stores the new Y", "10 Y=4\n20 Z=Y\n30 ? Z\n", "4\n", "end"},
+    {"an index faults in its second line", "10 Y=30\n20 A=Z\n", "", "Line 20: Illegal index"},
     {"and, or", "10 A=3\n20 if A>1 and A<5 then ? \"in\" else ? \"out\"\n"
                 "30 if A>1 and A<3 then ? \"in\" else ? \"out\"\n"
                 "40 if A=1 or A=3 then ? \"or\"\n50 if A=1 or A=2 then ? \"no\"\n",

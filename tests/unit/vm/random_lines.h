@@ -11,8 +11,7 @@ namespace orb::vm {
 
 /// Writes orbBasic programs at random, the same text for the same seed and compiler: the order in
 /// which parts of a sum are drawn is the compiler's. Beside
-/// tests/random_program.h, which knows every statement and spelling, these keep to what runs far
-/// and to the pairs of lines that the machine runs as one.
+/// tests/random_program.h, which knows every statement and spelling, these keep to what runs far.
 class RandomLines {
 public:
   explicit RandomLines(std::uint64_t seed) : random_{seed} {}
