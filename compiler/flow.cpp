@@ -57,43 +57,12 @@ private:
   bool follow(const StatementNode& statement) {
     if (statement.error)
       return true; // once mended it goes on; lint asks may_steer() first
-    switch (statement.kind) {
-    case spec::Statement::Goto: add_targets(statement, false); return false;
-    case spec::Statement::Gosub: add_targets(statement, true); return true;
-    case spec::Statement::On: {
-      const bool call = statement.spelling == Spelling::OnGosub;
-      add_targets(statement, call);
-      return call;
-    }
-    case spec::Statement::Return:
-    case spec::Statement::End:
-    case spec::Statement::Reset:
-    case spec::Statement::Sleep: return false;
-    case spec::Statement::Let:
-    case spec::Statement::If:
-    case spec::Statement::For:
-    case spec::Statement::Next:
-    case spec::Statement::Print:
-    case spec::Statement::Input:
-    case spec::Statement::Delay:
-    case spec::Statement::Rgb:
-    case spec::Statement::Ledc:
-    case spec::Statement::BackLed:
-    case spec::Statement::Random:
-    case spec::Statement::Goroll:
-    case spec::Statement::Heading:
-    case spec::Statement::Raw:
-    case spec::Statement::Locate:
-    case spec::Statement::Basflg:
-    case spec::Statement::Data:
-    case spec::Statement::Rstr:
-    case spec::Statement::Read:
-    case spec::Statement::Tron:
-    case spec::Statement::Troff:
-    case spec::Statement::Macrun:
-    case spec::Statement::Mackill: return true;
-    }
-    return true;
+    const auto after = spec::info(statement.kind).after;
+    const bool calls =
+        statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;
+    if (after == spec::After::Steers || after == spec::After::Jumps)
+      add_targets(statement, calls);
+    return calls || (after != spec::After::Jumps && after != spec::After::Ends);
   }
 
   void add_targets(const StatementNode& statement, bool call) {

@@ -102,10 +102,7 @@ private:
   }
   Diagnostic make_at(const Rule& rule, Span span, std::string message,
                      std::string help = {}) const {
-    auto diagnostic = finding(rule, span, std::move(message), std::move(help));
-    if (line_.has_number())
-      diagnostic.basic_line = line_.number;
-    return diagnostic;
+    return finding(rule, span, std::move(message), std::move(help));
   }
 
   std::string found() const {
@@ -442,22 +439,8 @@ bool may_steer(const Program& program, const Fault& fault) {
   }
   if (!meant || fault.reason == Reason::MissingNumber || fault.reason == Reason::BadNumber)
     return true;
-  switch (spec::info(*meant).form) {
-  case spec::Form::Conditional:
-  case spec::Form::Loop:
-  case spec::Form::LoopEnd:
-  case spec::Form::Branch:
-  case spec::Form::IndexedBranch: return true;
-  case spec::Form::Assignment:
-  case spec::Form::Output:
-  case spec::Form::Entry:
-  case spec::Form::Values:
-  case spec::Form::Variables: return false;
-  case spec::Form::Arguments:
-    return *meant == spec::Statement::Return || *meant == spec::Statement::End ||
-           *meant == spec::Statement::Reset || *meant == spec::Statement::Sleep;
-  }
-  return true;
+  const auto after = spec::info(*meant).after;
+  return after != spec::After::Falls && after != spec::After::Waits;
 }
 
 } // namespace orb::compiler

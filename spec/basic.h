@@ -57,6 +57,15 @@ enum class InThen : std::uint8_t {
   Refused,  ///< a syntax error
 };
 
+/// What runs after a statement.
+enum class After : std::uint8_t {
+  Falls,  ///< the line below
+  Waits,  ///< the line below, after some time
+  Steers, ///< the line below or another one
+  Jumps,  ///< another line
+  Ends,   ///< nothing in the text says what: the program or the subroutine ends here
+};
+
 /// A numeric argument; a value outside of `least` to `greatest` stops the program with Bad numeric
 /// parameter.
 struct Parameter {
@@ -72,6 +81,7 @@ struct StatementInfo {
   BasicVersion since;
   Form form;
   InThen in_then;
+  After after;
   std::uint8_t required; ///< how many arguments must be there
   std::string_view source;
   std::string_view usage;
@@ -98,13 +108,14 @@ inline constexpr auto statements = std::to_array<StatementInfo>({
   }
 #define NO_PARAMETERS                                                                              \
   std::array<Parameter, 4> {}
-#define ORB_STATEMENT(name, word, since, form, in_then, required, source, usage, summary, example, \
-                      parameters)                                                                  \
+#define ORB_STATEMENT(name, word, since, form, in_then, after, required, source, usage, summary,   \
+                      example, parameters)                                                         \
   {Statement::name,                                                                                \
    word,                                                                                           \
    BasicVersion::since,                                                                            \
    Form::form,                                                                                     \
    InThen::in_then,                                                                                \
+   After::after,                                                                                   \
    required,                                                                                       \
    source,                                                                                         \
    usage,                                                                                          \

@@ -1,4 +1,4 @@
-#include "compiler/findings.h"
+#include "compiler/lint_passes.h"
 #include "compiler/rules.h"
 #include "spec/limits.h"
 
@@ -140,7 +140,7 @@ private:
       const auto& line = program_.lines[line_of(first)];
       if (!line.has_number())
         continue;
-      findings_.add(rules::UnreachableLine, line_of(first), line.number_span,
+      findings_.add(rules::UnreachableLine, line.number_span,
                     i == first
                         ? fmt::format("no way leads to line {}", line.number)
                         : fmt::format("no way leads to lines {} to {}", line.number, number_of(i)));
@@ -186,7 +186,7 @@ private:
         if (!jump.call && jump.to != none &&
             (jump.to < pairs[pair].begin || jump.to > pairs[pair].end)) {
           auto& d = findings_.add(
-              rules::JumpOutOfFor, line_of(i), program_.items[jump.item].span,
+              rules::JumpOutOfFor, program_.items[jump.item].span,
               fmt::format("line {} lies outside of the loop, which stays open", number_of(jump.to)),
               "set the loop variable to its end value and go to the `next`");
           d.notes.push_back({statement(pairs[pair].begin).span, "the loop"});
@@ -196,7 +196,7 @@ private:
       if (!node.error && node.kind == spec::Statement::For) {
         const auto variable = counter_of(node);
         if ((loops_stepped_ >> variable & 1) == 0)
-          findings_.add(rules::ForWithoutNext, line_of_span(node.span), node.span,
+          findings_.add(rules::ForWithoutNext, node.span,
                         fmt::format("the loop has no `next {}`", name_of(variable)));
       }
   }
@@ -301,7 +301,7 @@ private:
     if (!is_loop_part(node))
       return;
     if (node.kind == spec::Statement::Next && (loops_set_ >> stepped_by(node) & 1) == 0) {
-      findings_.add(rules::NextWithoutFor, line_of(i), node.span,
+      findings_.add(rules::NextWithoutFor, node.span,
                     fmt::format("there is no `for {}`", name_of(stepped_by(node))));
       return;
     }
@@ -310,14 +310,14 @@ private:
     if (!stops)
       return;
     if (node.kind == spec::Statement::For)
-      findings_.add(rules::ForDepth, line_of(i), node.span,
+      findings_.add(rules::ForDepth, node.span,
                     fmt::format("{} loops are open here already", loops.count),
                     "end one of them first, or compute two counters from one");
     else if (loops.count == 0)
-      findings_.add(rules::NextWithoutFor, line_of(i), node.span, "no loop is open here");
+      findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
     else
       findings_.add(
-          rules::NextWithoutFor, line_of(i), node.span,
+          rules::NextWithoutFor, node.span,
           fmt::format("the innermost loop counts in `{}`",
                       name_of(loops.variables[loops.count - 1])),
           fmt::format("end it first: `next {}`", name_of(loops.variables[loops.count - 1])));
@@ -346,8 +346,8 @@ private:
         if (!is_return(node))
           continue;
         if (inside_[i] == 0)
-          findings_.add(rules::ReturnWithoutGosub, line_of(i), node.span,
-                        "no `gosub` leads to this `return`", "end the program with `end`");
+          findings_.add(rules::ReturnWithoutGosub, node.span, "no `gosub` leads to this `return`",
+                        "end the program with `end`");
         else
           falls_into = true;
       }
@@ -362,7 +362,7 @@ private:
         continue;
       reported = true;
       auto& d = findings_.add(
-          rules::FallIntoSubroutine, line_of(i - 1), statement(i - 1).span,
+          rules::FallIntoSubroutine, statement(i - 1).span,
           fmt::format("the program runs on into the subroutine at line {}", number_of(i)),
           "put an `end` behind this line");
       d.notes.push_back({statement(i).span, "the subroutine begins here"});
@@ -373,7 +373,7 @@ private:
       if (main_[i] != 0 && inside_[i] == 0)
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (!jump.call && jump.to != none && inside_[jump.to] != 0 && returns_from(jump.to))
-            findings_.add(rules::FallIntoSubroutine, line_of(i), program_.items[jump.item].span,
+            findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
                           fmt::format("line {} belongs to a subroutine and leads to its `return`",
                                       number_of(jump.to)),
                           "call it with `gosub`");
@@ -424,7 +424,7 @@ private:
       if (least[i] == most)
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (jump.call) {
-            findings_.add(rules::GosubDepth, line_of(i), statement(i).span,
+            findings_.add(rules::GosubDepth, statement(i).span,
                           fmt::format("{} calls are open here already", most),
                           "put the subroutine's lines here, or call it from further up");
             break;
@@ -466,7 +466,7 @@ private:
         }
       }
       if (recursive)
-        findings_.add(rules::GosubRecursion, line_of(routines[r]), statement(routines[r]).span,
+        findings_.add(rules::GosubRecursion, statement(routines[r]).span,
                       fmt::format("the subroutine at line {} calls itself", number_of(routines[r])),
                       "only 4 calls can be open at once; use a loop");
     }
@@ -483,7 +483,7 @@ private:
       const auto& jump = flow_.jumps[flow_.code[i].jumps_begin];
       if (jump.to > i || i - jump.to > longest_loop || leaves_or_waits(jump.to, i))
         continue;
-      findings_.add(rules::BusyLoop, line_of(i), node.span,
+      findings_.add(rules::BusyLoop, node.span,
                     fmt::format("lines {} to {} run for ever and never wait", number_of(jump.to),
                                 number_of(i)),
                     "add a `delay`");
