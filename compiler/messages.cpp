@@ -145,7 +145,8 @@ private:
       return d;
     }
     return make(rules::MissingLineNumber, fmt::format("expected a line number, found {}", found()),
-                "each line begins with a number from 1 to 65535");
+                fmt::format("each line begins with a number from 1 to {}",
+                            spec::value_of(spec::Limit::GreatestLineNumber)));
   }
 
   Diagnostic unknown_word() const {
@@ -160,6 +161,8 @@ private:
       return unknown_variable(name);
     const auto words = statement_words();
     const auto best = closest(name, words);
+    if (lower(name) == spec::info(spec::Statement::Let).word)
+      return misspelt_let();
     if (best && lower(*best) == lower(name)) {
       auto d = make(rules::UnknownStatement,
                     fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
@@ -181,6 +184,17 @@ private:
       d.help = fmt::format("did you mean `{}`?", *best);
       set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Unsafe);
     }
+    return d;
+  }
+
+  /// `Let`: the right case would be a warning next.
+  Diagnostic misspelt_let() const {
+    auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a statement", token()),
+                  "leave it out: a variable is set by `A = 5`");
+    auto end = fault_.span.end;
+    while (end < line_.span.end && is_blank(text_[end]))
+      ++end;
+    set_fix(d, fmt::format("remove `{}`", token()), {fault_.span.begin, end}, "", Safety::Safe);
     return d;
   }
 
