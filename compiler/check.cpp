@@ -47,7 +47,8 @@ Checked check(std::string_view text, const Target& target) {
   if (text.size() > most)
     return refuse(rules::SourceTooLarge,
                   fmt::format("the file has {} bytes; {} are the most", text.size(), most),
-                  "no area of the robot takes more than 4096");
+                  fmt::format("no area of the robot takes more than {}",
+                              spec::value_of(spec::Limit::FlashBytes)));
   if (is_binary(text))
     return refuse(rules::BinaryFile, "the file is binary, no orbBasic program",
                   "programs are plain text");

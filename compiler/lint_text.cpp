@@ -124,7 +124,10 @@ private:
       if (!line.has_number())
         continue;
       if (line.number == 0)
-        findings_.add(rules::LineNumberRange, line.number_span, "line number 0 is not 1 to 65535");
+        findings_.add(rules::LineNumberRange, line.number_span,
+                      fmt::format("line number 0 is not {} to {}",
+                                  spec::value_of(spec::Limit::LeastLineNumber),
+                                  spec::value_of(spec::Limit::GreatestLineNumber)));
       if (line.number <= last && i > 0)
         ascending = false;
       if (line.number < last)

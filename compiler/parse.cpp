@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace orb::compiler {
@@ -41,10 +42,11 @@ Digits read_digits(const char* begin, const char* end) {
   Digits digits;
   for (; begin != end; ++begin) {
     value = value * 10 + static_cast<std::uint64_t>(*begin - '0');
-    if (value > 0x7FFFFFFF) {
+    if (value > static_cast<std::uint64_t>(spec::value_of(spec::Limit::GreatestInteger))) {
+      constexpr auto word = std::numeric_limits<std::uint32_t>::max();
       digits.above_integer = true;
-      digits.above_word = digits.above_word || value > 0xFFFFFFFF;
-      value &= 0xFFFFFFFF;
+      digits.above_word = digits.above_word || value > word;
+      value &= word;
     }
   }
   digits.value = static_cast<std::uint32_t>(value);

@@ -36,9 +36,11 @@ private:
       const auto& line = program_.lines[i];
       if (!line.has_number())
         continue;
-      if (next > static_cast<std::uint64_t>(spec::value_of(spec::Limit::GreatestLineNumber)))
-        return Obstacle{line.number_span,
-                        fmt::format("this line would get number {}; 65535 is the greatest", next)};
+      constexpr auto greatest = spec::value_of(spec::Limit::GreatestLineNumber);
+      if (next > static_cast<std::uint64_t>(greatest))
+        return Obstacle{
+            line.number_span,
+            fmt::format("this line would get number {}; {} is the greatest", next, greatest)};
       numbers_[i] = static_cast<std::uint32_t>(next);
       edits_.push_back({line.number_span, std::to_string(next)});
       next += numbering_.step;

@@ -98,6 +98,7 @@ constexpr std::size_t slot(std::uint64_t packed, std::uint64_t multiplier) {
 }
 
 inline constexpr std::uint64_t multiplier = [] {
+  // The numbers only say where the search begins and how it goes on.
   std::uint64_t candidate = 0x9E3779B97F4A7C15;
   for (;;) {
     std::array<bool, 1 << slot_bits> taken{};
