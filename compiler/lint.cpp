@@ -40,9 +40,10 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
                  "`orb build --pack` makes it smaller");
   } else if (in_ram && !target.ram_bytes && size > oldest) {
     const auto line = line_at_byte(program, flow, oldest);
-    findings.add(rules::LargerThanOldRam, program.lines[line].span,
-                 fmt::format("the program takes {} bytes; older robots have {}", size, oldest),
-                 "give `--ram 4096` if yours has more");
+    findings.add(
+        rules::LargerThanOldRam, program.lines[line].span,
+        fmt::format("the program takes {} bytes; older robots have {}", size, oldest),
+        fmt::format("give `--ram {}` if yours has more", spec::value_of(spec::Limit::RamBytes)));
   }
 }
 

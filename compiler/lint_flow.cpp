@@ -10,28 +10,6 @@
 namespace orb::compiler {
 namespace {
 
-constexpr std::uint32_t indexed = 25; // Z in masks and stacks of loop variables
-
-std::uint32_t variable_of(const Item& item) {
-  return item.kind == ItemKind::Letter ? item.value : indexed;
-}
-
-char name_of(std::uint32_t variable) {
-  return static_cast<char>('A' + variable);
-}
-
-/// The open loops of a line, as far as they are the same on every way that leads there.
-struct Loops {
-  enum class State : std::uint8_t { Unvisited, Known, Unknown };
-  State state = State::Unvisited;
-  std::uint8_t count = 0;
-  std::array<std::uint8_t, 4> variables{};
-
-  friend bool operator==(const Loops&, const Loops&) = default;
-};
-static_assert(std::tuple_size_v<decltype(Loops::variables)> ==
-              spec::value_of(spec::Limit::ForDepth));
-
 class FlowRules {
 public:
   FlowRules(const Program& program, const Flow& flow, Findings& findings)
@@ -44,10 +22,7 @@ public:
     read_facts();
     mark_reached();
     check_unreachable();
-    if (loops_set_ != 0 || loops_stepped_ != 0) {
-      match_loops();
-      follow_loops();
-    }
+    lint_loops(program_, flow_, findings_);
     if (has_return_ || has_call_)
       check_subroutines();
     check_busy_loops();
@@ -59,14 +34,6 @@ private:
   }
   std::uint32_t line_of(std::uint32_t code) const { return flow_.code[code].line; }
   std::uint32_t number_of(std::uint32_t code) const { return program_.lines[line_of(code)].number; }
-  /// The variable of a `for`.
-  std::uint32_t counter_of(const StatementNode& node) const {
-    return variable_of(program_.as<ForView>(node).variable);
-  }
-  /// The variable of a `next`.
-  std::uint32_t stepped_by(const StatementNode& node) const {
-    return variable_of(program_.as<NextView>(node).variable);
-  }
 
   /// Whether the statement of a line, or one in its branches, is one that `test` holds for.
   template <typename Test>
@@ -79,22 +46,19 @@ private:
     for (const auto& node : program_.statements) {
       if (node.error)
         continue;
-      if (node.kind == spec::Statement::For)
-        loops_set_ |= std::uint32_t{1} << counter_of(node);
-      else if (node.kind == spec::Statement::Next)
-        loops_stepped_ |= std::uint32_t{1} << stepped_by(node);
-      else if (node.kind == spec::Statement::Return)
+      if (node.kind == spec::Statement::Return)
         has_return_ = true;
-      else if (node.kind == spec::Statement::Delay || node.kind == spec::Statement::Input)
+      else if (spec::info(node.kind).after == spec::After::Waits)
         has_wait_ = true;
     }
     for (const auto& jump : flow_.jumps)
       has_call_ = has_call_ || jump.call;
   }
 
-  /// Marks what can follow `start` with `mark`; calls are entered or stepped over.
-  template <typename IntoCalls>
-  void spread(std::uint32_t start, std::vector<std::uint8_t>& marks, IntoCalls into_calls) {
+  enum class Calls : std::uint8_t { Enter, StepOver };
+
+  /// Marks what can follow `start`.
+  void spread(std::uint32_t start, std::vector<std::uint8_t>& marks, Calls calls) {
     if (start == none || marks[start] != 0)
       return;
     std::vector<std::uint32_t> open{start};
@@ -112,21 +76,21 @@ private:
       if (code.falls)
         visit(at + 1);
       for (const auto& jump : flow_.jumps_of(code))
-        if (!jump.call || into_calls)
+        if (!jump.call || calls == Calls::Enter)
           visit(jump.to);
     }
   }
 
   void mark_reached() {
     reached_.assign(size_, 0);
-    spread(0, reached_, true);
+    spread(0, reached_, Calls::Enter);
     // A line that is named as a wake-up line is an entry of its own.
     for (const auto& node : program_.statements)
       if (!node.error && node.kind == spec::Statement::Sleep) {
         const auto& root = program_.nodes[program_.as<SleepView>(node).line.value];
         if (root.kind == NodeKind::Number && root.value > 0)
           if (const auto* number = flow_.find(static_cast<std::uint32_t>(root.value)))
-            spread(number->code, reached_, true);
+            spread(number->code, reached_, Calls::Enter);
       }
   }
 
@@ -147,191 +111,15 @@ private:
     }
   }
 
-  // ---- loops
-
-  /// Pairs `for` and `next` as they stand in the text and looks for jumps that leave a pair.
-  void match_loops() {
-    struct Pair {
-      std::uint32_t begin;
-      std::uint32_t end;
-      std::uint32_t outer;
-    };
-    std::vector<Pair> pairs;
-    std::vector<std::uint32_t> open;
-    std::vector<std::uint32_t> innermost(size_, none);
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto& node = statement(i);
-      if (!node.error && node.kind == spec::Statement::For) {
-        open.push_back(static_cast<std::uint32_t>(pairs.size()));
-        pairs.push_back({i, none, open.size() > 1 ? open[open.size() - 2] : none});
-      }
-      innermost[i] = open.empty() ? none : open.back();
-      if (!node.error && node.kind == spec::Statement::Next) {
-        const auto variable = stepped_by(node);
-        while (!open.empty() && counter_of(statement(pairs[open.back()].begin)) != variable)
-          open.pop_back();
-        if (!open.empty()) {
-          pairs[open.back()].end = i;
-          open.pop_back();
-        }
-      }
-    }
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      auto pair = innermost[i];
-      while (pair != none && (pairs[pair].end == none || i > pairs[pair].end))
-        pair = pairs[pair].outer;
-      if (pair == none || flow_.code[i].jumps_begin == flow_.code[i].jumps_end)
-        continue;
-      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-        if (!jump.call && jump.to != none &&
-            (jump.to < pairs[pair].begin || jump.to > pairs[pair].end)) {
-          auto& d = findings_.add(
-              rules::JumpOutOfFor, program_.items[jump.item].span,
-              fmt::format("line {} lies outside of the loop, which stays open", number_of(jump.to)),
-              "set the loop variable to its end value and go to the `next`");
-          d.notes.push_back({statement(pairs[pair].begin).span, "the loop"});
-        }
-    }
-    for (const auto& node : program_.statements)
-      if (!node.error && node.kind == spec::Statement::For) {
-        const auto variable = counter_of(node);
-        if ((loops_stepped_ >> variable & 1) == 0)
-          findings_.add(rules::ForWithoutNext, node.span,
-                        fmt::format("the loop has no `next {}`", name_of(variable)));
-      }
-  }
-
-  std::uint32_t line_of_span(Span span) const {
-    const auto next = std::upper_bound(
-        program_.lines.begin(), program_.lines.end(), span.begin,
-        [](std::uint32_t offset, const Line& line) { return offset < line.span.begin; });
-    return static_cast<std::uint32_t>(next - program_.lines.begin()) - 1;
-  }
-
-  /// Carries the open loops along every way. What differs between two ways is unknown.
-  void follow_loops() {
-    std::vector<Loops> at(size_);
-    std::vector<std::uint32_t> work;
-    const bool subroutines_loop = loops_in_subroutines();
-    const auto flow_to = [&](std::uint32_t to, const Loops& loops) {
-      if (to >= size_)
-        return;
-      auto joined = loops;
-      if (at[to].state != Loops::State::Unvisited && at[to] != loops)
-        joined = unknown();
-      if (joined == at[to])
-        return;
-      at[to] = joined;
-      work.push_back(to);
-    };
-    flow_to(0, Loops{Loops::State::Known, 0, {}});
-    for (std::uint32_t i = 1; i < size_; ++i)
-      if (flow_.code[i].called)
-        flow_to(i, unknown()); // who calls, and out of which loops, is not followed
-    while (!work.empty()) {
-      const auto i = work.back();
-      work.pop_back();
-      const auto& code = flow_.code[i];
-      bool stops = false;
-      auto after = step(i, at[i], stops);
-      if (stops)
-        continue;
-      for (const auto& jump : flow_.jumps_of(code)) {
-        if (!jump.call)
-          flow_to(jump.to, after);
-        else if (subroutines_loop)
-          after = unknown();
-      }
-      if (code.falls)
-        flow_to(i + 1, after);
-    }
-    for (std::uint32_t i = 0; i < size_; ++i)
-      report_loops(i, at[i]);
-  }
-
-  static Loops unknown() { return {Loops::State::Unknown, 0, {}}; }
-
-  bool loops_in_subroutines() {
-    std::vector<std::uint8_t> inside(size_, 0);
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (flow_.code[i].called)
-        spread(i, inside, true);
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      if (inside[i] != 0 && any_of_line(i, is_loop_part))
-        return true;
-    }
-    return false;
-  }
-
-  static bool is_loop_part(const StatementNode& node) {
-    return !node.error && (node.kind == spec::Statement::For || node.kind == spec::Statement::Next);
-  }
-
-  /// The loops behind line `i`; `stops` where the line ends the program for certain.
-  Loops step(std::uint32_t i, Loops loops, bool& stops) const {
-    const auto& node = statement(i);
-    if (node.error)
-      return loops;
-    if (node.kind == spec::Statement::If)
-      return any_of_line(i, is_loop_part) ? unknown() : loops;
-    if (loops.state != Loops::State::Known)
-      return loops;
-    if (node.kind == spec::Statement::For) {
-      const auto variable = static_cast<std::uint8_t>(counter_of(node));
-      if (loops.count > 0 && loops.variables[loops.count - 1] == variable)
-        return loops; // the innermost loop is begun anew
-      if (loops.count == loops.variables.size()) {
-        stops = true;
-        return loops;
-      }
-      loops.variables[loops.count++] = variable;
-    } else if (node.kind == spec::Statement::Next) {
-      const auto variable = stepped_by(node);
-      if (loops.count == 0 || loops.variables[loops.count - 1] != variable) {
-        stops = true;
-        return loops;
-      }
-      loops.variables[--loops.count] = 0;
-    }
-    return loops;
-  }
-
-  void report_loops(std::uint32_t i, const Loops& loops) {
-    const auto& node = statement(i);
-    if (!is_loop_part(node))
-      return;
-    if (node.kind == spec::Statement::Next && (loops_set_ >> stepped_by(node) & 1) == 0) {
-      findings_.add(rules::NextWithoutFor, node.span,
-                    fmt::format("there is no `for {}`", name_of(stepped_by(node))));
-      return;
-    }
-    bool stops = false;
-    step(i, loops, stops);
-    if (!stops)
-      return;
-    if (node.kind == spec::Statement::For)
-      findings_.add(rules::ForDepth, node.span,
-                    fmt::format("{} loops are open here already", loops.count),
-                    "end one of them first, or compute two counters from one");
-    else if (loops.count == 0)
-      findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
-    else
-      findings_.add(
-          rules::NextWithoutFor, node.span,
-          fmt::format("the innermost loop counts in `{}`",
-                      name_of(loops.variables[loops.count - 1])),
-          fmt::format("end it first: `next {}`", name_of(loops.variables[loops.count - 1])));
-  }
-
   // ---- subroutines
 
   void check_subroutines() {
     main_.assign(size_, 0);
-    spread(0, main_, false);
+    spread(0, main_, Calls::StepOver);
     inside_.assign(size_, 0);
     for (std::uint32_t i = 0; i < size_; ++i)
       if (flow_.code[i].called && reached_[i] != 0)
-        spread(i, inside_, false);
+        spread(i, inside_, Calls::StepOver);
     check_returns();
     check_depths();
     check_recursion();
@@ -385,7 +173,7 @@ private:
 
   bool returns_from(std::uint32_t start) {
     std::vector<std::uint8_t> marks(size_, 0);
-    spread(start, marks, false);
+    spread(start, marks, Calls::StepOver);
     for (std::uint32_t i = 0; i < size_; ++i)
       if (marks[i] != 0 && any_of_line(i, is_return))
         return true;
@@ -445,7 +233,7 @@ private:
     std::vector<std::vector<std::uint32_t>> calls(routines.size());
     for (std::size_t r = 0; r < routines.size(); ++r) {
       std::vector<std::uint8_t> marks(size_, 0);
-      spread(routines[r], marks, false);
+      spread(routines[r], marks, Calls::StepOver);
       for (std::uint32_t i = 0; i < size_; ++i)
         if (marks[i] != 0)
           for (const auto& jump : flow_.jumps_of(flow_.code[i]))
@@ -507,9 +295,8 @@ private:
   }
 
   static bool stops_or_waits(spec::Statement kind) {
-    return kind == spec::Statement::Delay || kind == spec::Statement::Input ||
-           kind == spec::Statement::Sleep || kind == spec::Statement::End ||
-           kind == spec::Statement::Return || kind == spec::Statement::Reset;
+    const auto after = spec::info(kind).after;
+    return after == spec::After::Waits || after == spec::After::Ends;
   }
 
   bool reads_timer(const StatementNode& node) const {
@@ -533,8 +320,6 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::uint32_t loops_set_ = 0;     ///< letters that some `for` counts in
-  std::uint32_t loops_stepped_ = 0; ///< letters that some `next` steps
   bool has_return_ = false;
   bool has_call_ = false;
   bool has_wait_ = false;

@@ -43,6 +43,9 @@ void lint_text(const Program& program, const Flow& flow, const Target& target, F
 void lint_values(const Program& program, const Flow& flow, const Target& target,
                  Findings& findings);
 
+/// The rules about loops: how `for` and `next` meet on every way. Part of `lint_flow`.
+void lint_loops(const Program& program, const Flow& flow, Findings& findings);
+
 /// The rules about jumps, loops and subroutines.
 void lint_flow(const Program& program, const Flow& flow, Findings& findings);
 
