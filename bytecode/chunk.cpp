@@ -123,12 +123,15 @@ std::string quoted(std::string_view text) {
 
 } // namespace
 
-std::string listing(const Chunk& chunk) {
+std::string listing(const Chunk& chunk, std::span<const std::string> behind) {
   std::string out;
   std::size_t line = 0;
   for (std::size_t at = 0; at < chunk.code.size(); ++at) {
-    for (; line < chunk.lines.size() && chunk.lines[line].begin == at; ++line)
-      fmt::format_to(std::back_inserter(out), "{}\n", chunk.lines[line].number);
+    const bool begins = line < chunk.lines.size() && chunk.lines[line].begin == at;
+    if (line > 0 && line <= behind.size() && (begins || at + 1 == chunk.code.size()))
+      out += behind[line - 1];
+    if (begins)
+      fmt::format_to(std::back_inserter(out), "{}\n", chunk.lines[line++].number);
     const auto& instruction = chunk.code[at];
     const auto& row = info(instruction.op);
     fmt::format_to(std::back_inserter(out), "{:5} {}", at, row.name);

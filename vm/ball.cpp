@@ -49,7 +49,8 @@ std::int32_t rounded_s16(double value) {
 
 Ball::Ball(const BallOptions& options)
     : options_(options), body_(options.seed),
-      machine_(options.lines_per_second, options.seed, options.dispatch), macros_(*this),
+      machine_(options.lines_per_second, options.seed, options.dispatch, options.native,
+               options.native_programs), macros_(*this),
       dispatcher_(options.seed), inactive_at_(Instant{} + settings_.inactivity_timeout) {
   if (options_.trace_lines)
     machine_.trace_lines();

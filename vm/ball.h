@@ -54,6 +54,9 @@ struct BallOptions {
   Observer* observer = nullptr; ///< must outlive the ball
   bool trace_lines = false;     ///< the observer is told every line
   Dispatch dispatch = Dispatch::Threaded;
+  Native native = Native::Auto;
+  NativePrograms* native_programs =
+      nullptr; ///< to share machine code with other balls; outlives it
 };
 
 /// A ball. A discrete-event simulation that is handed the time: it jumps from one thing that can

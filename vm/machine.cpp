@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -23,6 +24,16 @@ constexpr std::int64_t second = 1'000'000'000;
 /// No product of a run's lines or time leaves 63 bits.
 constexpr std::int64_t most_lines = 8'000'000'000;
 constexpr std::int64_t greatest_product = 8'000'000'000'000'000'000;
+
+/// A program becomes machine code when it has run so many lines for each of its instructions.
+constexpr std::uint64_t runs_before_compiling = 200;
+constexpr std::uint64_t never_compile = std::numeric_limits<std::uint64_t>::max();
+/// In fewer lines than these, machine code does not earn what it costs to change to it.
+constexpr std::int64_t fewest_native_lines = 30;
+constexpr std::int64_t lines_to_pay_a_change = 8;
+/// A program that hardly stays in machine code is left to the loop: in lines that it might have
+/// won.
+constexpr std::int64_t greatest_loss = -10'000;
 
 constexpr auto print_bytes = static_cast<std::size_t>(spec::value_of(Limit::PrintBytes));
 constexpr std::int32_t timer_values = 65536;
@@ -203,9 +214,9 @@ void Core::reseed() {
 
 void Core::clear() {
   std::fill_n(registers.begin(), bytecode::first_temporary, 0);
-  loops[0].variable = no_variable;
-  loop = loops.data();
-  call_depth = 0;
+  frames.loops[0].variable = Frames::no_variable;
+  frames.loop = frames.loops.data();
+  frames.call_depth = 0;
   data_count = data_next = 0;
   text.clear();
   tron = false;
@@ -224,19 +235,21 @@ Flow Core::reset() {
 // --- the machine
 // ----------------------------------------------------------------------------------
 
-Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch dispatch)
-    : engine_(dispatch == Dispatch::Threaded ? threaded_engine() : switch_engine()) {
+Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch dispatch,
+                 Native native, NativePrograms* shared)
+    : engine_(dispatch == Dispatch::Threaded ? threaded_engine() : switch_engine()),
+      native_(native), shared_(shared) {
   core_.lines_per_second =
       std::clamp<std::int64_t>(static_cast<std::int64_t>(lines_per_second), 1, second);
   core_.seeds = mix(seed);
   core_.registers.resize(bytecode::first_temporary);
 }
 
-void Machine::link(const bytecode::Chunk& chunk) {
+void Machine::link(bytecode::Chunk given) {
+  core_.chunk = std::move(given);
+  const auto& chunk = core_.chunk;
   const std::size_t size = chunk.code.size();
   core_.code.assign(size, {});
-  core_.lines = chunk.lines;
-  core_.texts = chunk.texts;
   core_.registers.assign(chunk.register_count(), 0);
   core_.reciprocals.assign(chunk.register_count(), 0);
   for (std::size_t i = 0; i < chunk.constants.size(); ++i) {
@@ -273,32 +286,36 @@ void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
     chunk = {};
     chunk.code.push_back({Op::EndOfProgram});
   }
-  link(chunk);
+  link(std::move(chunk));
   now_ = core_.base = now;
   core_.done = core_.allowed = core_.budget = 0;
   core_.wait = Core::Wait::Nothing;
   core_.pending.clear();
   core_.clear();
   lines_ = 0;
+  machine_code_ = nullptr;
+  own_code_.reset();
+  gain_ = 0;
+  compile_at_ = lines_before_compiling();
   running_ = true;
   announced_ = false;
   stop_.reset();
 
-  const auto found = std::find_if(core_.lines.begin(), core_.lines.end(),
+  const auto found = std::find_if(core_.chunk.lines.begin(), core_.chunk.lines.end(),
                                   [&](const auto& row) { return row.number == line; });
   missing_line_.reset();
-  if (found == core_.lines.end())
+  if (found == core_.chunk.lines.end())
     missing_line_ = line;
-  core_.start = core_.code.data() + (found == core_.lines.end() ? 0 : found->begin);
+  core_.start = core_.code.data() + (found == core_.chunk.lines.end() ? 0 : found->begin);
   core_.pc = core_.at = core_.start;
 }
 
 int Machine::line_of(const Code* code) const {
   const auto index = static_cast<std::uint32_t>(code - core_.code.data());
   const auto after =
-      std::upper_bound(core_.lines.begin(), core_.lines.end(), index,
+      std::upper_bound(core_.chunk.lines.begin(), core_.chunk.lines.end(), index,
                        [](std::uint32_t place, const auto& line) { return place < line.begin; });
-  return after == core_.lines.begin() ? 0 : std::prev(after)->number;
+  return after == core_.chunk.lines.begin() ? 0 : std::prev(after)->number;
 }
 
 void Machine::finish(event::End::Reason reason) {
@@ -404,6 +421,45 @@ bool Machine::announce(Host& host) {
   return !again;
 }
 
+/// The lines after which a program becomes machine code: what may be long to compile has run long.
+std::uint64_t Machine::lines_before_compiling() const {
+  if (native_ == Native::Off || !has_native_code())
+    return never_compile;
+  return native_ == Native::On ? 0 : runs_before_compiling * core_.code.size();
+}
+
+void Machine::compile() {
+  compile_at_ = never_compile;
+  machine_code_ = shared_ ? shared_->find(core_.chunk) : nullptr;
+  if (machine_code_)
+    return;
+  own_code_ = NativeCode::compile(core_.chunk);
+  machine_code_ = own_code_.get();
+}
+
+/// Runs what the budget allows as machine code, and one by one the lines that it does not know.
+Exit Machine::run_native() {
+  while (true) {
+    const std::int64_t before = core_.budget;
+    machine_code_->run(core_);
+    if (core_.budget == 0)
+      return Exit::Budget;
+    gain_ = std::min<std::int64_t>(0, gain_ + before - core_.budget - lines_to_pay_a_change);
+    if (native_ == Native::Auto && gain_ < greatest_loss) {
+      machine_code_ = nullptr;
+      return engine_.run(core_);
+    }
+    const std::int64_t rest = core_.budget - 1;
+    core_.allowed -= rest;
+    core_.budget = 1;
+    const Exit exit = engine_.run(core_);
+    core_.allowed += rest;
+    core_.budget += rest;
+    if (exit != Exit::Budget)
+      return exit;
+  }
+}
+
 void Machine::run(Instant limit, Host& host) {
   core_.host = &host;
   if (running_ && missing_line_) {
@@ -415,15 +471,20 @@ void Machine::run(Instant limit, Host& host) {
       finish(event::End::Reason::End);
       return;
     }
-    const std::int64_t lines = lines_before(limit);
+    std::int64_t lines = lines_before(limit);
     if (lines <= 0)
       return;
+    if (lines_ >= compile_at_)
+      compile();
+    lines = static_cast<std::int64_t>(
+        std::min(static_cast<std::uint64_t>(lines), compile_at_ - lines_));
     if (!announce(host))
       continue;
     const bool single = tracing_ || core_.tron;
     const int line = single ? line_of(core_.pc) : 0;
     core_.allowed = core_.budget = single ? 1 : lines;
-    const Exit exit = engine_.run(core_);
+    const bool pays = native_ == Native::On || lines >= fewest_native_lines;
+    const Exit exit = machine_code_ && pays && !single ? run_native() : engine_.run(core_);
     const std::int64_t executed = core_.allowed - core_.budget;
     now_ = core_.line_end();
     lines_ += static_cast<std::uint64_t>(executed);

@@ -5,6 +5,7 @@
 #include "spec/basic.h"
 #include "vm/host.h"
 #include "vm/machine_core.h"
+#include "vm/native.h"
 #include "vm/observer.h"
 
 #include <cstdint>
@@ -30,9 +31,11 @@ public:
     std::uint64_t lines = 0; ///< that were executed
   };
 
-  /// `lines_per_second` is 1 to 1 000 000 000; values outside are moved to the nearest.
+  /// `lines_per_second` is 1 to 1 000 000 000; values outside are moved to the nearest. Machine
+  /// code is taken from `shared`, where that is given; it must outlive the machine.
   Machine(std::uint32_t lines_per_second, std::uint64_t seed,
-          Dispatch dispatch = Dispatch::Threaded);
+          Dispatch dispatch = Dispatch::Threaded, Native native = Native::Auto,
+          NativePrograms* shared = nullptr);
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
@@ -68,21 +71,34 @@ public:
   /// The value of A to Y (0 to 24) or of an element of Z (from bytecode::first_element); 0 before
   /// the first program.
   std::int32_t variable(std::size_t index) const;
+  /// The program and all that it has come to.
+  const Core& core() const { return core_; }
+  /// The machine code of the program; null where it is interpreted.
+  const NativeCode* machine_code() const { return machine_code_; }
   /// From now on the host is told every line.
   void trace_lines() { tracing_ = true; }
 
 private:
-  void link(const bytecode::Chunk& chunk);
+  void link(bytecode::Chunk given);
   bool continue_wait(Instant limit, Host& host);
   void resume(Instant at);
   bool announce(Host& host);
   std::int64_t lines_before(Instant limit) const;
   int line_of(const Code* code) const;
+  std::uint64_t lines_before_compiling() const;
+  void compile();
+  Exit run_native();
   void finish(event::End::Reason reason);
   void finish(spec::BasicError error, int line);
 
   Engine engine_;
   Core core_;
+  Native native_;
+  NativePrograms* shared_;
+  std::unique_ptr<NativeCode> own_code_;
+  const NativeCode* machine_code_ = nullptr;
+  std::uint64_t compile_at_ = 0; ///< lines
+  std::int64_t gain_ = 0;        ///< lines; below 0 where changes to machine code did not pay
   Instant now_{};
   std::uint64_t lines_ = 0;
   bool running_ = false;

@@ -38,7 +38,21 @@ struct Loop {
   std::uint32_t body = 0; ///< where its first line begins in the code
   std::int32_t end = 0;
   std::int32_t step = 0;
-  std::uint16_t variable = 0; ///< a register, or bytecode::element_by_index
+  std::uint32_t variable = 0; ///< a register, or bytecode::element_by_index
+};
+
+/// The loops and calls that are open: the loop and machine code take turns at them.
+struct Frames {
+  static constexpr auto for_depth = static_cast<std::size_t>(spec::value_of(spec::Limit::ForDepth));
+  static constexpr auto gosub_depth =
+      static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth));
+  /// The variable of the loop below all loops: no `next` matches it.
+  static constexpr std::uint32_t no_variable = 0xFFFE;
+
+  std::array<Loop, for_depth + 1> loops;          ///< the first is below all loops
+  Loop* loop = nullptr;                           ///< the innermost
+  std::array<std::uint32_t, gosub_depth> calls{}; ///< where `return` goes on in the code
+  std::uint32_t call_depth = 0;
 };
 
 /// What an operation that the loop does not do by itself says about going on.
@@ -57,16 +71,9 @@ enum class Exit : std::uint8_t { Budget, Leave, Fault, Ended };
 /// What the loop and the slow operations share. The loop keeps `pc`, `loop` and `budget` in
 /// registers of the processor and writes them here when it lets go.
 struct Core {
-  static constexpr auto for_depth = static_cast<std::size_t>(spec::value_of(spec::Limit::ForDepth));
-  static constexpr auto gosub_depth =
-      static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth));
-  /// The variable of the loop below all loops: no `next` matches it.
-  static constexpr std::uint16_t no_variable = 0xFFFE;
-
   // The program.
+  bytecode::Chunk chunk;
   std::vector<Code> code; ///< one for one with the chunk's
-  std::vector<bytecode::Line> lines;
-  std::vector<std::string> texts;
   std::vector<std::int32_t> registers;
   /// By register, of constants above 1: for DivideBy and RemainderBy.
   std::vector<std::int64_t> reciprocals;
@@ -75,10 +82,7 @@ struct Core {
   const Code* pc = nullptr; ///< what runs next
   const Code* at = nullptr; ///< what called a slow operation, or failed
   const Code* start = nullptr;
-  std::array<Loop, for_depth + 1> loops;          ///< the first is below all loops
-  Loop* loop = nullptr;                           ///< the innermost
-  std::array<std::uint32_t, gosub_depth> calls{}; ///< where `return` goes on in the code
-  std::size_t call_depth = 0;
+  Frames frames;
   spec::BasicError error{};
 
   // The clock. Line k ends at base + floor(k * 10^9 / lines_per_second).

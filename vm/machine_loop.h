@@ -15,7 +15,7 @@ using bytecode::index_variable;
 using spec::BasicError;
 
 const Code* pc = core.pc;
-Loop* loop = core.loop;
+Loop* loop = core.frames.loop;
 std::int64_t budget = core.budget;
 const Code* const code = core.code.data();
 std::int32_t* const r = core.registers.data();
@@ -45,7 +45,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
 #define SYNC(next)                                                                                 \
   core.at = pc;                                                                                    \
   core.pc = next;                                                                                  \
-  core.loop = loop;                                                                                \
+  core.frames.loop = loop;                                                                         \
   core.budget = budget
 
 #define SLOW(next, call)                                                                           \
@@ -162,16 +162,16 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
     NEXT_LINE();
   }
   OP(Gosub) {
-    if (core.call_depth == core.calls.size())
+    if (core.frames.call_depth == core.frames.calls.size())
       FAULT(BasicError::GosubDepthExceeded);
-    core.calls[core.call_depth++] = core.index_of(pc->following_line());
+    core.frames.calls[core.frames.call_depth++] = core.index_of(pc->following_line());
     pc = pc->target();
     NEXT_LINE();
   }
   OP(Return) {
-    if (core.call_depth == 0)
+    if (core.frames.call_depth == 0)
       FAULT(BasicError::ReturnWithoutGosub);
-    pc = code + core.calls[--core.call_depth];
+    pc = code + core.frames.calls[--core.frames.call_depth];
     NEXT_LINE();
   }
 
@@ -190,9 +190,9 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   }
   OP(OnGosub) {
     CHOSEN(row);
-    if (core.call_depth == core.calls.size())
+    if (core.frames.call_depth == core.frames.calls.size())
       FAULT(BasicError::GosubDepthExceeded);
-    core.calls[core.call_depth++] = core.index_of(pc->following_line());
+    core.frames.calls[core.frames.call_depth++] = core.index_of(pc->following_line());
     pc = row->target();
     NEXT_LINE();
   }
@@ -202,7 +202,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   if (by == 0)                                                                                     \
     FAULT(BasicError::BadStepValue);                                                               \
   if (loop->variable != (counter)) {                                                               \
-    if (loop == &core.loops.back())                                                                \
+    if (loop == &core.frames.loops.back())                                                         \
       FAULT(BasicError::ForDepthExceeded);                                                         \
     ++loop;                                                                                        \
   }                                                                                                \
@@ -253,7 +253,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
 
   // --- statements -------------------------------------------------------------------------------
   OP(PrintText) {
-    core.text += core.texts[pc->a];
+    core.text += core.chunk.texts[pc->a];
     ++pc;
     DISPATCH();
   }

@@ -4,7 +4,10 @@
 #include "tests/random_program.h"
 
 #include <cstdlib>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <memory>
 
 namespace orb::vm {
 namespace {
@@ -51,7 +54,16 @@ std::string write_program(std::uint64_t seed) {
   return testing::RandomProgram(seed, {.lines = 25, .broken = 0.01}).write();
 }
 
-void compare(std::uint64_t seed, Dispatch dispatch) {
+/// A way to run programs; all must do the same.
+struct Engine {
+  Dispatch dispatch = Dispatch::Threaded;
+  Native native = Native::Off;
+};
+constexpr Engine engines[] = {{Dispatch::Threaded, Native::Off},
+                              {Dispatch::Switch, Native::Off},
+                              {Dispatch::Threaded, Native::On}};
+
+void compare(std::uint64_t seed, Engine engine) {
   const auto text = write_program(seed);
   SCOPED_TRACE("seed " + std::to_string(seed) + ":\n" + text +
                bytecode::listing(compiler::load(text)));
@@ -62,7 +74,7 @@ void compare(std::uint64_t seed, Dispatch dispatch) {
 
   NotebookHost host;
   prepare(host);
-  Machine machine(speed, seed, dispatch);
+  Machine machine(speed, seed, engine.dispatch, engine.native);
   auto chunk = compiler::load(text);
   ASSERT_EQ(bytecode::verify(chunk), std::nullopt);
   const int line = chunk.lines.front().number;
@@ -91,7 +103,61 @@ void compare(std::uint64_t seed, Dispatch dispatch) {
 TEST(Agreement, TheMachineDoesWhatTheTextSays) {
   const auto programs = how_many();
   for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
-    compare(seed, seed % 4 == 0 ? Dispatch::Switch : Dispatch::Threaded);
+    compare(seed, engines[seed % std::size(engines)]);
+}
+
+/// Everything that a program has come to, as text; between lines temporaries mean nothing.
+std::string shown(Machine& machine, const NotebookHost& host) {
+  const auto& core = machine.core();
+  const auto& frames = core.frames;
+  auto out = fmt::format(
+      "line {} at {} of {}, {} print {}\n{}\n", machine.lines(), core.index_of(core.pc),
+      machine.running(), machine.now().time_since_epoch().count(), host.printed,
+      fmt::join(core.registers.begin(), core.registers.begin() + bytecode::first_temporary, " "));
+  for (const Loop* loop = frames.loops.data() + 1; loop <= frames.loop; ++loop)
+    out += fmt::format("for {} to {} by {} at {}\n", loop->variable, loop->end, loop->step,
+                       loop->body);
+  out += fmt::format("calls {}\n{}\n",
+                     fmt::join(frames.calls.begin(), frames.calls.begin() + frames.call_depth, " "),
+                     fmt::join(host.notes, "\n"));
+  if (const auto stop = machine.take_stop())
+    out += fmt::format("stop {} {}", stop->line, stop->error ? spec::code(*stop->error) : 0);
+  return out;
+}
+
+/// Runs `text` on each engine in slices of 1 to 100 lines, and looks after each of them.
+void compare_slices(const std::string& text, std::uint64_t seed) {
+  constexpr std::size_t count = std::size(engines);
+  std::array<NotebookHost, count> hosts;
+  std::vector<std::unique_ptr<Machine>> machines;
+  for (std::size_t i = 0; i < count; ++i) {
+    prepare(hosts[i]);
+    machines.push_back(
+        std::make_unique<Machine>(1'000'000'000, seed, engines[i].dispatch, engines[i].native));
+    auto chunk = compiler::load(text);
+    const int line = chunk.lines.empty() ? 0 : chunk.lines.front().number;
+    machines[i]->start(std::move(chunk), line, Instant{});
+  }
+  Random random{seed};
+  while (machines[0]->running() && machines[0]->next_event() != never &&
+         machines[0]->lines() < 1000) {
+    // A line takes a nanosecond.
+    const auto limit =
+        machines[0]->next_event() + Duration{1 + static_cast<std::int64_t>(random.below(100))};
+    std::array<std::string, count> after;
+    for (std::size_t i = 0; i < count; ++i) {
+      while (machines[i]->running() && machines[i]->next_event() < limit)
+        machines[i]->run(limit, hosts[i]);
+      after[i] = shown(*machines[i], hosts[i]);
+      ASSERT_EQ(after[i], after[0]) << "engine " << i << ", seed " << seed << ":\n"
+                                    << text << native_listing(compiler::load(text));
+    }
+  }
+}
+
+TEST(Agreement, EnginesAgreeAfterEverySlice) {
+  for (std::uint64_t seed = 1; seed <= how_many() && !::testing::Test::HasFailure(); ++seed)
+    compare_slices(write_program(seed), seed);
 }
 
 /// A program of which some bytes have been changed, lost or doubled.

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "bytecode/chunk.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace orb::vm {
+
+struct Core;
+
+/// When a program becomes machine code: once it has run for long, before it starts, or never.
+enum class Native : std::uint8_t { Auto, On, Off };
+
+/// Whether this build has a back end for the processor that it was built for.
+bool has_native_code();
+
+/// A program as machine code. It knows arithmetic, Z, tests, loops, jumps and subroutines; it
+/// leaves every other line, and every rare case such as an error, to the loop of machine_loop.h. It
+/// may stop before every line and begin with every line.
+class NativeCode {
+public:
+  /// What a line became, for profilers.
+  struct Piece {
+    int line = 0;
+    const void* address = nullptr;
+    std::size_t size = 0;
+  };
+
+  /// Nothing where there is no back end, where memory must not become executable, or where the
+  /// program is beyond what a ball can hold. The chunk passes bytecode::verify().
+  static std::unique_ptr<NativeCode> compile(const bytecode::Chunk& chunk);
+  NativeCode(const NativeCode&) = delete;
+  NativeCode& operator=(const NativeCode&) = delete;
+  ~NativeCode();
+
+  /// Executes lines from core.pc on, until the budget is used up or a line is not for it; core.pc
+  /// is then the line that is next. Everything else in `core` is as the loop would have left it.
+  void run(Core& core) const;
+
+  /// Of the chunk that it was compiled from, in the order of its lines.
+  std::vector<Piece> pieces(const bytecode::Chunk& chunk) const;
+
+private:
+  NativeCode() = default;
+  const char* address_of(std::uint32_t at) const;
+
+  void* memory_ = nullptr;
+  std::size_t size_ = 0;
+  const std::int32_t* table_ = nullptr; ///< by first instruction of a line: its place behind here
+};
+
+/// Machine code of several programs, so that balls which run the same one share it. Balls may ask
+/// from several threads; what they get lives as long as this object.
+class NativePrograms {
+public:
+  /// Null where there is none, or where so many programs are kept that one more would not fit.
+  const NativeCode* find(const bytecode::Chunk& chunk);
+
+private:
+  struct Kept {
+    bytecode::Chunk chunk;
+    std::unique_ptr<NativeCode> code;
+  };
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+};
+
+/// bytecode::listing() with the machine code of each line behind its instructions.
+std::string native_listing(const bytecode::Chunk& chunk);
+
+} // namespace orb::vm
