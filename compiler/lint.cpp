@@ -71,6 +71,20 @@ void silence(const Program& program, Findings& findings) {
     orb::silence(program.text, comments, rules::all(), rules::UnknownRule, findings.all());
 }
 
+/// A warning where an error begins is about the same cause and says less.
+void drop_doubles(std::vector<Diagnostic>& findings) {
+  std::vector<std::uint32_t> errors;
+  for (const auto& d : findings)
+    if (d.severity == Severity::Error)
+      errors.push_back(d.span.begin);
+  std::sort(errors.begin(), errors.end());
+  std::erase_if(findings, [&](const Diagnostic& d) {
+    return (d.rule == &rules::NegativeLiteral || d.rule == &rules::NonprintingByte) &&
+           d.severity != Severity::Error &&
+           std::binary_search(errors.begin(), errors.end(), d.span.begin);
+  });
+}
+
 /// Tells each finding the number of its line. How lines end is said of the whole file.
 void place(const Program& program, std::vector<Diagnostic>& findings) {
   for (auto& d : findings) {
@@ -106,6 +120,7 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
   if (jumps_known)
     lint_flow(program, flow, findings);
   check_size(program, flow, target, findings);
+  drop_doubles(findings.all());
   silence(program, findings);
   auto all = std::move(findings.all());
   place(program, all);

@@ -335,7 +335,7 @@ private:
                             "leave it out, or write `,` for a blank");
     // A blank keeps what stands on both sides apart; a minus sign would join them.
     if (program_.text[next.span.begin] != '-')
-      d.fix = single_fix("write a blank", semicolon.span, " ");
+      d.fix = single_fix("write a blank", {semicolon.span.begin, next.span.begin}, " ");
   }
 
   void check_data(std::span<const Item> values) {

@@ -306,11 +306,13 @@ private:
     const auto range = value_of_letter(index_letter);
     const auto most = spec::value_of(spec::Limit::IndexedVariables);
     if (range.misses(1, most)) {
-      findings_.add(
+      auto& d = findings_.add(
           rules::IndexRange, span,
           index.first_set == nullptr
               ? "`Z` is used, but `Y` is never set and 0 names no element"
               : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
+      if (index.first_set == nullptr)
+        d.help = "`Z` is the list element that `Y` names; take another letter";
     } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ &&
                !before_y_) {
       before_y_ = true;

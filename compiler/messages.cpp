@@ -1,7 +1,9 @@
 #include "compiler/messages.h"
 
 #include "base/suggest.h"
+#include "compiler/fault_text.h"
 #include "compiler/rules.h"
+#include "compiler/slips.h"
 #include "compiler/words.h"
 #include "spec/limits.h"
 
@@ -39,10 +41,9 @@ void set_fix(Diagnostic& diagnostic, std::string title, Span span, std::string t
 }
 
 /// One fault with the text around it.
-class Explainer {
+class Explainer : public FaultText {
 public:
-  Explainer(const Program& program, const Fault& fault)
-      : program_(program), fault_(fault), text_(program.text), line_(program.lines[fault.line]) {}
+  using FaultText::FaultText;
 
   Diagnostic explain() const {
     switch (fault_.reason) {
@@ -58,9 +59,6 @@ public:
     case Reason::IndexedParenthesis:
       return make(rules::IndexedParenthesis, "`Z` takes no index in parentheses",
                   "set `Y` on a line before, then use `Z` alone");
-    case Reason::NestedIf:
-      return make(rules::NestedIf, "an `if` cannot stand inside another `if`",
-                  "join two comparisons with `and`, or jump over lines with `goto`");
     case Reason::ImpliedGoto: {
       auto d = make(rules::ImpliedGoto, fmt::format("`{}` is not a statement", token()),
                     fmt::format("write `goto {}`", token()));
@@ -80,21 +78,20 @@ public:
     case Reason::ExpectedParenthesis: return expected_parenthesis();
     case Reason::ExpectedComma: return expected_comma();
     case Reason::TooManyArguments:
-      return make(rules::SyntaxError, fmt::format("{}, found more", takes()));
+      return make(rules::SyntaxError, fmt::format("{}, found more", takes()), form());
     case Reason::ExpectedEquals: return expected_equals();
     case Reason::ExpectedVariable:
     case Reason::ExpectedUserVariable: return expected("a variable, A to Z");
     case Reason::ExpectedTo: return expected("`to`");
     case Reason::ExpectedGotoOrGosub: return expected("`goto` or `gosub`");
-    case Reason::ExpectedQuote:
-      return make(rules::SyntaxError, "the string has no closing `\"`", "add `\"` at its end");
     case Reason::Trailing: return trailing();
+    case Reason::NestedIf:
+    case Reason::ExpectedQuote: break; // slips
     }
     return make(rules::SyntaxError, "the line cannot be read");
   }
 
 private:
-  std::string_view token() const { return program_.text_of(fault_.span); }
   std::string_view word() const { return spec::info(fault_.statement).word; }
 
   Diagnostic make(const Rule& rule, std::string message, std::string help = {}) const {
@@ -114,20 +111,6 @@ private:
                 std::move(help));
   }
 
-  /// The last character before `offset` that is no blank; NUL at the start of the line.
-  char before(std::uint32_t offset) const {
-    while (offset > line_.span.begin && is_blank(text_[offset - 1]))
-      --offset;
-    return offset > line_.span.begin ? text_[offset - 1] : '\0';
-  }
-
-  /// The first character from `offset` on that is no blank; NUL at the end of the line.
-  char after(std::uint32_t offset) const {
-    while (offset < line_.span.end && is_blank(text_[offset]))
-      ++offset;
-    return offset < line_.span.end ? text_[offset] : '\0';
-  }
-
   /// How many values the statement takes, as a sentence.
   std::string takes() const {
     const auto& row = spec::info(fault_.statement);
@@ -138,12 +121,6 @@ private:
   }
 
   Diagnostic missing_number() const {
-    if (lower(token()) == "rem") {
-      auto d = make(rules::Rem, fmt::format("`{}` is not a statement", token()),
-                    "write `'`: comments need no number and are stripped before upload");
-      set_fix(d, "write `'`", fault_.span, "'", Safety::Safe);
-      return d;
-    }
     return make(rules::MissingLineNumber, fmt::format("expected a line number, found {}", found()),
                 fmt::format("each line begins with a number from 1 to {}",
                             spec::value_of(spec::Limit::GreatestLineNumber)));
@@ -151,18 +128,10 @@ private:
 
   Diagnostic unknown_word() const {
     const auto name = token();
-    if (lower(name) == "rem") {
-      auto d = make(rules::Rem, fmt::format("`{}` is not a statement", name),
-                    "write `'`: comments are stripped before upload");
-      set_fix(d, "write `'`", fault_.span, "'", Safety::Safe);
-      return d;
-    }
     if (after(fault_.span.end) == '=')
       return unknown_variable(name);
     const auto words = statement_words();
     const auto best = closest(name, words);
-    if (lower(name) == spec::info(spec::Statement::Let).word)
-      return misspelt_let();
     if (best && lower(*best) == lower(name)) {
       auto d = make(rules::UnknownStatement,
                     fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
@@ -184,17 +153,6 @@ private:
       d.help = fmt::format("did you mean `{}`?", *best);
       set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Unsafe);
     }
-    return d;
-  }
-
-  /// `Let`: the right case would be a warning next.
-  Diagnostic misspelt_let() const {
-    auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a statement", token()),
-                  "leave it out: a variable is set by `A = 5`");
-    auto end = fault_.span.end;
-    while (end < line_.span.end && is_blank(text_[end]))
-      ++end;
-    set_fix(d, fmt::format("remove `{}`", token()), {fault_.span.begin, end}, "", Safety::Safe);
     return d;
   }
 
@@ -228,16 +186,7 @@ private:
     return d;
   }
 
-  Diagnostic expected_statement() const {
-    if (token() == ":")
-      return colon();
-    return expected("a statement");
-  }
-
-  Diagnostic colon() const {
-    return make(rules::Colon, "a line takes one statement; `:` does not part statements",
-                "put what follows on a line of its own");
-  }
+  Diagnostic expected_statement() const { return expected("a statement"); }
 
   Diagnostic expected_expression() const {
     const auto begin = fault_.span.begin;
@@ -250,7 +199,7 @@ private:
     }
     const auto& row = spec::info(fault_.statement);
     if (row.form == spec::Form::Arguments && token().empty() && !row.parameters().empty())
-      return make(rules::SyntaxError, fmt::format("{}, found {}", takes(), fault_.found));
+      return make(rules::SyntaxError, fmt::format("{}, found {}", takes(), fault_.found), form());
     if (!token().empty() && token()[0] == '"')
       return expected("a number or a variable", "strings can only be printed");
     if (token() == ".")
@@ -352,9 +301,12 @@ private:
         (token() == "then" || token() == "and" || token() == "or" || token().empty())) {
       auto d = make(rules::BareCondition, "the condition is not a comparison",
                     "compare with zero: `! 0`");
-      auto at = fault_.span.begin;
-      while (at > line_.span.begin && is_blank(text_[at - 1]))
-        --at;
+      const auto at = skip_back(fault_.span.begin);
+      auto begin = at;
+      while (begin > line_.span.begin && is_letter(text_[begin - 1]))
+        --begin;
+      if (begin < at)
+        d.help = fmt::format("compare with zero: `{} ! 0`", text_.substr(begin, at - begin));
       if (!token().empty() && at < fault_.span.begin)
         set_fix(d, "compare with zero", {at, at}, " ! 0", Safety::Safe);
       return d;
@@ -364,9 +316,6 @@ private:
 
   Diagnostic expected_parenthesis() const {
     if (!token().empty() && is_relation(token()[0])) {
-      if (fault_.statement == spec::Statement::If)
-        return make(rules::ParenthesizedRelation, "a comparison cannot stand in parentheses",
-                    "leave the parentheses out: `if A > 1 and B < 2 then`");
       return make(rules::SyntaxError, "comparisons stand only in `if`");
     }
     if (token() == ".")
@@ -377,16 +326,13 @@ private:
   Diagnostic expected_comma() const {
     const auto& row = spec::info(fault_.statement);
     if (row.form == spec::Form::Arguments && (token().empty() || token() == "else"))
-      return make(rules::SyntaxError, fmt::format("{}, found {}", takes(), fault_.found));
+      return make(rules::SyntaxError, fmt::format("{}, found {}", takes(), fault_.found), form());
     if (token() == ".")
       return unsupported_number();
     return expected("`,`");
   }
 
   Diagnostic expected_equals() const {
-    if (token() == "$")
-      return make(rules::SyntaxError, "there are no string variables",
-                  "strings can only be printed");
     if (token().size() > 1 && token()[0] == '=')
       return bad_operator(fault_.span);
     return expected("`=`");
@@ -410,8 +356,6 @@ private:
     const char last = before(fault_.span.begin);
     if (here.empty())
       return expected("the end of the line");
-    if (here == ":")
-      return colon();
     if (here == "." ||
         ((here[0] == 'x' || here[0] == 'X') && last == '0' && text_[fault_.span.begin - 1] == '0'))
       return unsupported_number();
@@ -432,16 +376,13 @@ private:
     return make(rules::SyntaxError,
                 fmt::format("unexpected {} behind the complete {}", found(), what));
   }
-
-  const Program& program_;
-  const Fault& fault_;
-  std::string_view text_;
-  const Line& line_;
 };
 
 } // namespace
 
 Diagnostic explain(const Program& program, const Fault& fault) {
+  if (auto slip = explain_slip(program, fault))
+    return *slip;
   return Explainer(program, fault).explain();
 }
 

@@ -1,0 +1,29 @@
+#include "compiler/foreign.h"
+
+#include <algorithm>
+#include <array>
+
+namespace orb::compiler {
+namespace {
+
+constexpr auto table = std::to_array<Foreign>({
+#define ORB_FOREIGN(spelling, place, instead, help)                                                \
+  {spelling, Foreign::Place::place, instead, help},
+#include "compiler/foreign.def"
+});
+
+} // namespace
+
+const Foreign* find_foreign(std::string_view spelling, Foreign::Place place) {
+  const auto same = [](char a, char b) {
+    return a == b || (a >= 'A' && a <= 'Z' && a - 'A' + 'a' == b);
+  };
+  const auto row = std::find_if(table.begin(), table.end(), [&](const Foreign& foreign) {
+    return foreign.place == place &&
+           std::equal(spelling.begin(), spelling.end(), foreign.spelling.begin(),
+                      foreign.spelling.end(), same);
+  });
+  return row == table.end() ? nullptr : &*row;
+}
+
+} // namespace orb::compiler

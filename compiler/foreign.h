@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace orb::compiler {
+
+/// A word or sign of another language: a row of compiler/foreign.def.
+struct Foreign {
+  enum class Place : std::uint8_t { Statement, Value };
+
+  std::string_view spelling; ///< in small letters
+  Place place;
+  std::string_view instead; ///< what takes its place; `-` nothing, empty where a person must write
+  std::string_view help;
+};
+
+/// The row of a word or sign in that place, without regard to case, or null.
+const Foreign* find_foreign(std::string_view spelling, Foreign::Place place);
+
+} // namespace orb::compiler
