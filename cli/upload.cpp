@@ -126,15 +126,16 @@ tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
 }
 
 void print_plan(std::string_view name, const uploader::Plan& plan) {
+  const auto sent = packets(plan, 0);
   auto text = fmt::format("{}: {} bytes to {} in {} packets, over within {:g} s\n", name, plan.size,
-                          to_string(plan.route), plan.steps.size(),
+                          to_string(plan.route), sent.size(),
                           static_cast<double>(plan.deadline.count()) / 1e9);
   if (!plan.note.empty())
     text += fmt::format("note: {}\n", plan.note);
-  for (const auto& step : plan.steps) {
-    const auto* row = spec::find_command(step.command.did, step.command.cid);
+  for (const auto& packet : sent) {
+    const auto* row = spec::find_command(packet.did, packet.cid);
     text += fmt::format("{:<28} {}\n", row == nullptr ? std::string_view("?") : row->name,
-                        to_hex(encode(step.command)));
+                        to_hex(encode(packet)));
   }
   print_out(text);
 }
@@ -145,17 +146,17 @@ ExitCode dry_run(const Context& context, const Options& options,
   budgets.answer = read_duration(options.port.answer).value_or(budgets.answer);
   budgets.attempts = options.attempts;
   for (const auto& macro : delivery.macros) {
-    const auto plan = make_plan(macro.job, budgets, 0);
+    const auto plan = make_plan(macro.job, budgets);
     if (!plan)
       return fail(context, ExitCode::BadInput,
                   fmt::format("{}: {}", macro.name, plan.error().message));
     print_plan(macro.name, *plan);
   }
   if (delivery.program) {
-    auto firmware = uploader::default_firmware();
+    auto firmware = uploader::default_capabilities();
     if (options.target.ram != 0)
       firmware.ram_bytes = static_cast<std::size_t>(options.target.ram);
-    const auto plan = make_plan(*delivery.program, firmware, budgets, 0);
+    const auto plan = make_plan(*delivery.program, firmware, budgets);
     if (!plan)
       return fail(context, ExitCode::BadInput,
                   fmt::format("{}: {}", delivery.program_name, plan.error().message));

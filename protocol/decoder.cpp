@@ -6,9 +6,9 @@
 namespace orb::protocol {
 namespace {
 
-constexpr std::size_t command_header = 6;  // SOP1 SOP2 DID CID SEQ DLEN
-constexpr std::size_t response_header = 5; // SOP1 SOP2 MRSP SEQ DLEN
-constexpr std::size_t async_header = 5;    // SOP1 SOP2 ID DLEN-MSB DLEN-LSB
+using spec::async_header_size;
+using spec::command_header_size;
+using spec::response_header_size;
 
 /// Where the next SOP1 stands at or after `from`; the size when there is none.
 std::size_t find_start(ByteView bytes, std::size_t from) {
@@ -129,26 +129,26 @@ Decoder::Match Decoder::match_command(ByteView bytes, Item& item) const {
   item = {};
   if (bytes.size() >= spec::sop_size && !spec::is_sop2(bytes[1]))
     return Match::No;
-  if (bytes.size() >= command_header - 1) {
+  if (bytes.size() >= command_header_size - 1) {
     item.flags = bytes[1];
     item.did = bytes[2];
     item.cid = bytes[3];
     item.seq = bytes[4];
   }
-  if (bytes.size() < command_header)
+  if (bytes.size() < command_header_size)
     return Match::Incomplete;
-  const auto dlen = bytes[5];
+  const auto dlen = bytes[command_header_size - 1];
   if (dlen == 0)
     return Match::No;
   const auto fixed = dlen == spec::dlen_long ? spec::long_payload(item.did, item.cid) : 0;
   const auto payload = fixed != 0 ? fixed : dlen - std::size_t{1};
-  const auto size = command_header + payload + 1;
+  const auto size = command_header_size + payload + 1;
   if (is_stray(bytes.first(std::min(bytes.size(), size - 1))))
     return Match::No;
   if (bytes.size() < size)
     return Match::Incomplete;
   item.kind = Item::Kind::Command;
-  return complete(bytes, command_header, payload, item) ? Match::Whole : Match::Damaged;
+  return complete(bytes, command_header_size, payload, item) ? Match::Whole : Match::Damaged;
 }
 
 Decoder::Match Decoder::match_answer(ByteView bytes, Item& item) const {
@@ -159,12 +159,13 @@ Decoder::Match Decoder::match_answer(ByteView bytes, Item& item) const {
   if (!is_async && bytes[1] != spec::sop2_response)
     return Match::No;
   item.flags = bytes[1];
-  const auto header = is_async ? async_header : response_header;
+  const auto header = is_async ? async_header_size : response_header_size;
   if (bytes.size() < header)
     return Match::Incomplete;
   item.code = bytes[2];
   item.seq = is_async ? std::uint8_t{0} : bytes[3];
-  const auto length = is_async ? read_u16(bytes, 3) : std::size_t{bytes[4]};
+  const auto length = is_async ? read_u16(bytes, async_header_size - 2)
+                               : std::size_t{bytes[response_header_size - 1]};
   if (length == 0 || length > spec::max_async_payload + 1)
     return Match::No;
   if (bytes.size() < header + length)

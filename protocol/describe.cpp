@@ -125,7 +125,7 @@ std::string Describer::command(const Item& item) {
   return fmt::format(
       "command {}: sop2 {}, did {:02X}, cid {:02X}, seq {:02X}, dlen {:02X}{}, chk {:02X}",
       row == nullptr ? "unknown" : row->name, options_text(item.flags), item.did, item.cid,
-      item.seq, item.raw[5],
+      item.seq, item.raw[spec::command_header_size - 1],
       row == nullptr ? fields_text({}, item.data)
                      : fields_text(spec::operands(row->command), item.data),
       check_byte(item));
@@ -142,19 +142,20 @@ std::string Describer::response(const Item& item) {
   return fmt::format(
       "response{}: sop2 {:02X}, mrsp {:02X} ({}), seq {:02X}, dlen {:02X}{}, chk {:02X}",
       row == nullptr ? "" : fmt::format(" to {}", row->name), item.flags, item.code,
-      code == nullptr ? "unknown" : code->meaning, item.seq, item.raw[4],
-      fields_text(fields, item.data), check_byte(item));
+      code == nullptr ? "unknown" : code->meaning, item.seq,
+      item.raw[spec::response_header_size - 1], fields_text(fields, item.data), check_byte(item));
 }
 
 std::string Describer::async(const Item& item) const {
   const auto* row = spec::find_async(item.code);
   const auto fields = row == nullptr ? std::span<const spec::Field>{} : spec::fields(row->id);
   const auto is_stream = row != nullptr && row->id == spec::AsyncId::SensorData;
-  return fmt::format(
-      "message {}: sop2 {:02X}, id {:02X}, dlen {:04X}{}, chk {:02X}",
-      row == nullptr ? "unknown" : row->name, item.flags, item.code, read_u16(item.raw, 3),
-      is_stream ? frames_text(stream_mask_, item.data) : fields_text(fields, item.data),
-      check_byte(item));
+  return fmt::format("message {}: sop2 {:02X}, id {:02X}, dlen {:04X}{}, chk {:02X}",
+                     row == nullptr ? "unknown" : row->name, item.flags, item.code,
+                     read_u16(item.raw, spec::async_header_size - 2),
+                     is_stream ? frames_text(stream_mask_, item.data)
+                               : fields_text(fields, item.data),
+                     check_byte(item));
 }
 
 } // namespace orb::protocol

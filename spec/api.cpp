@@ -89,6 +89,11 @@ const ResponseInfo* find_response(std::uint8_t code) {
   return found == responses.end() ? nullptr : found;
 }
 
+Retry retry_of(std::uint8_t code) {
+  const auto* row = find_response(code);
+  return row == nullptr ? Retry::No : row->retry;
+}
+
 std::span<const Field> operands(ApiCommand command) {
   return owned_by(operand_rows, static_cast<std::uint16_t>(command));
 }

@@ -26,6 +26,11 @@ constexpr bool is_sop2(std::uint8_t byte) {
   return byte >= sop2_least;
 }
 
+/// The bytes before the data.
+inline constexpr std::size_t command_header_size = 6;  ///< SOP1 SOP2 DID CID SEQ DLEN
+inline constexpr std::size_t response_header_size = 5; ///< SOP1 SOP2 MRSP SEQ DLEN
+inline constexpr std::size_t async_header_size = 5;    ///< SOP1 SOP2 ID DLEN-MSB DLEN-LSB
+
 /// DLEN counts the data and the checksum; FFh means a fixed longer payload for a few commands.
 inline constexpr std::uint8_t dlen_long = 0xFF;
 inline constexpr std::size_t max_payload = dlen_long - 1;
@@ -72,6 +77,8 @@ inline constexpr auto responses = std::to_array<ResponseInfo>({
 
 /// The row of a response code; null for a value that no document names.
 const ResponseInfo* find_response(std::uint8_t code);
+/// What to do about it; nothing about a value that no document names.
+Retry retry_of(std::uint8_t code);
 
 /// A command: the device id in the high byte, the command id in the low one.
 enum class ApiCommand : std::uint16_t {
@@ -184,16 +191,20 @@ inline constexpr auto api_commands = std::to_array<CommandInfo>({
 
 /// The fields of all answers, in the order of the commands.
 inline constexpr auto answer_rows = std::to_array<Field>({
-#define ANSWER(enumerator, type, name, unit)                                                       \
+#define ANSWER_FIELD(enumerator, type, name, presence, unit)                                       \
   {static_cast<std::uint16_t>(ApiCommand::enumerator),                                             \
    FieldType::type,                                                                                \
    name,                                                                                           \
    0,                                                                                              \
    0,                                                                                              \
-   Presence::Required,                                                                             \
+   Presence::presence,                                                                             \
    unit},
+#define ANSWER(enumerator, type, name, unit) ANSWER_FIELD(enumerator, type, name, Required, unit)
+#define ANSWER_MORE(enumerator, type, name, unit)                                                  \
+  ANSWER_FIELD(enumerator, type, name, Optional, unit)
 #include "spec/api.def"
 });
+#undef ANSWER_FIELD
 
 /// Where a field of an answer begins; a name that the answer does not have does not compile.
 consteval std::size_t answer_offset(ApiCommand command, std::string_view field) {
@@ -263,6 +274,9 @@ const AsyncInfo* find_async(std::uint8_t id);
   inline constexpr std::uint32_t name = std::uint32_t{1} << (bit);                                 \
   }
 #include "spec/names.def"
+
+/// The areas for programs, by their number in the commands. Source: API §Erase orbBasic Storage.
+enum class Area : std::uint8_t { Ram = area::ram, Flash = area::flash };
 
 /// A value, or a bit, of the fields whose unit is `subject`.
 struct Named {

@@ -141,8 +141,10 @@ constexpr MacroIdKind macro_id_kind(std::uint8_t id) {
 inline constexpr std::size_t macro_max_packet = 254;      ///< that one packet carries
 inline constexpr std::size_t macro_buffer_size = 1024;    ///< temporary and stream macro share it
 inline constexpr std::size_t macro_buffer_planned = 1000; ///< of it that the vendor's clients use
-inline constexpr std::size_t macro_heap_size = 2048;      ///< all user macros
-inline constexpr std::size_t macro_heap_entries = 16;     ///< how many user macros
+inline constexpr std::size_t macro_stream_piece =
+    250;                                              ///< of a stream, as the vendor's clients send
+inline constexpr std::size_t macro_heap_size = 2048;  ///< all user macros
+inline constexpr std::size_t macro_heap_entries = 16; ///< how many user macros
 inline constexpr std::size_t macro_gosub_depth = 1;
 
 /// What the robot puts behind each chunk of a stream: wait here for the next chunk.

@@ -27,6 +27,8 @@ struct Budgets {
   /// Between repetitions, doubling from the first to the most.
   Duration backoff_first = 100ms;
   Duration backoff_most = 2s;
+  /// For the last messages of what was stopped; the ball's may be 20 ms behind its answers.
+  Duration settle = 50ms;
   /// For a sign of life of a program whose start was not answered.
   Duration start_sign = 1s;
   /// Between two offers of a chunk to a stream macro whose buffer is full.

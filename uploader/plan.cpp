@@ -1,7 +1,6 @@
 #include "uploader/plan.h"
 
 #include "spec/firmware.h"
-#include "spec/limits.h"
 #include "uploader/session.h"
 
 #include <algorithm>
@@ -11,86 +10,216 @@ namespace orb::uploader {
 namespace {
 
 using protocol::Command;
+using protocol::MacroImage;
 using protocol::make_command;
 using spec::ApiCommand;
 using spec::Limit;
 
-constexpr std::size_t fragment_most = spec::max_payload - 1; // the area byte
-/// Of a streamed piece, id and flags included; what the vendor's clients send.
-constexpr std::size_t stream_piece_most = 250;
-/// A fragment is shortened at most this much to be safe against a change of DLEN: each of its 8
-/// bits forbids one sequence number for a length.
+/// A piece is shortened at most this much to be safe against a change of DLEN: each of its 8 bits
+/// forbids one sequence number for a length.
 constexpr std::size_t shortened_most = 9;
+constexpr int seq_moves_most = 8; ///< pings that move the sequence number on instead
 
-std::size_t limit_bytes(Limit limit) {
-  return static_cast<std::size_t>(spec::value_of(limit));
-}
-
-/// Numbers the packets as a session does.
-class StepList {
-public:
-  explicit StepList(std::uint8_t first_seq) : seq_(first_seq) {}
-
-  void add(StepKind kind, ApiCommand command, Bytes data = {}) {
-    auto packet = make_command(command, std::move(data), seq_);
-    while (survives_shorter(packet)) {
-      steps_.push_back({kind, make_command(ApiCommand::Ping, {}, seq_)});
-      packet.seq = ++seq_;
-    }
-    ++seq_;
-    steps_.push_back({kind, std::move(packet)});
-  }
-
-  std::uint8_t seq() const { return seq_; }
-  std::vector<Step> take() { return std::move(steps_); }
-
-private:
-  std::uint8_t seq_;
-  std::vector<Step> steps_;
-};
-
-void greet(StepList& steps) {
-  steps.add(StepKind::Greet, ApiCommand::Ping);
-  steps.add(StepKind::Greet, ApiCommand::GetVersioning);
-  steps.add(StepKind::Greet, ApiCommand::GetPowerState);
-}
-
-Duration greeting_time(const Budgets& budgets) {
-  constexpr int questions = 3;
-  return budgets.opens * budgets.connect + budgets.backoffs(budgets.opens) + budgets.drain +
-         questions * budgets.ask();
-}
-
-/// One packet that must arrive exactly once.
-Duration piece_time(const Budgets& budgets) {
-  return (1 + budgets.resends) * budgets.answer + budgets.backoffs(1 + budgets.resends);
+tl::unexpected<PlanError> impossible(std::string message) {
+  return tl::unexpected(PlanError{std::move(message)});
 }
 
 Bytes u8(std::uint8_t value) {
   return {value};
 }
+Bytes u8(Area area) {
+  return {static_cast<std::uint8_t>(area)};
+}
 
 Bytes run_data(Area area, std::uint16_t line) {
-  Bytes data = {static_cast<std::uint8_t>(area)};
+  auto data = u8(area);
   append_u16(data, line);
   return data;
 }
 
+Bytes joined(const Bytes& front, ByteView back) {
+  auto bytes = front;
+  bytes.insert(bytes.end(), back.begin(), back.end());
+  return bytes;
+}
+
+std::size_t piece_most(const Step& step) {
+  return spec::max_payload - step.data.size();
+}
+
+/// How many packets carry the content, each shorter by `shortened` than it could be.
+std::size_t pieces_of(const Step& step, std::size_t shortened) {
+  const auto size = piece_most(step) - shortened;
+  return step.cuts.empty() ? (step.content.size() + size - 1) / size : step.cuts.size();
+}
+
+// The time by which all is over.
+
+/// One packet that must arrive exactly once.
+Duration once_time(const Budgets& budgets) {
+  return (1 + budgets.resends) * budgets.answer + budgets.backoffs(1 + budgets.resends);
+}
+
+Duration step_time(const Step& step, const Budgets& budgets) {
+  const auto seq_moves = seq_moves_most * budgets.answer;
+  const auto once = once_time(budgets);
+  switch (step.kind) {
+  case StepKind::Prepare:
+  case StepKind::Erase:
+  case StepKind::Count:
+  case StepKind::Barrier: return budgets.ask();
+  case StepKind::Append: {
+    const auto piece = step.cuts.empty() ? once : once + seq_moves + budgets.stream_room;
+    return static_cast<int>(pieces_of(step, shortened_most)) * piece;
+  }
+  case StepKind::Store:
+    return spec::info(step.command).idempotent == spec::Idempotent::No ? 2 * (once + seq_moves)
+           : step.data.empty()                                         ? budgets.ask()
+                               : budgets.ask() + budgets.sends * seq_moves;
+  case StepKind::Start: return budgets.settle + once + seq_moves + budgets.ask();
+  }
+  return {};
+}
+
+/// The greeting, then the steps up to the barrier as often as they are tried, the others once, and
+/// an abort at the end.
+Duration deadline(const Plan& plan, const Budgets& budgets) {
+  constexpr int greeting_questions = 3;
+  constexpr int counting_questions = 8; // whether the ball counts at all, and as we do
+  auto time = budgets.opens * budgets.connect + budgets.backoffs(budgets.opens) + budgets.drain +
+              budgets.backoffs(plan.attempts) + (greeting_questions + 1) * budgets.ask();
+  auto times = plan.attempts;
+  for (const auto& step : plan.steps) {
+    time += times * step_time(step, budgets);
+    if (step.kind == StepKind::Count)
+      time += counting_questions * budgets.ask();
+    if (step.kind == StepKind::Barrier)
+      times = 1;
+  }
+  return time;
+}
+
+// Programs.
+
+std::string note_of(Route route, const Capabilities& ball) {
+  if (route != Route::FlashDirectly)
+    return {};
+  return fmt::format("{}: flash is erased and written directly, so a failure loses the program "
+                     "that is there now",
+                     ball.can_commit ? "the program is larger than the RAM of this ball"
+                                     : "this firmware cannot commit RAM to flash");
+}
+
+std::optional<PlanError> misfit(const ProgramJob& job, const Capabilities& ball) {
+  if (!ball.has_basic)
+    return PlanError{"this ball has no orbBasic; only macros run on it"};
+  const auto size = job.image.size();
+  const auto in_ram = job.area == Area::Ram;
+  const auto room = in_ram ? ball.ram_bytes : ball.flash_bytes;
+  if (size <= room)
+    return std::nullopt;
+  return PlanError{fmt::format("the program has {} bytes, the {} area of this ball {}; {}", size,
+                               in_ram ? "RAM" : "flash", room,
+                               in_ram && size <= ball.flash_bytes
+                                   ? "use `--area flash`"
+                                   : "`orb build --pack` makes it smaller")};
+}
+
+// Macros.
+
+bool is_temporary(Route route) {
+  return route == Route::TemporaryPacket || route == Route::TemporaryChunks;
+}
+
+std::string_view note_of(Route route) {
+  return route == Route::UserMacro ? "the ball forgets user macros when it sleeps"
+         : route == Route::StreamedMacro
+             ? "a streamed macro runs while it arrives and is not stored"
+             : "";
+}
+
+std::optional<PlanError> misfit(Route route, const MacroImage& image, std::size_t size) {
+  if (route == Route::TemporaryChunks && size > spec::macro_buffer_planned)
+    return PlanError{
+        fmt::format("the macro has {} bytes, a temporary macro at most {}; use `--as stream`", size,
+                    spec::macro_buffer_planned)};
+  if (route != Route::UserMacro)
+    return std::nullopt;
+  if (size > spec::macro_max_packet)
+    return PlanError{fmt::format("the macro has {} bytes, a user macro at most {}; use `--as temp` "
+                                 "or `--as stream`",
+                                 size, spec::macro_max_packet)};
+  if (spec::macro_id_kind(image.id) != spec::MacroIdKind::User)
+    return PlanError{
+        fmt::format("a user macro has an id from {} to {}, not {}; choose one with `--id`",
+                    spec::macro_id_user_first, spec::macro_id_user_last, image.id)};
+  return std::nullopt;
+}
+
+/// A macro in pieces of whole commands with id and flags in front of each, and Stream End behind
+/// the last where the macro has none. An error where a comment is longer than a piece.
+tl::expected<Step, PlanError> stream_step(MacroImage image) {
+  const auto listing = protocol::decode_macro_body(image.body);
+  if (listing.error)
+    return impossible(fmt::format("the macro cannot be cut into commands: {}",
+                                  protocol::to_string(*listing.error)));
+  Step step{StepKind::Append, ApiCommand::SaveMacro, {}, std::move(image.body), {0}};
+  image.id = spec::macro_id_stream;
+  image.body.clear();
+  step.data = encode(image);
+  const auto room = spec::macro_stream_piece - step.data.size();
+  const auto add = [&](std::size_t size) {
+    if (step.cuts.back() + size > room)
+      step.cuts.push_back(0);
+    step.cuts.back() += size;
+  };
+  for (const auto& command : listing.steps) {
+    if (command.size > room)
+      return impossible(fmt::format("the {} at offset {} takes {} bytes; a streamed piece holds {}",
+                                    command.info->mnemonic, command.offset, command.size, room));
+    add(command.size);
+  }
+  const auto ends = [](const protocol::MacroStep& command) {
+    return command.info->command == spec::MacroCommand::StreamEnd;
+  };
+  if (std::none_of(listing.steps.begin(), listing.steps.end(), ends)) {
+    step.content.push_back(static_cast<std::uint8_t>(spec::MacroCommand::StreamEnd));
+    add(1);
+  }
+  return step;
+}
+
+/// The step that brings the macro itself.
+tl::expected<Step, PlanError> bring(Route route, const MacroImage& image) {
+  switch (route) {
+  case Route::TemporaryPacket:
+    return Step{StepKind::Store, ApiCommand::SaveTemporaryMacro, encode(image)};
+  case Route::TemporaryChunks:
+    return Step{StepKind::Append, ApiCommand::AppendMacroChunk, {}, encode(image)};
+  case Route::UserMacro: return Step{StepKind::Store, ApiCommand::SaveMacro, encode(image)};
+  case Route::StreamedMacro: return stream_step(image);
+  case Route::Ram:
+  case Route::RamThenFlash:
+  case Route::FlashDirectly: break; // programs
+  }
+  return Step{};
+}
+
 } // namespace
 
-Firmware read_firmware(ByteView record) {
+Capabilities read_capabilities(ByteView record) {
   const auto field = [&](std::size_t at) {
     return at < record.size() ? record[at] : std::uint8_t{0};
   };
   const spec::Revision api{field(spec::version_api_at), field(spec::version_api_at + 1)};
   return {.ram_bytes = spec::ram_bytes_of(api),
-          .flash_bytes = limit_bytes(Limit::FlashBytes),
+          .flash_bytes = static_cast<std::size_t>(spec::value_of(Limit::FlashBytes)),
           .has_basic = field(spec::version_orbbasic_at) != 0,
           .can_commit = api >= spec::info(ApiCommand::CommitRamToFlash).since};
 }
 
-Firmware default_firmware() {
-  return read_firmware(spec::info(spec::default_firmware).record());
+Capabilities default_capabilities() {
+  return read_capabilities(spec::info(spec::default_firmware).record());
 }
 
 std::string_view to_string(Route route) {
@@ -106,11 +235,11 @@ std::string_view to_string(Route route) {
   return {};
 }
 
-Route choose_route(const ProgramJob& job, const Firmware& firmware) {
+Route choose_route(const ProgramJob& job, const Capabilities& ball) {
   if (job.area == Area::Ram)
     return Route::Ram;
-  return firmware.can_commit && job.image.size() <= firmware.ram_bytes ? Route::RamThenFlash
-                                                                       : Route::FlashDirectly;
+  return ball.can_commit && job.image.size() <= ball.ram_bytes ? Route::RamThenFlash
+                                                               : Route::FlashDirectly;
 }
 
 Route choose_route(const MacroJob& job) {
@@ -123,7 +252,7 @@ Route choose_route(const MacroJob& job) {
                                                             : Route::TemporaryChunks;
 }
 
-MacroKind natural_kind(const protocol::MacroImage& image) {
+MacroKind natural_kind(const MacroImage& image) {
   if (image.id == spec::macro_id_stream)
     return MacroKind::Stream;
   if (spec::macro_id_kind(image.id) == spec::MacroIdKind::User)
@@ -132,192 +261,101 @@ MacroKind natural_kind(const protocol::MacroImage& image) {
                                                             : MacroKind::Stream;
 }
 
-Bytes fragment_data(Area area, ByteView piece) {
-  Bytes data = {static_cast<std::uint8_t>(area)};
-  data.insert(data.end(), piece.begin(), piece.end());
-  return data;
+Bytes piece_data(const Step& step, ByteView piece) {
+  return joined(step.data, piece);
 }
 
-std::size_t fragment_size(Area area, ByteView rest, std::uint8_t seq) {
-  const auto most = std::min(rest.size(), fragment_most);
+ByteView next_piece(const Step& step, std::size_t sent, std::size_t piece, std::uint8_t seq) {
+  const auto rest = ByteView(step.content).subspan(sent);
+  if (!step.cuts.empty())
+    return rest.first(step.cuts[piece]);
+  const auto most = std::min(rest.size(), piece_most(step));
   for (auto size = most; size > 0 && size + shortened_most >= most; --size)
-    if (!survives_shorter(make_command(ApiCommand::AppendOrbbasicFragment,
-                                       fragment_data(area, rest.first(size)), seq)))
-      return size;
-  return most; // the session moves the sequence number on instead
+    if (!survives_shorter(make_command(step.command, piece_data(step, rest.first(size)), seq)))
+      return rest.first(size);
+  return rest.first(most); // the session moves the sequence number on instead
 }
 
-std::size_t chunk_size(ByteView rest, std::uint8_t seq) {
-  const auto most = std::min(rest.size(), spec::max_payload);
-  for (auto size = most; size > 0 && size + shortened_most >= most; --size)
-    if (!survives_shorter(make_command(ApiCommand::AppendMacroChunk,
-                                       {rest.begin(), rest.begin() + static_cast<long>(size)},
-                                       seq)))
-      return size;
-  return most;
-}
-
-tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Firmware& firmware,
-                                        const Budgets& budgets, std::uint8_t first_seq) {
-  if (!firmware.has_basic)
-    return tl::unexpected(PlanError{"this ball has no orbBasic; only macros run on it"});
+tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Capabilities& ball,
+                                        const Budgets& budgets) {
+  if (const auto error = misfit(job, ball))
+    return tl::unexpected(*error);
   Plan plan;
-  plan.route = choose_route(job, firmware);
+  plan.route = choose_route(job, ball);
+  plan.attempts = budgets.attempts;
   plan.size = job.image.size();
-  const auto room = job.area == Area::Ram ? firmware.ram_bytes : firmware.flash_bytes;
-  if (plan.size > room)
-    return tl::unexpected(
-        PlanError{fmt::format("the program has {} bytes, the {} area of this ball {}; {}",
-                              plan.size, job.area == Area::Ram ? "RAM" : "flash", room,
-                              job.area == Area::Ram && plan.size <= firmware.flash_bytes
-                                  ? "use `--area flash`"
-                                  : "`orb build --pack` makes it smaller")});
-  if (plan.route == Route::FlashDirectly)
-    plan.note = fmt::format("{}: flash is erased and written directly, so a failure loses "
-                            "the program that is there now",
-                            firmware.can_commit ? "the program is larger than the RAM of this ball"
-                                                : "this firmware cannot commit RAM to flash");
+  plan.note = note_of(plan.route, ball);
   const auto target = plan.route == Route::FlashDirectly ? Area::Flash : Area::Ram;
-
-  StepList steps(first_seq);
-  greet(steps);
-  steps.add(StepKind::Prepare, ApiCommand::AbortOrbbasicProgram);
-  steps.add(StepKind::Prepare, ApiCommand::EraseOrbbasicStorage,
-            u8(static_cast<std::uint8_t>(target)));
-  for (ByteView rest = job.image; !rest.empty(); ++plan.pieces) {
-    const auto size = fragment_size(target, rest, steps.seq());
-    steps.add(StepKind::Append, ApiCommand::AppendOrbbasicFragment,
-              fragment_data(target, rest.first(size)));
-    rest = rest.subspan(size);
-  }
-  steps.add(StepKind::Barrier, ApiCommand::Ping);
+  plan.steps = {
+      {StepKind::Prepare, ApiCommand::AbortOrbbasicProgram},
+      {StepKind::Erase, ApiCommand::EraseOrbbasicStorage, u8(target)},
+      {StepKind::Count, ApiCommand::PerformLevel2Diagnostics},
+      {StepKind::Append, ApiCommand::AppendOrbbasicFragment, u8(target), job.image},
+      {StepKind::Barrier, ApiCommand::PerformLevel2Diagnostics},
+  };
+  plan.pieces = pieces_of(plan.steps[3], 0);
   if (plan.route == Route::RamThenFlash)
-    steps.add(StepKind::Store, ApiCommand::CommitRamToFlash);
+    plan.steps.push_back({StepKind::Store, ApiCommand::CommitRamToFlash});
   if (job.start_line)
-    steps.add(StepKind::Start, ApiCommand::ExecuteOrbbasicProgram,
-              run_data(job.area, *job.start_line));
-  plan.steps = steps.take();
-
-  // Under other sequence numbers other fragments are shortened.
-  const auto shortest = fragment_most - shortened_most;
-  const auto pieces = static_cast<int>((plan.size + shortest - 1) / shortest);
-  const auto attempt = 2 * budgets.ask() + pieces * piece_time(budgets) + budgets.ask();
-  plan.deadline =
-      greeting_time(budgets) + budgets.attempts * attempt + budgets.backoffs(budgets.attempts);
-  if (plan.route == Route::RamThenFlash)
-    plan.deadline += budgets.ask();
-  if (job.start_line)
-    plan.deadline += piece_time(budgets) + budgets.start_sign;
+    plan.steps.push_back(
+        {StepKind::Start, ApiCommand::ExecuteOrbbasicProgram, run_data(job.area, *job.start_line)});
+  plan.deadline = deadline(plan, budgets);
   return plan;
 }
 
-tl::expected<std::vector<Bytes>, PlanError> stream_pieces(const protocol::MacroImage& image) {
-  const auto listing = protocol::decode_macro_body(image.body);
-  if (listing.error)
-    return tl::unexpected(PlanError{fmt::format("the macro cannot be cut into commands: {}",
-                                                protocol::to_string(*listing.error))});
-  protocol::MacroImage head = image;
-  head.id = spec::macro_id_stream;
-  head.body.clear();
-  const auto header = encode(head);
-  std::vector<Bytes> pieces = {header};
-  auto ends = false;
-  const auto add = [&](ByteView command) {
-    if (pieces.back().size() + command.size() > stream_piece_most)
-      pieces.push_back(header);
-    pieces.back().insert(pieces.back().end(), command.begin(), command.end());
-  };
-  for (const auto& step : listing.steps) {
-    if (step.size + header.size() > stream_piece_most)
-      return tl::unexpected(PlanError{fmt::format(
-          "the {} at offset {} takes {} bytes; a streamed piece holds {}", step.info->mnemonic,
-          step.offset, step.size, stream_piece_most - header.size())});
-    ends = ends || step.info->command == spec::MacroCommand::StreamEnd;
-    add(ByteView(image.body).subspan(step.offset, step.size));
-  }
-  if (!ends)
-    add(u8(static_cast<std::uint8_t>(spec::MacroCommand::StreamEnd)));
-  return pieces;
-}
-
-tl::expected<Plan, PlanError> make_plan(const MacroJob& job, const Budgets& budgets,
-                                        std::uint8_t first_seq) {
+tl::expected<Plan, PlanError> make_plan(const MacroJob& job, const Budgets& budgets) {
   Plan plan;
   plan.route = choose_route(job);
+  plan.note = note_of(plan.route);
   auto image = job.image;
-  if (plan.route == Route::TemporaryPacket || plan.route == Route::TemporaryChunks)
+  if (is_temporary(plan.route))
     image.id = spec::macro_id_temporary;
-  const auto bytes = encode(image);
-  plan.size = bytes.size();
-
-  StepList steps(first_seq);
-  greet(steps);
-  steps.add(StepKind::Prepare, ApiCommand::AbortMacro);
-  if (job.clear_others) {
-    steps.add(StepKind::Prepare, ApiCommand::ReinitMacroExecutive);
-    plan.deadline += budgets.ask();
-  }
-  auto runs = job.run;
-  switch (plan.route) {
-  case Route::TemporaryPacket:
-    steps.add(StepKind::Store, ApiCommand::SaveTemporaryMacro, bytes);
-    plan.pieces = 1;
-    break;
-  case Route::TemporaryChunks:
-    if (plan.size > spec::macro_buffer_planned)
-      return tl::unexpected(PlanError{
-          fmt::format("the macro has {} bytes, a temporary macro at most {}; use `--as stream`",
-                      plan.size, spec::macro_buffer_planned)});
-    for (ByteView rest = bytes; !rest.empty(); ++plan.pieces) {
-      const auto size = chunk_size(rest, steps.seq());
-      steps.add(StepKind::Append, ApiCommand::AppendMacroChunk,
-                {rest.begin(), rest.begin() + static_cast<long>(size)});
-      rest = rest.subspan(size);
-    }
-    break;
-  case Route::UserMacro:
-    if (plan.size > spec::macro_max_packet)
-      return tl::unexpected(PlanError{
-          fmt::format("the macro has {} bytes, a user macro at most {}; use `--as temp` or "
-                      "`--as stream`",
-                      plan.size, spec::macro_max_packet)});
-    if (spec::macro_id_kind(image.id) != spec::MacroIdKind::User)
-      return tl::unexpected(PlanError{
-          fmt::format("a user macro has an id from {} to {}, not {}; choose one with `--id`",
-                      spec::macro_id_user_first, spec::macro_id_user_last, image.id)});
-    steps.add(StepKind::Store, ApiCommand::SaveMacro, bytes);
-    plan.pieces = 1;
-    plan.note = "the ball forgets user macros when it sleeps";
-    break;
-  case Route::StreamedMacro: {
-    const auto pieces = stream_pieces(image);
-    if (!pieces)
-      return tl::unexpected(pieces.error());
-    for (const auto& piece : *pieces)
-      steps.add(StepKind::Append, ApiCommand::SaveMacro, piece);
-    plan.pieces = pieces->size();
-    runs = false;
-    plan.note = "a streamed macro runs while it arrives and is not stored";
-    break;
-  }
-  case Route::Ram:
-  case Route::RamThenFlash:
-  case Route::FlashDirectly: break; // programs
-  }
-  steps.add(StepKind::Barrier, ApiCommand::Ping);
-  if (runs)
-    steps.add(StepKind::Start, ApiCommand::RunMacro, u8(image.id));
-  plan.steps = steps.take();
-
-  constexpr int seq_moves_most = 8;
-  const auto pieces = static_cast<int>(plan.pieces) + (plan.pieces > 1 ? 1 : 0);
-  auto piece = piece_time(budgets) + seq_moves_most * budgets.answer;
-  if (plan.route == Route::StreamedMacro)
-    piece += budgets.stream_room;
-  plan.deadline += greeting_time(budgets) + 3 * budgets.ask() + pieces * piece;
-  if (runs)
-    plan.deadline += piece_time(budgets) + budgets.ask();
+  plan.size = encode(image).size();
+  if (const auto error = misfit(plan.route, image, plan.size))
+    return tl::unexpected(*error);
+  auto macro = bring(plan.route, image);
+  if (!macro)
+    return tl::unexpected(macro.error());
+  const auto in_pieces = macro->kind == StepKind::Append;
+  plan.pieces = in_pieces ? pieces_of(*macro, 0) : 1;
+  plan.steps = {{StepKind::Prepare, ApiCommand::AbortMacro}};
+  if (job.clear_others)
+    plan.steps.push_back({StepKind::Erase, ApiCommand::ReinitMacroExecutive});
+  const auto count = in_pieces ? ApiCommand::PerformLevel2Diagnostics : ApiCommand::Ping;
+  if (in_pieces)
+    plan.steps.push_back({StepKind::Count, count});
+  plan.steps.push_back(*std::move(macro));
+  plan.steps.push_back({StepKind::Barrier, count});
+  if (job.run && plan.route != Route::StreamedMacro)
+    plan.steps.push_back({StepKind::Start, ApiCommand::RunMacro, u8(image.id)});
+  plan.deadline = deadline(plan, budgets);
   return plan;
+}
+
+std::vector<Command> packets(const Plan& plan, std::uint8_t seq) {
+  std::vector<Command> out;
+  const auto add = [&](ApiCommand command, const Bytes& data) {
+    auto packet = make_command(command, data, seq);
+    while (survives_shorter(packet)) { // numbered as a session does it
+      out.push_back(make_command(ApiCommand::Ping, {}, seq));
+      packet.seq = ++seq;
+    }
+    ++seq;
+    out.push_back(std::move(packet));
+  };
+  for (const auto question :
+       {ApiCommand::Ping, ApiCommand::GetVersioning, ApiCommand::GetPowerState})
+    add(question, {});
+  for (const auto& step : plan.steps) {
+    if (step.kind != StepKind::Append)
+      add(step.command, step.data);
+    for (std::size_t sent = 0, number = 0; sent < step.content.size(); ++number) {
+      const auto piece = next_piece(step, sent, number, seq);
+      sent += piece.size();
+      add(step.command, piece_data(step, piece));
+    }
+  }
+  return out;
 }
 
 } // namespace orb::uploader

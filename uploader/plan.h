@@ -11,11 +11,10 @@
 
 namespace orb::uploader {
 
-/// The areas for programs, by their number in the commands. Source: API §Erase orbBasic Storage.
-enum class Area : std::uint8_t { Ram = 0, Flash = 1 };
+using spec::Area;
 
 /// What an upload must know of the ball's firmware.
-struct Firmware {
+struct Capabilities {
   std::size_t ram_bytes = 0; ///< of the orbBasic RAM area, the final NUL included
   std::size_t flash_bytes = 0;
   bool has_basic = false;
@@ -24,10 +23,10 @@ struct Firmware {
 
 /// Reads an answer of Get Versioning. A record of 8 bytes is from before API 1.46.
 /// Source: API §Get Versioning and its history of revisions.
-Firmware read_firmware(ByteView version_record);
+Capabilities read_capabilities(ByteView version_record);
 
-/// The firmware that is assumed where no ball is asked: the newest.
-Firmware default_firmware();
+/// Those that are assumed where no ball is asked: of the newest firmware.
+Capabilities default_capabilities();
 
 /// A program as it goes to the ball: text with its final NUL.
 struct ProgramJob {
@@ -58,28 +57,34 @@ enum class Route : std::uint8_t {
 
 /// What a step is to the upload that carries the plan out.
 enum class StepKind : std::uint8_t {
-  Greet,   ///< before anything changes: ping, versions, power
-  Prepare, ///< harmless twice: abort, erase, clear
-  Append,  ///< a piece of the whole; must arrive exactly once
-  Barrier, ///< a ping behind the last piece
+  Prepare, ///< harmless twice, and changes nothing that is stored
+  Erase,   ///< what was stored is gone
+  Count,   ///< how many packets the ball has received, where it says so
+  Append,  ///< the content in pieces, each of which must arrive exactly once
+  Barrier, ///< behind the content: all answers have come, and the count fits
   Store,   ///< makes it last: commit, save
   Start    ///< runs it
 };
 
 struct Step {
-  StepKind kind = StepKind::Greet;
-  protocol::Command command; ///< with the sequence number that it has when all goes well
+  StepKind kind = StepKind::Prepare;
+  spec::ApiCommand command{};
+  Bytes data{};                    ///< the payload; of Append what stands before each piece
+  Bytes content{};                 ///< of Append
+  std::vector<std::size_t> cuts{}; ///< the sizes of its pieces; none: as much as a packet carries
 };
 
-/// What will be sent, packet by packet, when nothing goes wrong, and the time by which an upload
-/// has ended whatever goes wrong.
+/// What is done behind the greeting when nothing goes wrong, and the time by which an upload has
+/// ended whatever goes wrong.
 struct Plan {
   Route route = Route::Ram;
   std::vector<Step> steps;
-  std::size_t size = 0;   ///< bytes of the program or macro
-  std::size_t pieces = 0; ///< packets that carry them
-  Duration deadline{};    ///< from the first attempt to open the link
-  std::string note;       ///< what the user should know of the route; may be empty
+  int attempts = 1;                        ///< how often the steps up to the Barrier may be done
+  std::size_t size = 0;                    ///< bytes of the program or macro
+  std::size_t pieces = 1;                  ///< packets that carry them, where none is shortened
+  Duration deadline{};                     ///< from the first attempt to open the link
+  std::string note;                        ///< what the user should know of the route; may be empty
+  std::string_view again = "upload again"; ///< what helps after a failure
 };
 
 /// Why something cannot be uploaded to this ball at all: a sentence.
@@ -87,32 +92,28 @@ struct PlanError {
   std::string message;
 };
 
-tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Firmware& firmware,
-                                        const Budgets& budgets, std::uint8_t first_seq);
-tl::expected<Plan, PlanError> make_plan(const MacroJob& job, const Budgets& budgets,
-                                        std::uint8_t first_seq);
+tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Capabilities& ball,
+                                        const Budgets& budgets);
+tl::expected<Plan, PlanError> make_plan(const MacroJob& job, const Budgets& budgets);
 
-Route choose_route(const ProgramJob& job, const Firmware& firmware);
+/// Every packet of an upload, the greeting first, as a session that begins with `first_seq` sends
+/// them to a ball that counts when nothing goes wrong.
+std::vector<protocol::Command> packets(const Plan& plan, std::uint8_t first_seq);
+
+Route choose_route(const ProgramJob& job, const Capabilities& ball);
 Route choose_route(const MacroJob& job);
 std::string_view to_string(Route route);
 
-/// How much of `rest` goes into the next fragment: all that fits a packet, or a little less where
-/// one bit error in DLEN would make a valid shorter packet of it. At least 1 of a `rest` that is
-/// not empty.
-std::size_t fragment_size(Area area, ByteView rest, std::uint8_t seq);
-/// The data of an Append orbBasic Fragment.
-Bytes fragment_data(Area area, ByteView piece);
-
-/// The same for Append Macro Chunk; `rest` is the image from the second chunk on without header.
-std::size_t chunk_size(ByteView rest, std::uint8_t seq);
-
-/// The pieces of a streamed macro, each whole commands with id and flags in front, and Stream End
-/// behind the last where the macro has none. An error where a comment is longer than a piece.
-tl::expected<std::vector<Bytes>, PlanError> stream_pieces(const protocol::MacroImage& image);
+/// The content that the next packet of an Append step carries, where `sent` bytes in `piece` pieces
+/// went before: all that fits, or a little less where one bit error in DLEN would make a valid
+/// shorter packet of it.
+ByteView next_piece(const Step& step, std::size_t sent, std::size_t piece, std::uint8_t seq);
+/// The payload of the packet that carries it.
+Bytes piece_data(const Step& step, ByteView piece);
 
 /// The kind of macro that is meant where the user names none: a user macro where the image has a
-/// user id, a stream where it has the stream's, else a temporary one, else, where it is too long for
-/// that, a stream.
+/// user id, a stream where it has the stream's, else a temporary one, else, where it is too long
+/// for that, a stream.
 MacroKind natural_kind(const protocol::MacroImage& image);
 
 } // namespace orb::uploader

@@ -12,22 +12,11 @@ using protocol::Item;
 using spec::ApiCommand;
 using spec::Retry;
 
-constexpr std::size_t inbox_most = 4096;        // messages; a minute of the fastest sensor stream
-constexpr std::size_t version_record_least = 8; // record version 1 ends before the API revision
-constexpr std::size_t dlen_at = 5;              // SOP1 SOP2 DID CID SEQ DLEN
+constexpr std::size_t inbox_most = 4096; // messages; a minute of the fastest sensor stream
+constexpr auto dlen_at = spec::command_header_size - 1;
 
 tl::unexpected<NoAnswer> link_failed(const protocol::LinkError& error) {
   return tl::unexpected(NoAnswer{NoAnswer::Kind::Link, error});
-}
-
-Retry retry_of(std::uint8_t code) {
-  const auto* row = spec::find_response(code);
-  return row == nullptr ? Retry::No : row->retry;
-}
-
-/// "Later" is worth waiting for where the ball comes round by itself.
-bool comes_round(std::uint8_t code) {
-  return code == static_cast<std::uint8_t>(spec::ResponseCode::MemoryBusy);
 }
 
 /// The least and the most payload of an answer "OK". A command without fields in its answer gets
@@ -35,8 +24,6 @@ bool comes_round(std::uint8_t code) {
 std::pair<std::size_t, std::size_t> answer_sizes(ApiCommand command) {
   std::size_t least = 0;
   const auto fields = spec::answer(command);
-  if (command == ApiCommand::GetVersioning)
-    return {version_record_least, spec::max_payload};
   for (const auto& field : fields)
     if (field.presence == spec::Presence::Required)
       least += spec::field_size(field.type);
@@ -182,6 +169,8 @@ tl::expected<protocol::Response, NoAnswer> Session::exchange(ApiCommand command,
     return tl::unexpected(received.error());
   if (!*received)
     return tl::unexpected(NoAnswer{});
+  if (spec::retry_of((*received)->code) != Retry::SameAgain)
+    ++counts_.arrived;
   return std::move(**received);
 }
 
@@ -201,7 +190,7 @@ tl::expected<protocol::Response, NoAnswer> Session::ask(ApiCommand command, cons
       also_.set(static_cast<std::uint8_t>(next_seq_ - 1));
       continue;
     }
-    if (retry_of(answer->code) != Retry::SameAgain && !comes_round(answer->code)) {
+    if (spec::retry_of(answer->code) != Retry::SameAgain && !comes_round(answer->code)) {
       also_.reset();
       return answer;
     }
@@ -229,6 +218,10 @@ tl::expected<void, NoAnswer> Session::listen(Instant deadline,
 void Session::watch_duplicates() {
   answered_.reset();
   duplicate_seen_ = false;
+}
+
+bool comes_round(std::uint8_t code) {
+  return code == static_cast<std::uint8_t>(spec::ResponseCode::MemoryBusy);
 }
 
 std::string describe_code(std::uint8_t code) {

@@ -30,6 +30,7 @@ struct WireCounts {
   std::uint64_t bytes_in = 0;
   std::uint64_t noise_in = 0;         ///< bytes that belong to no packet
   std::uint64_t damaged_in = 0;       ///< packets with a wrong checksum or without their end
+  std::uint64_t arrived = 0;          ///< our packets whose answers say that they came whole
   std::uint64_t foreign_answers = 0;  ///< answers to no request of ours
   std::uint64_t echoes = 0;           ///< our own packets coming back
   std::uint64_t messages_dropped = 0; ///< async messages that nobody took in time
@@ -97,6 +98,9 @@ private:
   std::deque<protocol::Async> inbox_;
   WireCounts counts_;
 };
+
+/// Whether the state that an answer "later" speaks of passes by itself.
+bool comes_round(std::uint8_t code);
 
 /// `0Ah generic RAM access needed but it is busy`, or `2Ch, a code that no document names`.
 std::string describe_code(std::uint8_t code);

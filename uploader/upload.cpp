@@ -10,33 +10,28 @@ using protocol::LinkError;
 using protocol::Response;
 using spec::ApiCommand;
 using spec::Retry;
+using spec::retry_of;
 
 constexpr auto power_state_at = spec::answer_offset(ApiCommand::GetPowerState, "power state");
-
-Retry retry_of(std::uint8_t code) {
-  const auto* row = spec::find_response(code);
-  return row == nullptr ? Retry::No : row->retry;
-}
+constexpr auto rx_good_at = spec::answer_offset(ApiCommand::PerformLevel2Diagnostics, "Rx_Good");
 
 bool is_ok(const Response& response) {
   return response.code == static_cast<std::uint8_t>(spec::ResponseCode::Ok);
-}
-
-bool comes_round(std::uint8_t code) {
-  return code == static_cast<std::uint8_t>(spec::ResponseCode::MemoryBusy);
 }
 
 double seconds(Duration duration) {
   return static_cast<double>(duration.count()) / 1e9;
 }
 
+bool is_program(Route route) {
+  return route == Route::Ram || route == Route::RamThenFlash || route == Route::FlashDirectly;
+}
+
 /// `RAM holds part of the program`: what is where, for the end of a message.
 std::string describe(Content content, Route route) {
   const auto committed = route == Route::RamThenFlash;
   const std::string_view place = route == Route::FlashDirectly ? "flash" : "RAM";
-  const auto is_program =
-      route == Route::Ram || route == Route::RamThenFlash || route == Route::FlashDirectly;
-  if (!is_program) {
+  if (!is_program(route)) {
     switch (content) {
     case Content::Unchanged: return "the ball's macros are unchanged";
     case Content::ErasedOrUnchanged: return "the ball's macros may have been cleared";
@@ -64,81 +59,34 @@ std::string describe(Content content, Route route) {
   return {};
 }
 
-/// Carries one job out: knows what is on the ball at each moment.
-class Job {
-public:
-  /// Without a route nothing is said of what is on the ball.
-  Job(Session& session, Progress& progress, std::optional<Route> route)
-      : session_(session), progress_(progress), route_(route) {}
+bool is_interruption(const NoAnswer& failure) {
+  return failure.kind == NoAnswer::Kind::Link && failure.link.kind == LinkError::Kind::Interrupted;
+}
 
-  Status status;
-  Content content = Content::Unchanged;
+Report refused(ApiCommand command, const Response& response, Content content,
+               std::string_view state) {
+  const auto* row = spec::find_response(response.code);
+  return {Report::Kind::Refused, content,
+          fmt::format("the ball refused {}: {}{}{}{}", spec::info(command).name,
+                      describe_code(response.code), state,
+                      row == nullptr || row->remedy.empty() ? "" : "; ",
+                      row == nullptr ? "" : row->remedy),
+          response.code};
+}
 
-  Session& session() { return session_; }
-
-  void show(Stage stage) {
-    status.stage = stage;
-    progress_.on_status(status, session_.now());
-  }
-
-  Report done(std::string message) const {
-    return {Report::Kind::Done, Content::Stored, std::move(message), 0};
-  }
-
-  Report refused(ApiCommand command, const Response& response) const {
-    const auto* row = spec::find_response(response.code);
-    return {Report::Kind::Refused, content,
-            fmt::format("the ball refused {}: {}{}{}{}", spec::info(command).name,
-                        describe_code(response.code), state(),
-                        row == nullptr || row->remedy.empty() ? "" : "; ",
-                        row == nullptr ? "" : row->remedy),
-            response.code};
-  }
-
-  /// No answer, or none but "damaged": with what is on the ball now.
-  Report lost(ApiCommand command, const NoAnswer& failure) const {
-    const auto unknown = content == Content::Unconfirmed;
-    Report report{unknown ? Report::Kind::Unknown : Report::Kind::LinkLost, content, {}, 0};
-    std::string what;
-    if (failure.kind == NoAnswer::Kind::TimedOut) {
-      what = fmt::format("the ball stopped answering: nothing to {} within {:g} s",
-                         spec::info(command).name, seconds(session_.budgets().answer));
-    } else if (failure.link.kind == LinkError::Kind::Interrupted) {
-      report.kind = Report::Kind::Interrupted;
-      what = "interrupted";
-    } else {
-      what = fmt::format("link lost during {}: {}", spec::info(command).name, failure.link.message);
-    }
-    report.message =
-        fmt::format("{}{}{}", what, state(), unknown || !route_ ? "" : "; upload again");
-    return report;
-  }
-
-  /// Sends a harmless command until it is answered; nothing when the answer is OK.
-  std::optional<Report> ask(ApiCommand command, const Bytes& data = {},
-                            std::optional<Content> if_refused = std::nullopt) {
-    const auto answer = session_.ask(command, data);
-    if (!answer)
-      return lost(command, answer.error());
-    if (is_ok(*answer))
-      return std::nullopt;
-    if (retry_of(answer->code) == Retry::SameAgain)
-      return lost(command, NoAnswer{});
-    content = if_refused.value_or(content);
-    return refused(command, *answer);
-  }
-
-private:
-  Session& session_;
-  Progress& progress_;
-  /// What is on the ball, behind a message.
-  std::string state() const { return route_ ? "; " + describe(content, *route_) : std::string(); }
-
-  std::optional<Route> route_;
-};
-
-/// What came of sending a piece or all pieces once.
-enum class Sent : std::uint8_t { Whole, StartOver };
+/// No answer, or none but "damaged".
+Report lost(const Session& session, ApiCommand command, const NoAnswer& failure, Content content,
+            std::string_view state) {
+  const auto name = spec::info(command).name;
+  if (is_interruption(failure))
+    return {Report::Kind::Interrupted, content, fmt::format("interrupted{}", state), 0};
+  return {content == Content::Unconfirmed ? Report::Kind::Unknown : Report::Kind::LinkLost, content,
+          failure.kind == NoAnswer::Kind::Link
+              ? fmt::format("link lost during {}: {}{}", name, failure.link.message, state)
+              : fmt::format("the ball stopped answering: nothing to {} within {:g} s{}", name,
+                            seconds(session.budgets().answer), state),
+          0};
+}
 
 /// What a second answer means: a piece stored twice, or nothing, as for a start, of which the ball
 /// refuses the second.
@@ -167,70 +115,6 @@ send_once(Session& session, ApiCommand command, Duplicates duplicates, const Mak
   return std::nullopt;
 }
 
-tl::expected<Sent, Report> send_program(Job& job, ByteView image, Area area) {
-  job.status.bytes_sent = 0;
-  job.status.packets = 0;
-  while (job.status.bytes_sent < image.size()) {
-    job.show(Stage::Sending);
-    const auto rest = image.subspan(job.status.bytes_sent);
-    std::size_t size = 0;
-    job.content = Content::Incomplete;
-    const auto answer =
-        send_once(job.session(), ApiCommand::AppendOrbbasicFragment, Duplicates::Matter, [&] {
-          size = fragment_size(area, rest, job.session().next_seq());
-          return fragment_data(area, rest.first(size));
-        });
-    if (!answer)
-      return tl::unexpected(job.lost(ApiCommand::AppendOrbbasicFragment, answer.error()));
-    if (!*answer || retry_of((*answer)->code) == Retry::StartOver)
-      return Sent::StartOver;
-    if (!is_ok(**answer))
-      return tl::unexpected(job.refused(ApiCommand::AppendOrbbasicFragment, **answer));
-    job.status.bytes_sent += size;
-    ++job.status.packets;
-  }
-  return Sent::Whole;
-}
-
-/// Waits until all answers of the ball have come through, and looks for second ones.
-tl::expected<Sent, Report> barrier(Job& job) {
-  job.show(Stage::Confirming);
-  job.content = Content::Unconfirmed;
-  if (auto failed = job.ask(ApiCommand::Ping))
-    return tl::unexpected(*failed);
-  return job.session().duplicate_seen() ? Sent::StartOver : Sent::Whole;
-}
-
-/// Erases and sends the program once.
-tl::expected<Sent, Report> attempt(Job& job, ByteView image, Area area, Route route) {
-  job.show(Stage::Preparing);
-  if (auto failed = job.ask(ApiCommand::AbortOrbbasicProgram))
-    return tl::unexpected(*failed);
-  const auto before = job.content;
-  if (before == Content::Unchanged)
-    job.content = Content::ErasedOrUnchanged;
-  if (auto failed =
-          job.ask(ApiCommand::EraseOrbbasicStorage, {static_cast<std::uint8_t>(area)}, before))
-    return tl::unexpected(*failed);
-  job.content = Content::Erased;
-  job.session().watch_duplicates();
-  const auto sent = send_program(job, image, area);
-  if (!sent || *sent == Sent::StartOver)
-    return sent;
-  auto confirmed = barrier(job);
-  if (!confirmed && route == Route::RamThenFlash &&
-      confirmed.error().kind == Report::Kind::Unknown) {
-    // What the user asked for is flash, and that is untouched.
-    confirmed.error().kind = Report::Kind::LinkLost;
-    confirmed.error().content = Content::Incomplete;
-    confirmed.error().message = fmt::format("the ball stopped answering; {}; upload again",
-                                            describe(Content::Incomplete, route));
-  }
-  if (confirmed && *confirmed == Sent::StartOver)
-    job.content = Content::Incomplete;
-  return confirmed;
-}
-
 /// Whether a message shows that a program runs, or ran until now.
 bool is_sign_of_life(const protocol::Async& message) {
   return message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicPrint) ||
@@ -238,35 +122,359 @@ bool is_sign_of_life(const protocol::Async& message) {
          message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicError);
 }
 
-std::optional<Report> start_program(Job& job, Area area, std::uint16_t line) {
-  job.show(Stage::Starting);
-  auto& session = job.session();
-  auto& inbox = session.inbox();
-  const auto seen = inbox.size();
-  Bytes data = {static_cast<std::uint8_t>(area)};
-  append_u16(data, line);
-  const auto answer = send_once(session, ApiCommand::ExecuteOrbbasicProgram,
-                                Duplicates::DoNotMatter, [&] { return data; });
-  if (answer && *answer && is_ok(**answer))
+/// Carries a plan out and knows what is on the ball at each moment.
+class Upload {
+public:
+  Upload(Session& session, const Plan& plan, Progress& progress)
+      : session_(session), plan_(plan), progress_(progress) {
+    status_.bytes_total = plan.size;
+    status_.packets_total = plan.pieces;
+  }
+
+  /// Walks the steps, from the first again where the content may have arrived otherwise than once.
+  Report run(std::string done) {
+    for (std::size_t at = 0; at < plan_.steps.size();) {
+      const auto ended = carry_out(plan_.steps[at]);
+      if (!ended)
+        return ended.error();
+      ++at;
+      if (*ended == Sent::Whole)
+        continue;
+      if (auto failed = begin_again())
+        return *failed;
+      at = 0;
+    }
+    show(Stage::Done);
+    return {Report::Kind::Done, Content::Stored, std::move(done), 0};
+  }
+
+private:
+  /// What came of a step: a report where the upload ends with it.
+  enum class Sent : std::uint8_t { Whole, StartOver };
+  using Ended = tl::expected<Sent, Report>;
+  using Answer = tl::expected<std::optional<Response>, NoAnswer>;
+
+  Ended carry_out(const Step& step) {
+    switch (step.kind) {
+    case StepKind::Prepare: show(Stage::Preparing); return ask(step, content_);
+    case StepKind::Erase: return erase(step);
+    case StepKind::Count: return count(step);
+    case StepKind::Append: return append(step);
+    case StepKind::Barrier: return barrier(step);
+    case StepKind::Store: return store(step);
+    case StepKind::Start: return start(step);
+    }
+    return Sent::Whole;
+  }
+
+  std::optional<Report> begin_again() {
+    const auto& budgets = session_.budgets();
+    if (status_.attempt == plan_.attempts)
+      return Report{Report::Kind::LinkLost, content_,
+                    fmt::format("gave up after {} attempts: the link loses or doubles too many "
+                                "packets{}",
+                                plan_.attempts, state()),
+                    0};
+    if (const auto waited = session_.listen(session_.now() + budgets.backoff(status_.attempt));
+        !waited)
+      return lose(ApiCommand::AppendOrbbasicFragment, waited.error());
+    ++status_.attempt;
     return std::nullopt;
-  if (answer && *answer) {
-    auto report = job.refused(ApiCommand::ExecuteOrbbasicProgram, **answer);
+  }
+
+  // What is told.
+
+  void show(Stage stage) {
+    status_.stage = stage;
+    progress_.on_status(status_, session_.now());
+  }
+
+  std::string state() const { return "; " + describe(content_, plan_.route); }
+
+  Report refuse(ApiCommand command, const Response& response) const {
+    return refused(command, response, content_, state());
+  }
+
+  Report lose(ApiCommand command, const NoAnswer& failure) const {
+    const auto advice = content_ == Content::Unconfirmed ? std::string()
+                        : content_ == Content::Stored    ? "; whether it runs is not known"
+                                                         : fmt::format("; {}", plan_.again);
+    return lost(session_, command, failure, content_, state() + advice);
+  }
+
+  // Before the content.
+
+  /// Sends a harmless command until it is answered.
+  Ended ask(const Step& step, Content if_refused) {
+    const auto answer = session_.ask(step.command, step.data);
+    if (!answer)
+      return tl::unexpected(lose(step.command, answer.error()));
+    if (is_ok(*answer))
+      return Sent::Whole;
+    if (retry_of(answer->code) == Retry::SameAgain)
+      return tl::unexpected(lose(step.command, NoAnswer{}));
+    content_ = if_refused;
+    return tl::unexpected(refuse(step.command, *answer));
+  }
+
+  Ended erase(const Step& step) {
+    const auto before = content_;
+    if (before == Content::Unchanged)
+      content_ = Content::ErasedOrUnchanged;
+    auto ended = ask(step, before);
+    if (ended)
+      content_ = Content::Erased;
+    return ended;
+  }
+
+  /// How many whole packets the ball says it has received, and how many we know of.
+  struct Count {
+    std::uint32_t received = 0;
+    std::uint32_t arrived = 0;
+
+    bool fits(const Count& later) const {
+      return later.received - received == later.arrived - arrived;
+    }
+  };
+
+  /// Nothing where the ball does not say.
+  tl::expected<std::optional<Count>, NoAnswer> ask_count(ApiCommand command) {
+    const auto answer = session_.ask(command);
+    if (answer && is_ok(*answer))
+      return Count{read_u32(answer->data, rx_good_at),
+                   static_cast<std::uint32_t>(session_.counts().arrived)};
+    if (answer)
+      return std::nullopt;
+    if (answer.error().kind == NoAnswer::Kind::Link)
+      return tl::unexpected(answer.error());
+    if (const auto pong = session_.ask(ApiCommand::Ping); !pong)
+      return tl::unexpected(pong.error());
+    return std::nullopt; // silent to this command alone
+  }
+
+  Ended count(const Step& step) {
+    before_.reset();
+    if (trust_ == Trust::No)
+      return Sent::Whole;
+    const auto count = ask_count(step.command);
+    if (!count)
+      return tl::unexpected(lose(step.command, count.error()));
+    before_ = *count;
+    if (!before_)
+      trust_ = Trust::No;
+    return Sent::Whole;
+  }
+
+  /// Whether the ball has received as many packets as it has answered since it was asked first. The
+  /// first time that it has not, it is asked until two counts fit: a ball that counts otherwise
+  /// than we do is not asked any more.
+  tl::expected<bool, NoAnswer> count_fits(ApiCommand command) {
+    constexpr int trials = 7; // on a link that loses and doubles 10 % three pairs in four fit
+    auto earlier = *before_;
+    for (int trial = 0; trial < trials; ++trial) {
+      const auto later = ask_count(command);
+      if (!later)
+        return tl::unexpected(later.error());
+      const auto fits = *later && earlier.fits(**later);
+      if (fits)
+        trust_ = Trust::Yes;
+      if (fits || trust_ == Trust::Yes)
+        return fits && trial == 0;
+      earlier = later->value_or(earlier);
+    }
+    trust_ = Trust::No;
+    return true;
+  }
+
+  // The content.
+
+  Ended append(const Step& step) {
+    session_.watch_duplicates();
+    session_.inbox().clear(); // of what was stopped
+    status_.packets = 0;
+    for (std::size_t sent = 0; sent < step.content.size(); ++status_.packets) {
+      status_.bytes_sent = sent;
+      show(Stage::Sending);
+      content_ = Content::Incomplete;
+      const auto answer = offer(step, sent);
+      if (session_.duplicate_seen())
+        return doubled();
+      if (!answer || !*answer)
+        return unanswered(step.command, answer);
+      if (retry_of((*answer)->code) == Retry::StartOver && is_program(plan_.route))
+        return Sent::StartOver;
+      if (!is_ok(**answer))
+        return tl::unexpected(stopped(refuse(step.command, **answer)));
+    }
+    status_.bytes_sent = status_.bytes_total;
+    return Sent::Whole;
+  }
+
+  /// Sends the next piece, of a stream until the buffer of the ball has room for it.
+  Answer offer(const Step& step, std::size_t& sent) {
+    const auto& budgets = session_.budgets();
+    const auto patience = session_.now() + (step.cuts.empty() ? Duration{} : budgets.stream_room);
+    ByteView piece;
+    while (true) {
+      auto answer = send_once(session_, step.command, Duplicates::Matter, [&] {
+        piece = next_piece(step, sent, status_.packets, session_.next_seq());
+        return piece_data(step, piece);
+      });
+      const auto full = answer && *answer && retry_of((*answer)->code) == Retry::Later;
+      if (!full || session_.now() >= patience) {
+        sent += piece.size();
+        return answer;
+      }
+      if (const auto waited = session_.listen(session_.now() + budgets.stream_pause); !waited)
+        return tl::unexpected(waited.error());
+    }
+  }
+
+  /// A piece without an answer: what is stored is not known. A program is sent again from the
+  /// start; a macro is thrown away, as it may be playing.
+  Ended unanswered(ApiCommand command, const Answer& answer) {
+    const auto failure = answer ? NoAnswer{} : answer.error();
+    if (!is_program(plan_.route)) {
+      content_ = Content::Unconfirmed;
+      auto report = lose(command, failure);
+      const auto link_works = answer || is_interruption(failure);
+      return tl::unexpected(link_works ? stopped(std::move(report)) : std::move(report));
+    }
+    if (!answer)
+      return tl::unexpected(lose(command, failure));
+    return Sent::StartOver;
+  }
+
+  /// The report, after a macro that has arrived in part has been aborted.
+  Report stopped(Report report) {
+    if (!is_program(plan_.route) && session_.ask(ApiCommand::AbortMacro))
+      report.message += "; the macro was aborted";
     return report;
   }
-  const auto sign = [&] {
-    return std::any_of(inbox.begin() + static_cast<long>(std::min(seen, inbox.size())), inbox.end(),
-                       is_sign_of_life);
-  };
-  if (!answer && answer.error().link.kind == LinkError::Kind::Interrupted)
-    return job.lost(ApiCommand::ExecuteOrbbasicProgram, answer.error());
-  if (answer && session.listen(session.now() + session.budgets().start_sign, sign) && sign())
-    return std::nullopt;
-  return Report{Report::Kind::Unknown, Content::Stored,
-                fmt::format("stored, start not confirmed: {}; the program is stored and may be "
-                            "running",
-                            answer ? "the ball did not answer" : answer.error().link.message),
-                0};
-}
+
+  /// Waits until all answers of the ball have come through. A second one among them, or another
+  /// number of packets in the ball than were answered, says that a piece may be there twice.
+  Ended barrier(const Step& step) {
+    show(Stage::Confirming);
+    // Where flash is meant, what is in RAM does not matter yet.
+    const auto committed = plan_.route == Route::RamThenFlash;
+    content_ = committed ? Content::Incomplete : Content::Unconfirmed;
+    if (!before_) {
+      if (auto pong = ask({StepKind::Barrier, ApiCommand::Ping}, content_); !pong)
+        return pong;
+    } else if (const auto fits = count_fits(step.command); !fits) {
+      return tl::unexpected(lose(step.command, fits.error()));
+    } else if (!*fits) {
+      return doubled();
+    }
+    if (session_.duplicate_seen())
+      return doubled();
+    content_ = committed ? Content::Uncommitted : Content::Stored;
+    return Sent::Whole;
+  }
+
+  Ended doubled() {
+    if (!is_program(plan_.route))
+      return tl::unexpected(stopped(
+          {Report::Kind::Unknown, Content::Unconfirmed,
+           "a packet arrived twice: the macro on the ball may be damaged; upload again", 0}));
+    content_ = Content::Incomplete;
+    return Sent::StartOver;
+  }
+
+  Ended store(const Step& step) {
+    show(step.data.empty() ? Stage::Storing : Stage::Sending);
+    const auto before = content_;
+    Ended ended = Sent::Whole;
+    if (spec::info(step.command).idempotent == spec::Idempotent::Yes) {
+      content_ = Content::Unconfirmed;
+      ended = ask(step, before);
+    } else {
+      ended = save_user_macro(step);
+    }
+    if (ended)
+      content_ = Content::Stored;
+    status_.bytes_sent = status_.bytes_total;
+    status_.packets = status_.packets_total;
+    session_.watch_duplicates(); // those until now did no harm
+    return ended;
+  }
+
+  Ended save_user_macro(const Step& step) {
+    const auto id_was_free = content_ == Content::Erased;
+    const auto save = [&] {
+      return send_once(session_, step.command, Duplicates::DoNotMatter, [&] { return step.data; });
+    };
+    const auto first = save();
+    if (first && *first) {
+      if (is_ok(**first))
+        return Sent::Whole;
+      auto report = refuse(step.command, **first);
+      report.message += ". An id that is in use cannot be replaced: choose another with `--id`, or "
+                        "clear all macros of the ball with `--clear-macros`";
+      return tl::unexpected(report);
+    }
+    content_ = Content::Unconfirmed;
+    if (!first)
+      return tl::unexpected(lose(step.command, first.error()));
+    // The answer is lost. Sent again, OK says that the first did not arrive; "exists" says that it
+    // did, provided that the id was free.
+    const auto second = save();
+    const auto exists = second && *second && retry_of((*second)->code) == Retry::Later;
+    if ((second && *second && is_ok(**second)) || (exists && id_was_free))
+      return Sent::Whole;
+    auto report = lose(step.command, second ? NoAnswer{} : second.error());
+    if (exists)
+      report.message = "the answer to save-macro was lost; the ball now has a macro with this id, "
+                       "probably this one";
+    return tl::unexpected(report);
+  }
+
+  // Behind the content.
+
+  Ended start(const Step& step) {
+    show(Stage::Starting);
+    auto& inbox = session_.inbox();
+    if (const auto settled = session_.listen(session_.now() + session_.budgets().settle); !settled)
+      return tl::unexpected(lose(step.command, settled.error()));
+    inbox.clear(); // what ran before has said its last
+    const auto answer =
+        send_once(session_, step.command, Duplicates::DoNotMatter, [&] { return step.data; });
+    if (answer && *answer && is_ok(**answer))
+      return Sent::Whole;
+    if (answer && *answer)
+      return tl::unexpected(refuse(step.command, **answer));
+    if (!answer && is_interruption(answer.error()))
+      return tl::unexpected(lose(step.command, answer.error()));
+    if (answer && runs(step))
+      return Sent::Whole;
+    return tl::unexpected(
+        Report{Report::Kind::Unknown, Content::Stored,
+               fmt::format("stored, start not confirmed: {}; the {} is stored and may be running",
+                           answer ? "the ball did not answer" : answer.error().link.message,
+                           is_program(plan_.route) ? "program" : "macro"),
+               0});
+  }
+
+  /// Whether what was started without an answer shows that it runs.
+  bool runs(const Step& step) {
+    if (step.command == ApiCommand::RunMacro) {
+      const auto status = session_.ask(ApiCommand::GetMacroStatus);
+      return status && is_ok(*status) && status->data.front() == step.data.front();
+    }
+    const auto& inbox = session_.inbox();
+    const auto sign = [&] { return std::any_of(inbox.begin(), inbox.end(), is_sign_of_life); };
+    return session_.listen(session_.now() + session_.budgets().start_sign, sign) && sign();
+  }
+
+  Session& session_;
+  const Plan& plan_;
+  Progress& progress_;
+  Status status_;
+  Content content_ = Content::Unchanged;
+  std::optional<Count> before_;                                               ///< the content
+  enum class Trust : std::uint8_t { NotYet, Yes, No } trust_ = Trust::NotYet; ///< in its counting
+};
 
 /// A battery that might not last through a write to flash.
 std::optional<Report> check_battery(const Greeting& greeting, BatteryPolicy policy) {
@@ -279,132 +487,6 @@ std::optional<Report> check_battery(const Greeting& greeting, BatteryPolicy poli
                             "loses the program; the ball is unchanged; charge it, or use `--force`",
                             spec::value_name("power state", state), state),
                 0};
-}
-
-/// Offers a piece of a stream until the buffer has room for it.
-tl::expected<std::optional<Response>, NoAnswer> offer(Session& session, const Bytes& piece) {
-  const auto patience = session.now() + session.budgets().stream_room;
-  while (true) {
-    const auto answer =
-        send_once(session, ApiCommand::SaveMacro, Duplicates::Matter, [&] { return piece; });
-    const auto full = answer && *answer && retry_of((*answer)->code) == Retry::Later;
-    if (!full || session.now() >= patience)
-      return answer;
-    if (const auto waited = session.listen(session.now() + session.budgets().stream_pause); !waited)
-      return tl::unexpected(waited.error());
-  }
-}
-
-/// A lost answer to a chunk: what was stored is not known, so it is thrown away.
-Report give_up_chunks(Job& job, ApiCommand command, const NoAnswer& failure) {
-  job.content = Content::Unconfirmed;
-  auto report = job.lost(command, failure);
-  const auto link_works =
-      failure.kind == NoAnswer::Kind::TimedOut || failure.link.kind == LinkError::Kind::Interrupted;
-  if (link_works && job.session().ask(ApiCommand::AbortMacro))
-    report.message += "; the macro was aborted";
-  return report;
-}
-
-std::optional<Report> send_chunks(Job& job, ByteView image) {
-  job.session().watch_duplicates();
-  while (job.status.bytes_sent < image.size()) {
-    job.show(Stage::Sending);
-    const auto rest = image.subspan(job.status.bytes_sent);
-    std::size_t size = 0;
-    job.content = Content::Incomplete;
-    const auto answer =
-        send_once(job.session(), ApiCommand::AppendMacroChunk, Duplicates::Matter, [&] {
-          size = chunk_size(rest, job.session().next_seq());
-          return Bytes(rest.begin(), rest.begin() + static_cast<long>(size));
-        });
-    if (!answer || !*answer)
-      return give_up_chunks(job, ApiCommand::AppendMacroChunk,
-                            answer ? NoAnswer{} : answer.error());
-    if (!is_ok(**answer))
-      return job.refused(ApiCommand::AppendMacroChunk, **answer);
-    job.status.bytes_sent += size;
-    ++job.status.packets;
-  }
-  return std::nullopt;
-}
-
-std::optional<Report> send_stream(Job& job, const protocol::MacroImage& image) {
-  const auto pieces = stream_pieces(image);
-  job.session().watch_duplicates();
-  for (const auto& piece : *pieces) { // the plan has made sure that there are some
-    job.show(Stage::Sending);
-    job.content = Content::Incomplete;
-    const auto answer = offer(job.session(), piece);
-    if (!answer || !*answer)
-      return give_up_chunks(job, ApiCommand::SaveMacro, answer ? NoAnswer{} : answer.error());
-    if (!is_ok(**answer)) {
-      auto report = job.refused(ApiCommand::SaveMacro, **answer);
-      if (job.session().ask(ApiCommand::AbortMacro))
-        report.message += "; the macro was aborted";
-      return report;
-    }
-    ++job.status.packets;
-    job.status.bytes_sent = std::min(job.status.bytes_total, job.status.bytes_sent + piece.size());
-  }
-  return std::nullopt;
-}
-
-/// Which ids of user macros this upload knows to be free.
-enum class IdKnown : std::uint8_t { No, Free };
-
-std::optional<Report> save_user_macro(Job& job, const Bytes& image, IdKnown id) {
-  job.show(Stage::Storing);
-  auto& session = job.session();
-  session.watch_duplicates();
-  const auto first =
-      send_once(session, ApiCommand::SaveMacro, Duplicates::DoNotMatter, [&] { return image; });
-  if (first && *first) {
-    if (is_ok(**first))
-      return std::nullopt;
-    auto report = job.refused(ApiCommand::SaveMacro, **first);
-    report.message += ". An id that is in use cannot be replaced: choose another with `--id`, or "
-                      "clear all macros of the ball with `--clear-macros`";
-    return report;
-  }
-  job.content = Content::Unconfirmed;
-  if (!first)
-    return job.lost(ApiCommand::SaveMacro, first.error());
-  // The answer is lost. Sent again, OK says that the first did not arrive; "exists" says that it
-  // did, provided that the id was free.
-  const auto second =
-      send_once(session, ApiCommand::SaveMacro, Duplicates::DoNotMatter, [&] { return image; });
-  if (second && *second && is_ok(**second))
-    return std::nullopt;
-  const auto exists = second && *second && retry_of((*second)->code) == Retry::Later;
-  if (exists && id == IdKnown::Free)
-    return std::nullopt;
-  auto report = job.lost(ApiCommand::SaveMacro, second ? NoAnswer{} : second.error());
-  if (exists)
-    report.message = "the answer to save-macro was lost; the ball now has a macro with this id, "
-                     "probably this one";
-  return report;
-}
-
-std::optional<Report> start_macro(Job& job, std::uint8_t id) {
-  job.show(Stage::Starting);
-  auto& session = job.session();
-  const auto answer =
-      send_once(session, ApiCommand::RunMacro, Duplicates::DoNotMatter, [&] { return Bytes{id}; });
-  if (answer && *answer) {
-    if (is_ok(**answer))
-      return std::nullopt;
-    return job.refused(ApiCommand::RunMacro, **answer);
-  }
-  if (!answer && answer.error().link.kind == LinkError::Kind::Interrupted)
-    return job.lost(ApiCommand::RunMacro, answer.error());
-  if (answer) {
-    const auto status = session.ask(ApiCommand::GetMacroStatus);
-    if (status && is_ok(*status) && !status->data.empty() && status->data.front() == id)
-      return std::nullopt;
-  }
-  return Report{Report::Kind::Unknown, Content::Stored,
-                "stored, start not confirmed: the answer to run-macro was lost", 0};
 }
 
 /// Why nothing that answers like a ball is there, from what was heard.
@@ -445,51 +527,48 @@ std::string_view to_string(Stage stage) {
 }
 
 tl::expected<Greeting, Report> greet(Session& session) {
+  constexpr std::string_view state = "; the ball is unchanged";
   const auto absent = [&](const NoAnswer& failure) {
-    const auto interrupted =
-        failure.kind == NoAnswer::Kind::Link && failure.link.kind == LinkError::Kind::Interrupted;
+    if (is_interruption(failure))
+      return tl::unexpected(lost(session, ApiCommand::Ping, failure, Content::Unchanged, state));
     return tl::unexpected(
-        Report{interrupted ? Report::Kind::Interrupted : Report::Kind::NoBall, Content::Unchanged,
-               interrupted ? "interrupted; the ball is unchanged" : no_ball(session, failure), 0});
+        Report{Report::Kind::NoBall, Content::Unchanged, no_ball(session, failure), 0});
   };
   if (const auto drained = session.drain(); !drained)
     return absent(drained.error());
   if (const auto pong = session.ask(ApiCommand::Ping); !pong)
     return absent(pong.error());
   Greeting greeting;
-  const auto versions = request(session, ApiCommand::GetVersioning);
-  if (!versions)
+  auto versions = request(session, ApiCommand::GetVersioning);
+  if (!versions) {
+    versions.error().message += state;
     return tl::unexpected(versions.error());
-  greeting.versions = versions->data;
-  greeting.firmware = read_firmware(greeting.versions);
-  const auto power = session.ask(ApiCommand::GetPowerState);
-  if (!power) {
-    NullProgress nobody;
-    return tl::unexpected(
-        Job(session, nobody, std::nullopt).lost(ApiCommand::GetPowerState, power.error()));
   }
+  greeting.versions = versions->data;
+  greeting.firmware = read_capabilities(greeting.versions);
+  const auto power = session.ask(ApiCommand::GetPowerState);
+  if (!power)
+    return tl::unexpected(
+        lost(session, ApiCommand::GetPowerState, power.error(), Content::Unchanged, state));
   if (is_ok(*power))
     greeting.power = power->data;
   return greeting;
 }
 
 tl::expected<Response, Report> request(Session& session, ApiCommand command, const Bytes& data) {
-  NullProgress nobody;
-  Job job(session, nobody, std::nullopt);
   const auto harmless = spec::info(command).idempotent == spec::Idempotent::Yes;
   const auto answer = harmless ? session.ask(command, data) : session.exchange(command, data);
-  if (!answer) {
-    auto report = job.lost(command, answer.error());
-    if (!harmless && report.kind == Report::Kind::LinkLost) {
-      report.kind = Report::Kind::Unknown;
-      report.message = fmt::format("no answer to {}; whether the ball did it is not known",
-                                   spec::info(command).name);
-    }
-    return tl::unexpected(report);
+  if (answer && is_ok(*answer))
+    return *answer;
+  if (answer)
+    return tl::unexpected(refused(command, *answer, Content::Unchanged, {}));
+  auto report = lost(session, command, answer.error(), Content::Unchanged, {});
+  if (!harmless && report.kind == Report::Kind::LinkLost) {
+    report.kind = Report::Kind::Unknown;
+    report.message = fmt::format("no answer to {}; whether the ball did it is not known",
+                                 spec::info(command).name);
   }
-  if (!is_ok(*answer))
-    return tl::unexpected(job.refused(command, *answer));
-  return *answer;
+  return tl::unexpected(report);
 }
 
 Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery) {
@@ -499,14 +578,13 @@ Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery)
             0};
   if (auto low = check_battery(greeting, battery))
     return *low;
+  Plan plan;
+  plan.route = Route::RamThenFlash;
+  plan.again = "commit again";
+  plan.steps = {{StepKind::Prepare, ApiCommand::AbortOrbbasicProgram},
+                {StepKind::Store, ApiCommand::CommitRamToFlash}};
   NullProgress nobody;
-  Job job(session, nobody, Route::RamThenFlash);
-  if (auto failed = job.ask(ApiCommand::AbortOrbbasicProgram))
-    return *failed;
-  job.content = Content::Unconfirmed;
-  if (auto failed = job.ask(ApiCommand::CommitRamToFlash, {}, Content::Uncommitted))
-    return *failed;
-  return job.done("the program in RAM is in flash now");
+  return Upload(session, plan, nobody).run("the program in RAM is in flash now");
 }
 
 Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
@@ -545,105 +623,22 @@ Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery
 
 Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,
               BatteryPolicy battery, Progress& progress) {
-  const auto& budgets = session.budgets();
-  const auto plan = make_plan(job, greeting.firmware, budgets, session.next_seq());
+  const auto plan = make_plan(job, greeting.firmware, session.budgets());
   if (!plan)
     return {Report::Kind::Impossible, Content::Unchanged, plan.error().message, 0};
   if (job.area == Area::Flash)
     if (auto low = check_battery(greeting, battery))
       return *low;
-  const auto target = plan->route == Route::FlashDirectly ? Area::Flash : Area::Ram;
-  Job work(session, progress, plan->route);
-  work.status.bytes_total = plan->size;
-  work.status.packets_total = plan->pieces;
-
-  auto sent = attempt(work, job.image, target, plan->route);
-  for (int number = 2; sent && *sent == Sent::StartOver && number <= budgets.attempts; ++number) {
-    if (const auto waited = session.listen(session.now() + budgets.backoff(number - 1)); !waited)
-      return work.lost(ApiCommand::AppendOrbbasicFragment, waited.error());
-    work.status.attempt = number;
-    sent = attempt(work, job.image, target, plan->route);
-  }
-  if (!sent)
-    return sent.error();
-  if (*sent == Sent::StartOver)
-    return {Report::Kind::LinkLost, work.content,
-            fmt::format("gave up after {} attempts: the link loses or doubles too many packets; {}",
-                        budgets.attempts, describe(work.content, plan->route)),
-            0};
-
-  if (plan->route == Route::RamThenFlash) {
-    work.show(Stage::Storing);
-    work.content = Content::Unconfirmed;
-    if (auto failed = work.ask(ApiCommand::CommitRamToFlash, {}, Content::Uncommitted))
-      return *failed;
-  }
-  work.content = Content::Stored;
-  if (job.start_line)
-    if (auto failed = start_program(work, job.area, *job.start_line))
-      return *failed;
-  work.show(Stage::Done);
-  return work.done(
-      fmt::format("{} bytes in {}", plan->size, job.area == Area::Flash ? "flash" : "RAM"));
+  return Upload(session, *plan, progress)
+      .run(fmt::format("{} bytes in {}", plan->size, job.area == Area::Flash ? "flash" : "RAM"));
 }
 
 Report upload(Session& session, const MacroJob& job, Progress& progress) {
-  const auto plan = make_plan(job, session.budgets(), session.next_seq());
+  const auto plan = make_plan(job, session.budgets());
   if (!plan)
     return {Report::Kind::Impossible, Content::Unchanged, plan.error().message, 0};
-  Job work(session, progress, plan->route);
-  work.status.bytes_total = plan->size;
-  work.status.packets_total = plan->pieces;
-  auto image = job.image;
-  if (plan->route == Route::TemporaryPacket || plan->route == Route::TemporaryChunks)
-    image.id = spec::macro_id_temporary;
-  const auto bytes = encode(image);
-
-  work.show(Stage::Preparing);
-  if (auto failed = work.ask(ApiCommand::AbortMacro))
-    return *failed;
-  if (job.clear_others) {
-    work.content = Content::ErasedOrUnchanged;
-    if (auto failed = work.ask(ApiCommand::ReinitMacroExecutive))
-      return *failed;
-    work.content = Content::Erased;
-  }
-  std::optional<Report> failed;
-  switch (plan->route) {
-  case Route::TemporaryPacket:
-    work.show(Stage::Sending);
-    work.content = Content::Unconfirmed;
-    failed = work.ask(ApiCommand::SaveTemporaryMacro, bytes);
-    break;
-  case Route::TemporaryChunks: failed = send_chunks(work, bytes); break;
-  case Route::UserMacro:
-    failed = save_user_macro(work, bytes, job.clear_others ? IdKnown::Free : IdKnown::No);
-    break;
-  case Route::StreamedMacro: failed = send_stream(work, image); break;
-  case Route::Ram:
-  case Route::RamThenFlash:
-  case Route::FlashDirectly: break; // programs
-  }
-  if (failed)
-    return *failed;
-  work.status.bytes_sent = work.status.bytes_total;
-  work.status.packets = work.status.packets_total;
-  const auto in_pieces =
-      plan->route == Route::TemporaryChunks || plan->route == Route::StreamedMacro;
-  if (!in_pieces)
-    session.watch_duplicates(); // those until now did no harm
-  const auto confirmed = barrier(work);
-  if (!confirmed)
-    return confirmed.error();
-  if (*confirmed == Sent::StartOver)
-    return {Report::Kind::Unknown, Content::Unconfirmed,
-            "a packet was answered twice: the macro on the ball may be damaged; upload again", 0};
-  work.content = Content::Stored;
-  if (job.run && plan->route != Route::StreamedMacro)
-    if (auto not_started = start_macro(work, image.id))
-      return *not_started;
-  work.show(Stage::Done);
-  return work.done(fmt::format("{} bytes as {}", plan->size, to_string(plan->route)));
+  return Upload(session, *plan, progress)
+      .run(fmt::format("{} bytes as {}", plan->size, to_string(plan->route)));
 }
 
 } // namespace orb::uploader

@@ -41,7 +41,7 @@ struct Report {
 /// What a ball said of itself before anything was changed.
 struct Greeting {
   Bytes versions;
-  Firmware firmware;
+  Capabilities firmware;
   std::optional<Bytes> power; ///< the answer of Get Power State, where the ball gives one
 
   /// The power state of the API, 0 where it is not known.

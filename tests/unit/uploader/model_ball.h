@@ -84,6 +84,7 @@ public:
   }
 
   void carry_out(const protocol::Command& command) {
+    good += counts_per_packet;
     using spec::ApiCommand;
     using spec::ResponseCode;
     const auto which = spec::api_command(command.did, command.cid);
@@ -94,6 +95,8 @@ public:
       reply = versions;
     else if (which == ApiCommand::GetPowerState)
       reply = {1, static_cast<std::uint8_t>(power), 3, 0, 0, 0, 0, 0};
+    else if (which == ApiCommand::PerformLevel2Diagnostics)
+      code = count(reply);
     else if (which == ApiCommand::EraseOrbbasicStorage)
       areas.at(data.at(0)).clear();
     else if (which == ApiCommand::AppendOrbbasicFragment)
@@ -133,7 +136,23 @@ public:
   std::uint8_t running = 0;
   int stream_refusals = 0; ///< how often the next pieces of a stream find no room
 
+  /// Level 2 Diagnostics; a ball of which nothing is known may refuse it, or count otherwise.
+  bool has_diagnostics = true;
+  std::uint32_t counts_per_packet = 1;
+  std::uint32_t good = 0;
+
 private:
+  spec::ResponseCode count(Bytes& reply) const {
+    if (!has_diagnostics)
+      return spec::ResponseCode::BadCommand;
+    reply = {0, 1, 0};
+    append_u32(reply, good);
+    reply.resize(
+        spec::answer_offset(spec::ApiCommand::PerformLevel2Diagnostics, "gyro adjustments") +
+        spec::field_size(spec::FieldType::U32));
+    return spec::ResponseCode::Ok;
+  }
+
   spec::ResponseCode append(const Bytes& data) {
     auto& area = areas.at(data.at(0));
     if (area.size() + data.size() - 1 > room.at(data.at(0)))

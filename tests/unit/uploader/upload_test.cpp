@@ -55,15 +55,15 @@ ModelBall::Mischief silent_from(ApiCommand which) {
 TEST(Upload, StoresTheProgramAsPlanned) {
   ModelBall ball;
   const ProgramJob job{sixty_lines(), Area::Ram, std::uint16_t{10}};
-  const auto plan = make_plan(job, default_firmware(), Budgets{}, 0x42);
+  const auto plan = make_plan(job, default_capabilities(), Budgets{});
   ASSERT_TRUE(plan.has_value());
   EXPECT_LE(plan->pieces, 5U);
   EXPECT_EQ(upload_program(ball, job, 0x42).kind, Kind::Done);
   EXPECT_EQ(ball.areas[0], as_string(job.image));
   EXPECT_EQ(ball.executed, 1);
   Bytes planned;
-  for (const auto& step : plan->steps)
-    encode(step.command, planned);
+  for (const auto& packet : packets(*plan, 0x42))
+    encode(packet, planned);
   EXPECT_EQ(to_hex(ball.received), to_hex(planned));
 }
 
@@ -153,6 +153,63 @@ TEST(Upload, StartsOverAfterASecondAnswer) {
   }
 }
 
+TEST(Upload, StartsOverWhereARequestArrivedTwiceAndOneAnswerWasLost) {
+  for (const int which : {1, 5}) {
+    ModelBall ball;
+    int seen = 0;
+    ball.mischief = [&](int, const protocol::Command& command) -> std::optional<Bytes> {
+      if (!is(command, ApiCommand::AppendOrbbasicFragment) || ++seen != which)
+        return std::nullopt;
+      auto unanswered = command;
+      unanswered.flags = 0;
+      ball.carry_out(unanswered);
+      ball.carry_out(command);
+      return Bytes{};
+    };
+    EXPECT_EQ(upload_program(ball, {sixty_lines(), Area::Ram, {}}).kind, Kind::Done);
+    EXPECT_EQ(ball.areas[0], as_string(sixty_lines()));
+  }
+}
+
+TEST(Upload, GoesOnWithABallThatDoesNotCountAsItDoes) {
+  for (const std::uint32_t counts_per_packet : {0, 2}) {
+    ModelBall ball;
+    ball.counts_per_packet = counts_per_packet;
+    EXPECT_EQ(upload_program(ball, {sixty_lines(), Area::Ram, {}}).kind, Kind::Done);
+    EXPECT_LE(ball.now().time_since_epoch(), 2s);
+  }
+  ModelBall refusing;
+  refusing.has_diagnostics = false;
+  EXPECT_EQ(upload_program(refusing, {sixty_lines(), Area::Ram, {}}).kind, Kind::Done);
+  ModelBall silent;
+  silent.mischief = [](int, const protocol::Command& command) -> std::optional<Bytes> {
+    return is(command, ApiCommand::PerformLevel2Diagnostics) ? std::optional(Bytes{})
+                                                             : std::nullopt;
+  };
+  EXPECT_EQ(upload_program(silent, {sixty_lines(), Area::Ram, {}}).kind, Kind::Done);
+}
+
+TEST(Upload, ForgetsWhatTheProgramBeforeSaid) {
+  ModelBall ball;
+  ball.mischief = [&](int, const protocol::Command& command) -> std::optional<Bytes> {
+    if (!is(command, ApiCommand::AbortOrbbasicProgram))
+      return std::nullopt;
+    ball.carry_out(command);
+    return encode(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::BasicError), {0, 20}});
+  };
+  ball.print_at_start = "mine";
+  Session session(ball, Budgets{}, 0);
+  const auto greeting = greet(session);
+  NullProgress progress;
+  EXPECT_EQ(upload(session, {sixty_lines(), Area::Ram, std::uint16_t{10}}, *greeting,
+                   BatteryPolicy::Refuse, progress)
+                .kind,
+            Kind::Done);
+  (void)session.listen(session.now() + 1s);
+  ASSERT_EQ(session.inbox().size(), 1U);
+  EXPECT_EQ(as_string(session.inbox().front().data), "mine");
+}
+
 TEST(Upload, SaysWhatIsOnABallThatFallsSilent) {
   struct Case {
     ApiCommand from;
@@ -175,7 +232,7 @@ TEST(Upload, SaysWhatIsOnABallThatFallsSilent) {
     const auto report = upload_program(ball, job);
     EXPECT_EQ(report.kind, kind) << report.message;
     EXPECT_EQ(report.content, content) << report.message;
-    EXPECT_LE(ball.now() - start, make_plan(job, default_firmware(), Budgets{}, 0)->deadline);
+    EXPECT_LE(ball.now() - start, make_plan(job, default_capabilities(), Budgets{})->deadline);
     EXPECT_LE(ball.now() - start, 40s) << report.message;
   }
 }
@@ -199,6 +256,22 @@ TEST(Upload, ReportsAnInterruption) {
   const auto report = upload_program(ball, {sixty_lines(), Area::Ram, {}});
   EXPECT_EQ(report.kind, Kind::Interrupted);
   EXPECT_NE(report.message.find("incomplete"), std::string::npos) << report.message;
+}
+
+TEST(Upload, SaysWhatIsOnTheBallWhereverItEnds) {
+  using LinkKind = protocol::LinkError::Kind;
+  for (const auto command :
+       {ApiCommand::GetVersioning, ApiCommand::GetPowerState, ApiCommand::ExecuteOrbbasicProgram})
+    for (const auto kind : {LinkKind::Closed, LinkKind::Interrupted}) {
+      ModelBall ball;
+      ball.mischief = at(command, 1, [&] { ball.broken = protocol::LinkError{kind, "cut"}; });
+      const auto report = upload_program(ball, {sixty_lines(), Area::Ram, std::uint16_t{10}});
+      const auto stored = command == ApiCommand::ExecuteOrbbasicProgram;
+      EXPECT_NE(report.message.find(stored ? "stored" : "unchanged"), std::string::npos)
+          << report.message;
+      EXPECT_EQ(stored && report.message.find("again") != std::string::npos, false)
+          << report.message;
+    }
 }
 
 TEST(Upload, TakesAPrintForTheStart) {
@@ -276,6 +349,22 @@ TEST(UploadMacro, BringsALongOneInChunks) {
 TEST(UploadMacro, LeavesALostChunkUnknown) {
   ModelBall ball;
   ball.mischief = at(ApiCommand::AppendMacroChunk, 2);
+  const auto report = upload_macro(ball, {macro_of(255, 300), MacroKind::Temporary, true});
+  EXPECT_EQ(report.kind, Kind::Unknown);
+  EXPECT_TRUE(ball.chunks.empty()); // aborted
+}
+
+TEST(UploadMacro, CallsAChunkThatArrivedTwiceUnknown) {
+  ModelBall ball;
+  int seen = 0;
+  ball.mischief = [&](int, const protocol::Command& command) -> std::optional<Bytes> {
+    if (!is(command, ApiCommand::AppendMacroChunk) || ++seen != 2)
+      return std::nullopt;
+    auto unanswered = command;
+    unanswered.flags = 0;
+    ball.carry_out(unanswered);
+    return std::nullopt;
+  };
   const auto report = upload_macro(ball, {macro_of(255, 300), MacroKind::Temporary, true});
   EXPECT_EQ(report.kind, Kind::Unknown);
   EXPECT_TRUE(ball.chunks.empty()); // aborted
