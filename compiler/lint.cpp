@@ -110,8 +110,13 @@ std::int32_t area_bytes(const Target& target) {
 std::vector<Diagnostic> lint(const Program& program, const Target& target) {
   Findings findings;
   const auto flow = read_flow(program);
+  std::vector<const Fault*> unnumbered;
   for (const auto& fault : program.faults)
-    findings.add(explain(program, fault));
+    if (auto diagnostic = explain(program, fault))
+      findings.add(std::move(*diagnostic));
+    else
+      unnumbered.push_back(&fault);
+  lint_missing_numbers(program, unnumbered, findings);
   lint_text(program, flow, target, findings);
   lint_values(program, flow, target, findings);
   const bool jumps_known =

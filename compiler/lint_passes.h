@@ -5,6 +5,7 @@
 #include "compiler/lint.h"
 #include "compiler/program.h"
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,10 @@ inline Fix single_fix(std::string title, Span span, std::string text,
 
 // The passes, in the order in which they run. Each goes once through the program and knows nothing
 // of the others.
+
+/// The lines that lack a number: one finding where all do, as nobody forgets it on every line.
+void lint_missing_numbers(const Program& program, std::span<const Fault* const> faults,
+                          Findings& findings);
 
 /// What can be said of the text without computing anything: bytes, line numbers, words, blanks,
 /// targets, how expressions are written.

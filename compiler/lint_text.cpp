@@ -225,6 +225,8 @@ private:
       if (&statement != &whole)
         check_branch(statement);
       check(statement);
+      if (statement.kind == spec::Statement::Print && program_.items_of(statement).empty())
+        check_single_quotes(statement, line.comment);
     }
   }
 
@@ -306,9 +308,24 @@ private:
     if (number == nullptr)
       add_missing_target(target);
     else if (number->code == none)
-      findings_.add(rules::EmptyTarget, target.span,
-                    fmt::format("line {} holds no statement and is dropped", target.value),
-                    "jump to the line below it");
+      add_empty_target(target, number->line);
+  }
+
+  void add_empty_target(const Item& target, std::uint32_t index) {
+    auto& d = findings_.add(rules::EmptyTarget, target.span,
+                            fmt::format("line {} holds no statement and is dropped", target.value),
+                            "jump to the line below it");
+    const auto at = program_.lines.begin() + index;
+    const auto below = std::find_if(at, program_.lines.end(), [](const Line& line) {
+      return line.has_number() && line.has_statement();
+    });
+    if (below == program_.lines.end()) {
+      d.help = fmt::format("write `{} end`", target.value);
+      d.fix = single_fix(d.help, {at->number_span.end, at->number_span.end}, " end");
+    } else if (below->number < none - 1) {
+      d.help = fmt::format("jump to the line below it: {}", below->number);
+      d.fix = single_fix(d.help, target.span, std::to_string(below->number));
+    }
   }
 
   void add_missing_target(const Item& target) {
@@ -327,6 +344,22 @@ private:
     for (std::size_t i = 0; i + 1 < items.size(); ++i)
       if (items[i].kind == ItemKind::Semicolon)
         add_semicolon(items[i], items[i + 1]);
+  }
+
+  /// `print 'hello'` prints an empty line, because `'` begins a comment.
+  void check_single_quotes(const StatementNode& statement, Span comment) {
+    const auto text = program_.text_of(comment);
+    const auto last = text.find_last_of('\'');
+    if (last == 0 || last == std::string_view::npos ||
+        text.find_first_not_of(" \t", last + 1) != std::string_view::npos)
+      return;
+    const auto quoted = fmt::format("\"{}\"", text.substr(1, last - 1));
+    auto& d = findings_.add(rules::SingleQuotes, {statement.span.begin, comment.end},
+                            "`'` begins a comment, so this prints an empty line",
+                            fmt::format("write `print {}`", quoted));
+    if (quoted.find('"', 1) == quoted.size() - 1)
+      d.fix = single_fix(
+          d.help, {comment.begin, comment.begin + static_cast<std::uint32_t>(last) + 1}, quoted);
   }
 
   void add_semicolon(const Item& semicolon, const Item& next) {

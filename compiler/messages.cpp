@@ -47,7 +47,6 @@ public:
 
   Diagnostic explain() const {
     switch (fault_.reason) {
-    case Reason::MissingNumber: return missing_number();
     case Reason::BadNumber:
       return make(rules::LineNumberRange,
                   fmt::format("line number {} is not 1 to {}", token(),
@@ -86,7 +85,8 @@ public:
     case Reason::ExpectedGotoOrGosub: return expected("`goto` or `gosub`");
     case Reason::Trailing: return trailing();
     case Reason::NestedIf:
-    case Reason::ExpectedQuote: break; // slips
+    case Reason::ExpectedQuote:
+    case Reason::MissingNumber: break; // explained before
     }
     return make(rules::SyntaxError, "the line cannot be read");
   }
@@ -118,12 +118,6 @@ private:
     return row.required < most
                ? fmt::format("`{}` takes {} or {} values", row.word, row.required, most)
                : fmt::format("`{}` takes {} value{}", row.word, most, most == 1 ? "" : "s");
-  }
-
-  Diagnostic missing_number() const {
-    return make(rules::MissingLineNumber, fmt::format("expected a line number, found {}", found()),
-                fmt::format("each line begins with a number from 1 to {}",
-                            spec::value_of(spec::Limit::GreatestLineNumber)));
   }
 
   Diagnostic unknown_word() const {
@@ -380,9 +374,11 @@ private:
 
 } // namespace
 
-Diagnostic explain(const Program& program, const Fault& fault) {
+std::optional<Diagnostic> explain(const Program& program, const Fault& fault) {
   if (auto slip = explain_slip(program, fault))
-    return *slip;
+    return slip;
+  if (fault.reason == Reason::MissingNumber)
+    return std::nullopt;
   return Explainer(program, fault).explain();
 }
 

@@ -580,7 +580,10 @@ public:
         end_(begin_ + program.text.size()) {}
 
   void parse() {
-    for (const char* p = begin_; p != end_;)
+    // Editors on Windows begin a text with this mark.
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    const auto skipped = program_.text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    for (const char* p = begin_ + skipped; p != end_;)
       p = after_line_end(parse_line(p));
   }
 
