@@ -1,13 +1,13 @@
 #include "cli/asm.h"
 
+#include "assembler/formats.h"
 #include "assembler/lint.h"
 #include "assembler/timing.h"
 #include "base/render.h"
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/files.h"
-#include "cli/macro_formats.h"
-#include "cli/values.h"
+#include "cli/options.h"
+#include "disk/disk.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -103,7 +103,7 @@ tl::expected<std::vector<std::size_t>, std::string> select(const AsmOptions& opt
     return all;
   const std::vector<std::string_view> views(names.begin(), names.end());
   const auto meant = closest(options.macro, views);
-  return tl::unexpected(fmt::format("{} has no macro `{}`; {}", display_name(options.file),
+  return tl::unexpected(fmt::format("{} has no macro `{}`; {}", disk::display_name(options.file),
                                     options.macro,
                                     meant ? fmt::format("did you mean `{}`?", *meant)
                                           : fmt::format("there are {}", fmt::join(names, ", "))));
@@ -114,7 +114,7 @@ ExitCode write_text(const Context& context, const std::string& path, const std::
     print_out(text);
     return ExitCode::Done;
   }
-  const auto written = write_file(path, as_bytes(text));
+  const auto written = disk::write(path, as_bytes(text));
   if (written)
     return ExitCode::Done;
   print_error(context, written.error().message);
@@ -139,7 +139,7 @@ ExitCode write_all(const Context& context, const AsmOptions& options, const Sour
     print_error(context,
                 fmt::format("{} holds {} macros; pick one with `--macro {}`, or name a folder: "
                             "`-o DIR/`",
-                            display_name(options.file), macros.size(),
+                            disk::display_name(options.file), macros.size(),
                             name_of(options, assembly.macros[macros[0]])));
     return ExitCode::Usage;
   }
@@ -182,12 +182,12 @@ ExitCode write_listing(const Context& context, const AsmOptions& options, const 
 } // namespace
 
 ExitCode run_asm(const Context& context, const AsmOptions& options) {
-  auto text = read_file(options.file);
+  auto text = disk::read(options.file);
   if (!text) {
     print_error(context, text.error().message);
     return ExitCode::File;
   }
-  const Source source(display_name(options.file), std::move(*text));
+  const Source source(disk::display_name(options.file), std::move(*text));
   auto assembly = assembler::assemble(source, options.fold_delays ? assembler::Folding::Fold
                                                                   : assembler::Folding::Keep);
   if (report(context, source, assembly))

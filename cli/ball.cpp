@@ -1,7 +1,7 @@
 #include "cli/commands.h"
-#include "cli/files.h"
-#include "cli/serve.h"
-#include "cli/values.h"
+#include "cli/options.h"
+#include "disk/disk.h"
+#include "serve/server.h"
 
 #include "base/render.h"
 #include "compiler/load.h"
@@ -31,7 +31,7 @@ struct BallArguments {
 };
 
 /// `HOST:PORT`, `:PORT` or `[V6]:PORT`.
-std::optional<ServeOptions::Tcp> parse_address(std::string_view text) {
+std::optional<serve::ServeOptions::Tcp> parse_address(std::string_view text) {
   const auto colon = text.rfind(':');
   if (colon == std::string_view::npos)
     return std::nullopt;
@@ -43,7 +43,7 @@ std::optional<ServeOptions::Tcp> parse_address(std::string_view text) {
     return std::nullopt;
   if (host.starts_with('[') && host.ends_with(']'))
     host = host.substr(1, host.size() - 2);
-  return ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), port};
+  return serve::ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), port};
 }
 
 void fail(Context& context, std::string_view message, ExitCode code) {
@@ -52,7 +52,7 @@ void fail(Context& context, std::string_view message, ExitCode code) {
 }
 
 void run_ball(Context& context, const BallArguments& arguments) {
-  ServeOptions options;
+  serve::ServeOptions options;
   options.count = arguments.count;
   options.speed = arguments.speed;
   options.state_file = arguments.state;
@@ -79,10 +79,10 @@ void run_ball(Context& context, const BallArguments& arguments) {
     options.fault = *plan;
   }
   if (!arguments.stimulus.empty()) {
-    const auto text = read_file(arguments.stimulus);
+    const auto text = disk::read(arguments.stimulus);
     if (!text)
       return fail(context, text.error().message, ExitCode::File);
-    const Source source(display_name(arguments.stimulus), *text);
+    const Source source(disk::display_name(arguments.stimulus), *text);
     auto script = vm::parse_stimulus(source);
     for (const auto& diagnostic : script.diagnostics)
       print_err(render_text(source, diagnostic, context.err_style()));
@@ -92,7 +92,8 @@ void run_ball(Context& context, const BallArguments& arguments) {
     }
     options.stimulus = std::move(script.events);
   }
-  if (const auto served = serve(options); !served)
+  options.announce = print_out;
+  if (const auto served = serve::serve(options); !served)
     fail(context, served.error().message, ExitCode::File);
 }
 

@@ -1,12 +1,12 @@
 #include "base/render.h"
 #include "cli/asm.h"
 #include "cli/commands.h"
-#include "cli/files.h"
 #include "cli/language.h"
 #include "cli/target.h"
 #include "compiler/check.h"
 #include "compiler/image.h"
 #include "compiler/rules.h"
+#include "disk/disk.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ bool has_errors(Context& context, const Source& source, const std::vector<Diagno
 }
 
 bool write(Context& context, const std::string& path, std::string_view bytes) {
-  const auto written = write_file(path, as_bytes(bytes));
+  const auto written = disk::write(path, as_bytes(bytes));
   if (!written) {
     print_error(context, written.error().message);
     context.exit = ExitCode::File;
@@ -66,7 +66,7 @@ bool write(Context& context, const std::string& path, std::string_view bytes) {
 }
 
 void build_basic(Context& context, const Options& options, std::string text) {
-  const Source source(display_name(options.file), std::move(text));
+  const Source source(disk::display_name(options.file), std::move(text));
   const auto target = options.target.target();
   const auto checked = compiler::check(source.text(), target);
   const bool refused = !checked.image_bytes;
@@ -93,7 +93,7 @@ void build_basic(Context& context, const Options& options, std::string text) {
 }
 
 void run(Context& context, const Options& options) {
-  auto text = read_file(options.file);
+  auto text = disk::read(options.file);
   if (!text) {
     print_error(context, text.error().message);
     context.exit = ExitCode::File;

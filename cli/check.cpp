@@ -3,12 +3,12 @@
 #include "base/fixes.h"
 #include "base/render.h"
 #include "cli/commands.h"
-#include "cli/files.h"
 #include "cli/language.h"
+#include "cli/options.h"
 #include "cli/policy.h"
 #include "cli/target.h"
-#include "cli/values.h"
 #include "cli/watch.h"
+#include "disk/disk.h"
 
 #include <algorithm>
 #include <deque>
@@ -40,7 +40,7 @@ struct Input {
 std::optional<std::deque<Input>> read_inputs(Context& context, const Options& options) {
   std::deque<Input> inputs; // sources are referred to and must not move
   for (const auto& path : options.files) {
-    auto text = read_file(path);
+    auto text = disk::read(path);
     if (!text) {
       print_error(context, text.error().message);
       context.exit = ExitCode::File;
@@ -49,7 +49,7 @@ std::optional<std::deque<Input>> read_inputs(Context& context, const Options& op
     const auto language = require_language(context, path, options.lang);
     if (!language)
       return std::nullopt;
-    inputs.push_back({path, *language, Source(display_name(path), *std::move(text))});
+    inputs.push_back({path, *language, Source(disk::display_name(path), *std::move(text))});
   }
   return inputs;
 }
@@ -102,7 +102,7 @@ bool fix_one(Context& context, const Options& options, Input& input) {
   }
   if (made == 0)
     return true;
-  if (const auto written = write_file(input.path, as_bytes(input.source.text())); !written) {
+  if (const auto written = disk::write(input.path, as_bytes(input.source.text())); !written) {
     print_error(context, written.error().message);
     context.exit = ExitCode::File;
     return false;

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 
-#include "cli/values.h"
+#include "cli/options.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -8,24 +8,6 @@
 
 namespace orb::cli {
 namespace {
-
-/// Help with the examples first: people paste before they read.
-class HelpFormatter : public CLI::Formatter {
-public:
-  explicit HelpFormatter(std::string examples) : examples_(std::move(examples)) {}
-
-  std::string make_description(const CLI::App* app) const override {
-    auto out = app->get_description() + "\n";
-    if (!examples_.empty())
-      out += "\nExamples:\n" + examples_;
-    return out + "\n";
-  }
-
-  const std::string& examples() const { return examples_; }
-
-private:
-  std::string examples_;
-};
 
 std::string indent(const std::string& lines) {
   std::string out;
@@ -37,11 +19,29 @@ std::string indent(const std::string& lines) {
   return out;
 }
 
+/// Help with the examples first: people paste before they read.
+class HelpFormatter : public CLI::Formatter {
+public:
+  explicit HelpFormatter(std::string examples) : examples_(std::move(examples)) {}
+
+  std::string make_description(const CLI::App* app) const override {
+    auto out = app->get_description() + "\n";
+    if (!examples_.empty())
+      out += "\nExamples:\n" + indent(examples_);
+    return out + "\n";
+  }
+
+  const std::string& examples() const { return examples_; }
+
+private:
+  std::string examples_;
+};
+
 } // namespace
 
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples) {
   auto* command = app.add_subcommand(std::move(name), std::move(summary));
-  command->formatter(std::make_shared<HelpFormatter>(indent(examples)));
+  command->formatter(std::make_shared<HelpFormatter>(examples + "\n"));
   command->fallthrough(); // -q, -v and --color may stand behind the command
   return command;
 }
@@ -53,9 +53,9 @@ std::string examples_of(const CLI::App& command) {
 }
 
 void add_commands(CLI::App& app, Context& context) {
-  app.formatter(std::make_shared<HelpFormatter>(
-      indent("orb new robot\norb check program.bas\norb run program.bas\norb "
-             "upload program.bas --port /dev/rfcomm0 --run")));
+  app.formatter(
+      std::make_shared<HelpFormatter>("orb new robot\norb check program.bas\norb run program.bas\n"
+                                      "orb upload program.bas --port /dev/rfcomm0 --run\n"));
   app.require_subcommand(0, 1); // a word behind a command is never a second one: `orb man run`
   app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION),
                        "print the version and end");

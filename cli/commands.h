@@ -41,7 +41,7 @@ void add_upload(CLI::App& app, Context& context);
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples);
 
-/// The examples of a command, or of orb itself, as its help prints them: a line each, indented.
+/// The examples of a command, or of orb itself, a line each.
 std::string examples_of(const CLI::App& command);
 
 } // namespace orb::cli

@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "cli/values.h"
+#include "cli/options.h"
 
 #include <array>
 #include <memory>

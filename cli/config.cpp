@@ -1,7 +1,7 @@
 #include "cli/config.h"
 
 #include "base/suggest.h"
-#include "cli/files.h"
+#include "disk/disk.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -43,7 +43,7 @@ ConfigError problem(const std::string& file, std::string_view what) {
 
 tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) {
   const auto file = path.string();
-  const auto text = read_file(file);
+  const auto text = disk::read(file);
   if (!text)
     return tl::unexpected(ConfigError{text.error().message});
   std::vector<CLI::ConfigItem> items;

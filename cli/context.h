@@ -2,12 +2,14 @@
 
 #include "base/style.h"
 #include "cli/config.h"
-#include "cli/exit_code.h"
+#include "reference/exit_code.h"
 
 #include <string>
 #include <string_view>
 
 namespace orb::cli {
+
+using reference::ExitCode;
 
 /// What every command shares: the options that stand before or after any command, and the code it
 /// ends with. One per process, made in main().

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
-#include "cli/files.h"
-#include "cli/values.h"
+#include "cli/options.h"
+#include "disk/disk.h"
 
 #include "protocol/describe.h"
 #include "protocol/packet_v2.h"
@@ -162,7 +162,7 @@ void decode(Context& context, const DecodeArguments& arguments) {
   std::error_code ignored;
   if (words.empty() ||
       (words.size() == 1 && (words[0] == "-" || std::filesystem::exists(words[0], ignored)))) {
-    const auto content = read_file(words.empty() ? "-" : words[0]);
+    const auto content = disk::read(words.empty() ? "-" : words[0]);
     if (!content) {
       print_error(context, content.error().message);
       context.exit = ExitCode::File;

@@ -1,7 +1,7 @@
 #include "assembler/disassemble.h"
 #include "base/bytes.h"
 #include "cli/commands.h"
-#include "cli/files.h"
+#include "disk/disk.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -37,12 +37,12 @@ std::optional<Reading> choose(const Options& options, const std::string& ending,
 }
 
 ExitCode run(const Context& context, const Options& options) {
-  auto content = read_file(options.file);
+  auto content = disk::read(options.file);
   if (!content) {
     print_error(context, content.error().message);
     return ExitCode::File;
   }
-  const auto name = display_name(options.file);
+  const auto name = disk::display_name(options.file);
   const auto ending = std::filesystem::path(options.file).extension().string();
   Bytes bytes{content->begin(), content->end()};
   if (ending == ".hex") {
@@ -69,7 +69,7 @@ ExitCode run(const Context& context, const Options& options) {
     print_error(context, fmt::format("{}: {}", name, text.error()));
     return ExitCode::BadInput;
   }
-  const auto written = write_file(options.out.empty() ? "-" : options.out, as_bytes(*text));
+  const auto written = disk::write(options.out.empty() ? "-" : options.out, as_bytes(*text));
   if (!written) {
     print_error(context, written.error().message);
     return ExitCode::File;

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/link.h"
-#include "cli/values.h"
+#include "cli/options.h"
 
 #include <fmt/format.h>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/knowledge.h"
+#include "reference/knowledge.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,22 +9,22 @@
 namespace orb::cli {
 namespace {
 
-bool answers_to(const Entry& entry, std::string_view word) {
+bool answers_to(const reference::Entry& entry, std::string_view word) {
   return entry.name == word ||
          std::find(entry.aliases.begin(), entry.aliases.end(), word) != entry.aliases.end();
 }
 
 /// Every entry that `word` names, one after the other: `roll` is a variable and a macro command.
-std::string explain(const std::vector<Section>& sections, std::string_view word) {
+std::string explain(const std::vector<reference::Section>& sections, std::string_view word) {
   std::string out;
   for (const auto& section : sections)
     for (const auto& entry : section.entries)
       if (answers_to(entry, word))
-        out += (out.empty() ? "" : "\n") + print_entry(section, entry);
+        out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry);
   return out;
 }
 
-std::vector<std::string> all_names(const std::vector<Section>& sections) {
+std::vector<std::string> all_names(const std::vector<reference::Section>& sections) {
   std::vector<std::string> names;
   for (const auto& section : sections)
     for (const auto& entry : section.entries) {
@@ -35,7 +35,7 @@ std::vector<std::string> all_names(const std::vector<Section>& sections) {
 }
 
 void run(Context& context, const std::string& word) {
-  const auto sections = knowledge();
+  const auto sections = reference::knowledge();
   const auto text = explain(sections, word);
   if (!text.empty()) {
     print_out(text);

@@ -5,12 +5,12 @@
 #include "base/source.h"
 #include "cli/commands.h"
 #include "cli/diff.h"
-#include "cli/files.h"
 #include "cli/language.h"
 #include "compiler/check.h"
 #include "compiler/parse.h"
 #include "compiler/print.h"
 #include "compiler/renumber.h"
+#include "disk/disk.h"
 
 #include <charconv>
 #include <fmt/format.h>
@@ -92,7 +92,7 @@ std::optional<std::string> format_macro(Context& context, const Source& source) 
 
 void run_one(Context& context, const Options& options, const std::string& path,
              const std::optional<compiler::Numbering>& numbering) {
-  auto text = read_file(path);
+  auto text = disk::read(path);
   if (!text) {
     print_error(context, text.error().message);
     context.exit = ExitCode::File;
@@ -102,11 +102,11 @@ void run_one(Context& context, const Options& options, const std::string& path,
   if (!language)
     return;
   if (language == Language::Macro && numbering) {
-    print_error(context, fmt::format("{}: macros have no line numbers", display_name(path)));
+    print_error(context, fmt::format("{}: macros have no line numbers", disk::display_name(path)));
     context.exit = ExitCode::Usage;
     return;
   }
-  const Source source(display_name(path), *std::move(text));
+  const Source source(disk::display_name(path), *std::move(text));
   const auto formatted = language == Language::Macro ? format_macro(context, source)
                                                      : format_text(context, source, numbering);
   if (!formatted)
@@ -119,7 +119,7 @@ void run_one(Context& context, const Options& options, const std::string& path,
     context.exit = ExitCode::BadInput;
   }
   if (options.write && changed) {
-    if (const auto written = write_file(path, as_bytes(*formatted)); !written) {
+    if (const auto written = disk::write(path, as_bytes(*formatted)); !written) {
       print_error(context, written.error().message);
       context.exit = ExitCode::File;
     }

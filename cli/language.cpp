@@ -1,7 +1,7 @@
 #include "cli/language.h"
 
-#include "cli/files.h"
-#include "cli/values.h"
+#include "cli/options.h"
+#include "disk/disk.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ std::optional<Language> require_language(Context& context, const std::string& pa
   if (!language) {
     print_error(context, fmt::format("cannot tell the language of {} by its name; give "
                                      "`--lang basic` or `--lang macro`",
-                                     display_name(path)));
+                                     disk::display_name(path)));
     context.exit = ExitCode::Usage;
   }
   return language;

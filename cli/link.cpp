@@ -35,7 +35,7 @@ std::uint8_t first_seq_of(const Endpoint& endpoint) {
     return sim_first_seq;
   if (endpoint.scheme != Scheme::Replay)
     return draw_first_seq();
-  const auto text = read_file(endpoint.path);
+  const auto text = disk::read(endpoint.path);
   const auto pieces = text ? uploader::parse_recording(*text)
                            : tl::expected<std::vector<uploader::RecordedPiece>, std::string>();
   return pieces ? uploader::first_recorded_seq(*pieces).value_or(0) : std::uint8_t{0};
@@ -72,7 +72,7 @@ void WireLog::on_bytes(protocol::Direction direction, ByteView bytes, Instant) {
 tl::expected<void, IoError> Link::finish() const {
   if (record_file.empty())
     return {};
-  return write_file(record_file, as_bytes(log->recording()));
+  return disk::write(record_file, as_bytes(log->recording()));
 }
 
 namespace {

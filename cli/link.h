@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/context.h"
-#include "cli/files.h"
+#include "disk/disk.h"
 #include "protocol/transport.h"
 #include "uploader/budgets.h"
 #include "uploader/recording.h"

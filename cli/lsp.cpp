@@ -1,6 +1,6 @@
 #include "cli/commands.h"
-#include "cli/lsp_server.h"
-#include "cli/lsp_wire.h"
+#include "editor/server.h"
+#include "editor/wire.h"
 
 #include <array>
 #include <cerrno>
@@ -12,13 +12,13 @@ namespace {
 
 void print_all(const std::vector<std::string>& messages) {
   for (const auto& message : messages)
-    print_out(frame(message));
+    print_out(editor::frame(message));
 }
 
 /// Serves until the client says `exit` or goes away.
 ExitCode serve() {
-  LanguageServer server;
-  MessageReader reader;
+  editor::LanguageServer server;
+  editor::MessageReader reader;
   std::array<char, 65536> bytes{};
   for (;;) {
     const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());

@@ -1,7 +1,8 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/complete.h"
-#include "cli/values.h"
+#include "cli/options.h"
+#include "cli/ports.h"
+#include "reference/candidates.h"
 
 #include <algorithm>
 #include <csignal>
@@ -12,6 +13,10 @@ namespace {
 
 using orb::cli::Context;
 using orb::cli::ExitCode;
+
+/// The first word of a command line by which the completion scripts ask: `orb __complete -- WORDS`.
+/// It is no command of the option model, because the words after it are data, not options.
+constexpr std::string_view completion_request = "__complete";
 
 /// The word that CLI11 could not place, when it looks like a command or an option.
 std::string unknown_word(const CLI::App& app) {
@@ -117,7 +122,10 @@ void answer_completion(const CLI::App& app, std::vector<std::string> words) {
   if (!words.empty() && words.front() == "--")
     words.erase(words.begin());
   const auto config = orb::cli::load_config().value_or(orb::cli::Config());
-  orb::cli::print_out(print(complete(app, config, words)));
+  std::vector<orb::reference::Candidate> ports;
+  for (auto& port : orb::cli::find_ports(config))
+    ports.push_back({std::move(port.url), std::move(port.what)});
+  orb::cli::print_out(print(complete(orb::cli::command_line(app), ports, words)));
 }
 
 int run(int argc, char** argv) {
@@ -131,7 +139,7 @@ int run(int argc, char** argv) {
     orb::cli::print_out(app.help());
     return 0;
   }
-  if (argv[1] == orb::cli::completion_request) {
+  if (argv[1] == completion_request) {
     answer_completion(app, std::vector<std::string>(argv + 2, argv + argc));
     return 0;
   }

@@ -1,8 +1,9 @@
 #include "base/bytes.h"
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/files.h"
-#include "cli/manual.h"
+#include "cli/options.h"
+#include "disk/disk.h"
+#include "reference/manual.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -17,11 +18,12 @@ struct Options {
   std::string folder;
 };
 
-std::string_view name_of(const ManualPage& page) {
+std::string_view name_of(const reference::ManualPage& page) {
   return std::string_view(page.file).substr(0, page.file.rfind('.'));
 }
 
-void print_page(Context& context, const std::vector<ManualPage>& pages, const std::string& name) {
+void print_page(Context& context, const std::vector<reference::ManualPage>& pages,
+                const std::string& name) {
   std::vector<std::string_view> names;
   for (const auto& page : pages) {
     if (name_of(page) == name || name_of(page) == "orb-" + name) {
@@ -39,13 +41,13 @@ void print_page(Context& context, const std::vector<ManualPage>& pages, const st
   context.exit = ExitCode::Usage;
 }
 
-void write_pages(Context& context, const std::vector<ManualPage>& pages,
+void write_pages(Context& context, const std::vector<reference::ManualPage>& pages,
                  const std::string& folder) {
   for (const auto& page : pages) {
     const auto place = fmt::format("{}/man{}", folder, page.file.back());
     std::error_code error;
     std::filesystem::create_directories(place, error); // writing says what is wrong
-    if (const auto done = write_file(place + "/" + page.file, as_bytes(page.text)); !done) {
+    if (const auto done = disk::write(place + "/" + page.file, as_bytes(page.text)); !done) {
       print_error(context, done.error().message);
       context.exit = ExitCode::File;
       return;
@@ -70,7 +72,7 @@ void add_man(CLI::App& app, Context& context) {
       ->type_name("FOLDER")
       ->excludes(page);
   command->callback([&app, &context, options] {
-    const auto pages = manual(app);
+    const auto pages = reference::manual(command_line(app));
     if (options->folder.empty())
       print_page(context, pages, options->page);
     else

@@ -65,7 +65,7 @@ LineMap line_map(const std::string& file, const compiler::Image& image) {
 }
 
 tl::expected<LineMap, std::string> read_line_map(const std::string& path) {
-  const auto text = read_file(path);
+  const auto text = disk::read(path);
   if (!text)
     return tl::unexpected(text.error().message);
   const auto json = nlohmann::json::parse(*text, nullptr, false);

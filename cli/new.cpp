@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "cli/files.h"
+#include "disk/disk.h"
 
 #include <array>
 #include <cerrno>
@@ -98,7 +98,7 @@ void make(Context& context, const std::string& folder) {
   for (const auto& starter : starters) {
     const auto file = (path / filled(starter.name, name)).lexically_normal().string();
     const auto text = filled(starter.text, name);
-    if (const auto written = write_file(file, as_bytes(text)); !written) {
+    if (const auto written = disk::write(file, as_bytes(text)); !written) {
       print_error(context, written.error().message);
       context.exit = ExitCode::File;
       return;

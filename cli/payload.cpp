@@ -3,8 +3,8 @@
 #include "assembler/assemble.h"
 #include "assembler/lint.h"
 #include "base/render.h"
-#include "cli/files.h"
 #include "compiler/check.h"
+#include "disk/disk.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ tl::expected<FileKind, PayloadFailure> kind_of(const std::string& path, std::str
       ExitCode::Usage,
       fmt::format("{}: what this is cannot be told from its name; add `--lang basic` or "
                   "`--lang macro`",
-                  display_name(path))});
+                  disk::display_name(path))});
 }
 
 void read_basic(Payload& payload, const compiler::Target& target, Findings findings) {
@@ -89,11 +89,11 @@ tl::expected<Payload, PayloadFailure> load_payload(const std::string& path, std:
   const auto kind = kind_of(path, lang);
   if (!kind)
     return tl::unexpected(kind.error());
-  auto text = read_file(path);
+  auto text = disk::read(path);
   if (!text)
     return tl::unexpected(PayloadFailure{ExitCode::File, text.error().message});
   Payload payload;
-  payload.source = std::make_unique<Source>(display_name(path), std::move(*text));
+  payload.source = std::make_unique<Source>(disk::display_name(path), std::move(*text));
   switch (*kind) {
   case FileKind::Basic: read_basic(payload, target, findings); break;
   case FileKind::MacroSource: read_macro_source(payload, findings); break;

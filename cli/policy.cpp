@@ -1,7 +1,7 @@
 #include "cli/policy.h"
 
 #include "base/suggest.h"
-#include "cli/knowledge.h"
+#include "reference/knowledge.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,7 +18,7 @@ bool names(const std::vector<std::string>& rules, std::string_view id) {
 /// The rules of both linters.
 std::vector<std::string> rule_ids() {
   std::vector<std::string> ids;
-  for (const auto& section : knowledge())
+  for (const auto& section : reference::knowledge())
     if (section.id.find("rules") != std::string_view::npos)
       for (const auto& entry : section.entries)
         ids.push_back(entry.name);

@@ -1,16 +1,16 @@
 #include "cli/commands.h"
-#include "cli/files.h"
-#include "cli/journey.h"
-#include "cli/report.h"
+#include "cli/options.h"
 #include "cli/run_hints.h"
 #include "cli/run_inputs.h"
-#include "cli/svg.h"
 #include "cli/target.h"
-#include "cli/trace.h"
-#include "cli/values.h"
 #include "cli/watch.h"
 #include "compiler/check.h"
 #include "compiler/load.h"
+#include "disk/disk.h"
+#include "report/journey.h"
+#include "report/page.h"
+#include "report/svg.h"
+#include "report/trace.h"
 #include "spec/firmware.h"
 #include "uploader/upload.h"
 #include "vm/ball_transport.h"
@@ -62,28 +62,28 @@ public:
   explicit TraceSink(const RunOptions& options)
       : path_(options.trace_out), lines_(options.trace_lines) {
     if (!options.trace.empty() || !path_.empty())
-      format_ = options.trace == "csv" ? TraceFormat::Csv : TraceFormat::Json;
+      format_ = options.trace == "csv" ? report::TraceFormat::Csv : report::TraceFormat::Json;
     if (options.trace.empty() && path_.ends_with(".csv"))
-      format_ = TraceFormat::Csv;
+      format_ = report::TraceFormat::Csv;
     if (format_)
-      put(trace_head(*format_));
+      put(report::trace_head(*format_));
   }
 
   bool replaces_output() const { return format_ && path_.empty(); }
   void add(Duration t, const vm::Event& event) {
     if (format_ && (lines_ || !std::holds_alternative<vm::event::Line>(event)))
-      put(trace_line(*format_, t, event));
+      put(report::trace_line(*format_, t, event));
   }
   void finish(Duration t, std::string_view reason, std::uint64_t lines) {
     if (format_)
-      put(trace_line(
+      put(report::trace_line(
           *format_, t, "end",
           {{"reason", std::string(reason)}, {"lines", static_cast<std::int64_t>(lines)}}));
   }
   tl::expected<void, IoError> close() {
     if (!format_ || path_.empty())
       return {};
-    return write_file(path_, as_bytes(text_));
+    return disk::write(path_, as_bytes(text_));
   }
 
 private:
@@ -94,7 +94,7 @@ private:
       text_ += text;
   }
 
-  std::optional<TraceFormat> format_;
+  std::optional<report::TraceFormat> format_;
   std::string path_;
   bool lines_; ///< a report sees every line even where the trace does not ask for them
   std::string text_;
@@ -134,7 +134,7 @@ public:
   explicit Watcher(const RunOptions& options)
       : trace(options), expected(options.expect), forbidden(options.fail_text) {
     if (!options.report.empty() || !options.svg.empty())
-      journey = std::make_unique<Journey>();
+      journey = std::make_unique<report::Journey>();
   }
 
   void on_event(Instant at, const vm::Event& event) override {
@@ -180,7 +180,7 @@ public:
   std::vector<Fault> faults;
   std::optional<vm::event::End::Reason> reason;
   std::uint64_t lines = 0;
-  std::unique_ptr<Journey> journey;
+  std::unique_ptr<report::Journey> journey;
 };
 
 // --- running ------------------------------------------------------------------------------------
@@ -380,7 +380,7 @@ void print_fault(const Fault& fault, const ProgramFile& file, const compiler::Ta
     }
 }
 
-void describe(const RunInputs& inputs, vm::Area area, Journey& journey) {
+void describe(const RunInputs& inputs, vm::Area area, report::Journey& journey) {
   for (std::size_t i = 0; i < inputs.programs.size(); ++i) {
     const auto& file = *inputs.programs[i];
     const int number = journey.add_file(file.source.name(), std::string(file.source.text()));
@@ -408,21 +408,22 @@ void describe(const RunInputs& inputs, vm::Area area, Journey& journey) {
   static_cast<void>(area);
 }
 
-RunResult<void> write_pictures(const RunOptions& options, const Journey& journey) {
+RunResult<void> write_pictures(const RunOptions& options, const report::Journey& journey) {
   const auto write = [](const std::string& path, const std::string& text) -> RunResult<void> {
     if (path.empty())
       return {};
-    if (const auto done = write_file(path, as_bytes(text)); !done)
+    if (const auto done = disk::write(path, as_bytes(text)); !done)
       return refuse(ExitCode::File, done.error().message);
     return {};
   };
   if (auto done =
-          write(options.report, options.report.empty()
-                                    ? std::string()
-                                    : report_page(journey, display_name(options.files.front())));
+          write(options.report,
+                options.report.empty()
+                    ? std::string()
+                    : report::report_page(journey, disk::display_name(options.files.front())));
       !done)
     return done;
-  return write(options.svg, options.svg.empty() ? std::string() : path_svg(journey));
+  return write(options.svg, options.svg.empty() ? std::string() : report::path_svg(journey));
 }
 
 RunResult<void> run(Context& context, const RunOptions& options) {
@@ -451,8 +452,8 @@ RunResult<void> run(Context& context, const RunOptions& options) {
   ball_options.seed = options.seed;
   ball_options.lines_per_second = options.lines_per_second;
   ball_options.firmware = firmware->firmware;
-  ball_options.ram_bytes =
-      options.target.ram != 0 ? static_cast<std::size_t>(options.target.ram) : firmware->ram_bytes();
+  ball_options.ram_bytes = options.target.ram != 0 ? static_cast<std::size_t>(options.target.ram)
+                                                   : firmware->ram_bytes();
   ball_options.loader = compiler::load;
   ball_options.observer = &watcher;
   ball_options.trace_lines = options.trace_lines || watcher.journey;

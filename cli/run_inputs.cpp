@@ -2,9 +2,9 @@
 
 #include "assembler/assemble.h"
 #include "base/render.h"
-#include "cli/files.h"
 #include "compiler/image.h"
 #include "compiler/parse.h"
+#include "disk/disk.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -43,10 +43,10 @@ bool is_macro(const std::string& path) {
 }
 
 RunResult<std::unique_ptr<ProgramFile>> read_program(const std::string& path) {
-  auto text = read_file(path);
+  auto text = disk::read(path);
   if (!text)
     return refuse(ExitCode::File, text.error().message);
-  const auto name = display_name(path);
+  const auto name = disk::display_name(path);
   constexpr auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
   if (text->size() > most)
     return refuse(ExitCode::BadInput,
@@ -102,12 +102,12 @@ RunResult<std::vector<MacroFile>> assemble_macros(const Source& source, const Co
 }
 
 RunResult<std::vector<MacroFile>> read_macros(const std::string& path, const Context& context) {
-  const auto text = read_file(path);
+  const auto text = disk::read(path);
   if (!text)
     return refuse(ExitCode::File, text.error().message);
   if (!path.ends_with(".sphero") && !path.ends_with(".bin"))
-    return assemble_macros(Source(display_name(path), *text), context);
-  MacroFile file{display_name(path), {}, {}, {}};
+    return assemble_macros(Source(disk::display_name(path), *text), context);
+  MacroFile file{disk::display_name(path), {}, {}, {}};
   const auto bytes = as_bytes(*text);
   if (path.ends_with(".bin")) {
     const auto image = protocol::decode_macro(bytes);
@@ -151,10 +151,10 @@ RunResult<RunInputs> read_run_inputs(const std::vector<std::string>& files,
   if (inputs.programs.size() > 2)
     return refuse(ExitCode::Usage, "a ball holds two programs: one in RAM, one in flash");
   if (!stimulus.empty()) {
-    auto text = read_file(stimulus);
+    auto text = disk::read(stimulus);
     if (!text)
       return refuse(ExitCode::File, text.error().message);
-    const Source source(display_name(stimulus), std::move(*text));
+    const Source source(disk::display_name(stimulus), std::move(*text));
     auto script = vm::parse_stimulus(source);
     for (const auto& diagnostic : script.diagnostics)
       print_err(render_text(source, diagnostic, context.err_style()));

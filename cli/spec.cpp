@@ -1,9 +1,9 @@
 #include "base/bytes.h"
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/editor_files.h"
-#include "cli/files.h"
-#include "cli/knowledge.h"
+#include "disk/disk.h"
+#include "editor/syntax_files.h"
+#include "reference/knowledge.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ struct Options {
 };
 
 /// The list of sections and what they hold: what `orb spec` prints by itself.
-std::string overview(const std::vector<Section>& sections) {
+std::string overview(const std::vector<reference::Section>& sections) {
   std::string out;
   for (const auto& section : sections)
     out += fmt::format("{:<16} {:>3} entries  {}\n", section.id, section.entries.size(),
@@ -28,19 +28,20 @@ std::string overview(const std::vector<Section>& sections) {
   return out;
 }
 
-std::string plain(const Section& section) {
+std::string plain(const reference::Section& section) {
   std::string out;
   for (const auto& entry : section.entries)
-    out += (out.empty() ? "" : "\n") + print_entry(section, entry);
+    out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry);
   return out;
 }
 
 /// Keeps the section that the user named; false where there is none.
-bool select(std::vector<Section>& sections, const std::string& id, const Context& context) {
+bool select(std::vector<reference::Section>& sections, const std::string& id,
+            const Context& context) {
   std::vector<std::string_view> ids;
   for (const auto& section : sections)
     ids.push_back(section.id);
-  std::erase_if(sections, [&](const Section& section) { return section.id != id; });
+  std::erase_if(sections, [&](const reference::Section& section) { return section.id != id; });
   if (!sections.empty())
     return true;
   const auto meant = closest(id, ids);
@@ -51,11 +52,11 @@ bool select(std::vector<Section>& sections, const std::string& id, const Context
 }
 
 void write_editor_files(Context& context, const std::string& folder) {
-  for (const auto& file : editor_files()) {
+  for (const auto& file : editor::syntax_files()) {
     const auto path = std::filesystem::path(folder) / file.path;
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error); // writing says what is wrong
-    if (const auto done = write_file(path.string(), as_bytes(file.text)); !done) {
+    if (const auto done = disk::write(path.string(), as_bytes(file.text)); !done) {
       print_error(context, done.error().message);
       context.exit = ExitCode::File;
       return;
@@ -68,17 +69,17 @@ void run(Context& context, const Options& options) {
     write_editor_files(context, options.editors);
     return;
   }
-  auto sections = knowledge();
+  auto sections = reference::knowledge();
   const bool one = !options.section.empty();
   if (one && !select(sections, options.section, context)) {
     context.exit = ExitCode::Usage;
     return;
   }
   if (options.json)
-    print_out(print_json(sections));
+    print_out(reference::print_json(sections));
   else if (options.markdown)
     for (const auto& section : sections)
-      print_out(print_markdown(section));
+      print_out(reference::print_markdown(section));
   else if (one)
     print_out(plain(sections.front()));
   else {

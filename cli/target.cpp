@@ -1,6 +1,6 @@
 #include "cli/target.h"
 
-#include "cli/values.h"
+#include "cli/options.h"
 #include "spec/limits.h"
 
 #include <CLI/CLI.hpp>

@@ -2,11 +2,11 @@
 #include "cli/interrupt.h"
 #include "cli/link.h"
 #include "cli/monitoring.h"
+#include "cli/options.h"
 #include "cli/payload.h"
 #include "cli/progress_bar.h"
 #include "cli/run_inputs.h"
 #include "cli/target.h"
-#include "cli/values.h"
 
 #include <algorithm>
 #include <charconv>

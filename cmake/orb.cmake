@@ -43,3 +43,18 @@ function(orb_library folder)
   endif()
   target_precompile_headers(orb_${folder} REUSE_FROM precompiled_${ARG_PRECOMPILED})
 endfunction()
+
+# orb_page(<folder> <name>): NAME.html, NAME.css and NAME.js, written as real files, travel inside the
+# folder's library as the texts that assets.h declares.
+function(orb_page folder name)
+  set(assets "#include \"${folder}/assets.h\"\n\nnamespace orb::${folder} {\n")
+  foreach(kind html css js)
+    set(file ${PROJECT_SOURCE_DIR}/${name}.${kind})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    string(APPEND assets "const std::string_view page_${kind} = R\"asset(${text})asset\";\n")
+  endforeach()
+  string(APPEND assets "} // namespace orb::${folder}\n")
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${folder}_assets.cpp CONTENT "${assets}" @ONLY)
+  target_sources(orb_${folder} PRIVATE ${CMAKE_BINARY_DIR}/${folder}_assets.cpp)
+endfunction()

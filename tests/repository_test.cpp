@@ -2,6 +2,7 @@
 
 #include "spec/macro.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -20,19 +21,43 @@ namespace {
 
 const fs::path root = ORB_ROOT;
 
-/// Who may include whom (docs/architecture.md): the folders that each folder may name.
-const std::map<std::string, std::set<std::string>> floors = {
-    {"base", {"base"}},
-    {"spec", {"spec"}},
-    {"protocol", {"protocol", "spec", "base"}},
-    {"bytecode", {"bytecode", "spec", "base"}},
-    {"compiler", {"compiler", "bytecode", "spec", "base"}},
-    {"assembler", {"assembler", "protocol", "spec", "base"}},
-    {"vm", {"vm", "protocol", "bytecode", "spec", "base"}},
-    {"uploader", {"uploader", "protocol", "spec", "base"}},
-    {"cli",
-     {"cli", "uploader", "vm", "assembler", "compiler", "bytecode", "protocol", "spec", "base"}},
+/// Who may include whom (docs/architecture.md): the rooms that each room may name besides itself
+/// and what those may name. The rows stand in floor order: no room names one of its own floor or
+/// above.
+struct Room {
+  int floor;
+  std::string name;
+  std::set<std::string> includes;
 };
+
+const std::vector<Room> rooms = {
+    {1, "base", {}},
+    {1, "spec", {}},
+    {2, "disk", {"base"}},
+    {2, "protocol", {"spec", "base"}},
+    {2, "bytecode", {"spec", "base"}},
+    {3, "compiler", {"bytecode"}},
+    {3, "assembler", {"protocol"}},
+    {4, "uploader", {"protocol"}},
+    {4, "vm", {"protocol", "bytecode"}},
+    {5, "report", {"vm"}},
+    {6, "reference", {"compiler", "assembler", "vm"}},
+    {7, "editor", {"reference"}},
+    {7, "serve", {"vm", "disk"}},
+    {8, "cli", {"editor", "serve", "reference", "report", "uploader", "disk"}},
+};
+
+const Room& room_called(const std::string& name) {
+  return *std::find_if(rooms.begin(), rooms.end(), [&](const Room& r) { return r.name == name; });
+}
+
+/// What a file of `room` may include: the room itself, what it names, and what comes with those.
+std::set<std::string> reach(const Room& room) {
+  std::set<std::string> names{room.name};
+  for (const auto& name : room.includes)
+    names.merge(reach(room_called(name)));
+  return names;
+}
 
 std::string read_all(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -47,11 +72,18 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::st
   return files;
 }
 
-TEST(Floors, EachFolderIncludesOnlyFromLowerOnes) {
+TEST(Floors, ARoomStandsAboveAllThatItNames) {
+  for (const auto& room : rooms)
+    for (const auto& name : room.includes)
+      EXPECT_LT(room_called(name).floor, room.floor) << room.name << " names " << name;
+}
+
+TEST(Floors, EachRoomIncludesOnlyWhatItMay) {
   const std::regex include(R"(^\s*#\s*include\s+"([a-z_0-9]+)/[^"]+")");
-  for (const auto& [folder, allowed] : floors) {
-    const auto files = files_below(root / folder, {".h", ".cpp", ".def"});
-    EXPECT_FALSE(files.empty()) << folder;
+  for (const auto& room : rooms) {
+    const auto allowed = reach(room);
+    const auto files = files_below(root / room.name, {".h", ".cpp", ".def"});
+    EXPECT_FALSE(files.empty()) << room.name;
     for (const auto& file : files) {
       std::ifstream stream(file);
       for (std::string line; std::getline(stream, line);) {
@@ -64,12 +96,40 @@ TEST(Floors, EachFolderIncludesOnlyFromLowerOnes) {
   }
 }
 
+TEST(Floors, EveryFolderWithCodeIsARoom) {
+  for (const auto& entry : fs::directory_iterator(root)) {
+    const auto name = entry.path().filename().string();
+    if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "tests")
+      continue;
+    const bool known = std::any_of(rooms.begin(), rooms.end(),
+                                   [&](const Room& room) { return room.name == name; });
+    EXPECT_TRUE(known || files_below(entry.path(), {".h", ".cpp"}).empty()) << name;
+  }
+}
+
+/// Whether a file of the rooms below the edge names one of `headers`.
+void expect_only(const std::set<std::string>& allowed_rooms,
+                 const std::vector<std::string>& headers) {
+  for (const auto& room : rooms) {
+    if (allowed_rooms.contains(room.name))
+      continue;
+    for (const auto& file : files_below(root / room.name, {".h", ".cpp"})) {
+      const auto text = read_all(file);
+      for (const auto& header : headers)
+        EXPECT_EQ(text.find("#include <" + header), std::string::npos) << file << ": " << header;
+    }
+  }
+}
+
 TEST(Floors, OnlyParsersSeePegtl) {
-  for (const auto& [folder, allowed] : floors)
-    for (const auto& file : files_below(root / folder, {".h", ".cpp"}))
-      if (read_all(file).find("tao/pegtl") != std::string::npos) {
-        EXPECT_TRUE(folder == "compiler" || folder == "assembler") << file;
-      }
+  expect_only({"compiler", "assembler"}, {"tao/pegtl"});
+}
+
+// The browser links everything but the edge.
+TEST(Floors, OnlyTheEdgeSeesFilesSocketsAndTheConsole) {
+  expect_only({"cli", "serve", "disk", "uploader"},
+              {"CLI/", "asio", "fstream", "filesystem", "iostream", "cstdio", "unistd.h", "fcntl.h",
+               "sys/", "csignal", "termios.h"});
 }
 
 TEST(Golden, EveryExampleIsCheckedAndRun) {

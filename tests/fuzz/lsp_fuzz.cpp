@@ -1,8 +1,8 @@
 // The language server under any bytes: as a stream with headers, and as messages of an open
 // session.
 
-#include "cli/lsp_server.h"
-#include "cli/lsp_wire.h"
+#include "editor/server.h"
+#include "editor/wire.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +20,10 @@ constexpr std::string_view opening[] = {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string_view text(reinterpret_cast<const char*>(data), size);
-  orb::cli::LanguageServer server;
+  orb::editor::LanguageServer server;
   for (const auto message : opening)
     server.receive(message);
-  orb::cli::MessageReader reader;
+  orb::editor::MessageReader reader;
   reader.feed(text);
   while (const auto event = reader.next())
     event->is_error ? server.receive_garbage(event->text) : server.receive(event->text);

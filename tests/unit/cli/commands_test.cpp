@@ -1,8 +1,8 @@
 // What holds for every command of the option model.
 
 #include "cli/commands.h"
-#include "cli/manual.h"
-#include "cli/values.h"
+#include "cli/options.h"
+#include "reference/manual.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ TEST(Commands, TheHelpOfOrbItselfShowsExamplesOfCommands) {
 TEST(Commands, EveryCommandHasAPageOfTheManual) {
   Model model;
   std::set<std::string> files;
-  for (const auto& page : manual(model.app)) {
+  for (const auto& page : reference::manual(command_line(model.app))) {
     EXPECT_FALSE(page.text.empty()) << page.file;
     files.insert(page.file);
   }
@@ -103,18 +103,18 @@ TEST(Commands, EveryCommandAndOptionSaysWhatItDoes) {
 
 TEST(Commands, EveryClosedListSaysWhatWasMeant) {
   Model model;
-  for (const auto* command : model.commands)
-    for (const auto* option : model.app.get_subcommand(command->get_name())->get_options()) {
-      if (value_kind(*option) != ValueKind::Words)
+  for (const auto& command : command_line(model.app).commands)
+    for (const auto& option : command.options) {
+      if (option.words.empty())
         continue;
-      const auto words = words_of(*option);
-      auto misspelt = words.front() + "x";
-      // CLI11 hands out checks only through its non-const side.
-      auto* check = const_cast<CLI::Option*>(option)->get_validator(0);
+      const auto name =
+          option.argument.empty() ? "--" + option.long_names.front() : option.argument;
+      auto* check = model.app.get_subcommand(command.name)->get_option(name)->get_validator(0);
+      auto misspelt = option.words.front() + "x";
       const auto message = (*check)(misspelt);
       EXPECT_NE(message.find("did you mean"), std::string::npos)
-          << command->get_name() << " " << option->get_name() << ": " << message
-          << " (check it by one_of, cli/values.h)";
+          << command.name << " " << name << ": " << message
+          << " (check it by one_of, cli/options.h)";
     }
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "reference/command_line.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Validator;
+} // namespace CLI
+
+namespace orb::cli {
+
+/// A check that a value is one of `words`. A misspelt value is answered with the word that was
+/// probably meant; help, completion and man pages list the words.
+CLI::Validator one_of(std::vector<std::string> words);
+
+/// Whether the command is for programs, not for people: left out of help, completion and manual.
+bool is_hidden(const CLI::App& command);
+
+/// The command line as data, for the manual and completion.
+reference::CommandLine command_line(const CLI::App& app);
+
+} // namespace orb::cli

@@ -1,0 +1,148 @@
+#include "disk/disk.h"
+
+#include "base/suggest.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <vector>
+
+namespace orb::disk {
+namespace {
+
+/// Closes a descriptor when the scope ends.
+class Descriptor {
+public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0)
+      ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+
+private:
+  int fd_;
+};
+
+/// What to do about a file that is not there: the file beside it that was probably meant.
+std::string missing_help(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path wanted(path);
+  std::vector<std::string> names;
+  std::error_code error;
+  const auto folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  if (const auto meant = closest(wanted.filename().string(), views))
+    return fmt::format("; did you mean `{}`?", (wanted.parent_path() / *meant).string());
+  return "; check the name and the folder";
+}
+
+tl::unexpected<IoError> failure(std::string_view action, const std::string& path) {
+  const int reason = errno;
+  std::string help;
+  if (reason == ENOENT && action == "read")
+    help = missing_help(path);
+  else if (reason == EACCES)
+    help = "; check the permissions of the file and its folder";
+  return tl::unexpected(
+      IoError{fmt::format("cannot {} {}: {}{}", action, path, std::strerror(reason), help)});
+}
+
+tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& name) {
+  std::string text;
+  char buffer[65536];
+  for (;;) {
+    const auto n = ::read(fd, buffer, sizeof buffer);
+    if (n == 0)
+      return text;
+    if (n > 0)
+      text.append(buffer, static_cast<std::size_t>(n));
+    else if (errno != EINTR)
+      return failure("read", name);
+  }
+}
+
+bool write_all(int fd, ByteView bytes) {
+  while (!bytes.empty()) {
+    const auto n = ::write(fd, bytes.data(), bytes.size());
+    if (n >= 0)
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    else if (errno != EINTR)
+      return false;
+  }
+  return true;
+}
+
+/// The permissions that a new file at `path` gets: those of the file it replaces, else the umask's.
+mode_t mode_for(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0)
+    return status.st_mode & 07777;
+  const auto mask = ::umask(0);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+} // namespace
+
+std::string display_name(const std::string& path) {
+  return path == "-" ? "<stdin>" : path;
+}
+
+tl::expected<std::string, IoError> read(const std::string& path) {
+  if (path == "-")
+    return read_descriptor(STDIN_FILENO, display_name(path));
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0)
+    return failure("read", path);
+  return read_descriptor(file.get(), path);
+}
+
+tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
+  if (path == "-") {
+    if (!write_all(STDOUT_FILENO, bytes))
+      return failure("write", "<stdout>");
+    return {};
+  }
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) {
+    errno = EISDIR;
+    return failure("write", path);
+  }
+  if (exists && !S_ISREG(status.st_mode)) {
+    // A device or a pipe (/dev/stdout) cannot be replaced, only written to.
+    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (device.get() < 0 || !write_all(device.get(), bytes))
+      return failure("write", path);
+    return {};
+  }
+  const auto mode = mode_for(path);
+  std::string temporary = path + ".XXXXXX";
+  const Descriptor file(::mkstemp(temporary.data()));
+  if (file.get() < 0)
+    return failure("write", path);
+  const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 &&
+                       ::fsync(file.get()) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
+  if (!written) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    errno = error;
+    return failure("write", path);
+  }
+  return {};
+}
+
+} // namespace orb::disk

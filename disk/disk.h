@@ -1,0 +1,21 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "base/files.h"
+
+#include <string>
+#include <tl/expected.hpp>
+
+namespace orb::disk {
+
+/// The whole content of `path`; `-` is standard input. Directories and unreadable files are errors.
+tl::expected<std::string, IoError> read(const std::string& path);
+
+/// Writes `bytes` to `path` whole or not at all: a temporary file beside it, fsync, rename.
+/// `-` is standard output.
+tl::expected<void, IoError> write(const std::string& path, ByteView bytes);
+
+/// How a file is called in messages: its path, or `<stdin>` for `-`.
+std::string display_name(const std::string& path);
+
+} // namespace orb::disk

@@ -1,0 +1,655 @@
+// What an editor may ask about an orbBasic program.
+
+#include "compiler/check.h"
+#include "compiler/parse.h"
+#include "compiler/print.h"
+#include "compiler/renumber.h"
+#include "compiler/rules.h"
+#include "compiler/words.h"
+#include "editor/language.h"
+#include "editor/markdown.h"
+#include "reference/sections.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+#include <variant>
+
+namespace orb::editor {
+namespace {
+
+using compiler::ItemKind;
+using compiler::NodeKind;
+using compiler::Program;
+
+constexpr std::string_view language_id = "orbbasic";
+constexpr std::string_view allow_mark = "orb: allow";
+constexpr std::uint32_t most_line_number = 65535;
+
+// ---- words of one line, for text that need not parse
+
+enum class TokenKind : std::uint8_t { Number, Word, String, Comment, Symbol };
+
+struct Token {
+  TokenKind kind = TokenKind::Symbol;
+  Span span;
+};
+
+bool is_word_part(char c) {
+  return compiler::is_letter(c) || c == '_';
+}
+
+/// The tokens of the line that holds `offset`.
+std::vector<Token> tokens_at(const Source& source, std::uint32_t offset) {
+  const auto number = source.position(offset).line;
+  const auto line = source.line(number);
+  const auto start = source.line_start(number);
+  std::vector<Token> tokens;
+  std::size_t at = 0;
+  while (at < line.size()) {
+    const char c = line[at];
+    const auto begin = at;
+    auto kind = TokenKind::Symbol;
+    if (compiler::is_blank(c)) {
+      ++at;
+      continue;
+    }
+    if (compiler::is_digit(c)) {
+      kind = TokenKind::Number;
+      while (at < line.size() && compiler::is_digit(line[at]))
+        ++at;
+    } else if (is_word_part(c)) {
+      kind = TokenKind::Word;
+      while (at < line.size() && is_word_part(line[at]))
+        ++at;
+    } else if (c == '"') {
+      kind = TokenKind::String;
+      at = std::min(line.find('"', at + 1), line.size() - 1) + 1;
+    } else if (c == '\'') {
+      kind = TokenKind::Comment;
+      at = line.size();
+    } else {
+      ++at;
+    }
+    tokens.push_back(
+        {kind,
+         {start + static_cast<std::uint32_t>(begin), start + static_cast<std::uint32_t>(at)}});
+  }
+  return tokens;
+}
+
+const Token* token_at(const std::vector<Token>& tokens, std::uint32_t offset) {
+  for (const auto& token : tokens)
+    if (token.span.begin <= offset && offset < token.span.end)
+      return &token;
+  for (const auto& token : tokens) // right behind a word is still on it
+    if (token.span.end == offset)
+      return &token;
+  return nullptr;
+}
+
+// ---- names: line numbers and variables
+
+/// A place that names a line: its own number, or a target of a jump.
+struct LineName {
+  std::uint32_t number = 0;
+  Span span;
+  bool is_target = false;
+  bool calls = false; ///< of a target: by gosub
+};
+
+/// The line number that `sleep` takes as its last argument, where it is written out; 0 is none.
+std::optional<LineName> sleep_target(const Program& program, const compiler::StatementNode& node) {
+  if (node.kind != spec::Statement::Sleep || node.error)
+    return std::nullopt;
+  const auto& root = program.nodes[program.as<compiler::SleepView>(node).line.value];
+  if (root.kind != NodeKind::Number || root.value <= 0)
+    return std::nullopt;
+  return LineName{static_cast<std::uint32_t>(root.value), root.span, true, false};
+}
+
+std::vector<LineName> line_names(const Program& program) {
+  std::vector<LineName> names;
+  for (const auto& line : program.lines)
+    if (line.has_number())
+      names.push_back({line.number, line.number_span, false, false});
+  for (const auto& node : program.statements) {
+    if (node.error)
+      continue;
+    const bool calls =
+        node.kind == spec::Statement::Gosub || node.spelling == compiler::Spelling::OnGosub;
+    for (const auto& item : program.items_of(node))
+      if (item.kind == ItemKind::Target)
+        names.push_back({item.value, item.span, true, calls});
+    if (const auto target = sleep_target(program, node))
+      names.push_back(*target);
+  }
+  return names;
+}
+
+constexpr std::uint8_t indexed_letter = 'Z' - 'A';
+
+struct LetterName {
+  std::uint8_t letter = 0; ///< 0 for A to 25 for Z
+  Span span;
+  bool is_set = false;
+};
+
+std::vector<LetterName> letter_names(const Program& program) {
+  std::vector<LetterName> names;
+  for (const auto& node : program.nodes)
+    if (node.kind == NodeKind::Letter || node.kind == NodeKind::Indexed)
+      names.push_back(
+          {node.kind == NodeKind::Letter ? node.what : indexed_letter, node.span, false});
+  for (const auto& item : program.items)
+    if (item.kind == ItemKind::Letter || item.kind == ItemKind::Indexed)
+      names.push_back(
+          {item.kind == ItemKind::Letter ? static_cast<std::uint8_t>(item.value) : indexed_letter,
+           item.span, true});
+  std::sort(names.begin(), names.end(),
+            [](const LetterName& a, const LetterName& b) { return a.span.begin < b.span.begin; });
+  return names;
+}
+
+bool touches(Span span, std::uint32_t offset) {
+  return span.begin <= offset && offset <= span.end;
+}
+
+/// The name that stands at `offset`; of two that touch it the one behind wins.
+template <typename Name>
+const Name* name_at(const std::vector<Name>& names, std::uint32_t offset) {
+  const Name* found = nullptr;
+  for (const auto& name : names)
+    if (touches(name.span, offset) && (found == nullptr || name.span.begin > found->span.begin))
+      found = &name;
+  return found;
+}
+
+const compiler::Line* find_line(const Program& program, std::uint32_t number) {
+  for (const auto& line : program.lines)
+    if (line.has_number() && line.number == number)
+      return &line;
+  return nullptr;
+}
+
+Occurrences occurrences(const Source& source, std::uint32_t offset) {
+  const auto program = compiler::parse(source.text());
+  Occurrences found;
+  const auto lines = line_names(program);
+  if (const auto* here = name_at(lines, offset)) {
+    for (const auto& name : lines)
+      if (name.number == here->number)
+        (name.is_target ? found.uses : found.definitions).push_back(name.span);
+    return found;
+  }
+  const auto letters = letter_names(program);
+  if (const auto* here = name_at(letters, offset))
+    for (const auto& name : letters)
+      if (name.letter == here->letter)
+        (name.is_set ? found.definitions : found.uses).push_back(name.span);
+  return found;
+}
+
+// ---- hover
+
+/// The errors that a statement can end a program with.
+std::vector<spec::BasicError> errors_of(const spec::StatementInfo& row) {
+  using spec::BasicError;
+  std::vector<BasicError> errors;
+  switch (row.form) {
+  case spec::Form::Loop: errors = {BasicError::ForDepthExceeded, BasicError::BadStepValue}; break;
+  case spec::Form::LoopEnd: errors = {BasicError::NextWithoutFor}; break;
+  case spec::Form::Branch: errors = {BasicError::BadLineNumber}; break;
+  case spec::Form::IndexedBranch:
+    errors = {BasicError::IllegalIndex, BasicError::BadLineNumber};
+    break;
+  case spec::Form::Variables: errors = {BasicError::OutOfData}; break;
+  case spec::Form::Assignment:
+  case spec::Form::Conditional:
+  case spec::Form::Output:
+  case spec::Form::Entry:
+  case spec::Form::Values:
+  case spec::Form::Arguments: break;
+  }
+  if (row.statement == spec::Statement::Gosub || row.statement == spec::Statement::On)
+    errors.push_back(BasicError::GosubDepthExceeded);
+  if (row.statement == spec::Statement::Return)
+    errors.push_back(BasicError::ReturnWithoutGosub);
+  if (!row.parameters().empty())
+    errors.push_back(BasicError::BadNumericParameter);
+  return errors;
+}
+
+/// The entry of `section` for `word` with the errors that it can stop a program with.
+std::optional<std::string> markdown_with_errors(const reference::Section& section,
+                                                std::string_view word,
+                                                const std::vector<spec::BasicError>& errors) {
+  for (auto entry : section.entries) {
+    if (entry.name != word)
+      continue;
+    for (const auto error : errors)
+      entry.facts.emplace_back(
+          "can stop with", fmt::format("{:02X}h {}", spec::code(error), spec::info(error).text));
+    return entry_markdown(section, entry, language_id);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> word_markdown(std::string_view word) {
+  if (const auto statement = spec::find_statement(word))
+    return markdown_with_errors(reference::statements_section(), word,
+                                errors_of(spec::info(*statement)));
+  if (const auto function = spec::find_function(word)) {
+    std::vector<spec::BasicError> errors;
+    if (function != spec::Function::Abs)
+      errors.push_back(spec::BasicError::BadNumericParameter);
+    return markdown_with_errors(reference::functions_section(), word, errors);
+  }
+  if (spec::find_variable(word))
+    return find_markdown(reference::variables_section(), word, language_id);
+  return std::nullopt;
+}
+
+std::string in_lines(const Source& source, const Program& program,
+                     const std::vector<LetterName>& names, std::uint8_t letter, bool is_set) {
+  std::vector<std::uint32_t> numbers;
+  for (const auto& name : names) {
+    if (name.letter != letter || name.is_set != is_set)
+      continue;
+    const auto& line = program.lines[std::min<std::size_t>(
+        source.position(name.span.begin).line - 1, program.lines.size() - 1)];
+    if (line.has_number() && (numbers.empty() || numbers.back() != line.number))
+      numbers.push_back(line.number);
+  }
+  return numbers.empty() ? "nowhere" : fmt::format("in {}", fmt::join(numbers, ", "));
+}
+
+std::string letter_markdown(const Source& source, const Program& program,
+                            const std::vector<LetterName>& names, std::uint8_t letter) {
+  const auto set = in_lines(source, program, names, letter, true);
+  const auto read = in_lines(source, program, names, letter, false);
+  const auto what =
+      letter == indexed_letter
+          ? std::string(
+                "**`Z`** (variable): the element of the indexed set that `Y` names, 1 to 25")
+          : fmt::format("**`{}`** (variable): a whole number of 32 bits, 0 when the program begins",
+                        static_cast<char>('A' + letter));
+  return fmt::format("{}\n\n- set: {}\n- read: {}\n", what, set, read);
+}
+
+std::string line_markdown(const Program& program, std::uint32_t number) {
+  const auto* line = find_line(program, number);
+  if (line != nullptr)
+    return fmt::format("```{}\n{}\n```\n", language_id, program.text_of(line->span));
+  const auto error = spec::BasicError::BadLineNumber;
+  return fmt::format("there is no line {}; going there stops the program with {:02X}h {}\n", number,
+                     spec::code(error), spec::info(error).text);
+}
+
+/// The rule that a comment `' orb: allow RULE` names at `offset`.
+std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_t offset) {
+  const auto text = source.text(comment);
+  if (text.find(allow_mark) == std::string_view::npos)
+    return std::nullopt;
+  const auto part = [](char c) {
+    return compiler::is_letter(c) || compiler::is_digit(c) || c == '-';
+  };
+  auto begin = offset - comment.begin;
+  auto end = begin;
+  while (begin > 0 && part(text[begin - 1]))
+    --begin;
+  while (end < text.size() && part(text[end]))
+    ++end;
+  const auto* rule = compiler::rules::find(text.substr(begin, end - begin));
+  if (rule == nullptr)
+    return std::nullopt;
+  return Hover{{comment.begin + begin, comment.begin + end},
+               fmt::format("**`{}`** ({}): {}\n\n{}\n", rule->id, to_string(rule->severity),
+                           rule->summary, rule->explanation)};
+}
+
+std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
+  const auto tokens = tokens_at(source, offset);
+  const auto* token = token_at(tokens, offset);
+  if (token == nullptr)
+    return std::nullopt;
+  const auto text = source.text(token->span);
+  switch (token->kind) {
+  case TokenKind::String: return std::nullopt;
+  case TokenKind::Comment: return hover_rule(source, token->span, offset);
+  case TokenKind::Symbol: {
+    const auto word = text == "?" ? std::string_view("print") : text;
+    if (auto found = word_markdown(word))
+      return Hover{token->span, *found};
+    if (auto found = find_markdown(reference::operators_section(), word, language_id))
+      return Hover{token->span, *found};
+    return std::nullopt;
+  }
+  case TokenKind::Word:
+    if (auto found = word_markdown(text))
+      return Hover{token->span, *found};
+    if (text.size() == 1) {
+      const auto program = compiler::parse(source.text());
+      const auto letter = compiler::find_word(text).index;
+      return Hover{token->span, letter_markdown(source, program, letter_names(program), letter)};
+    }
+    return std::nullopt;
+  case TokenKind::Number: {
+    const auto program = compiler::parse(source.text());
+    const auto names = line_names(program);
+    const auto* name = name_at(names, offset);
+    if (name == nullptr)
+      return std::nullopt;
+    if (name->is_target)
+      return Hover{name->span, line_markdown(program, name->number)};
+    const auto jumps = std::count_if(names.begin(), names.end(), [&](const LineName& one) {
+      return one.is_target && one.number == name->number;
+    });
+    return Hover{name->span, fmt::format("line {}: {} jump{} here\n", name->number, jumps,
+                                         jumps == 1 ? " leads" : "s lead")};
+  }
+  }
+  return std::nullopt;
+}
+
+// ---- completion
+
+/// Where in a line the cursor is, told by the words before it.
+enum class Context : std::uint8_t { LineNumber, Statement, BranchStatement, Target, Expression };
+
+Context context_before(const Source& source, const std::vector<Token>& before) {
+  if (before.empty())
+    return Context::LineNumber;
+  if (before.size() == 1 && before.front().kind == TokenKind::Number)
+    return Context::Statement;
+  const auto& last = before.back();
+  if (last.kind == TokenKind::Word) {
+    const auto word = source.text(last.span);
+    if (word == "then" || word == "else")
+      return Context::BranchStatement;
+    if (word == "goto" || word == "gosub")
+      return Context::Target;
+  }
+  // `on A goto 10,20,` wants a target too.
+  for (auto token = before.rbegin(); token != before.rend(); ++token) {
+    const auto text = source.text(token->span);
+    if (token->kind == TokenKind::Word)
+      return (text == "goto" || text == "gosub") && source.text(last.span) == ","
+                 ? Context::Target
+                 : Context::Expression;
+    if (token->kind != TokenKind::Number && text != ",")
+      break;
+  }
+  return Context::Expression;
+}
+
+void suggest_statements(Suggestions& out, Context context) {
+  const auto section = reference::statements_section();
+  for (std::size_t i = 0; i < spec::statements.size(); ++i) {
+    const auto& row = spec::statements[i];
+    if (context == Context::BranchStatement && row.in_then == spec::InThen::Refused)
+      continue;
+    out.items.push_back({std::string(row.word), SuggestionKind::Keyword,
+                         fmt::format("{} (since {})", row.usage, spec::info(row.since).text),
+                         entry_markdown(section, section.entries[i], language_id)});
+  }
+  const auto variables = reference::variables_section();
+  for (std::size_t i = 0; i < spec::variables.size(); ++i)
+    if (spec::variables[i].access == spec::Access::ReadWrite)
+      out.items.push_back({std::string(spec::variables[i].word), SuggestionKind::Variable,
+                           std::string(spec::variables[i].summary),
+                           entry_markdown(variables, variables.entries[i], language_id)});
+}
+
+void suggest_expression(Suggestions& out) {
+  const auto variables = reference::variables_section();
+  for (std::size_t i = 0; i < spec::variables.size(); ++i) {
+    const auto& row = spec::variables[i];
+    out.items.push_back({std::string(row.word), SuggestionKind::Variable,
+                         fmt::format("{} to {}{}{}", row.least, row.greatest,
+                                     row.unit.empty() ? "" : " ", row.unit),
+                         entry_markdown(variables, variables.entries[i], language_id)});
+  }
+  const auto functions = reference::functions_section();
+  for (std::size_t i = 0; i < spec::functions.size(); ++i)
+    out.items.push_back({std::string(spec::functions[i].word), SuggestionKind::Function,
+                         std::string(spec::functions[i].summary),
+                         entry_markdown(functions, functions.entries[i], language_id)});
+  for (const auto word : spec::particles)
+    out.items.push_back({std::string(word), SuggestionKind::Keyword, "", ""});
+  for (const auto statement : {spec::Statement::Goto, spec::Statement::Gosub}) // after `on e`
+    out.items.push_back({std::string(spec::info(statement).word), SuggestionKind::Keyword,
+                         std::string(spec::info(statement).usage), ""});
+}
+
+void suggest_targets(Suggestions& out, const Program& program) {
+  for (const auto& line : program.lines)
+    if (line.has_number() && line.has_statement())
+      out.items.push_back({fmt::format("{}", line.number), SuggestionKind::Line,
+                           std::string(program.text_of(line.span)), ""});
+}
+
+/// The number that a new line would get: halfway to the next one where ten more is too much.
+void suggest_line_number(Suggestions& out, const Program& program, std::uint32_t offset) {
+  constexpr std::uint32_t step = 10;
+  std::uint32_t before = 0;
+  std::uint32_t behind = most_line_number + 1;
+  for (const auto& line : program.lines) {
+    if (!line.has_number() || touches(line.span, offset))
+      continue;
+    if (line.span.begin < offset)
+      before = line.number;
+    else
+      behind = std::min(behind, line.number);
+  }
+  if (before + 1 >= behind)
+    return;
+  const auto number = before + step < behind ? before + step : before + (behind - before) / 2;
+  if (number >= 1 && number <= most_line_number)
+    out.items.push_back({fmt::format("{}", number), SuggestionKind::Line, "a new line here", ""});
+}
+
+void suggest_rules(Suggestions& out) {
+  for (const auto& rule : compiler::rules::all())
+    out.items.push_back({std::string(rule.id), SuggestionKind::Rule, std::string(rule.summary),
+                         std::string(rule.explanation)});
+}
+
+bool is_rule_part(char c) {
+  return compiler::is_letter(c) || compiler::is_digit(c) || c == '-';
+}
+
+Suggestions suggest(const Source& source, std::uint32_t offset) {
+  const auto text = source.text();
+  offset = std::min(offset, static_cast<std::uint32_t>(text.size()));
+  Suggestions out{{offset, offset}, {}};
+  std::vector<Token> before;
+  for (const auto& token : tokens_at(source, offset)) {
+    const bool open_end = token.kind == TokenKind::Comment ||
+                          (token.kind == TokenKind::String &&
+                           (token.span.size() < 2 || text[token.span.end - 1] != '"'));
+    const bool inside = token.span.begin < offset &&
+                        (open_end ? offset <= token.span.end : offset < token.span.end);
+    if (token.kind == TokenKind::Comment && inside) {
+      const auto typed = source.text({token.span.begin, offset});
+      if (typed.find(allow_mark) == std::string_view::npos)
+        return out;
+      while (out.replaces.begin > token.span.begin && is_rule_part(text[out.replaces.begin - 1]))
+        --out.replaces.begin;
+      suggest_rules(out);
+      return out;
+    }
+    if (token.kind == TokenKind::String && inside)
+      return out;
+    const bool is_typed = (token.kind == TokenKind::Word || token.kind == TokenKind::Number) &&
+                          token.span.begin < offset && offset <= token.span.end;
+    // The number in front stays a number; a number elsewhere is what is being typed.
+    if (is_typed) {
+      out.replaces = {token.span.begin, offset};
+      break;
+    }
+    if (token.span.begin >= offset)
+      break;
+    before.push_back(token);
+  }
+  switch (context_before(source, before)) {
+  case Context::LineNumber: suggest_line_number(out, compiler::parse(text), offset); break;
+  case Context::Statement: suggest_statements(out, Context::Statement); break;
+  case Context::BranchStatement: suggest_statements(out, Context::BranchStatement); break;
+  case Context::Target: suggest_targets(out, compiler::parse(text)); break;
+  case Context::Expression: suggest_expression(out); break;
+  }
+  return out;
+}
+
+// ---- outline
+
+/// What a comment in the line above says, without its mark: the name of a part of a program.
+std::string_view title_above(const Program& program, std::size_t index) {
+  if (index == 0)
+    return {};
+  const auto& above = program.lines[index - 1];
+  if (above.has_number() || above.has_statement() || above.comment.size() == 0)
+    return {};
+  auto text = program.text_of(above.comment);
+  while (!text.empty() && (text.front() == '\'' || compiler::is_blank(text.front())))
+    text.remove_prefix(1);
+  return text.starts_with("orb:") ? std::string_view() : text;
+}
+
+bool ends_part(const Program& program, const compiler::Line& line) {
+  if (!line.has_statement())
+    return false;
+  const auto& node = program.statements[line.statement];
+  return !node.error && (node.kind == spec::Statement::Return || node.kind == spec::Statement::End);
+}
+
+std::vector<Symbol> outline(const Source& source) {
+  const auto program = compiler::parse(source.text());
+  struct Target {
+    bool is_called = false;
+    bool is_listed = false; ///< of lines of equal numbers only the first is reached by a jump
+  };
+  std::map<std::uint32_t, Target> targets;
+  for (const auto& name : line_names(program))
+    if (name.is_target)
+      targets[name.number].is_called |= name.calls;
+  std::vector<Symbol> symbols;
+  std::size_t part_end = 0; // the last line of the subroutine at hand
+  for (std::size_t i = 0; i < program.lines.size(); ++i) {
+    const auto& line = program.lines[i];
+    const auto found = line.has_number() ? targets.find(line.number) : targets.end();
+    if (found == targets.end() || std::exchange(found->second.is_listed, true))
+      continue;
+    const bool is_called = found->second.is_called;
+    if (is_called) { // one that begins inside another ends where that one does
+      part_end = std::max(part_end, i);
+      while (part_end + 1 < program.lines.size() && !ends_part(program, program.lines[part_end]))
+        ++part_end;
+    }
+    const auto& last = program.lines[is_called ? part_end : i];
+    const auto title = title_above(program, i);
+    symbols.push_back(
+        {title.empty() ? fmt::format("{}", line.number) : fmt::format("{} {}", line.number, title),
+         std::string(is_called ? "subroutine" : "jump target"),
+         {line.span.begin, std::max(last.span.end, line.span.end)},
+         line.number_span});
+  }
+  return symbols;
+}
+
+// ---- changes
+
+tl::expected<std::vector<Edit>, std::string>
+rename_letter(const std::vector<LetterName>& names, std::uint8_t letter, std::string_view name) {
+  if (letter == indexed_letter)
+    return tl::unexpected(
+        std::string("`Z` names an element of the indexed set; it has no other name"));
+  if (name.size() != 1 || !compiler::is_letter(name.front()) || (name.front() & ~0x20) == 'Z')
+    return tl::unexpected(std::string("a variable is one letter from `A` to `Y`"));
+  const auto wanted = compiler::find_word(name).index;
+  std::vector<Edit> edits;
+  for (const auto& one : names) {
+    if (one.letter == wanted && wanted != letter)
+      return tl::unexpected(fmt::format("`{}` is in use already", name));
+    if (one.letter == letter)
+      edits.push_back({one.span, std::string(name)});
+  }
+  return edits;
+}
+
+tl::expected<std::vector<Edit>, std::string> rename_line(const Program& program,
+                                                         const std::vector<LineName>& names,
+                                                         const LineName& here,
+                                                         std::string_view name) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || number < 1 ||
+      number > most_line_number)
+    return tl::unexpected(fmt::format("a line number is 1 to {}", most_line_number));
+  if (number != here.number && find_line(program, number) != nullptr)
+    return tl::unexpected(fmt::format("there is a line {} already", number));
+  const auto* first = find_line(program, here.number);
+  if (first == nullptr)
+    return tl::unexpected(fmt::format("there is no line {}", here.number));
+  const auto text = fmt::format("{}", number);
+  // A later line of the same number is reached by no jump: it alone gets the new number.
+  if (!here.is_target && here.span != first->number_span)
+    return std::vector<Edit>{{here.span, text}};
+  std::vector<Edit> edits;
+  for (const auto& one : names)
+    if (one.number == here.number && (one.is_target || one.span == first->number_span))
+      edits.push_back({one.span, text});
+  std::sort(edits.begin(), edits.end(),
+            [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
+  return edits;
+}
+
+tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::uint32_t offset,
+                                                    std::string_view name) {
+  const auto program = compiler::parse(source.text());
+  const auto lines = line_names(program);
+  if (const auto* here = name_at(lines, offset))
+    return rename_line(program, lines, *here, name);
+  const auto letters = letter_names(program);
+  if (const auto* here = name_at(letters, offset))
+    return rename_letter(letters, here->letter, name);
+  return tl::unexpected(std::string("here is neither a line number nor a variable"));
+}
+
+compiler::Target target_of(const LanguageOptions& options) {
+  compiler::Target target;
+  target.version = options.target;
+  return target;
+}
+
+std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {
+  return compiler::check(source.text(), target_of(options)).diagnostics;
+}
+
+std::optional<std::string> format(const Source& source) {
+  return compiler::format(compiler::parse(source.text()));
+}
+
+std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& options) {
+  std::vector<Rewrite> all;
+  auto fixed = compiler::fix(std::string(source.text()), target_of(options));
+  if (fixed.count > 0)
+    all.push_back({"apply all safe fixes", "source.fixAll", std::move(fixed.text)});
+  const auto program = compiler::parse(source.text());
+  if (auto numbered = compiler::renumber(program, {});
+      const auto* text = std::get_if<std::string>(&numbered))
+    if (*text != source.text())
+      all.push_back({"renumber the lines 10, 20, 30 and so on", "source.renumber", *text});
+  return all;
+}
+
+} // namespace
+
+const LanguageService basic_service = {check,       hover,  suggest, outline,
+                                       occurrences, rename, format,  rewrites};
+
+} // namespace orb::editor

@@ -1,0 +1,84 @@
+#pragma once
+
+// What an editor may ask about a text, without any protocol: places are bytes of a Source. The two
+// languages answer in editor/basic.cpp and editor/macro.cpp.
+
+#include "base/diagnostic.h"
+#include "base/source.h"
+#include "spec/basic.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace orb::editor {
+
+/// What programs are checked for.
+struct LanguageOptions {
+  spec::BasicVersion target = spec::BasicVersion::V1_6;
+};
+
+struct Hover {
+  Span span;
+  std::string markdown;
+};
+
+enum class SuggestionKind : std::uint8_t { Keyword, Function, Variable, Value, Line, Rule, Name };
+
+struct Suggestion {
+  std::string label;
+  SuggestionKind kind = SuggestionKind::Keyword;
+  std::string detail;   ///< a line beside the label
+  std::string markdown; ///< what an editor shows for the chosen one
+};
+
+struct Suggestions {
+  Span replaces; ///< the part of a word that is typed already
+  std::vector<Suggestion> items;
+};
+
+/// A line of the outline: a subroutine, a macro.
+struct Symbol {
+  std::string name;
+  std::string detail;
+  Span span;      ///< all of it
+  Span selection; ///< its name
+};
+
+/// A name in a text: a line number, a variable, a macro.
+struct Occurrences {
+  std::vector<Span> definitions;
+  std::vector<Span> uses;
+};
+
+/// A change of the whole text that a user may ask for.
+struct Rewrite {
+  std::string title;
+  std::string kind; ///< of the protocol: `source.renumber`
+  std::string text;
+};
+
+/// One language. Every function is pure and takes any text, however broken.
+struct LanguageService {
+  std::vector<Diagnostic> (*check)(const Source& source, const LanguageOptions& options);
+  std::optional<Hover> (*hover)(const Source& source, std::uint32_t offset);
+  Suggestions (*suggest)(const Source& source, std::uint32_t offset);
+  std::vector<Symbol> (*outline)(const Source& source);
+  /// Everything that is the same name as what stands at `offset`.
+  Occurrences (*occurrences)(const Source& source, std::uint32_t offset);
+  /// The edits that give the name at `offset` another one, or why that cannot be.
+  tl::expected<std::vector<Edit>, std::string> (*rename)(const Source& source, std::uint32_t offset,
+                                                         std::string_view name);
+  /// The canonical layout; nothing where the text cannot be laid out.
+  std::optional<std::string> (*format)(const Source& source);
+  /// Only those that change something.
+  std::vector<Rewrite> (*rewrites)(const Source& source, const LanguageOptions& options);
+};
+
+extern const LanguageService basic_service;
+extern const LanguageService macro_service;
+
+} // namespace orb::editor

@@ -1,0 +1,244 @@
+#include "editor/syntax_files.h"
+
+#include "editor/directives.h"
+#include "spec/basic.h"
+#include "spec/macro.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace orb::editor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Words = std::vector<std::string_view>;
+
+// ---- the words, as an editor colours them
+
+bool directs_the_flow(const spec::StatementInfo& row) {
+  switch (row.form) {
+  case spec::Form::Conditional:
+  case spec::Form::Loop:
+  case spec::Form::LoopEnd:
+  case spec::Form::Branch:
+  case spec::Form::IndexedBranch: return true;
+  case spec::Form::Assignment:
+  case spec::Form::Output:
+  case spec::Form::Entry:
+  case spec::Form::Values:
+  case spec::Form::Variables:
+  case spec::Form::Arguments: break;
+  }
+  return row.statement == spec::Statement::Return || row.statement == spec::Statement::End;
+}
+
+Words control_words() {
+  Words words(spec::particles.begin(), spec::particles.end());
+  for (const auto& row : spec::statements)
+    if (directs_the_flow(row))
+      words.push_back(row.word);
+  return words;
+}
+
+Words statement_words() {
+  Words words;
+  for (const auto& row : spec::statements)
+    if (!directs_the_flow(row))
+      words.push_back(row.word);
+  return words;
+}
+
+Words function_words() {
+  Words words;
+  for (const auto& row : spec::functions)
+    words.push_back(row.word);
+  return words;
+}
+
+Words variable_words() {
+  Words words;
+  for (const auto& row : spec::variables) {
+    words.push_back(row.word);
+    if (!row.old_word.empty())
+      words.push_back(row.old_word);
+  }
+  return words;
+}
+
+Words macro_command_words() {
+  Words words;
+  for (const auto& row : spec::macro_commands)
+    words.push_back(row.mnemonic);
+  return words;
+}
+
+/// Flags and the words that stand for values of operands.
+Words macro_value_words() {
+  Words words;
+  const auto add = [&](std::string_view word) {
+    if (std::find(words.begin(), words.end(), word) == words.end())
+      words.push_back(word);
+  };
+  for (const auto& row : spec::macro_flags)
+    add(row.word);
+  for (const auto& row : spec::macro_commands)
+    for (const auto& operand : row)
+      for (const auto* word = operand.begin_words(); word != operand.end_words(); ++word)
+        add(word->word);
+  return words;
+}
+
+// ---- TextMate grammars
+
+/// Longer words first, so that none hides behind its own beginning.
+std::string alternatives(Words words) {
+  std::stable_sort(words.begin(), words.end(),
+                   [](std::string_view a, std::string_view b) { return a.size() > b.size(); });
+  return fmt::format("{}", fmt::join(words, "|"));
+}
+
+/// A pattern for whole words, where `part` is what words are made of.
+Json words_pattern(const char* name, const Words& words, std::string_view part) {
+  return {{"name", name},
+          {"match", fmt::format("(?<![{0}])(?:{1})(?![{0}])", part, alternatives(words))}};
+}
+
+Json pattern(const char* name, const char* match) {
+  return {{"name", name}, {"match", match}};
+}
+
+constexpr auto generated = "Printed by `orb spec --editors docs/editors`; a test compares them.";
+
+std::string basic_textmate() {
+  constexpr auto part = "A-Za-z";
+  const Json grammar{
+      {"comment", generated},
+      {"name", "orbBasic"},
+      {"scopeName", "source.orbbasic"},
+      {"patterns",
+       {pattern("comment.line.apostrophe.orbbasic", "'.*$"),
+        {{"name", "string.quoted.double.orbbasic"}, {"begin", "\""}, {"end", "\"|$"}},
+        pattern("entity.name.label.orbbasic", "^\\s*\\d+"),
+        words_pattern("keyword.control.orbbasic", control_words(), part),
+        words_pattern("support.function.orbbasic", statement_words(), part),
+        words_pattern("support.function.math.orbbasic", function_words(), part),
+        words_pattern("variable.language.orbbasic", variable_words(), part),
+        pattern("variable.other.orbbasic", "(?<![A-Za-z])[A-Za-z](?![A-Za-z])"),
+        pattern("constant.numeric.orbbasic", "\\d+"),
+        pattern("keyword.operator.orbbasic", "[-+*/%&|{}=!<>?$]")}}};
+  return grammar.dump(2) + "\n";
+}
+
+std::string macro_textmate() {
+  constexpr auto part = "A-Za-z0-9_";
+  const Json grammar{
+      {"comment", generated},
+      {"name", "Sphero macro"},
+      {"scopeName", "source.orbmacro"},
+      {"patterns",
+       {pattern("comment.line.number-sign.orbmacro", "#.*$"),
+        {{"name", "string.quoted.double.orbmacro"},
+         {"begin", "\""},
+         {"end", "\"|$"},
+         {"patterns", Json::array({pattern("constant.character.escape.orbmacro", "\\\\.")})}},
+        {{"match",
+          fmt::format("^\\s*\\.({})(?![{}])", alternatives(macro_directive_words()), part)},
+         {"name", "keyword.control.directive.orbmacro"}},
+        pattern("variable.parameter.orbmacro", "[A-Za-z_][A-Za-z0-9_]*(?=\\s*=)"),
+        {{"match", fmt::format("^\\s*({})(?![{}])", alternatives(macro_command_words()), part)},
+         {"name", "support.function.orbmacro"}},
+        words_pattern("constant.language.orbmacro", macro_value_words(), part),
+        pattern("constant.numeric.orbmacro",
+                "[-+]?(?:0[xX][0-9A-Fa-f]+|\\d+(?:\\.\\d+)?)(?:ms|s|deg)?(?![A-Za-z0-9_])")}}};
+  return grammar.dump(2) + "\n";
+}
+
+// ---- Vim
+
+/// `syntax keyword GROUP WORD…`, a few words a line.
+std::string vim_keywords(std::string_view group, const Words& words) {
+  constexpr std::size_t a_line = 8;
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); i += a_line) {
+    const auto end =
+        words.begin() + static_cast<std::ptrdiff_t>(std::min(i + a_line, words.size()));
+    out += fmt::format("syntax keyword {} {}\n", group,
+                       fmt::join(words.begin() + static_cast<std::ptrdiff_t>(i), end, " "));
+  }
+  return out;
+}
+
+std::string vim_head(std::string_view language) {
+  return fmt::format("\" {}\n\" {}\nif exists('b:current_syntax')\n  finish\nendif\n"
+                     "syntax case match\n",
+                     language, generated);
+}
+
+std::string vim_links(std::string_view prefix,
+                      const std::vector<std::pair<std::string_view, std::string_view>>& links) {
+  std::string out;
+  for (const auto& [group, target] : links)
+    out += fmt::format("highlight default link {}{} {}\n", prefix, group, target);
+  return out;
+}
+
+std::string basic_vim() {
+  auto out = vim_head("orbBasic, the language of Sphero robots");
+  out += vim_keywords("orbbasicControl", control_words());
+  out += vim_keywords("orbbasicStatement", statement_words());
+  out += vim_keywords("orbbasicFunction", function_words());
+  out += vim_keywords("orbbasicSystem", variable_words());
+  out += "syntax match orbbasicVariable /\\<\\a\\>/\n"
+         "syntax match orbbasicNumber /\\<\\d\\+\\>/\n"
+         "syntax match orbbasicLine /^\\s*\\d\\+/\n"
+         "syntax match orbbasicOperator /[-+*\\/%&|{}=!<>?$]/\n"
+         "syntax region orbbasicString start=/\"/ end=/\"/ oneline\n"
+         "syntax match orbbasicComment /'.*$/\n";
+  out += vim_links("orbbasic", {{"Control", "Conditional"},
+                                {"Statement", "Statement"},
+                                {"Function", "Function"},
+                                {"System", "Special"},
+                                {"Variable", "Identifier"},
+                                {"Number", "Number"},
+                                {"Line", "Label"},
+                                {"Operator", "Operator"},
+                                {"String", "String"},
+                                {"Comment", "Comment"}});
+  return out + "let b:current_syntax = 'orbbasic'\n";
+}
+
+std::string macro_vim() {
+  auto out = vim_head("macros of Sphero robots");
+  out += vim_keywords("orbmacroCommand", macro_command_words());
+  out += vim_keywords("orbmacroValue", macro_value_words());
+  out += fmt::format("syntax match orbmacroDirective /^\\s*\\.\\({}\\)\\>/\n",
+                     fmt::join(macro_directive_words(), "\\|"));
+  out += "syntax match orbmacroOperand /\\<\\h\\w*\\ze\\s*=/\n"
+         "syntax match orbmacroNumber "
+         "/[-+]\\?\\<\\(0[xX]\\x\\+\\|\\d\\+\\(\\.\\d\\+\\)\\?\\)\\(ms\\|s\\|deg\\)\\?\\>/\n"
+         "syntax match orbmacroEscape /\\\\./ contained\n"
+         "syntax region orbmacroString start=/\"/ skip=/\\\\./ end=/\"/ oneline "
+         "contains=orbmacroEscape\n"
+         "syntax match orbmacroComment /#.*$/\n";
+  out += vim_links("orbmacro", {{"Command", "Statement"},
+                                {"Value", "Constant"},
+                                {"Directive", "PreProc"},
+                                {"Operand", "Identifier"},
+                                {"Number", "Number"},
+                                {"Escape", "SpecialChar"},
+                                {"String", "String"},
+                                {"Comment", "Comment"}});
+  return out + "let b:current_syntax = 'orbmacro'\n";
+}
+
+} // namespace
+
+std::vector<SyntaxFile> syntax_files() {
+  return {{"vscode/syntaxes/orbbasic.tmLanguage.json", basic_textmate()},
+          {"vscode/syntaxes/orbmacro.tmLanguage.json", macro_textmate()},
+          {"vim/syntax/orbbasic.vim", basic_vim()},
+          {"vim/syntax/orbmacro.vim", macro_vim()}};
+}
+
+} // namespace orb::editor

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orb::editor {
+
+/// A file below docs/editors that lists words of the robot.
+struct SyntaxFile {
+  std::string path;
+  std::string text;
+};
+
+/// The grammars for VS Code and the syntax files for Vim, printed from the tables.
+std::vector<SyntaxFile> syntax_files();
+
+} // namespace orb::editor

@@ -1,0 +1,56 @@
+#include "editor/text.h"
+
+#include "base/utf8.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace orb::editor {
+namespace {
+
+/// How many units of `encoding` the code point of `length` bytes takes.
+std::uint32_t units(std::size_t length, PositionEncoding encoding) {
+  switch (encoding) {
+  case PositionEncoding::Utf8: return static_cast<std::uint32_t>(length);
+  case PositionEncoding::Utf16: return length == 4 ? 2 : 1; // beyond U+FFFF: a surrogate pair
+  case PositionEncoding::Utf32: break;
+  }
+  return 1;
+}
+
+} // namespace
+
+std::uint32_t offset_of(const Source& source, TextPosition position, PositionEncoding encoding) {
+  if (position.line >= source.line_count())
+    return static_cast<std::uint32_t>(source.text().size());
+  const auto line = source.line(position.line + 1);
+  const auto start = source.line_start(position.line + 1);
+  std::uint32_t at = 0;
+  std::uint32_t left = position.character;
+  while (at < line.size()) {
+    const auto length = std::max<std::size_t>(1, utf8_length(line.substr(at)));
+    const auto width = units(length, encoding);
+    if (left < width)
+      break;
+    left -= width;
+    at += static_cast<std::uint32_t>(length);
+  }
+  return start + at;
+}
+
+TextPosition position_of(const Source& source, std::uint32_t offset, PositionEncoding encoding) {
+  const auto place = source.position(offset);
+  const auto line = source.line(place.line);
+  const auto end = std::min<std::size_t>(place.column - 1, line.size());
+  TextPosition position{place.line - 1, 0};
+  for (std::size_t at = 0; at < end;) {
+    const auto length = std::max<std::size_t>(1, utf8_length(line.substr(at)));
+    if (at + length > end)
+      break;
+    position.character += units(length, encoding);
+    at += length;
+  }
+  return position;
+}
+
+} // namespace orb::editor

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "base/source.h"
+
+#include <cstdint>
+
+namespace orb::editor {
+
+/// What `character` counts in a position of the protocol: bytes, UTF-16 units or code points.
+enum class PositionEncoding : std::uint8_t { Utf8, Utf16, Utf32 };
+
+/// A place as the protocol gives it: both count from 0.
+struct TextPosition {
+  std::uint32_t line = 0;
+  std::uint32_t character = 0;
+
+  friend constexpr bool operator==(TextPosition, TextPosition) = default;
+};
+
+/// The byte at `position`. A place behind the end of a line is its end, one behind the last line
+/// the end of the text; one inside a code point is its beginning.
+std::uint32_t offset_of(const Source& source, TextPosition position, PositionEncoding encoding);
+
+/// The place of byte `offset`; behind the end of the text it is the end.
+TextPosition position_of(const Source& source, std::uint32_t offset, PositionEncoding encoding);
+
+} // namespace orb::editor

@@ -1,0 +1,108 @@
+#include "editor/wire.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace orb::editor {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back()))
+    text.remove_suffix(1);
+  return text;
+}
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// The number behind `Content-Length:` in a header block; nothing when it is missing or none.
+std::optional<std::size_t> content_length(std::string_view header) {
+  while (!header.empty()) {
+    const auto end = std::min(header.find('\n'), header.size());
+    const auto line = header.substr(0, end);
+    header.remove_prefix(std::min(end + 1, header.size()));
+    const auto colon = line.find(':');
+    if (colon == std::string_view::npos ||
+        !equal_but_for_case(trim(line.substr(0, colon)), "Content-Length"))
+      continue;
+    const auto digits = trim(line.substr(colon + 1));
+    std::size_t length = 0;
+    const auto [last, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), length);
+    if (error == std::errc() && last == digits.data() + digits.size())
+      return length;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<MessageReader::Event> MessageReader::next() {
+  for (;;) {
+    if (to_skip_ > 0) {
+      const auto skipped = std::min(to_skip_, buffer_.size());
+      buffer_.erase(0, skipped);
+      to_skip_ -= skipped;
+      if (to_skip_ > 0)
+        return std::nullopt;
+    }
+    if (!length_) {
+      if (auto fault = read_header())
+        return fault;
+      if (!length_)
+        return std::nullopt;
+    }
+    if (buffer_.size() < *length_)
+      return std::nullopt;
+    Event event{false, buffer_.substr(0, *length_)};
+    buffer_.erase(0, *length_);
+    length_.reset();
+    return event;
+  }
+}
+
+/// Reads a header when it is complete: sets `length_`, or says what is wrong with it.
+std::optional<MessageReader::Event> MessageReader::read_header() {
+  auto end = buffer_.find("\r\n\r\n");
+  std::size_t size = 4;
+  if (const auto bare = buffer_.find("\n\n"); bare < end) {
+    end = bare;
+    size = 2;
+  }
+  if (end == std::string::npos) {
+    if (buffer_.size() <= max_header)
+      return std::nullopt;
+    buffer_.erase(0, buffer_.size() - 3); // an end of header may be cut in two
+    return Event{true, "a header without an end"};
+  }
+  const auto length = content_length(std::string_view(buffer_).substr(0, end));
+  buffer_.erase(0, end + size);
+  if (!length)
+    return Event{true, "a header without a usable Content-Length"};
+  if (*length > max_message) {
+    to_skip_ = *length;
+    return Event{true,
+                 fmt::format("a message of {} bytes; at most {} are read", *length, max_message)};
+  }
+  length_ = length;
+  return std::nullopt;
+}
+
+std::string frame(std::string_view message) {
+  return fmt::format("Content-Length: {}\r\n\r\n{}", message.size(), message);
+}
+
+} // namespace orb::editor

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace orb::reference {
+
+/// What the shell learns from orb. Scripts depend on the numbers; they never change meaning.
+enum class ExitCode : int {
+  Done = 0,
+  BadInput = 1,
+  Usage = 2,
+  File = 3,
+  NoBall = 4,
+  Refused = 5,
+  LinkLost = 6,
+  Unknown = 7,
+  Bug = 70,
+  Interrupted = 130, ///< 128 and SIGINT, as shells count
+};
+
+struct ExitCodeInfo {
+  ExitCode code;
+  std::string_view meaning;
+};
+
+/// The exit codes in words: one table for the manual, the docs and `orb explain`.
+inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
+    {ExitCode::Done, "done; no finding of error level"},
+    {ExitCode::BadInput,
+     "the input has errors, or the program or macro that was run ended in a fault"},
+    {ExitCode::Usage, "wrong command line or configuration"},
+    {ExitCode::File, "an input cannot be read, or an output cannot be written"},
+    {ExitCode::NoBall,
+     "no such ball: it cannot be opened or connected to, or does not answer the first ping"},
+    {ExitCode::Refused, "the ball refused a command; the message names it and the remedy"},
+    {ExitCode::LinkLost,
+     "the link was lost or timed out; the message says what is on the ball now"},
+    {ExitCode::Unknown,
+     "the outcome is unknown, for example because the answer to a commit was lost"},
+    {ExitCode::Bug, "a bug in orb"},
+    {ExitCode::Interrupted, "ended by Ctrl-C"},
+});
+
+} // namespace orb::reference

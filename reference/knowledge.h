@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace orb::reference {
+
+/// One thing that the tables know, ready to be printed in any form.
+struct Entry {
+  std::string name;                 ///< what a user types: `goroll`, `08h`, `unknown-statement`
+  std::vector<std::string> aliases; ///< other words that find it: `8`, `Divide by zero`
+  std::string summary;              ///< one sentence
+  std::vector<std::pair<std::string, std::string>> facts; ///< usage, ranges, since, source…
+  std::string explanation;                                ///< paragraphs; may be empty
+  std::vector<std::pair<std::string, std::string>> code;  ///< captioned sources: `bad`, `good`
+};
+
+/// A table of the robot, or of the tools, as a chapter of the reference.
+struct Section {
+  std::string_view id;    ///< `statements`: a file of docs/reference/ and a word of `orb spec`
+  std::string_view title; ///< `Statements`
+  std::string_view kind;  ///< what one entry is: `statement`
+  std::vector<Entry> entries;
+  std::string overview = {}; ///< Markdown in front of the entries of the page; may be empty
+};
+
+/// Everything the tables know, in the order in which a reader wants it.
+std::vector<Section> knowledge();
+
+/// One entry as `orb explain` prints it.
+std::string print_entry(const Section& section, const Entry& entry);
+
+/// One section as a page of docs/reference/.
+std::string print_markdown(const Section& section);
+
+/// All sections as one JSON document.
+std::string print_json(const std::vector<Section>& sections);
+
+} // namespace orb::reference

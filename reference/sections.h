@@ -1,0 +1,28 @@
+#pragma once
+
+// The chapters of knowledge(), each made from one table. Only reference/knowledge.cpp and the
+// editor call them.
+
+#include "reference/knowledge.h"
+
+namespace orb::reference {
+
+Section statements_section();
+Section functions_section();
+Section variables_section();
+Section operators_section();
+Section basic_errors_section();
+Section limits_section();
+Section rules_section();
+Section basic_flags_section();
+Section macro_commands_section();
+Section macro_flags_section();
+Section macro_rules_section();
+Section stimulus_rules_section();
+Section api_commands_section();
+Section api_messages_section();
+Section responses_section();
+Section streams_section();
+Section firmwares_section();
+
+} // namespace orb::reference

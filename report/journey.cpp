@@ -1,0 +1,159 @@
+#include "report/journey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
+
+namespace orb::report {
+namespace {
+
+// So many entries keep a report of any run well below a megabyte.
+constexpr std::size_t pose_capacity = 8000;
+constexpr std::size_t led_capacity = 6000;
+constexpr std::size_t back_led_capacity = 2000;
+constexpr std::size_t place_capacity = 12000;
+constexpr std::size_t sensor_capacity = 3000;
+constexpr std::size_t listed_at_each_end = 1000;
+constexpr std::size_t text_limit = 200;
+constexpr Duration sensor_period = std::chrono::milliseconds{20};
+
+std::int32_t rounded(double value) {
+  return static_cast<std::int32_t>(std::lround(value));
+}
+
+} // namespace
+
+Journey::Journey()
+    : poses_(pose_capacity), led_(led_capacity), back_led_(back_led_capacity),
+      places_(place_capacity), sensors_(sensor_capacity) {}
+
+int Journey::add_file(std::string name, std::string text) {
+  files_.push_back({std::move(name), std::move(text), {}});
+  return static_cast<int>(files_.size()) - 1;
+}
+
+void Journey::map_line(int robot_line, Place place) {
+  lines_.insert_or_assign(robot_line, place);
+}
+
+void Journey::map_command(int macro, int command, Place place) {
+  commands_.emplace(std::pair{macro, command}, place);
+}
+
+void Journey::happen(Duration t, Happening::Kind kind, std::string text, std::string label) {
+  ++totals_.happenings[static_cast<std::size_t>(kind)];
+  if (text.size() > text_limit)
+    text.resize(text_limit);
+  Happening happening{t, kind, std::move(text), std::move(label), pose_};
+  if (first_.size() < listed_at_each_end) {
+    first_.push_back(std::move(happening));
+    return;
+  }
+  last_.push_back(std::move(happening));
+  if (last_.size() > listed_at_each_end)
+    last_.pop_front();
+}
+
+void Journey::visit(Duration t, Place place) {
+  auto [count, fresh] = counts_.try_emplace(place, Count{0, t});
+  ++count->second.times;
+  places_.push(t, place);
+}
+
+void Journey::add(Duration t, const vm::Event& event) {
+  namespace of = vm::event;
+  using Kind = Happening::Kind;
+  std::visit(
+      [&](const auto& seen) {
+        using Seen = std::decay_t<decltype(seen)>;
+        if constexpr (std::is_same_v<Seen, of::Print>) {
+          happen(t, Kind::Print, seen.text);
+        } else if constexpr (std::is_same_v<Seen, of::Error>) {
+          const auto found = lines_.find(seen.line);
+          if (found != lines_.end())
+            files_[static_cast<std::size_t>(found->second.file)].failed.push_back(
+                found->second.line);
+          end_.fault = fmt::format("line {}: {}", seen.line, spec::info(seen.code).text);
+          happen(t, Kind::Error, end_.fault);
+        } else if constexpr (std::is_same_v<Seen, of::Led>) {
+          led_.push(t, seen.color);
+        } else if constexpr (std::is_same_v<Seen, of::BackLed>) {
+          back_led_.push(t, seen.value);
+        } else if constexpr (std::is_same_v<Seen, of::Drive>) {
+          // What it leads to is seen in the poses.
+        } else if constexpr (std::is_same_v<Seen, of::Position>) {
+          if (pose_)
+            totals_.distance_cm +=
+                std::hypot(seen.pose.x_cm - pose_->x_cm, seen.pose.y_cm - pose_->y_cm);
+          totals_.top_speed_cm_s = std::max(totals_.top_speed_cm_s, seen.pose.speed_cm_s);
+          pose_ = seen.pose;
+          poses_.push(t, seen.pose);
+        } else if constexpr (std::is_same_v<Seen, of::Marker>) {
+          happen(t, Kind::Marker,
+                 fmt::format("marker {} (macro {}, command {})", seen.marker, seen.macro,
+                             seen.command),
+                 std::to_string(seen.marker));
+        } else if constexpr (std::is_same_v<Seen, of::Macro>) {
+          ++totals_.commands;
+          const auto found = commands_.find(std::pair{seen.id, seen.command});
+          if (found != commands_.end())
+            visit(t, found->second);
+          if (seen.command == 1)
+            happen(t, Kind::Macro, fmt::format("macro {} starts", seen.id));
+        } else if constexpr (std::is_same_v<Seen, of::Line>) {
+          ++totals_.lines;
+          const auto found = lines_.find(seen.line);
+          if (found != lines_.end())
+            visit(t, found->second);
+        } else if constexpr (std::is_same_v<Seen, of::Collision>) {
+          happen(t, Kind::Collision,
+                 fmt::format("collision: x {}, y {}, speed {}", seen.x_magnitude, seen.y_magnitude,
+                             seen.speed));
+        } else if constexpr (std::is_same_v<Seen, of::Sleep>) {
+          happen(t, Kind::Sleep,
+                 seen.seconds == 0 ? std::string("sleeps until it is woken")
+                                   : fmt::format("sleeps for {} s", seen.seconds));
+        } else {
+          static_assert(std::is_same_v<Seen, of::End>);
+          totals_.lines = std::max(totals_.lines, seen.lines);
+        }
+      },
+      event);
+}
+
+void Journey::sample(Duration t, const vm::Body& body) {
+  if (!sensors_.empty() && t - sensors_.entries().back().t < sensor_period)
+    return;
+  const auto acceleration = body.acceleration_g();
+  const auto rotation = body.rotation_deg_s();
+  sensors_.push(t, {{rounded(body.pitch_deg()), rounded(body.roll_deg()),
+                     rounded(1000 * acceleration.x), rounded(1000 * acceleration.y),
+                     rounded(1000 * acceleration.z), rounded(1000 * body.acceleration_total_g()),
+                     rounded(10 * rotation.x), rounded(10 * rotation.y), rounded(10 * rotation.z),
+                     rounded(100 * body.battery_v()), body.stabilized() ? 1 : 0}});
+}
+
+void Journey::finish(Duration t, std::string reason, std::string words) {
+  end_.t = t;
+  end_.reason = std::move(reason);
+  end_.words = std::move(words);
+}
+
+Journey::Listed Journey::listed() const {
+  Listed listed{first_, first_.size(), 0};
+  std::uint64_t total = 0;
+  for (const auto count : totals_.happenings)
+    total += count;
+  listed.left_out = total - first_.size() - last_.size();
+  listed.happenings.insert(listed.happenings.end(), last_.begin(), last_.end());
+  return listed;
+}
+
+bool Journey::thinned() const {
+  return poses_.quantum() > Duration{} || led_.quantum() > Duration{} ||
+         places_.quantum() > Duration{} || sensors_.quantum() > Duration{} ||
+         back_led_.quantum() > Duration{};
+}
+
+} // namespace orb::report

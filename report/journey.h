@@ -1,0 +1,172 @@
+#pragma once
+
+#include "base/time.h"
+#include "vm/observer.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace orb::report {
+
+/// Values over time in bounded memory: the first and the newest are always there; once `capacity`
+/// is reached, what lies between is kept in ever coarser steps.
+template <class Value>
+class Series {
+public:
+  struct Entry {
+    Duration t{};
+    Value value{};
+  };
+
+  explicit Series(std::size_t capacity) : capacity_(capacity) {}
+
+  void push(Duration t, Value value) {
+    insert(entries_, {t, value});
+    if (entries_.size() < capacity_)
+      return;
+    const auto span = entries_.back().t - entries_.front().t;
+    quantum_ = std::max(2 * quantum_, 4 * span / static_cast<std::int64_t>(capacity_));
+    std::vector<Entry> thinner;
+    for (const auto& entry : entries_)
+      insert(thinner, entry);
+    entries_ = std::move(thinner);
+  }
+
+  const std::vector<Entry>& entries() const { return entries_; }
+  bool empty() const { return entries_.empty(); }
+  /// The least distance between two entries; 0 while nothing was left out.
+  Duration quantum() const { return quantum_; }
+
+private:
+  void insert(std::vector<Entry>& into, const Entry& entry) const {
+    const auto size = into.size();
+    if (size >= 2 && into[size - 1].t - into[size - 2].t < quantum_)
+      into[size - 1] = entry;
+    else
+      into.push_back(entry);
+  }
+
+  std::size_t capacity_;
+  Duration quantum_{};
+  std::vector<Entry> entries_;
+};
+
+/// A place in the files of a run; line 0 is nowhere.
+struct Place {
+  int file = 0;
+  int line = 0;
+
+  friend auto operator<=>(const Place&, const Place&) = default;
+};
+
+/// What the body's sensors say at one moment, in the units that orbBasic reads.
+struct Sensors {
+  static constexpr std::size_t count = 11;
+  /// pitch, roll in deg; acceleration x, y, z and total in milli-g; rotation x, y, z in 0.1 deg/s;
+  /// battery in 1/100 V; stabilisation 0 or 1
+  std::array<std::int32_t, count> values{};
+};
+
+/// One entry of the list of what happened.
+struct Happening {
+  enum class Kind : std::uint8_t { Print, Error, Marker, Collision, Macro, Sleep };
+  static constexpr std::size_t kind_count = 6;
+
+  Duration t{};
+  Kind kind = Kind::Print;
+  std::string text;
+  std::string label; ///< a few characters to stand on the path
+  std::optional<vm::Pose> at;
+};
+
+/// What one run did, gathered from its events: enough for the report and the drawing. Totals and
+/// counts are exact; columns are thinned when a run is long.
+class Journey {
+public:
+  struct File {
+    std::string name;
+    std::string text;
+    std::vector<int> failed; ///< lines where the run faulted
+  };
+  struct Count {
+    std::uint64_t times = 0;
+    Duration first{};
+  };
+  struct Totals {
+    std::uint64_t lines = 0;
+    std::uint64_t commands = 0; ///< of macros
+    double distance_cm = 0;
+    double top_speed_cm_s = 0;
+    std::array<std::uint64_t, Happening::kind_count> happenings{};
+  };
+  struct End {
+    Duration t{};
+    std::string reason; ///< as in the trace
+    std::string words;  ///< a sentence for people
+    std::string fault;  ///< the error that ended it; empty for none. Filled in by the journey
+  };
+
+  Journey();
+
+  // Before the run.
+  int add_file(std::string name, std::string text);
+  void map_line(int robot_line, Place place);
+  void map_command(int macro, int command, Place place);
+  void add_wall(const vm::Wall& wall) { walls_.push_back(wall); }
+
+  // During the run: `t` counts from the start of the program.
+  void add(Duration t, const vm::Event& event);
+  /// Reads the sensors, at most every 20 ms.
+  void sample(Duration t, const vm::Body& body);
+  void finish(Duration t, std::string reason, std::string words);
+
+  const std::vector<File>& files() const { return files_; }
+  const std::map<Place, Count>& counts() const { return counts_; }
+  const Totals& totals() const { return totals_; }
+  const End& end() const { return end_; }
+  const std::vector<vm::Wall>& walls() const { return walls_; }
+  const Series<vm::Pose>& poses() const { return poses_; }
+  const Series<vm::Color>& led() const { return led_; }
+  const Series<int>& back_led() const { return back_led_; }
+  const Series<Place>& places() const { return places_; }
+  const Series<Sensors>& sensors() const { return sensors_; }
+
+  /// The happenings listed; where some were left out, `left_out` stand before index `gap_at`.
+  struct Listed {
+    std::vector<Happening> happenings;
+    std::size_t gap_at = 0;
+    std::uint64_t left_out = 0;
+  };
+  Listed listed() const;
+  /// Whether any column is coarser than the run was.
+  bool thinned() const;
+
+private:
+  void happen(Duration t, Happening::Kind kind, std::string text, std::string label = {});
+  void visit(Duration t, Place place);
+
+  std::vector<File> files_;
+  std::vector<vm::Wall> walls_;
+  std::map<int, Place> lines_;
+  std::map<std::pair<int, int>, Place> commands_;
+  std::map<Place, Count> counts_;
+  Totals totals_;
+  End end_;
+  Series<vm::Pose> poses_;
+  Series<vm::Color> led_;
+  Series<int> back_led_;
+  Series<Place> places_;
+  Series<Sensors> sensors_;
+  std::vector<Happening> first_;
+  std::deque<Happening> last_;
+  std::optional<vm::Pose> pose_;
+};
+
+} // namespace orb::report

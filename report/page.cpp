@@ -1,0 +1,306 @@
+#include "report/page.h"
+
+#include "base/utf8.h"
+#include "report/assets.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace orb::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Poses come this often while the ball moves (docs/ball.md); over a longer gap it stood still.
+constexpr Duration pose_period = std::chrono::milliseconds{50};
+
+std::int64_t microseconds(Duration t) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(t).count();
+}
+
+/// Whole numbers as differences: short, and exact when summed up again.
+template <class Entries, class Value>
+ordered_json column(const Entries& entries, Value value) {
+  auto list = ordered_json::array();
+  std::int64_t before = 0;
+  for (const auto& entry : entries) {
+    const std::int64_t now = value(entry);
+    list.push_back(now - before);
+    before = now;
+  }
+  return list;
+}
+
+template <class Entries>
+ordered_json times(const Entries& entries) {
+  return column(entries, [](const auto& entry) { return microseconds(entry.t); });
+}
+
+template <class Entries, class Value>
+ordered_json plain(const Entries& entries, Value value) {
+  auto list = ordered_json::array();
+  for (const auto& entry : entries)
+    list.push_back(value(entry));
+  return list;
+}
+
+std::int64_t scaled(double value, double scale) {
+  return std::llround(value * scale);
+}
+
+/// The bytes of a print as text: above 7Fh they count as U+00XX, as in the trace.
+std::string latin1(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xC0 | byte >> 6);
+      text += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return text;
+}
+
+std::string_view kind_name(Happening::Kind kind) {
+  switch (kind) {
+  case Happening::Kind::Print: return "print";
+  case Happening::Kind::Error: return "error";
+  case Happening::Kind::Marker: return "marker";
+  case Happening::Kind::Collision: return "collision";
+  case Happening::Kind::Macro: return "macro";
+  case Happening::Kind::Sleep: return "sleep";
+  }
+  return "";
+}
+
+ordered_json poses(const Journey& journey) {
+  const auto& entries = journey.poses().entries();
+  const auto by = [&](auto member, double scale) {
+    return column(entries, [&](const auto& entry) { return scaled(entry.value.*member, scale); });
+  };
+  return {{"step", microseconds(std::max(pose_period, journey.poses().quantum() + pose_period))},
+          {"t", times(entries)},
+          {"x", by(&vm::Pose::x_cm, 1000)},
+          {"y", by(&vm::Pose::y_cm, 1000)},
+          {"heading", by(&vm::Pose::heading_deg, 10)},
+          {"speed", by(&vm::Pose::speed_cm_s, 100)}};
+}
+
+ordered_json lamps(const Journey& journey) {
+  const auto& entries = journey.led().entries();
+  return {{"t", times(entries)}, {"rgb", plain(entries, [](const auto& entry) {
+                                    return entry.value.red << 16 | entry.value.green << 8 |
+                                           entry.value.blue;
+                                  })}};
+}
+
+ordered_json places(const Journey& journey) {
+  const auto& entries = journey.places().entries();
+  // Only where the line changes; a loop on one line is one entry.
+  std::vector<Series<Place>::Entry> changes;
+  for (const auto& entry : entries)
+    if (changes.empty() || changes.back().value != entry.value)
+      changes.push_back(entry);
+  return {{"t", times(changes)},
+          {"file", plain(changes, [](const auto& entry) { return entry.value.file; })},
+          {"line", plain(changes, [](const auto& entry) { return entry.value.line; })}};
+}
+
+ordered_json files(const Journey& journey) {
+  auto list = ordered_json::array();
+  for (const auto& file : journey.files()) {
+    auto counts = ordered_json::array();
+    const auto index = static_cast<int>(list.size());
+    for (const auto& [place, count] : journey.counts())
+      if (place.file == index)
+        counts.push_back({place.line, count.times, microseconds(count.first)});
+    list.push_back({{"name", to_valid_utf8(file.name)},
+                    {"text", to_valid_utf8(file.text)},
+                    {"counts", counts},
+                    {"failed", file.failed}});
+  }
+  return list;
+}
+
+ordered_json happenings(const Journey::Listed& listed) {
+  auto list = ordered_json::array();
+  for (const auto& happening : listed.happenings) {
+    const bool prints = happening.kind == Happening::Kind::Print;
+    ordered_json one = {{"t", microseconds(happening.t)},
+                        {"kind", kind_name(happening.kind)},
+                        {"text", prints ? latin1(happening.text) : happening.text}};
+    if (!happening.label.empty())
+      one["short"] = happening.label;
+    if (happening.at && happening.kind != Happening::Kind::Print) {
+      one["x"] = happening.at->x_cm;
+      one["y"] = happening.at->y_cm;
+    }
+    if (listed.left_out > 0 && list.size() == listed.gap_at)
+      one["gap"] = listed.left_out;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+struct Channel {
+  std::string_view name;
+  std::size_t index; ///< into Sensors::values
+};
+
+struct Group {
+  std::string_view id;
+  std::string_view name;
+  std::string_view unit;
+  int scale;
+  int digits;
+  std::array<Channel, 3> channels;
+  std::size_t channel_count;
+};
+
+constexpr auto groups = std::to_array<Group>({
+    {"tilt", "Tilt", "°", 1, 0, {{{"pitch", 0}, {"roll", 1}}}, 2},
+    {"acceleration", "Acceleration", "g", 1000, 3, {{{"x", 2}, {"y", 3}, {"z", 4}}}, 3},
+    {"accelone", "accelone", "", 1, 0, {{{"accelone", 5}}}, 1},
+    {"rotation", "Rotation", "°/s", 10, 1, {{{"x", 6}, {"y", 7}, {"z", 8}}}, 3},
+    {"battery", "Battery", "V", 100, 2, {{{"Vbatt", 9}}}, 1},
+});
+
+ordered_json sensors(const Journey& journey) {
+  auto list = ordered_json::array();
+  const auto& entries = journey.sensors().entries();
+  for (const auto& group : groups) {
+    auto series = ordered_json::array();
+    for (std::size_t i = 0; i < group.channel_count; ++i)
+      series.push_back({{"name", group.channels[i].name},
+                        {"scale", group.scale},
+                        {"digits", group.digits},
+                        {"v", column(entries, [&](const auto& entry) {
+                           return static_cast<std::int64_t>(
+                               entry.value.values[group.channels[i].index]);
+                         })}});
+    list.push_back({{"id", group.id},
+                    {"name", group.name},
+                    {"unit", group.unit},
+                    {"t", times(entries)},
+                    {"series", series}});
+  }
+  return list;
+}
+
+std::string thousands(std::uint64_t value) {
+  auto digits = std::to_string(value);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), ",");
+  return digits;
+}
+
+/// Whole milliseconds that have passed, as in the last line of `orb run`.
+std::string seconds(Duration t) {
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(t).count();
+  return fmt::format("{}.{:03} s", ms / 1000, ms % 1000);
+}
+
+std::string distance(double cm) {
+  return cm < 100 ? fmt::format("{:.1f} cm", cm) : fmt::format("{:.2f} m", cm / 100);
+}
+
+ordered_json totals(const Journey& journey) {
+  const auto& totals = journey.totals();
+  return ordered_json::array({
+      {"robot time", seconds(journey.end().t), "time"},
+      {"distance", distance(totals.distance_cm), "distance"},
+      {"top speed", fmt::format("{:.1f} cm/s", totals.top_speed_cm_s), "top-speed"},
+      totals.lines == 0 && totals.commands > 0
+          ? ordered_json{"commands run", thousands(totals.commands), "commands"}
+          : ordered_json{"lines run", thousands(totals.lines), "lines"},
+  });
+}
+
+ordered_json counts(const Journey& journey) {
+  ordered_json counts;
+  for (std::size_t i = 0; i < Happening::kind_count; ++i)
+    counts[std::string(kind_name(static_cast<Happening::Kind>(i)))] =
+        journey.totals().happenings[i];
+  return counts;
+}
+
+ordered_json walls(const Journey& journey) {
+  auto list = ordered_json::array();
+  for (const auto& wall : journey.walls())
+    list.push_back({{"axis", wall.axis == vm::Wall::Axis::X ? "x" : "y"}, {"at", wall.at_cm}});
+  return list;
+}
+
+std::string thinned_words(const Journey& journey, const Journey::Listed& listed) {
+  if (!journey.thinned() && listed.left_out == 0)
+    return "";
+  return "A run this long is drawn in coarser steps, and the list shows its first and last "
+         "events. Totals and line counts are exact; `orb run --trace json` has every value.";
+}
+
+std::string outcome(const Journey::End& end) {
+  return end.fault.empty() ? end.words : fmt::format("{}; {}", end.fault, end.words);
+}
+
+ordered_json run_data(const Journey& journey, std::string_view title) {
+  const auto listed = journey.listed();
+  return {{"schema", "orb.report/1"},
+          {"title", to_valid_utf8(title)},
+          {"end",
+           {{"t", microseconds(journey.end().t)},
+            {"reason", journey.end().reason},
+            {"text", outcome(journey.end())}}},
+          {"totals", totals(journey)},
+          {"counts", counts(journey)},
+          {"thinned", thinned_words(journey, listed)},
+          {"files", files(journey)},
+          {"walls", walls(journey)},
+          {"pose", poses(journey)},
+          {"led", lamps(journey)},
+          {"backled",
+           {{"t", times(journey.back_led().entries())},
+            {"value",
+             plain(journey.back_led().entries(), [](const auto& entry) { return entry.value; })}}},
+          {"line", places(journey)},
+          {"sensors", sensors(journey)},
+          {"events", happenings(listed)}};
+}
+
+/// JSON that may stand in a script element: no `<`, so no end tag and no comment can be in it.
+std::string script_safe(const ordered_json& data) {
+  const auto text = data.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+} // namespace
+
+std::string report_page(const Journey& journey, std::string_view title) {
+  std::string_view rest = page_html;
+  std::string page;
+  const auto fill = [&](std::string_view place, std::string_view with) {
+    const auto at = rest.find(place);
+    page += rest.substr(0, at);
+    page += with;
+    rest.remove_prefix(at + place.size());
+  };
+  fill("/*{style}*/", page_css);
+  fill("/*{run}*/", script_safe(run_data(journey, title)));
+  fill("/*{script}*/", page_js);
+  return page += rest;
+}
+
+} // namespace orb::report

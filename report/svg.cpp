@@ -1,0 +1,306 @@
+#include "report/svg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace orb::report {
+namespace {
+
+constexpr double card_width = 480;
+constexpr double card_height_max = 480;
+constexpr double card_height_min = 200;
+constexpr double margin = 44;
+constexpr double least_span_cm = 20;
+
+struct Point {
+  double x = 0;
+  double y = 0;
+};
+
+/// From centimetres (y up) to the card (y down).
+struct Frame {
+  double scale = 1;
+  Point origin; ///< where 0,0 lies on the card
+  double height = card_width;
+
+  Point operator()(const vm::Pose& pose) const {
+    return {origin.x + pose.x_cm * scale, origin.y - pose.y_cm * scale};
+  }
+};
+
+/// A tenth of a unit, without a sign before zero: enough for a drawing, and the same everywhere.
+std::string number(double value) {
+  const auto tenths = std::llround(value * 10);
+  if (tenths % 10 == 0)
+    return std::to_string(tenths / 10);
+  return fmt::format("{}{}.{}", tenths < 0 ? "-" : "", std::abs(tenths / 10),
+                     std::abs(tenths % 10));
+}
+
+std::string at(Point point) {
+  return number(point.x) + " " + number(point.y);
+}
+
+std::string color_name(vm::Color color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
+}
+
+bool lit(vm::Color color) {
+  return !(color == vm::Color{});
+}
+
+vm::Color color_at(const Journey& journey, Duration t) {
+  const auto& entries = journey.led().entries();
+  const auto after =
+      std::upper_bound(entries.begin(), entries.end(), t,
+                       [](Duration when, const auto& entry) { return when < entry.t; });
+  return after == entries.begin() ? vm::Color{} : std::prev(after)->value;
+}
+
+/// What the ball showed last; a program's end puts its colour out.
+vm::Color last_lit(const Journey& journey) {
+  const auto& entries = journey.led().entries();
+  const auto found = std::find_if(entries.rbegin(), entries.rend(),
+                                  [](const auto& entry) { return lit(entry.value); });
+  return found == entries.rend() ? vm::Color{} : found->value;
+}
+
+struct Extent {
+  double left = 0;
+  double right = 0;
+  double low = 0;
+  double high = 0;
+};
+
+Extent extent(const Journey& journey) {
+  Extent box;
+  bool first = true;
+  for (const auto& entry : journey.poses().entries()) {
+    const auto& pose = entry.value;
+    if (first)
+      box = {pose.x_cm, pose.x_cm, pose.y_cm, pose.y_cm};
+    first = false;
+    box.left = std::min(box.left, pose.x_cm);
+    box.right = std::max(box.right, pose.x_cm);
+    box.low = std::min(box.low, pose.y_cm);
+    box.high = std::max(box.high, pose.y_cm);
+  }
+  return box;
+}
+
+bool moved(const Extent& box) {
+  return box.right - box.left > 1 || box.high - box.low > 1;
+}
+
+Frame frame_for(const Extent& box) {
+  const double wide = std::max(box.right - box.left, least_span_cm);
+  const double tall = std::max(box.high - box.low, least_span_cm);
+  Frame frame;
+  frame.scale = std::min((card_width - 2 * margin) / wide, (card_height_max - 2 * margin) / tall);
+  frame.height =
+      std::clamp(std::ceil(tall * frame.scale + 2 * margin), card_height_min, card_height_max);
+  frame.origin = {card_width / 2 - (box.left + box.right) / 2 * frame.scale,
+                  frame.height / 2 + (box.low + box.high) / 2 * frame.scale};
+  return frame;
+}
+
+/// 1, 2 or 5 times a power of ten, so that lines stand at least 40 units apart.
+double grid_step_cm(double scale) {
+  double power = 1;
+  while (power * scale * 10 < 40)
+    power *= 10;
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power * scale >= 40)
+      return factor * power;
+  return 10 * power;
+}
+
+std::string grid(const Frame& frame) {
+  const double step = grid_step_cm(frame.scale);
+  std::string d;
+  const auto first_x = std::lround(std::ceil(-frame.origin.x / frame.scale / step));
+  const auto last_x = std::lround(std::floor((card_width - frame.origin.x) / frame.scale / step));
+  for (auto n = first_x; n <= last_x; ++n)
+    d += fmt::format("M{} 0V{}",
+                     number(frame.origin.x + static_cast<double>(n) * step * frame.scale),
+                     number(frame.height));
+  const auto first_y = std::lround(std::ceil((frame.origin.y - frame.height) / frame.scale / step));
+  const auto last_y = std::lround(std::floor(frame.origin.y / frame.scale / step));
+  for (auto n = first_y; n <= last_y; ++n)
+    d += fmt::format("M0 {}H{}",
+                     number(frame.origin.y - static_cast<double>(n) * step * frame.scale),
+                     number(card_width));
+  const double length = step * frame.scale;
+  const auto words = step >= 100 ? fmt::format("{:g} m", step / 100) : fmt::format("{:g} cm", step);
+  return fmt::format("<path class=\"grid\" d=\"{}\"/>\n"
+                     "<path class=\"scale\" d=\"M{} {}v5h{}v-5\"/>\n"
+                     "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+                     d, number(card_width - 14 - length), number(frame.height - 17), number(length),
+                     number(card_width - 14 - length / 2), number(frame.height - 20), words);
+}
+
+std::string walls(const Journey& journey, const Frame& frame) {
+  std::string out;
+  for (const auto& wall : journey.walls()) {
+    if (wall.axis == vm::Wall::Axis::X)
+      out += fmt::format("<path class=\"wall\" d=\"M{} 0V{}\"/>\n",
+                         number(frame.origin.x + wall.at_cm * frame.scale), number(frame.height));
+    else
+      out += fmt::format("<path class=\"wall\" d=\"M0 {}H{}\"/>\n",
+                         number(frame.origin.y - wall.at_cm * frame.scale), number(card_width));
+  }
+  return out;
+}
+
+std::string path(const Journey& journey, const Frame& frame) {
+  const auto& poses = journey.poses().entries();
+  std::string outline;
+  std::string unlit;
+  std::string out; // lit stretches lie above unlit ones
+  std::string open;
+  vm::Color color;
+  std::string here;
+  const auto close = [&] {
+    if (open.empty())
+      return;
+    if (lit(color)) {
+      outline += open;
+      out +=
+          fmt::format("<path class=\"path\" stroke=\"{}\" d=\"{}\"/>\n", color_name(color), open);
+    } else {
+      unlit += fmt::format("<path class=\"path unlit\" d=\"{}\"/>\n", open);
+    }
+    open.clear();
+  };
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto next = at(frame(poses[i].value));
+    if (i > 0 && next != here) {
+      const auto shows = color_at(journey, poses[i - 1].t);
+      if (open.empty() || !(shows == color)) {
+        close();
+        open = "M" + here;
+        color = shows;
+      }
+      open += "L" + next;
+    }
+    here = next;
+  }
+  close();
+  if (!outline.empty())
+    unlit += fmt::format("<path class=\"outline\" d=\"{}\"/>\n", outline);
+  return unlit + out;
+}
+
+std::string marks(const Journey& journey, const Frame& frame) {
+  std::string out;
+  for (const auto& happening : journey.listed().happenings) {
+    if (!happening.at)
+      continue;
+    const auto where = frame(*happening.at);
+    if (happening.kind == Happening::Kind::Collision)
+      out += fmt::format("<path class=\"hit\" d=\"M{}l10 10m0 -10l-10 10\"/>\n",
+                         at({where.x - 5, where.y - 5}));
+    if (happening.kind == Happening::Kind::Marker)
+      out += fmt::format("<path class=\"marker\" d=\"M{}l6 6l-6 6l-6 -6z\"/>\n",
+                         at({where.x, where.y - 6}));
+    if (happening.kind == Happening::Kind::Error)
+      out +=
+          fmt::format("<path class=\"fault\" d=\"M{}l8 14h-16z\"/>\n", at({where.x, where.y - 8}));
+  }
+  return out;
+}
+
+std::string ball(Point where, double radius, vm::Color color) {
+  const auto x = number(where.x);
+  const auto y = number(where.y);
+  auto out =
+      fmt::format("<circle class=\"ball\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", x, y, number(radius));
+  if (lit(color))
+    out += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"/>\n", x, y,
+                       number(radius - 1), color_name(color));
+  return out + fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"url(#shine)\"/>\n", x, y,
+                           number(radius));
+}
+
+/// A point on a circle round `center`; 0 is at the top, 1 a whole turn clockwise.
+Point on_circle(Point center, double radius, double share) {
+  const double angle = share * 2 * 3.14159265358979323846;
+  return {center.x + radius * std::sin(angle), center.y - radius * std::cos(angle)};
+}
+
+/// The colours over time as a ring: the picture of a ball that stayed where it was.
+std::string ring(const Journey& journey, Point center, double radius) {
+  const auto& entries = journey.led().entries();
+  const auto end = std::max(journey.end().t, Duration{1});
+  auto out = fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n",
+                         number(center.x), number(center.y), number(radius));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (!lit(entries[i].value) || entries[i].t >= end)
+      continue;
+    const auto until = i + 1 < entries.size() ? std::min(entries[i + 1].t, end) : end;
+    const double from =
+        static_cast<double>(entries[i].t.count()) / static_cast<double>(end.count());
+    const double to = static_cast<double>(until.count()) / static_cast<double>(end.count());
+    const auto first = at(on_circle(center, radius, from));
+    // Two halves, because an arc cannot be a whole circle.
+    const auto middle = at(on_circle(center, radius, (from + to) / 2));
+    const auto last = at(on_circle(center, radius, to));
+    if (first == last && to - from < 0.5)
+      continue;
+    out += fmt::format(
+        "<path class=\"arc\" stroke=\"{0}\" d=\"M{1}A{4} {4} 0 0 1 {2}A{4} {4} 0 0 1 {3}\"/>\n",
+        color_name(entries[i].value), first, middle, last, number(radius));
+  }
+  return out + fmt::format("<path class=\"scale\" d=\"M{}v-20\"/>\n",
+                           at({center.x, center.y - radius + 10}));
+}
+
+constexpr std::string_view style = R"(<style>
+.card{fill:#fbfdfe}.grid{stroke:#dfe8ee;fill:none}.scale{stroke:#14212b;stroke-width:1.5;fill:none}
+text{font:600 11px system-ui,sans-serif;fill:#14212b}.wall{stroke:#536472;stroke-width:4}
+.path,.outline{fill:none;stroke-linecap:round;stroke-linejoin:round;stroke-width:3.5}
+.outline{stroke:#14212b;stroke-opacity:.5;stroke-width:5.5}.unlit{stroke:#8c9ba7}
+.start{fill:none;stroke:#14212b;stroke-width:2}.hit{stroke:#b3261e;stroke-width:2.4;fill:none}
+.marker{fill:#fbfdfe;stroke:#14212b;stroke-width:1.6}.fault{fill:#b3261e}
+.ball{fill:#d9e2e8;stroke:#5d6e7b;stroke-width:1.5}.ring,.arc{fill:none;stroke-width:16}.ring{stroke:#dfe8ee}
+@media (prefers-color-scheme:dark){.card{fill:#10171d}.grid,.ring{stroke:#1e2a34}.scale,.start{stroke:#e4ecf1}
+text{fill:#e4ecf1}.wall{stroke:#91a2af}.outline{stroke:#000}.unlit{stroke:#586a77}.hit{stroke:#ff8a7f}
+.marker{fill:#10171d;stroke:#e4ecf1}.fault{fill:#ff8a7f}.ball{fill:#26333d;stroke:#7b8d9a}}
+</style>
+<defs><radialGradient id="shine" cx=".36" cy=".3" r=".75"><stop offset="0" stop-color="#fff" stop-opacity=".85"/><stop offset=".45" stop-color="#fff" stop-opacity=".1"/><stop offset="1" stop-color="#000" stop-opacity=".25"/></radialGradient></defs>
+)";
+
+std::string picture(const Journey& journey, double* height) {
+  const auto box = extent(journey);
+  const auto& poses = journey.poses().entries();
+  const auto last = last_lit(journey);
+  if (!moved(box)) {
+    *height = 240;
+    const Point center{card_width / 2, *height / 2};
+    return ring(journey, center, 78) + ball(center, 44, last);
+  }
+  const auto frame = frame_for(box);
+  *height = frame.height;
+  const auto start = frame(poses.front().value);
+  return grid(frame) + walls(journey, frame) + path(journey, frame) +
+         fmt::format("<circle class=\"start\" cx=\"{}\" cy=\"{}\" r=\"8\"/>\n", number(start.x),
+                     number(start.y)) +
+         marks(journey, frame) + ball(frame(poses.back().value), 10, last);
+}
+
+} // namespace
+
+std::string path_svg(const Journey& journey) {
+  double height = 0;
+  const auto body = picture(journey, &height);
+  const auto width = number(card_width);
+  const auto tall = number(height);
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
+                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}"
+                     "<rect class=\"card\" width=\"{0}\" height=\"{1}\" rx=\"10\"/>\n{3}</svg>\n",
+                     width, tall, style, body);
+}
+
+} // namespace orb::report

@@ -1,0 +1,176 @@
+#include "report/trace.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace orb::report {
+
+namespace {
+
+/// The columns behind `t` and `event`: every key in the order in which the events name them.
+constexpr std::array<std::string_view, 23> columns{
+    "r",      "g",     "b",       "heading", "speed", "go",      "x",      "y",
+    "marker", "macro", "command", "line",    "code",  "message", "reason", "lines",
+    "text",   "value", "axis",    "xmag",    "ymag",  "seconds", "id",
+};
+
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+/// Text of the robot as JSON: bytes above 7Fh are U+0080 to U+00FF.
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else if (c == '\n')
+      out += "\\n";
+    else if (byte < 0x20 || byte >= 0x7F)
+      fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+/// The same as one field of CSV; the bytes become UTF-8.
+std::string csv_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"')
+      out += "\"\"";
+    else if (byte >= 0x80) {
+      out += static_cast<char>(0xC0 | byte >> 6);
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    } else
+      out += c;
+  }
+  return out + '"';
+}
+
+std::string number(double value) {
+  // Two decimals: a tenth of a millimetre. No sign before zero.
+  auto text = fmt::format("{:.2f}", value);
+  return text == "-0.00" ? "0.00" : text;
+}
+
+std::string milliseconds(Duration t) {
+  const auto microseconds = t / std::chrono::microseconds{1};
+  return fmt::format("{}.{:03}", microseconds / 1000, microseconds % 1000);
+}
+
+std::string printed(TraceFormat format, const TraceField& field) {
+  return std::visit(Overloaded{
+                        [](std::int64_t value) { return fmt::format("{}", value); },
+                        [](double value) { return number(value); },
+                        [&](const std::string& value) {
+                          return format == TraceFormat::Json ? json_string(value)
+                                                             : csv_string(value);
+                        },
+                    },
+                    field.value);
+}
+
+} // namespace
+
+std::string trace_head(TraceFormat format) {
+  if (format == TraceFormat::Json)
+    return {};
+  std::string head = "t,event";
+  for (const auto column : columns)
+    (head += ',') += column;
+  return head + '\n';
+}
+
+std::string trace_line(TraceFormat format, Duration t, std::string_view event,
+                       const std::vector<TraceField>& fields) {
+  std::string out;
+  if (format == TraceFormat::Json) {
+    out = fmt::format("{{\"t\":{},\"event\":\"{}\"", milliseconds(t), event);
+    for (const auto& field : fields)
+      fmt::format_to(std::back_inserter(out), ",\"{}\":{}", field.key, printed(format, field));
+    return out + "}\n";
+  }
+  out = fmt::format("{},{}", milliseconds(t), event);
+  for (const auto column : columns) {
+    out += ',';
+    const auto field = std::find_if(fields.begin(), fields.end(),
+                                    [&](const auto& candidate) { return candidate.key == column; });
+    if (field != fields.end())
+      out += printed(format, *field);
+  }
+  return out + '\n';
+}
+
+std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
+  namespace e = vm::event;
+  using Fields = std::vector<TraceField>;
+  const auto n = [](int value) { return std::int64_t{value}; };
+  const auto line = [&](std::string_view name, const Fields& fields) {
+    return trace_line(format, t, name, fields);
+  };
+  return std::visit(
+      Overloaded{
+          [&](const e::Print& x) {
+            return line("print", {{"text", x.text}});
+          },
+          [&](const e::Error& x) {
+            return line("error", {{"line", n(x.line)},
+                                  {"code", n(spec::code(x.code))},
+                                  {"message", std::string(spec::info(x.code).text)}});
+          },
+          [&](const e::Led& x) {
+            return line("led",
+                        {{"r", n(x.color.red)}, {"g", n(x.color.green)}, {"b", n(x.color.blue)}});
+          },
+          [&](const e::BackLed& x) {
+            return line("backled", {{"value", n(x.value)}});
+          },
+          [&](const e::Drive& x) {
+            return line("drive", {{"heading", n(x.roll.heading_deg)},
+                                  {"speed", n(x.roll.speed)},
+                                  {"go", n(static_cast<int>(x.roll.go))}});
+          },
+          [&](const e::Position& x) {
+            return line("pose", {{"x", x.pose.x_cm},
+                                 {"y", x.pose.y_cm},
+                                 {"heading", x.pose.heading_deg},
+                                 {"speed", x.pose.speed_cm_s}});
+          },
+          [&](const e::Marker& x) {
+            return line(
+                "marker",
+                {{"marker", n(x.marker)}, {"macro", n(x.macro)}, {"command", n(x.command)}});
+          },
+          [&](const e::Macro& x) {
+            return line("macro", {{"id", n(x.id)}, {"command", n(x.command)}});
+          },
+          [&](const e::Line& x) {
+            return line("line", {{"line", n(x.line)}});
+          },
+          [&](const e::Collision& x) {
+            return line("collision", {{"x", n(x.x)},
+                                      {"y", n(x.y)},
+                                      {"axis", n(x.axis)},
+                                      {"xmag", n(x.x_magnitude)},
+                                      {"ymag", n(x.y_magnitude)},
+                                      {"speed", n(x.speed)}});
+          },
+          [&](const e::Sleep& x) {
+            return line("sleep",
+                        {{"seconds", n(x.seconds)}, {"macro", n(x.macro)}, {"line", n(x.line)}});
+          },
+          [&](const e::End&) { return std::string(); },
+      },
+      event);
+}
+
+} // namespace orb::report

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "base/files.h"
+#include "protocol/fault.h"
+#include "vm/ball.h"
+#include "vm/stimulus.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace orb::serve {
+
+/// Where and how balls are served.
+struct ServeOptions {
+  struct Tcp {
+    std::string host;
+    std::uint16_t port = 0; ///< 0 picks a free one; several balls count up
+  };
+  std::optional<Tcp> tcp;
+  bool pty = false;
+  std::string pty_link; ///< a symlink to the slave; empty for none
+  int count = 1;
+  double speed = 1; ///< seconds of the ball per second
+  vm::BallOptions ball;
+  std::vector<vm::TimedStimulus> stimulus;
+  std::optional<protocol::FaultPlan> fault;
+  std::string state_file;                         ///< empty for none
+  std::string log_file;                           ///< a recording; empty for none
+  std::function<void(std::string_view)> announce; ///< hears a line per link once all are open
+};
+
+/// Serves balls until SIGINT or SIGTERM. Fails when a
+/// link, the state or the log cannot be opened, or the state cannot be kept.
+tl::expected<void, IoError> serve(const ServeOptions& options);
+
+} // namespace orb::serve

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "editor/server.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace orb::editor {
+
+/// A scripted editor: speaks to a server in this process and keeps what it answered.
+class LspClient {
+public:
+  using Json = nlohmann::json;
+
+  LspClient() = default;
+  /// Starts a session in which a character is counted in `encoding`.
+  explicit LspClient(const std::string& encoding) {
+    request("initialize", {{"capabilities", {{"general", {{"positionEncodings", {encoding}}}}}}});
+    notify("initialized", Json::object());
+  }
+
+  /// Sends a request; returns the whole response.
+  Json request(const std::string& method, Json params) {
+    const int id = ++last_id_;
+    const auto messages =
+        send({{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", std::move(params)}});
+    for (const auto& message : messages)
+      if (message.contains("id") && message["id"] == id)
+        return message;
+    return nullptr;
+  }
+  std::vector<Json> notify(const std::string& method, Json params) {
+    return send({{"jsonrpc", "2.0"}, {"method", method}, {"params", std::move(params)}});
+  }
+  std::vector<Json> send(const Json& message) { return send_text(message.dump()); }
+  std::vector<Json> send_text(const std::string& text) {
+    std::vector<Json> messages;
+    for (const auto& out : server_.receive(text)) {
+      messages.push_back(Json::parse(out));
+      if (messages.back().value("method", "") == "textDocument/publishDiagnostics")
+        diagnostics = messages.back()["params"]["diagnostics"];
+    }
+    return messages;
+  }
+
+  void open(const std::string& text, const std::string& name = uri) {
+    notify("textDocument/didOpen",
+           {{"textDocument", {{"uri", name}, {"languageId", ""}, {"version", 1}, {"text", text}}}});
+  }
+  /// A request about a place of the open document.
+  Json at(const std::string& method, int line, int character, Json more = Json::object(),
+          const std::string& name = uri) {
+    more["textDocument"]["uri"] = name;
+    more["position"] = {{"line", line}, {"character", character}};
+    return request("textDocument/" + method, std::move(more))["result"];
+  }
+  /// The codes of the latest findings.
+  std::vector<std::string> codes() const {
+    std::vector<std::string> found;
+    for (const auto& one : diagnostics)
+      found.push_back(one.value("code", ""));
+    return found;
+  }
+
+  inline static const std::string uri = "file:///square.bas";
+  Json diagnostics;
+  LanguageServer& server() { return server_; }
+
+private:
+  LanguageServer server_;
+  int last_id_ = 0;
+};
+
+inline nlohmann::json json_range(int line, int from, int to) {
+  return {{"start", {{"line", line}, {"character", from}}},
+          {"end", {{"line", line}, {"character", to}}}};
+}
+
+} // namespace orb::editor

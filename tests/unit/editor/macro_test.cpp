@@ -1,0 +1,150 @@
+// What an editor may ask about macro source.
+
+#include "assembler/parse.h"
+#include "editor/directives.h"
+#include "tests/unit/editor/client.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace orb::editor {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string macro_uri = "file:///dance.macro";
+
+// Columns below count in this text.
+constexpr auto program = ".const fast = 200\n"               // 0
+                         ".macro dance id=40 flags=endsig\n" // 1
+                         "  roll fast, 90, delay=200ms\n"    // 2
+                         "  stabilization off\n"             // 3
+                         "  gosub turn\n"                    // 4
+                         "  goto 41 # turn\n"                // 5
+                         ".macro turn id=41\n"               // 6
+                         "  rotate 90, 500ms\n";             // 7
+
+struct Session : LspClient {
+  explicit Session(const std::string& text = program) : LspClient("utf-8") {
+    open(text, macro_uri);
+  }
+
+  Json ask(const std::string& method, int line, int character, Json more = Json::object()) {
+    return at(method, line, character, std::move(more), macro_uri);
+  }
+  std::string hover(int line, int character) {
+    const auto found = ask("hover", line, character);
+    return found.is_null() ? "" : found["contents"]["value"].get<std::string>();
+  }
+  bool suggests(int line, int character, const std::string& label) {
+    const auto found = ask("completion", line, character);
+    return std::any_of(found["items"].begin(), found["items"].end(),
+                       [&](const Json& item) { return item["label"] == label; });
+  }
+  static std::string places(const Json& list) {
+    std::string out;
+    for (const auto& one : list) {
+      const auto& range = one["range"];
+      out += (out.empty() ? "" : " ") + range["start"]["line"].dump() + ":" +
+             range["start"]["character"].dump() + "-" + range["end"]["character"].dump();
+    }
+    return out;
+  }
+  std::string renamed(int line, int character, const std::string& name) {
+    const auto response =
+        request("textDocument/rename", {{"textDocument", {{"uri", macro_uri}}},
+                                        {"position", {{"line", line}, {"character", character}}},
+                                        {"newName", name}});
+    return response.contains("error") ? response["error"]["message"].get<std::string>()
+                                      : places(response["result"]["changes"][macro_uri]);
+  }
+};
+
+bool has(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(LspMacro, FindingsComeFromAssemblerAndLinter) {
+  Session session("rol 1, 2\nloop_end\n");
+  const auto codes = session.codes();
+  EXPECT_NE(std::find(codes.begin(), codes.end(), "macro-unknown-command"), codes.end());
+  EXPECT_NE(std::find(codes.begin(), codes.end(), "macro-loop-end"), codes.end());
+}
+
+TEST(LspMacro, HoverKnowsCommandsOperandsFlagsNamesAndDirectives) {
+  Session session;
+  EXPECT_TRUE(has(session.hover(2, 3), "rolls at a speed along a heading"));
+  EXPECT_TRUE(has(session.hover(2, 14), "heading")) << session.hover(2, 14);
+  EXPECT_TRUE(has(session.hover(2, 14), "0 to 359")) << session.hover(2, 14);
+  EXPECT_TRUE(has(session.hover(3, 17), "`off` is 0")) << session.hover(3, 17);
+  EXPECT_TRUE(has(session.hover(2, 8), ".const fast = 200"));
+  EXPECT_TRUE(has(session.hover(1, 2), "begins a macro"));
+  EXPECT_TRUE(has(session.hover(1, 27), "marker 0"));
+  EXPECT_EQ(session.hover(5, 14), ""); // a remark
+}
+
+TEST(LspMacro, CompletionFollowsThePlaceInTheLine) {
+  Session session(
+      ".const fast = 200\n.macro dance id=40 \n  \n  roll \n  roll speed=\n"
+      "  gosub \n  stabilization \n.macro turn flags=endsig,\n  # ro\n  comment \"ro\n");
+  EXPECT_TRUE(session.suggests(2, 2, "roll"));
+  EXPECT_TRUE(session.suggests(2, 2, ".macro"));
+  EXPECT_TRUE(session.suggests(1, 19, "flags="));
+  EXPECT_TRUE(session.suggests(3, 7, "fast"));
+  EXPECT_TRUE(session.suggests(3, 7, "heading="));
+  EXPECT_FALSE(session.suggests(3, 7, "roll"));
+  EXPECT_TRUE(session.suggests(4, 13, "fast"));
+  EXPECT_FALSE(session.suggests(4, 13, "heading="));
+  EXPECT_TRUE(session.suggests(5, 8, "dance"));
+  EXPECT_TRUE(session.suggests(6, 16, "on_without_reset"));
+  EXPECT_TRUE(session.suggests(7, 25, "motor_control"));
+  EXPECT_FALSE(session.suggests(8, 6, "roll"));
+  EXPECT_FALSE(session.suggests(9, 13, "roll"));
+}
+
+TEST(LspMacro, NamesLeadToTheirDefinitions) {
+  Session session;
+  EXPECT_EQ(Session::places(session.ask("definition", 4, 9)), "6:7-11");
+  EXPECT_EQ(Session::places(session.ask("definition", 5, 8)), "6:7-11"); // by its id
+  EXPECT_EQ(Session::places(session.ask("references", 6, 8)), "6:7-11 4:8-12");
+  EXPECT_EQ(Session::places(session.ask("references", 2, 8)), "0:7-11 2:7-11");
+}
+
+TEST(LspMacro, RenameChangesANameEverywhere) {
+  Session session;
+  EXPECT_EQ(session.renamed(4, 9, "spin"), "4:8-12 6:7-11");
+  EXPECT_EQ(session.renamed(4, 9, "fast"), "`fast` is in use already");
+  EXPECT_EQ(session.renamed(4, 9, "4th"),
+            "a name is letters, digits and `_`, and begins with no digit");
+  EXPECT_EQ(session.renamed(5, 8, "spin"), "here is no name of a macro or a constant");
+}
+
+TEST(LspMacro, OutlineListsTheMacros) {
+  Session session;
+  const auto symbols = session.request("textDocument/documentSymbol",
+                                       {{"textDocument", {{"uri", macro_uri}}}})["result"];
+  ASSERT_EQ(symbols.size(), 2U);
+  EXPECT_EQ(symbols[0]["name"], "dance");
+  EXPECT_EQ(symbols[0]["detail"], "macro 40");
+  EXPECT_EQ(symbols[0]["range"]["end"]["line"], 6);
+}
+
+TEST(LspMacro, FormattingIndents) {
+  Session session(".macro a id=40\nroll 1,2\n");
+  const auto edits = session.request("textDocument/formatting",
+                                     {{"textDocument", {{"uri", macro_uri}}}})["result"];
+  ASSERT_EQ(edits.size(), 1U);
+  EXPECT_EQ(edits[0]["newText"], ".macro a id=40\n  roll 1, 2\n");
+}
+
+TEST(LspMacro, DirectivesAreThoseOfTheAssembler) {
+  for (const auto& row : macro_directives) {
+    const auto text = "." + std::string(row.word) + "\n";
+    const auto parsed = assembler::parse(text);
+    EXPECT_TRUE(parsed.diagnostics.empty()) << text;
+    EXPECT_EQ(parsed.statements.size(), 1U) << text;
+  }
+}
+
+} // namespace
+} // namespace orb::editor

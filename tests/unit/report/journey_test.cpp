@@ -1,0 +1,127 @@
+#include "report/journey.h"
+#include "report/page.h"
+#include "report/svg.h"
+
+#include <gtest/gtest.h>
+
+namespace orb::report {
+namespace {
+
+namespace event = vm::event;
+using Entry = Series<int>::Entry;
+
+constexpr Duration ms(std::int64_t count) {
+  return std::chrono::milliseconds{count};
+}
+
+TEST(Series, KeepsEverythingUntilItIsFull) {
+  Series<int> series(10);
+  for (int i = 0; i < 9; ++i)
+    series.push(ms(i), i);
+  ASSERT_EQ(series.entries().size(), 9U);
+  EXPECT_EQ(series.quantum(), Duration{});
+  EXPECT_EQ(series.entries()[4].value, 4);
+}
+
+TEST(Series, StaysBoundedAndKeepsItsEnds) {
+  Series<int> series(100);
+  for (int i = 0; i < 100'000; ++i) {
+    series.push(ms(i), i);
+    ASSERT_LE(series.entries().size(), 100U);
+    ASSERT_EQ(series.entries().back().value, i);
+  }
+  EXPECT_EQ(series.entries().front().value, 0);
+  EXPECT_GT(series.entries().size(), 20U);
+  for (std::size_t i = 1; i + 1 < series.entries().size(); ++i)
+    EXPECT_GE(series.entries()[i].t - series.entries()[i - 1].t, series.quantum());
+}
+
+Journey square() {
+  Journey journey;
+  const int file = journey.add_file("square.bas", "10 goroll 0,90,1\n20 print \"</script>\"\n");
+  journey.map_line(10, {file, 1});
+  journey.map_line(20, {file, 2});
+  journey.add(ms(0), event::Led{{255, 0, 0}});
+  journey.add(ms(1), event::Line{10});
+  journey.add(ms(50), event::Position{{0, 10, 0, 20}});
+  journey.add(ms(100), event::Led{{0, 0, 255}});
+  journey.add(ms(100), event::Position{{30, 10, 90, 25}});
+  journey.add(ms(120), event::Print{"</script>\n"});
+  journey.add(ms(120), event::Line{20});
+  journey.add(ms(150), event::Position{{30, -30, 180, 10}});
+  journey.add(ms(150), event::Collision{1, 2, 3, 4, 5, 6});
+  journey.add(ms(160), event::End{event::End::Reason::End, 2});
+  journey.finish(ms(160), "end", "ended");
+  return journey;
+}
+
+TEST(Journey, AddsUp) {
+  const auto journey = square();
+  EXPECT_EQ(journey.totals().lines, 2U);
+  EXPECT_DOUBLE_EQ(journey.totals().distance_cm, 70);
+  EXPECT_DOUBLE_EQ(journey.totals().top_speed_cm_s, 25);
+  EXPECT_EQ(journey.counts().at({0, 1}).times, 1U);
+  EXPECT_EQ(journey.counts().at({0, 2}).first, ms(120));
+  EXPECT_FALSE(journey.thinned());
+}
+
+TEST(Journey, ListsTheFirstAndTheLastOfManyEvents) {
+  Journey journey;
+  for (int i = 0; i < 5000; ++i)
+    journey.add(ms(i), event::Print{std::to_string(i)});
+  const auto listed = journey.listed();
+  ASSERT_EQ(listed.happenings.size(), 2000U);
+  EXPECT_EQ(listed.left_out, 3000U);
+  EXPECT_EQ(listed.happenings[listed.gap_at].text, "4000");
+  EXPECT_EQ(listed.happenings.back().text, "4999");
+}
+
+TEST(Journey, CutsLongPrints) {
+  Journey journey;
+  journey.add(ms(0), event::Print{std::string(100'000, 'x')});
+  EXPECT_EQ(journey.listed().happenings.front().text.size(), 200U);
+}
+
+TEST(Report, NoTextOfAProgramEndsItsScript) {
+  const auto page = report_page(square(), "</script><!--");
+  std::size_t ends = 0;
+  for (auto at = page.find("</script>"); at != std::string::npos;
+       at = page.find("</script>", at + 1))
+    ++ends;
+  EXPECT_EQ(ends, 2U); // the data's and the script's own
+  EXPECT_EQ(page.find("<!--"), std::string::npos);
+  EXPECT_EQ(page.find("/*{"), std::string::npos) << "a place was not filled";
+}
+
+TEST(Report, BytesThatAreNotTextSurvive) {
+  Journey journey;
+  journey.add_file("\xFF.bas", "10 print \"\xFE\"\n");
+  journey.add(ms(0), event::Print{"\xE4\x00\x1B"});
+  journey.finish(ms(1), "end", "");
+  EXPECT_NE(report_page(journey, "\xFF").find("\\u00e4"), std::string::npos);
+}
+
+TEST(Svg, DrawsEachStretchInTheColourOfItsMoment) {
+  const auto svg = path_svg(square());
+  EXPECT_NE(svg.find("stroke=\"#ff0000\""), std::string::npos);
+  EXPECT_NE(svg.find("stroke=\"#0000ff\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"hit\""), std::string::npos);
+  EXPECT_EQ(svg, path_svg(square()));
+}
+
+TEST(Svg, DrawsARingForABallThatStayed) {
+  Journey journey;
+  journey.add(ms(0), event::Led{{255, 0, 0}});
+  journey.add(ms(500), event::Led{{0, 255, 0}});
+  journey.finish(ms(1000), "end", "");
+  const auto svg = path_svg(journey);
+  EXPECT_NE(svg.find("class=\"arc\" stroke=\"#00ff00\""), std::string::npos);
+  EXPECT_EQ(svg.find("class=\"path\""), std::string::npos);
+}
+
+TEST(Svg, AnEmptyRunIsAPictureToo) {
+  EXPECT_NE(path_svg(Journey{}).find("</svg>"), std::string::npos);
+}
+
+} // namespace
+} // namespace orb::report
