@@ -17,12 +17,12 @@ ExitCode abort_all(Context& context, uploader::Session& session,
   if (greeting.firmware.has_basic)
     if (const auto done = request(session, ApiCommand::AbortOrbbasicProgram); !done) {
       print_error(context, done.error().message);
-      return exit_code(done.error());
+      return exit_code(done.error().kind);
     }
   const auto macro = request(session, ApiCommand::AbortMacro);
   if (!macro) {
     print_error(context, macro.error().message);
-    return exit_code(macro.error());
+    return exit_code(macro.error().kind);
   }
   const auto id = macro->data.size() >= abort_answer_size ? macro->data[0] : std::uint8_t{0};
   if (id != 0 && read_u16(macro->data, 1) == unkillable_command) {

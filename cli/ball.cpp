@@ -1,9 +1,8 @@
 #include "cli/commands.h"
+#include "cli/inputs.h"
 #include "cli/options.h"
-#include "disk/disk.h"
 #include "serve/server.h"
 
-#include "base/render.h"
 #include "compiler/load.h"
 #include "spec/firmware.h"
 
@@ -46,11 +45,6 @@ std::optional<serve::ServeOptions::Tcp> parse_address(std::string_view text) {
   return serve::ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), port};
 }
 
-void fail(Context& context, std::string_view message, ExitCode code) {
-  print_error(context, message);
-  context.exit = code;
-}
-
 void run_ball(Context& context, const BallArguments& arguments) {
   serve::ServeOptions options;
   options.count = arguments.count;
@@ -62,10 +56,10 @@ void run_ball(Context& context, const BallArguments& arguments) {
   if (!arguments.tcp.empty()) {
     options.tcp = parse_address(arguments.tcp);
     if (!options.tcp)
-      return fail(
-          context,
-          fmt::format("`{}` is no address; write HOST:PORT such as 127.0.0.1:4242", arguments.tcp),
-          ExitCode::Usage);
+      return fail(context,
+                  {ExitCode::Usage, fmt::format("`{}` is no address; write HOST:PORT such as "
+                                                "127.0.0.1:4242",
+                                                arguments.tcp)});
   }
   const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
   options.ball.seed = arguments.seed;
@@ -75,26 +69,16 @@ void run_ball(Context& context, const BallArguments& arguments) {
   if (!arguments.fault.empty()) {
     const auto plan = protocol::parse_fault_plan(arguments.fault);
     if (!plan)
-      return fail(context, plan.error(), ExitCode::Usage);
+      return fail(context, {ExitCode::Usage, plan.error()});
     options.fault = *plan;
   }
-  if (!arguments.stimulus.empty()) {
-    const auto text = disk::read(arguments.stimulus);
-    if (!text)
-      return fail(context, text.error().message, ExitCode::File);
-    const Source source(disk::display_name(arguments.stimulus), *text);
-    auto script = vm::parse_stimulus(source);
-    for (const auto& diagnostic : script.diagnostics)
-      print_err(render_text(source, diagnostic, context.err_style()));
-    if (!script.diagnostics.empty()) {
-      context.exit = ExitCode::BadInput;
-      return;
-    }
-    options.stimulus = std::move(script.events);
-  }
+  auto stimulus = read_stimulus(context, arguments.stimulus);
+  if (!stimulus)
+    return fail(context, stimulus.error());
+  options.stimulus = *std::move(stimulus);
   options.announce = print_out;
   if (const auto served = serve::serve(options); !served)
-    fail(context, served.error().message, ExitCode::File);
+    fail(context, {ExitCode::File, served.error().message});
 }
 
 std::vector<std::string> firmware_names() {

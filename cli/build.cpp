@@ -1,7 +1,7 @@
 #include "base/render.h"
 #include "cli/asm.h"
 #include "cli/commands.h"
-#include "cli/language.h"
+#include "cli/inputs.h"
 #include "cli/target.h"
 #include "compiler/check.h"
 #include "compiler/image.h"
@@ -58,15 +58,12 @@ bool has_errors(Context& context, const Source& source, const std::vector<Diagno
 
 bool write(Context& context, const std::string& path, std::string_view bytes) {
   const auto written = disk::write(path, as_bytes(bytes));
-  if (!written) {
-    print_error(context, written.error().message);
-    context.exit = ExitCode::File;
-  }
+  if (!written)
+    fail(context, {ExitCode::File, written.error().message});
   return written.has_value();
 }
 
-void build_basic(Context& context, const Options& options, std::string text) {
-  const Source source(disk::display_name(options.file), std::move(text));
+void build_basic(Context& context, const Options& options, const Source& source) {
   const auto target = options.target.target();
   const auto checked = compiler::check(source.text(), target);
   const bool refused = !checked.image_bytes;
@@ -92,20 +89,12 @@ void build_basic(Context& context, const Options& options, std::string text) {
                fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
 }
 
-void run(Context& context, const Options& options) {
-  auto text = disk::read(options.file);
-  if (!text) {
-    print_error(context, text.error().message);
-    context.exit = ExitCode::File;
-    return;
-  }
-  const auto language = require_language(context, options.file, options.lang);
-  if (!language)
-    return;
-  if (language == Language::Basic) {
-    build_basic(context, options, *std::move(text));
-    return;
-  }
+void build(Context& context, const Options& options) {
+  const auto file = read_source(options.file, options.lang);
+  if (!file)
+    return fail(context, file.error());
+  if (file->language == run::Language::Basic)
+    return build_basic(context, options, file->source);
   AsmOptions macros;
   macros.file = options.file;
   macros.out = options.out;
@@ -127,7 +116,7 @@ void add_build(CLI::App& app, Context& context) {
   command->add_option("--map", options->map, "write which source line became which robot line");
   add_target_options(*command, options->target);
   command->add_flag("--no-check", options->no_check, "build although the program has errors");
-  command->callback([&context, options] { run(context, *options); });
+  command->callback([&context, options] { build(context, *options); });
 }
 
 } // namespace orb::cli

@@ -3,7 +3,7 @@
 #include "base/fixes.h"
 #include "base/render.h"
 #include "cli/commands.h"
-#include "cli/language.h"
+#include "cli/inputs.h"
 #include "cli/options.h"
 #include "cli/policy.h"
 #include "cli/target.h"
@@ -30,28 +30,20 @@ struct Options {
   bool watch = false;
 };
 
-struct Input {
-  std::string path;
-  Language language = Language::Basic;
-  Source source;
-};
+using run::Language;
 
-/// Reads all files; nothing, and reported, where one of them cannot be read.
-std::optional<std::deque<Input>> read_inputs(Context& context, const Options& options) {
-  std::deque<Input> inputs; // sources are referred to and must not move
+/// Sources are referred to and must not move.
+using Sources = std::deque<SourceFile>;
+
+tl::expected<Sources, Failure> read_sources(const Options& options) {
+  Sources sources;
   for (const auto& path : options.files) {
-    auto text = disk::read(path);
-    if (!text) {
-      print_error(context, text.error().message);
-      context.exit = ExitCode::File;
-      return std::nullopt;
-    }
-    const auto language = require_language(context, path, options.lang);
-    if (!language)
-      return std::nullopt;
-    inputs.push_back({path, *language, Source(disk::display_name(path), *std::move(text))});
+    auto source = read_source(path, options.lang);
+    if (!source)
+      return tl::unexpected(source.error());
+    sources.push_back(*std::move(source));
   }
-  return inputs;
+  return sources;
 }
 
 FileFindings check_basic(const Options& options, const Source& source) {
@@ -64,7 +56,7 @@ FileFindings check_basic(const Options& options, const Source& source) {
 }
 
 /// Checks all files. Macros are checked together: they go to one ball and call each other.
-std::vector<FileFindings> check_all(const Options& options, const std::deque<Input>& inputs) {
+std::vector<FileFindings> check_all(const Options& options, const Sources& inputs) {
   std::vector<const Source*> macros;
   for (const auto& input : inputs)
     if (input.language == Language::Macro)
@@ -82,7 +74,7 @@ std::vector<FileFindings> check_all(const Options& options, const std::deque<Inp
   return files;
 }
 
-std::vector<Diagnostic> findings_of(const Options& options, const Input& input) {
+std::vector<Diagnostic> findings_of(const Options& options, const SourceFile& input) {
   auto found = input.language == Language::Basic ? check_basic(options, input.source).diagnostics
                                                  : assembler::check(input.source, options.macro);
   weigh(options.policy, found);
@@ -90,7 +82,7 @@ std::vector<Diagnostic> findings_of(const Options& options, const Input& input) 
 }
 
 /// Makes the safe fixes of a file until none is left, and writes it back where one was made.
-bool fix_one(Context& context, const Options& options, Input& input) {
+bool fix_one(Context& context, const Options& options, SourceFile& input) {
   constexpr int most_rounds = 64; // one mistake hides the next on its line; no fix undoes another
   std::size_t made = 0;
   for (int round = 0; round < most_rounds; ++round) {
@@ -103,8 +95,7 @@ bool fix_one(Context& context, const Options& options, Input& input) {
   if (made == 0)
     return true;
   if (const auto written = disk::write(input.path, as_bytes(input.source.text())); !written) {
-    print_error(context, written.error().message);
-    context.exit = ExitCode::File;
+    fail(context, {ExitCode::File, written.error().message});
     return false;
   }
   print_note(context,
@@ -131,7 +122,7 @@ void print_findings(Context& context, const Options& options,
   }
 }
 
-void run(Context& context, const Options& options) {
+void check(Context& context, const Options& options) {
   if (!check_rules(context, options.policy))
     return;
   if (options.fix &&
@@ -140,9 +131,9 @@ void run(Context& context, const Options& options) {
     context.exit = ExitCode::Usage;
     return;
   }
-  auto inputs = read_inputs(context, options);
+  auto inputs = read_sources(options);
   if (!inputs)
-    return;
+    return fail(context, inputs.error());
   for (auto& input : *inputs)
     if (options.fix && !fix_one(context, options, input))
       return;
@@ -182,9 +173,9 @@ void add_check(CLI::App& app, Context& context) {
   command->add_flag("--watch", options->watch, "check again whenever a file changes");
   command->callback([&context, options] {
     if (options->watch)
-      watch(context, options->files, [&] { run(context, *options); });
+      watch(context, options->files, [&] { check(context, *options); });
     else
-      run(context, *options);
+      check(context, *options);
   });
 }
 

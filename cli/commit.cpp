@@ -19,7 +19,7 @@ ExitCode commit(Context& context, uploader::Session& session, const uploader::Gr
                                                    : uploader::BatteryPolicy::Refuse);
   if (done.kind != uploader::Report::Kind::Done) {
     print_error(context, done.message);
-    return exit_code(done);
+    return exit_code(done.kind);
   }
   print_note(context, done.message);
   return ExitCode::Done;

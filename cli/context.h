@@ -1,15 +1,13 @@
 #pragma once
 
+#include "base/exit_code.h"
 #include "base/style.h"
 #include "cli/config.h"
-#include "reference/exit_code.h"
 
 #include <string>
 #include <string_view>
 
 namespace orb::cli {
-
-using reference::ExitCode;
 
 /// What every command shares: the options that stand before or after any command, and the code it
 /// ends with. One per process, made in main().

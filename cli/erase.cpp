@@ -29,7 +29,7 @@ ExitCode erase(Context& context, uploader::Session& session, const std::string& 
                                                "erased or unchanged; erase again",
                                                area)
                                  : report.message);
-      return exit_code(report);
+      return exit_code(report.kind);
     }
   print_note(context, fmt::format("the program in {} is erased", area));
   return ExitCode::Done;

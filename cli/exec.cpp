@@ -61,7 +61,7 @@ void run(Context& context, const Options& options) {
               const auto answer = request(session, row->command, *data);
               if (!answer) {
                 print_error(context, answer.error().message);
-                return exit_code(answer.error());
+                return exit_code(answer.error().kind);
               }
               print_out(describe(row->command, *answer) + "\n");
               if (options.monitor && monitor(context, link, session, {}).lost)

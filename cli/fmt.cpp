@@ -5,7 +5,7 @@
 #include "base/source.h"
 #include "cli/commands.h"
 #include "cli/diff.h"
-#include "cli/language.h"
+#include "cli/inputs.h"
 #include "compiler/check.h"
 #include "compiler/parse.h"
 #include "compiler/print.h"
@@ -92,23 +92,16 @@ std::optional<std::string> format_macro(Context& context, const Source& source) 
 
 void run_one(Context& context, const Options& options, const std::string& path,
              const std::optional<compiler::Numbering>& numbering) {
-  auto text = disk::read(path);
-  if (!text) {
-    print_error(context, text.error().message);
-    context.exit = ExitCode::File;
-    return;
-  }
-  const auto language = require_language(context, path, options.lang);
-  if (!language)
-    return;
-  if (language == Language::Macro && numbering) {
-    print_error(context, fmt::format("{}: macros have no line numbers", disk::display_name(path)));
-    context.exit = ExitCode::Usage;
-    return;
-  }
-  const Source source(disk::display_name(path), *std::move(text));
-  const auto formatted = language == Language::Macro ? format_macro(context, source)
-                                                     : format_text(context, source, numbering);
+  const auto file = read_source(path, options.lang);
+  if (!file)
+    return fail(context, file.error());
+  const auto& source = file->source;
+  const bool is_macro = file->language == run::Language::Macro;
+  if (is_macro && numbering)
+    return fail(context,
+                {ExitCode::Usage, fmt::format("{}: macros have no line numbers", source.name())});
+  const auto formatted =
+      is_macro ? format_macro(context, source) : format_text(context, source, numbering);
   if (!formatted)
     return;
   const bool changed = *formatted != source.text();
@@ -119,16 +112,14 @@ void run_one(Context& context, const Options& options, const std::string& path,
     context.exit = ExitCode::BadInput;
   }
   if (options.write && changed) {
-    if (const auto written = disk::write(path, as_bytes(*formatted)); !written) {
-      print_error(context, written.error().message);
-      context.exit = ExitCode::File;
-    }
+    if (const auto written = disk::write(path, as_bytes(*formatted)); !written)
+      fail(context, {ExitCode::File, written.error().message});
   }
   if (!options.diff && !options.check && !options.write)
     print_out(*formatted);
 }
 
-void run(Context& context, const Options& options) {
+void format_all(Context& context, const Options& options) {
   std::optional<compiler::Numbering> numbering;
   if (options.renumbers) {
     numbering = read_numbering(options.renumber);
@@ -166,7 +157,7 @@ void add_fmt(CLI::App& app, Context& context) {
   renumber->expected(0, 1)->type_name("START:STEP");
   command->callback([&context, options, renumber] {
     options->renumbers = renumber->count() > 0;
-    run(context, *options);
+    format_all(context, *options);
   });
 }
 

@@ -82,7 +82,7 @@ void run(Context& context, const PortOptions& options) {
                                     fields.text("address"));
               } else if (radio.error().kind != uploader::Report::Kind::Refused) {
                 print_error(context, radio.error().message);
-                return exit_code(radio.error());
+                return exit_code(radio.error().kind);
               }
               print_out(text);
               return ExitCode::Done;

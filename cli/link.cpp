@@ -1,8 +1,9 @@
 #include "cli/link.h"
 
+#include "base/duration.h"
 #include "cli/config.h"
+#include "cli/inputs.h"
 #include "cli/interrupt.h"
-#include "cli/run_inputs.h"
 #include "compiler/load.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
@@ -15,14 +16,13 @@ namespace orb::cli {
 namespace {
 
 using uploader::Endpoint;
-using uploader::Report;
 using uploader::Scheme;
 
 /// Fixed for `sim:`, so that runs repeat; drawn for anything that may remember an earlier session.
 constexpr std::uint8_t sim_first_seq = 0;
 
-tl::unexpected<LinkFailure> failure(ExitCode exit, std::string message) {
-  return tl::unexpected(LinkFailure{exit, std::move(message)});
+tl::unexpected<Failure> failure(ExitCode exit, std::string message) {
+  return tl::unexpected(Failure{exit, std::move(message)});
 }
 
 std::uint8_t draw_first_seq() {
@@ -55,7 +55,7 @@ void add_port_options(CLI::App& command, PortOptions& options) {
   command.add_option("--timeout", options.answer, "how long to wait for one answer")
       ->type_name("TIME")
       ->check([](const std::string& text) {
-        const auto time = read_duration(text);
+        const auto time = parse_duration(text, 1s);
         return time && *time > Duration{} ? std::string()
                                           : "`" + text + "` is not a time such as 2s or 500ms";
       })
@@ -77,8 +77,7 @@ tl::expected<void, IoError> Link::finish() const {
 
 namespace {
 
-tl::expected<Endpoint, LinkFailure> find_endpoint(const Context& context,
-                                                  const PortOptions& options) {
+tl::expected<Endpoint, Failure> find_endpoint(const Context& context, const PortOptions& options) {
   const auto url = resolve_port(context.config, options.port);
   if (!url)
     return failure(ExitCode::Usage, url.error().message);
@@ -90,13 +89,13 @@ tl::expected<Endpoint, LinkFailure> find_endpoint(const Context& context,
 
 } // namespace
 
-tl::expected<void, LinkFailure> check_port(const Context& context, const PortOptions& options) {
+tl::expected<void, Failure> check_port(const Context& context, const PortOptions& options) {
   if (const auto endpoint = find_endpoint(context, options); !endpoint)
     return tl::unexpected(endpoint.error());
   return {};
 }
 
-tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options) {
+tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options) {
   const auto endpoint = find_endpoint(context, options);
   if (!endpoint)
     return tl::unexpected(endpoint.error());
@@ -104,7 +103,7 @@ tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOpti
   link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.first_seq = first_seq_of(*endpoint);
-  link.budgets.answer = read_duration(options.answer).value_or(link.budgets.answer);
+  link.budgets.answer = parse_duration(options.answer, 1s).value_or(link.budgets.answer);
   if (link.is_sim) {
     vm::BallOptions ball;
     ball.loader = compiler::load;
@@ -126,41 +125,22 @@ tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOpti
   return link;
 }
 
-ExitCode exit_code(const Report& report) {
-  switch (report.kind) {
-  case Report::Kind::Done: return ExitCode::Done;
-  case Report::Kind::Impossible: return ExitCode::BadInput;
-  case Report::Kind::Refused: return ExitCode::Refused;
-  case Report::Kind::NoBall: return ExitCode::NoBall;
-  case Report::Kind::LinkLost: return ExitCode::LinkLost;
-  case Report::Kind::Unknown: return ExitCode::Unknown;
-  case Report::Kind::Interrupted: return ExitCode::Interrupted;
-  }
-  return ExitCode::Bug;
-}
-
 void with_ball(
     Context& context, const PortOptions& options,
     const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
   const InterruptGuard guard;
   auto link = open_link(context, options);
-  if (!link) {
-    print_error(context, link.error().message);
-    context.exit = link.error().exit;
-    return;
-  }
+  if (!link)
+    return fail(context, link.error());
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto greeting = uploader::greet(session);
   if (greeting) {
     context.exit = work(*link, session, *greeting);
   } else {
-    print_error(context, greeting.error().message);
-    context.exit = exit_code(greeting.error());
+    fail(context, {exit_code(greeting.error().kind), greeting.error().message});
   }
-  if (const auto written = link->finish(); !written) {
-    print_error(context, written.error().message);
-    context.exit = ExitCode::File;
-  }
+  if (const auto written = link->finish(); !written)
+    fail(context, {ExitCode::File, written.error().message});
 }
 
 } // namespace orb::cli

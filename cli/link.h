@@ -57,20 +57,11 @@ struct Link {
   tl::expected<void, IoError> finish() const;
 };
 
-/// Why there is no link, and the code to end with.
-struct LinkFailure {
-  ExitCode exit = ExitCode::NoBall;
-  std::string message;
-};
-
 /// Whether the options name a port at all, in words where not; nothing is opened.
-tl::expected<void, LinkFailure> check_port(const Context& context, const PortOptions& options);
+tl::expected<void, Failure> check_port(const Context& context, const PortOptions& options);
 
 /// Opens the link that the options name: a URL, a bare path or `@ball`.
-tl::expected<Link, LinkFailure> open_link(const Context& context, const PortOptions& options);
-
-/// The code that a report ends with.
-ExitCode exit_code(const uploader::Report& report);
+tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options);
 
 /// Opens the link, greets the ball, lets `work` do its job and closes: the shape of the small
 /// commands. Errors are printed; the exit code is left in the context.

@@ -11,8 +11,8 @@
 
 namespace {
 
+using orb::ExitCode;
 using orb::cli::Context;
-using orb::cli::ExitCode;
 
 /// The first word of a command line by which the completion scripts ask: `orb __complete -- WORDS`.
 /// It is no command of the option model, because the words after it are data, not options.

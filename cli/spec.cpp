@@ -69,7 +69,8 @@ void run(Context& context, const Options& options) {
     write_editor_files(context, options.editors);
     return;
   }
-  auto sections = reference::knowledge();
+  const auto all = reference::knowledge();
+  auto sections = all;
   const bool one = !options.section.empty();
   if (one && !select(sections, options.section, context)) {
     context.exit = ExitCode::Usage;
@@ -79,7 +80,7 @@ void run(Context& context, const Options& options) {
     print_out(reference::print_json(sections));
   else if (options.markdown)
     for (const auto& section : sections)
-      print_out(reference::print_markdown(section));
+      print_out(reference::print_markdown(all, section));
   else if (one)
     print_out(plain(sections.front()));
   else {

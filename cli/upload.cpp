@@ -1,11 +1,11 @@
+#include "base/duration.h"
 #include "cli/commands.h"
+#include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/link.h"
 #include "cli/monitoring.h"
 #include "cli/options.h"
-#include "cli/payload.h"
 #include "cli/progress_bar.h"
-#include "cli/run_inputs.h"
 #include "cli/target.h"
 
 #include <algorithm>
@@ -41,30 +41,24 @@ ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
   return exit;
 }
 
-std::vector<Payload> load_all(Context& context, const Options& options) {
-  std::vector<Payload> payloads;
-  auto errors = false;
-  for (const auto& file : options.files) {
-    auto payload = load_payload(file, options.lang, options.target.target(),
-                                options.no_check ? Findings::None : Findings::Lint);
-    if (!payload) {
-      context.exit = fail(context, payload.error().exit, payload.error().message);
-      return {};
-    }
-    errors = print_findings(context, *payload) || errors;
-    payloads.push_back(*std::move(payload));
-  }
-  if (errors) {
-    context.exit = fail(context, ExitCode::BadInput,
-                        "nothing was sent: mend the errors above, or send it as it is with "
-                        "`--no-check`");
-    return {};
-  }
-  return payloads;
+tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
+                                                        const Options& options) {
+  auto inputs = read_inputs(options.files, options.lang, options.target.target(),
+                            options.no_check ? run::Findings::None : run::Findings::Lint);
+  if (!inputs)
+    return inputs;
+  bool errors = false;
+  for (const auto& input : *inputs)
+    errors = print_findings(context, *input.source, input.findings) || errors;
+  if (errors)
+    return tl::unexpected(Failure{ExitCode::BadInput,
+                                  "nothing was sent: mend the errors above, or send it as it is "
+                                  "with `--no-check`"});
+  return inputs;
 }
 
 /// The kind of macro that the user or the file asks for.
-uploader::MacroKind macro_kind(const Options& options, const MacroPayload& macro) {
+uploader::MacroKind macro_kind(const Options& options, const run::Macro& macro) {
   if (options.as == "temp")
     return uploader::MacroKind::Temporary;
   if (options.as == "user")
@@ -77,22 +71,18 @@ uploader::MacroKind macro_kind(const Options& options, const MacroPayload& macro
 }
 
 /// The line that a program starts at: the one that is named, or its first.
-std::uint16_t start_line(const Options& options, const compiler::Image& image) {
-  if (options.run_line)
-    return static_cast<std::uint16_t>(*options.run_line);
-  for (const auto& line : image.lines)
-    if (line.number != compiler::none)
-      return static_cast<std::uint16_t>(line.number);
-  return 1;
+std::uint16_t start_line(const Options& options, const run::Program& program) {
+  return options.run_line ? static_cast<std::uint16_t>(*options.run_line)
+                          : program.first_line().value_or(1);
 }
 
 /// Puts the files into the order in which they go: macros first, then the program.
 tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
-                                                      const std::vector<Payload>& payloads) {
+                                                      const std::vector<run::Input>& inputs) {
   uploader::Delivery delivery;
   std::set<std::uint8_t> ids;
-  for (const auto& payload : payloads) {
-    for (const auto& macro : payload.macros) {
+  for (const auto& input : inputs) {
+    for (const auto& macro : input.macros) {
       uploader::MacroJob job{macro.image, macro_kind(options, macro), false, false};
       if (options.id)
         job.image.id = static_cast<std::uint8_t>(*options.id);
@@ -101,17 +91,17 @@ tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
       job.clear_others = options.clear_macros && delivery.macros.empty();
       delivery.macros.push_back({macro.name, std::move(job)});
     }
-    if (!payload.program)
+    if (!input.program)
       continue;
     if (delivery.program)
       return tl::unexpected(fmt::format("{}: a ball holds one program, and {} is one already",
-                                        payload.source->name(), delivery.program_name));
-    delivery.program_name = payload.source->name();
-    const auto& bytes = payload.program->bytes;
+                                        input.source->name(), delivery.program_name));
+    delivery.program_name = input.source->name();
+    const auto& bytes = input.program->image.bytes;
     delivery.program = uploader::ProgramJob{
         {bytes.begin(), bytes.end()},
         options.target.area == "flash" ? uploader::Area::Flash : uploader::Area::Ram,
-        options.run ? std::optional(start_line(options, *payload.program)) : std::nullopt};
+        options.run ? std::optional(start_line(options, *input.program)) : std::nullopt};
   }
   const auto kept = [](const uploader::Delivery::NamedMacro& macro) {
     return macro.job.kind != uploader::MacroKind::User;
@@ -143,7 +133,7 @@ void print_plan(std::string_view name, const uploader::Plan& plan) {
 ExitCode dry_run(const Context& context, const Options& options,
                  const uploader::Delivery& delivery) {
   uploader::Budgets budgets;
-  budgets.answer = read_duration(options.port.answer).value_or(budgets.answer);
+  budgets.answer = parse_duration(options.port.answer, 1s).value_or(budgets.answer);
   budgets.attempts = options.attempts;
   for (const auto& macro : delivery.macros) {
     const auto plan = make_plan(macro.job, budgets);
@@ -165,10 +155,10 @@ ExitCode dry_run(const Context& context, const Options& options,
   return ExitCode::Done;
 }
 
-LineMap lines_of(const std::vector<Payload>& payloads) {
-  for (const auto& payload : payloads)
-    if (payload.program)
-      return line_map(payload.source->name(), *payload.program);
+LineMap lines_of(const std::vector<run::Input>& inputs) {
+  for (const auto& input : inputs)
+    if (input.program)
+      return line_map(input.source->name(), input.program->image);
   return {};
 }
 
@@ -177,7 +167,7 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
                 const LineMap& lines) {
   if (report.kind != Report::Kind::Done)
-    return fail(context, exit_code(report), report.message);
+    return fail(context, exit_code(report.kind), report.message);
   print_note(context,
              fmt::format("{}, {} packets sent, {:.2f} s{}", report.message,
                          session.counts().packets_out, static_cast<double>(took.count()) / 1e9,
@@ -193,7 +183,7 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
   const InterruptGuard guard;
   auto link = open_link(context, options.port);
   if (!link)
-    return fail(context, link.error().exit, link.error().message);
+    return fail(context, link.error().code, link.error().message);
   link->budgets.attempts = options.attempts;
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto start = session.now();
@@ -211,21 +201,17 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
   return exit;
 }
 
-void run(Context& context, const Options& options) {
-  if (const auto port = check_port(context, options.port); !port) {
-    context.exit = fail(context, port.error().exit, port.error().message);
-    return;
-  }
-  const auto payloads = load_all(context, options);
-  if (payloads.empty())
-    return;
-  const auto delivery = arrange(options, payloads);
-  if (!delivery) {
-    context.exit = fail(context, ExitCode::Usage, delivery.error());
-    return;
-  }
+void upload(Context& context, const Options& options) {
+  if (const auto port = check_port(context, options.port); !port)
+    return cli::fail(context, port.error());
+  const auto inputs = load_all(context, options);
+  if (!inputs)
+    return cli::fail(context, inputs.error());
+  const auto delivery = arrange(options, *inputs);
+  if (!delivery)
+    return cli::fail(context, {ExitCode::Usage, delivery.error()});
   context.exit = options.dry_run ? dry_run(context, options, *delivery)
-                                 : send(context, options, *delivery, lines_of(payloads));
+                                 : send(context, options, *delivery, lines_of(*inputs));
 }
 
 } // namespace
@@ -239,8 +225,7 @@ void add_upload(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->files, "sources or built macros; macros are sent first")
       ->required();
-  command->add_option("--lang", options->lang, "what the files are, whatever their names")
-      ->check(one_of({"basic", "macro"}));
+  add_language_option(*command, options->lang);
   add_port_options(*command, options->port);
   add_target_options(*command, options->target);
   command
@@ -280,7 +265,7 @@ void add_upload(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, most_attempts))
       ->type_name("N")
       ->capture_default_str();
-  command->callback([&context, options] { run(context, *options); });
+  command->callback([&context, options] { upload(context, *options); });
 }
 
 } // namespace orb::cli

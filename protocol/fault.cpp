@@ -1,5 +1,6 @@
 #include "protocol/fault.h"
 
+#include "base/duration.h"
 #include "base/suggest.h"
 
 #include <algorithm>
@@ -58,18 +59,8 @@ std::optional<double> read_rate(std::string_view text) {
 
 /// `300ms`, `0.2s`, or a bare number of milliseconds.
 std::optional<Duration> read_delay(std::string_view text) {
-  auto unit = 1e6; // nanoseconds
-  if (text.ends_with("ms")) {
-    text.remove_suffix(2);
-  } else if (text.ends_with("s")) {
-    text.remove_suffix(1);
-    unit = 1e9;
-  }
-  constexpr double most = 3600e9;
-  const auto value = read_number(text);
-  if (!value || *value < 0 || *value * unit > most)
-    return std::nullopt;
-  return Duration(static_cast<Duration::rep>(*value * unit));
+  const auto time = parse_duration(text, 1ms);
+  return time && *time <= 1h ? time : std::nullopt;
 }
 
 bool read_delay_range(std::string_view text, FaultPlan& plan) {

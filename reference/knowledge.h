@@ -32,8 +32,9 @@ std::vector<Section> knowledge();
 /// One entry as `orb explain` prints it.
 std::string print_entry(const Section& section, const Entry& entry);
 
-/// One section as a page of docs/reference/.
-std::string print_markdown(const Section& section);
+/// One section as a page of docs/reference/, with links to the pages of the others
+/// (reference/page.cpp).
+std::string print_markdown(const std::vector<Section>& sections, const Section& section);
 
 /// All sections as one JSON document.
 std::string print_json(const std::vector<Section>& sections);

@@ -173,4 +173,20 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
       event);
 }
 
+TraceWriter::TraceWriter(TraceFormat format, TraceLines lines,
+                         std::function<void(std::string_view)> put)
+    : format_(format), lines_(lines), put_(std::move(put)) {
+  put_(trace_head(format_));
+}
+
+void TraceWriter::add(Duration t, const vm::Event& event) {
+  if (lines_ == TraceLines::Keep || !std::holds_alternative<vm::event::Line>(event))
+    put_(trace_line(format_, t, event));
+}
+
+void TraceWriter::finish(Duration t, std::string_view reason, std::uint64_t lines) {
+  put_(trace_line(format_, t, "end",
+                  {{"reason", std::string(reason)}, {"lines", static_cast<std::int64_t>(lines)}}));
+}
+
 } // namespace orb::report

@@ -4,6 +4,7 @@
 #include "vm/observer.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -29,5 +30,21 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event);
 
 /// The first line of the CSV form: the columns. Empty for JSON.
 std::string trace_head(TraceFormat format);
+
+/// Which events a trace has.
+enum class TraceLines : std::uint8_t { Leave, Keep };
+
+/// Writes the trace of one run, a line an event.
+class TraceWriter {
+public:
+  TraceWriter(TraceFormat format, TraceLines lines, std::function<void(std::string_view)> put);
+  void add(Duration t, const vm::Event& event);
+  void finish(Duration t, std::string_view reason, std::uint64_t lines);
+
+private:
+  TraceFormat format_;
+  TraceLines lines_; ///< a report needs every line even where the trace leaves them out
+  std::function<void(std::string_view)> put_;
+};
 
 } // namespace orb::report

@@ -42,7 +42,8 @@ const std::vector<Room> rooms = {
     {4, "vm", {"protocol", "bytecode"}},
     {5, "report", {"vm"}},
     {6, "reference", {"compiler", "assembler", "vm"}},
-    {7, "editor", {"reference"}},
+    {6, "run", {"report", "compiler", "assembler", "uploader"}},
+    {7, "editor", {"reference", "run"}},
     {7, "serve", {"vm", "disk"}},
     {8, "cli", {"editor", "serve", "reference", "report", "uploader", "disk"}},
 };

@@ -509,6 +509,19 @@ std::string no_ball(const Session& session, const NoAnswer& failure) {
 
 } // namespace
 
+ExitCode exit_code(Report::Kind kind) {
+  switch (kind) {
+  case Report::Kind::Done: return ExitCode::Done;
+  case Report::Kind::Impossible: return ExitCode::BadInput;
+  case Report::Kind::Refused: return ExitCode::Refused;
+  case Report::Kind::NoBall: return ExitCode::NoBall;
+  case Report::Kind::LinkLost: return ExitCode::LinkLost;
+  case Report::Kind::Unknown: return ExitCode::Unknown;
+  case Report::Kind::Interrupted: return ExitCode::Interrupted;
+  }
+  return ExitCode::Bug;
+}
+
 std::uint8_t Greeting::power_state() const {
   return power && power->size() > power_state_at ? (*power)[power_state_at] : std::uint8_t{0};
 }

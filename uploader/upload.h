@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/exit_code.h"
 #include "uploader/plan.h"
 #include "uploader/session.h"
 
@@ -37,6 +38,9 @@ struct Report {
   std::string message;   ///< one sentence: what happened, what is on the ball, what helps
   std::uint8_t code = 0; ///< of Refused, where the ball said it
 };
+
+/// The code that a command ends with after such a report.
+ExitCode exit_code(Report::Kind kind);
 
 /// What a ball said of itself before anything was changed.
 struct Greeting {

@@ -610,6 +610,12 @@ void Ball::sleep_ms(int time_ms) {
     sleep({time_ms / 1000, 0, 0, time_ms % 1000});
 }
 
+MacroOutcome Ball::run_macro(int id) {
+  const auto outcome = macros_.start(id, now_);
+  macros_changed();
+  return outcome;
+}
+
 void Ball::macros_changed() {
   if (macro_ran_ && !macros_.running()) {
     macro_led_.reset();

@@ -139,6 +139,9 @@ public:
   bool basic_running() const { return machine_.running(); }
   const Machine& machine() const { return machine_; }
 
+  /// Starts a stored macro.
+  MacroOutcome run_macro(int id);
+
   // Output.
   void send(const protocol::Response& response);
   /// Async messages reach a connected client only; under congestion those that are not vital are

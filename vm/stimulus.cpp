@@ -1,5 +1,6 @@
 #include "vm/stimulus.h"
 
+#include "base/duration.h"
 #include "base/suggest.h"
 
 #include <algorithm>
@@ -79,20 +80,6 @@ std::optional<int> integer(std::string_view text, int least, int greatest) {
   return value;
 }
 
-std::optional<Duration> duration(std::string_view text) {
-  struct Unit {
-    std::string_view word;
-    double nanoseconds;
-  };
-  constexpr std::array units{Unit{"ms", 1e6}, Unit{"min", 60e9}, Unit{"s", 1e9}};
-  constexpr double longest = 1e8; // of any unit: more than a year
-  for (const auto& unit : units)
-    if (text.ends_with(unit.word))
-      if (const auto value = number(text.substr(0, text.size() - unit.word.size()), 0, longest))
-        return Duration{static_cast<Duration::rep>(std::llround(*value * unit.nanoseconds))};
-  return std::nullopt;
-}
-
 /// Reads the arguments of one event, remembering the first that is wrong.
 class Arguments {
 public:
@@ -109,7 +96,7 @@ public:
         .value_or(0);
   }
   Duration time(std::string_view what) {
-    return take(what, "a time such as 800ms or 2.5s", duration).value_or(Duration{});
+    return take(what, "a time such as 800ms or 2.5s", [](std::string_view text) { return parse_duration(text); }).value_or(Duration{});
   }
   Switch on_off(std::string_view what) {
     return take(what, "on or off",
@@ -223,7 +210,7 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
   std::span<const Word> rest{words};
   Duration at{};
   if (rest[0].text == "at") {
-    const auto time = rest.size() > 1 ? duration(rest[1].text) : std::nullopt;
+    const auto time = rest.size() > 1 ? parse_duration(rest[1].text) : std::nullopt;
     if (!time || rest.size() < 3) {
       script.diagnostics.push_back(finding(syntax_rule, rest[rest.size() > 1 ? 1 : 0].span,
                                            "behind `at` stand a time and an event",
@@ -236,7 +223,7 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
   const auto row = std::find_if(events.begin(), events.end(),
                                 [&](const auto& event) { return event.word == rest[0].text; });
   if (row == events.end()) {
-    const bool early_time = duration(rest[0].text).has_value();
+    const bool early_time = parse_duration(rest[0].text).has_value();
     script.diagnostics.push_back(
         early_time
             ? finding(syntax_rule, rest[0].span,

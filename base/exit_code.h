@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
-namespace orb::reference {
+namespace orb {
 
 /// What the shell learns from orb. Scripts depend on the numbers; they never change meaning.
 enum class ExitCode : int {
@@ -42,4 +43,10 @@ inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
     {ExitCode::Interrupted, "ended by Ctrl-C"},
 });
 
-} // namespace orb::reference
+/// Why something could not be done: the sentence to print and the code to end with.
+struct Failure {
+  ExitCode code = ExitCode::BadInput;
+  std::string message;
+};
+
+} // namespace orb

@@ -1,0 +1,84 @@
+#include "cli/inputs.h"
+
+#include "base/render.h"
+#include "cli/options.h"
+#include "disk/disk.h"
+
+#include <CLI/CLI.hpp>
+
+namespace orb::cli {
+
+void add_language_option(CLI::App& command, std::string& lang) {
+  command.add_option("--lang", lang, "the language, where a file's ending does not tell")
+      ->check(one_of({"basic", "macro"}));
+}
+
+tl::expected<std::string, Failure> read_text(const std::string& path) {
+  auto text = disk::read(path);
+  if (!text)
+    return tl::unexpected(Failure{ExitCode::File, text.error().message});
+  return *std::move(text);
+}
+
+tl::expected<SourceFile, Failure> read_source(const std::string& path, std::string_view lang) {
+  auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  const auto language = run::language_of(path, lang);
+  if (!language)
+    return tl::unexpected(run::unknown_form(disk::display_name(path)));
+  return SourceFile{path, *language, Source(disk::display_name(path), *std::move(text))};
+}
+
+tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
+                                                           std::string_view lang,
+                                                           const compiler::Target& target,
+                                                           run::Findings findings) {
+  std::vector<run::Input> inputs;
+  for (const auto& path : paths) {
+    auto text = read_text(path);
+    if (!text)
+      return tl::unexpected(text.error());
+    auto input =
+        run::read_input(disk::display_name(path), *std::move(text), lang, target, findings);
+    if (!input)
+      return tl::unexpected(input.error());
+    inputs.push_back(*std::move(input));
+  }
+  return inputs;
+}
+
+tl::expected<std::vector<vm::TimedStimulus>, Failure> read_stimulus(const Context& context,
+                                                                    const std::string& path) {
+  if (path.empty())
+    return {};
+  auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  const Source source(disk::display_name(path), *std::move(text));
+  auto script = vm::parse_stimulus(source);
+  if (script.diagnostics.empty())
+    return std::move(script.events);
+  print_findings(context, source, script.diagnostics);
+  return tl::unexpected(Failure{ExitCode::BadInput, "the stimulus script has mistakes"});
+}
+
+bool print_findings(const Context& context, const Source& source,
+                    const std::vector<Diagnostic>& findings) {
+  bool errors = false;
+  for (const auto& diagnostic : findings) {
+    const bool is_error = diagnostic.severity == Severity::Error;
+    errors = errors || is_error;
+    if (is_error || (!context.quiet && diagnostic.severity == Severity::Warning) ||
+        context.verbosity > 0)
+      print_err(render_text(source, diagnostic, context.err_style()));
+  }
+  return errors;
+}
+
+void fail(Context& context, const Failure& failure) {
+  print_error(context, failure.message);
+  context.exit = failure.code;
+}
+
+} // namespace orb::cli

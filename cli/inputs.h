@@ -1,0 +1,50 @@
+#pragma once
+
+#include "cli/context.h"
+#include "run/input.h"
+#include "vm/stimulus.h"
+
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace orb::cli {
+
+/// Adds `--lang basic|macro`, which overrides the ending of file names.
+void add_language_option(CLI::App& command, std::string& lang);
+
+/// Reads the file at `path`, or standard input for `-`.
+tl::expected<std::string, Failure> read_text(const std::string& path);
+
+/// A source in its language: programs and macro source, not bytes.
+struct SourceFile {
+  std::string path;
+  run::Language language = run::Language::Basic;
+  Source source;
+};
+tl::expected<SourceFile, Failure> read_source(const std::string& path, std::string_view lang);
+
+/// Reads programs and macros for a ball; their findings are not printed yet.
+tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
+                                                           std::string_view lang,
+                                                           const compiler::Target& target,
+                                                           run::Findings findings);
+
+/// Reads a stimulus script, or nothing for an empty path. Its mistakes go to stderr.
+tl::expected<std::vector<vm::TimedStimulus>, Failure> read_stimulus(const Context& context,
+                                                                    const std::string& path);
+
+/// Prints findings to stderr: errors always, warnings unless -q, the rest with -v. True when there
+/// is an error among them.
+bool print_findings(const Context& context, const Source& source,
+                    const std::vector<Diagnostic>& findings);
+
+/// Prints the sentence and leaves the code.
+void fail(Context& context, const Failure& failure);
+
+} // namespace orb::cli

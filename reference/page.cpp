@@ -1,0 +1,212 @@
+#include "reference/knowledge.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+// The pages of docs/reference/: each opens with a table, and a word that another page explains
+// leads to it.
+
+namespace orb::reference {
+namespace {
+
+/// `text` fit for a cell of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '|' ? std::string("\\|") : c == '\n' ? std::string("<br>") : std::string(1, c);
+  return out;
+}
+
+/// The captions that the entries of a section use, in the order of their first appearance.
+std::vector<std::string> captions(const Section& section) {
+  std::vector<std::string> names;
+  for (const auto& entry : section.entries)
+    for (const auto& fact : entry.facts)
+      if (std::find(names.begin(), names.end(), fact.first) == names.end())
+        names.push_back(fact.first);
+  return names;
+}
+
+/// Sections whose entries all say the same kinds of things fit a table; others become chapters.
+bool fits_table(const Section& section) {
+  const auto plain = [](const Entry& entry) {
+    return entry.explanation.empty() && entry.code.empty();
+  };
+  return captions(section).size() <= 5 &&
+         std::all_of(section.entries.begin(), section.entries.end(), plain);
+}
+
+/// Where a heading is found by a link: as forges make it of its text.
+std::string anchor(std::string_view heading) {
+  std::string out;
+  for (const char c : heading) {
+    if (c >= 'A' && c <= 'Z')
+      out += static_cast<char>(c - 'A' + 'a');
+    else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_')
+      out += c;
+    else if (c == ' ')
+      out += '-';
+  }
+  return out;
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Where the pages explain what; made once for a page.
+class Links {
+public:
+  /// For links from the page of `here`.
+  Links(const std::vector<Section>& sections, const Section& here) {
+    // A word of both languages leads to the one that the page is about.
+    const auto is_macro = [](const Section& section) { return section.id.starts_with("macro"); };
+    for (const bool own_language : {true, false})
+      for (const auto& section : sections)
+        if ((is_macro(section) == is_macro(here)) == own_language)
+          add(section, here);
+  }
+
+  /// Running text with its links: words in backticks that have an entry, and decisions (A-17).
+  /// `own` is the entry that the text is about.
+  std::string text(std::string_view plain, std::string_view own) const {
+    std::string out;
+    for (std::size_t at = 0; at < plain.size();) {
+      if (plain[at] == '`') {
+        const auto end = std::min(plain.find('`', at + 1), plain.size());
+        const auto word = plain.substr(at + 1, end - at - 1);
+        const auto place = places_.find(word);
+        const auto code = plain.substr(at, end + 1 - at);
+        out += place == places_.end() || word == own ? std::string(code)
+                                                     : fmt::format("[{}]({})", code, place->second);
+        at = end + 1;
+      } else if (const auto decision = decision_at(plain, at); !decision.empty()) {
+        out += fmt::format("[{}](../{})", decision,
+                           decision.front() == 'A' ? "language.md#decisions"
+                                                   : "macros.md#what-the-sources-leave-open");
+        at += decision.size();
+      } else {
+        out += plain[at++];
+      }
+    }
+    return out;
+  }
+
+private:
+  void add(const Section& section, const Section& here) {
+    const auto page = section.id == here.id ? std::string() : fmt::format("{}.md", section.id);
+    for (const auto& entry : section.entries) {
+      const auto place = fits_table(section) ? page : page + "#" + anchor(entry.name);
+      if (!place.empty())
+        places_.try_emplace(entry.name, place);
+    }
+  }
+
+  /// The decision named at `at`, `A-17` or `M-2`; empty where there is none.
+  static std::string_view decision_at(std::string_view text, std::size_t at) {
+    const bool starts = (text[at] == 'A' || text[at] == 'M') && text.substr(at + 1, 1) == "-" &&
+                        (at == 0 || text[at - 1] == ' ' || text[at - 1] == '(');
+    auto end = at + 2;
+    while (starts && end < text.size() && is_digit(text[end]))
+      ++end;
+    return starts && end > at + 2 ? text.substr(at, end - at) : std::string_view();
+  }
+
+  std::map<std::string, std::string, std::less<>> places_;
+};
+
+/// A fact with its links; a source leads to what its key stands for.
+std::string fact_text(const Links& links, std::string_view own,
+                      const std::pair<std::string, std::string>& fact) {
+  const auto text = links.text(fact.second, own);
+  const auto key = text.substr(0, text.find_first_of(" ,;"));
+  return fact.first == "source" && !key.empty() && key.front() != '['
+             ? fmt::format("[{}](../../spec/SOURCES.md){}", key, text.substr(key.size()))
+             : text;
+}
+
+/// A section as one table.
+std::string table(const Section& section, const Links& links) {
+  const auto names = captions(section);
+  auto out = fmt::format("| {} |", section.kind);
+  for (const auto& name : names)
+    out += fmt::format(" {} |", name);
+  out += " what it is |\n|---|";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += "---|";
+  out += "---|\n";
+  for (const auto& entry : section.entries) {
+    out += fmt::format("| `{}` |", cell(entry.name));
+    for (const auto& name : names) {
+      const auto fact = std::find_if(entry.facts.begin(), entry.facts.end(),
+                                     [&](const auto& f) { return f.first == name; });
+      out += fmt::format(
+          " {} |", fact == entry.facts.end() ? "" : cell(fact_text(links, entry.name, *fact)));
+    }
+    out += fmt::format(" {} |\n", cell(links.text(entry.summary, entry.name)));
+  }
+  return out;
+}
+
+/// What stands before the chapters: each entry with its short facts and its summary.
+std::string contents(const Section& section, const Links& links) {
+  constexpr std::size_t most = 12; // characters that leave room for the summary
+  auto names = captions(section);
+  std::erase_if(names, [&](const std::string& name) {
+    return !std::all_of(section.entries.begin(), section.entries.end(), [&](const Entry& entry) {
+      return std::any_of(entry.facts.begin(), entry.facts.end(), [&](const auto& fact) {
+        return fact.first == name && fact.second.size() <= most;
+      });
+    });
+  });
+  Section short_one{section.id, section.title, section.kind, {}};
+  for (const auto& entry : section.entries) {
+    short_one.entries.push_back({entry.name, {}, entry.summary, {}, {}, {}});
+    for (const auto& fact : entry.facts)
+      if (std::find(names.begin(), names.end(), fact.first) != names.end())
+        short_one.entries.back().facts.push_back(fact);
+  }
+  auto out = table(short_one, links) + "\n";
+  for (const auto& entry : section.entries) {
+    const auto plain = fmt::format("\n| `{}` |", cell(entry.name));
+    if (const auto at = out.find(plain); at != std::string::npos)
+      out.replace(at, plain.size(),
+                  fmt::format("\n| [`{}`](#{}) |", cell(entry.name), anchor(entry.name)));
+  }
+  return out;
+}
+
+std::string chapter(const Entry& entry, const Links& links) {
+  auto out = fmt::format("## `{}`\n\n{}\n\n", entry.name, links.text(entry.summary, entry.name));
+  for (const auto& fact : entry.facts)
+    out += fmt::format("- {}: {}\n", fact.first, fact_text(links, entry.name, fact));
+  if (!entry.facts.empty())
+    out += "\n";
+  if (!entry.explanation.empty())
+    out += fmt::format("{}\n\n", links.text(entry.explanation, entry.name));
+  for (const auto& [caption, source] : entry.code)
+    out += fmt::format("{}:\n\n```\n{}\n```\n\n", caption,
+                       source.ends_with("\n") ? source.substr(0, source.size() - 1) : source);
+  return out;
+}
+
+} // namespace
+
+std::string print_markdown(const std::vector<Section>& sections, const Section& section) {
+  const Links links(sections, section);
+  auto out = fmt::format("<!-- Printed by `orb spec --markdown {}`; a test compares them. -->\n"
+                         "# {}\n\n",
+                         section.id, section.title);
+  if (fits_table(section))
+    return out + table(section, links);
+  if (!section.overview.empty())
+    out += section.overview + "\n";
+  out += contents(section, links);
+  for (const auto& entry : section.entries)
+    out += chapter(entry, links);
+  out.pop_back(); // one line end at the end of the file
+  return out;
+}
+
+} // namespace orb::reference

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "base/exit_code.h"
+#include "base/source.h"
+#include "compiler/image.h"
+#include "compiler/lint.h"
+#include "protocol/macro.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+// What users hand to orb: one reader for every command that takes programs and macros.
+
+namespace orb::run {
+
+/// What a source is written in.
+enum class Language : std::uint8_t { Basic, Macro };
+
+/// What a file holds.
+enum class Form : std::uint8_t {
+  Basic,       ///< an orbBasic program: source, or a built image with its final NUL
+  MacroSource, ///< macro source
+  MacroBody,   ///< the commands of one macro: `.sphero`
+  MacroImage,  ///< a framed macro: `.bin`
+};
+
+/// What the ending of `name` says, or `language` (`basic`, `macro` or empty), which is stronger.
+std::optional<Form> form_of(std::string_view name, std::string_view language);
+
+/// The language of a source, by the same rule; nothing where the file holds bytes or cannot be
+/// told.
+std::optional<Language> language_of(std::string_view name, std::string_view language);
+
+/// That the form of `name` cannot be told: code 2, and what to add.
+Failure unknown_form(std::string_view name);
+
+/// A program as it goes to a ball.
+struct Program {
+  compiler::Program parsed; ///< refers to the source of its input
+  compiler::Image image;
+
+  /// The number of the first line that the robot can start at; nothing where there is none.
+  std::optional<std::uint16_t> first_line() const;
+};
+
+/// A macro as it goes to a ball.
+struct Macro {
+  std::string name;
+  protocol::MacroImage image;
+  bool has_id = false;                      ///< the file gives the id
+  std::vector<std::uint32_t> command_lines; ///< of command number k + 1; empty for bytes
+};
+
+/// One file: a program, or one or more macros, and the findings about it. With an error among
+/// them, what else is there is good only for a look.
+struct Input {
+  std::unique_ptr<Source> source;
+  std::optional<Program> program;
+  std::vector<Macro> macros;
+  std::vector<Diagnostic> findings;
+
+  bool has_errors() const;
+};
+
+/// What is said about a source besides that it can be used at all.
+enum class Findings : std::uint8_t { Lint, None };
+
+/// Reads the content of the file `name`. Bytes that are no macro are a failure; mistakes of a
+/// source are findings. A name that says nothing will do where the text is a built image.
+tl::expected<Input, Failure> read_input(std::string name, std::string text,
+                                        std::string_view language, const compiler::Target& target,
+                                        Findings findings);
+
+} // namespace orb::run

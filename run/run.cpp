@@ -1,0 +1,443 @@
+#include "run/run.h"
+
+#include "compiler/check.h"
+#include "compiler/load.h"
+#include "uploader/upload.h"
+#include "vm/ball_transport.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+
+namespace orb::run {
+namespace {
+
+/// The programs and macros of all inputs, in their order.
+struct Load {
+  struct ProgramOf {
+    const Input* input;
+    const Program* program;
+  };
+  std::vector<ProgramOf> programs;
+  std::vector<const Macro*> macros;
+};
+
+Load load_of(std::span<const Input> inputs) {
+  Load load;
+  for (const auto& input : inputs) {
+    if (input.program)
+      load.programs.push_back({&input, &*input.program});
+    for (const auto& macro : input.macros)
+      load.macros.push_back(&macro);
+  }
+  return load;
+}
+
+vm::Area other(vm::Area area) {
+  return area == vm::Area::Ram ? vm::Area::Flash : vm::Area::Ram;
+}
+
+/// Finds a text in output that arrives in pieces.
+class Search {
+public:
+  explicit Search(const std::string& text) : text_(text) {}
+
+  bool seen() const { return seen_; }
+  void take(std::string_view piece) {
+    if (text_.empty() || seen_)
+      return;
+    window_ += piece;
+    seen_ = window_.find(text_) != std::string::npos;
+    if (window_.size() >= text_.size())
+      window_.erase(0, window_.size() - text_.size() + 1);
+  }
+
+private:
+  const std::string& text_;
+  std::string window_;
+  bool seen_ = false;
+};
+
+/// Sees everything that happens from the start of the program to its end, and hands it on.
+class Watcher final : public vm::Observer {
+public:
+  Watcher(const Options& options, Listener& listener, report::Journey* journey)
+      : listener_(listener), journey_(journey), expected_(options.expect),
+        forbidden_(options.fail_text) {}
+
+  struct RobotFault {
+    int line = 0;
+    spec::BasicError code{};
+    vm::Area area{};
+  };
+
+  /// From when on the ball's events are those of the run.
+  enum class From : std::uint8_t {
+    Now,
+    FirstCommand, ///< of a macro that plays while it arrives
+  };
+  void begin(vm::Ball& ball, From from) {
+    ball_ = &ball;
+    start_ = ball.now();
+    from_ = from;
+  }
+
+  void on_event(Instant at, const vm::Event& event) override {
+    if (ball_ == nullptr || over_)
+      return;
+    if (from_ == From::FirstCommand) {
+      if (!std::holds_alternative<vm::event::Macro>(event))
+        return;
+      start_ = at;
+      from_ = From::Now;
+    }
+    const bool was_idle = ball_->idle(); // of what goes on afterwards only how it ended counts
+    if (!take(event) && was_idle) {
+      over_ = at;
+      return;
+    }
+    if (std::holds_alternative<vm::event::End>(event) && was_idle)
+      over_ = at;
+    const Duration t = at - start_;
+    listener_.on_event(t, event);
+    if (journey_ != nullptr) {
+      journey_->add(t, event);
+      journey_->sample(t, ball_->body());
+    }
+  }
+
+  Instant start() const { return start_; }
+  std::optional<Instant> over() const { return over_; } ///< since then nothing runs any more
+  Sought seen() const {
+    return forbidden_.seen()  ? Sought::Forbidden
+           : expected_.seen() ? Sought::Expected
+                              : Sought::Nothing;
+  }
+  const std::vector<RobotFault>& faults() const { return faults_; }
+  std::optional<vm::event::End::Reason> end() const { return end_; }
+  std::uint64_t lines() const { return lines_; }
+
+private:
+  /// Notes what the ending is made of; whether the event is part of it even after the program.
+  bool take(const vm::Event& event) {
+    if (const auto* print = std::get_if<vm::event::Print>(&event)) {
+      expected_.take(print->text);
+      forbidden_.take(print->text);
+      if (seen() != Sought::Nothing)
+        ball_->interrupt();
+      return true;
+    }
+    if (const auto* error = std::get_if<vm::event::Error>(&event)) {
+      faults_.push_back({error->line, error->code, ball_->basic_area()});
+      return true;
+    }
+    if (const auto* end = std::get_if<vm::event::End>(&event)) {
+      end_ = end->reason;
+      lines_ += end->lines;
+      return true;
+    }
+    return false;
+  }
+
+  vm::Ball* ball_ = nullptr;
+  From from_ = From::Now;
+  Instant start_{};
+  Listener& listener_;
+  report::Journey* journey_;
+  Search expected_;
+  Search forbidden_;
+  std::vector<RobotFault> faults_;
+  std::optional<vm::event::End::Reason> end_;
+  std::uint64_t lines_ = 0;
+  std::optional<Instant> over_;
+};
+
+vm::BallOptions ball_options(const Options& options, Watcher& watcher,
+                             const report::Journey* journey) {
+  vm::BallOptions ball;
+  ball.seed = options.seed;
+  ball.lines_per_second = options.lines_per_second;
+  ball.firmware = options.firmware;
+  ball.ram_bytes = options.ram_bytes.value_or(spec::info(options.firmware).ram_bytes());
+  ball.loader = compiler::load;
+  ball.observer = &watcher;
+  ball.trace_lines = options.trace_lines || journey != nullptr;
+  return ball;
+}
+
+tl::expected<void, Failure> deliver(uploader::Session& session,
+                                    const uploader::Delivery& delivery) {
+  uploader::NullProgress progress;
+  const auto report =
+      uploader::deliver(session, delivery, uploader::BatteryPolicy::Refuse, progress);
+  if (report.kind == uploader::Report::Kind::Done)
+    return {};
+  return tl::unexpected(Failure{exit_code(report.kind), report.message});
+}
+
+uploader::MacroJob job_of(const Macro& macro) {
+  return {macro.image, uploader::natural_kind(macro.image), false, false};
+}
+
+/// Brings everything into the ball the way any client would.
+tl::expected<void, Failure> upload(const Load& load, vm::Area area, uploader::Session& session) {
+  uploader::Delivery delivery;
+  // The last temporary macro stays, and the first is the one to run.
+  for (auto macro = load.macros.rbegin(); macro != load.macros.rend(); ++macro)
+    if (auto job = job_of(**macro); job.kind != uploader::MacroKind::Stream) // see start()
+      delivery.macros.push_back({(*macro)->name, std::move(job)});
+  // Flash first: on its way there a program passes through RAM.
+  for (const auto there : {vm::Area::Flash, vm::Area::Ram})
+    for (std::size_t i = 0; i < load.programs.size(); ++i) {
+      if ((i == 0 ? area : other(area)) != there)
+        continue;
+      const auto& [input, program] = load.programs[i];
+      const auto bytes = as_bytes(program->image.bytes);
+      delivery.program_name = input->source->name();
+      delivery.program = uploader::ProgramJob{{bytes.begin(), bytes.end()},
+                                              there == vm::Area::Flash ? uploader::Area::Flash
+                                                                       : uploader::Area::Ram,
+                                              std::nullopt};
+      if (auto done = deliver(session, delivery); !done)
+        return done;
+      delivery = {};
+    }
+  return delivery.macros.empty() ? tl::expected<void, Failure>() : deliver(session, delivery);
+}
+
+/// What the ball answers to the command that starts the run.
+class Answer {
+public:
+  void take(ByteView bytes) {
+    if (code_)
+      return;
+    decoder_.feed(bytes);
+    while (const auto item = decoder_.next())
+      if (item->kind == protocol::Item::Kind::Response) {
+        code_ = item->code;
+        return;
+      }
+  }
+  bool refused() const {
+    return code_ && *code_ != static_cast<std::uint8_t>(spec::ResponseCode::Ok);
+  }
+
+private:
+  protocol::Decoder decoder_{protocol::Direction::FromBall};
+  std::optional<std::uint8_t> code_;
+};
+
+/// What a start without a client came to; with one, the answer tells.
+enum class Started : std::uint8_t { Yes, Refused };
+
+/// Sends one packet at this very instant.
+void send_now(vm::Ball& ball, spec::ApiCommand command, Bytes data) {
+  ball.receive(protocol::encode(protocol::make_command(command, std::move(data))));
+}
+
+Started start_macro(const Macro& macro, const Options& options, vm::Ball& ball,
+                    uploader::Session& session) {
+  if (job_of(macro).kind == uploader::MacroKind::Stream) {
+    uploader::NullProgress progress; // plays while it arrives
+    const auto report = uploader::upload(session, job_of(macro), progress);
+    return report.kind == uploader::Report::Kind::Done ? Started::Yes : Started::Refused;
+  }
+  if (options.client == Client::Absent)
+    return ball.run_macro(macro.image.id) == vm::MacroOutcome::Done ? Started::Yes
+                                                                    : Started::Refused;
+  send_now(ball, spec::ApiCommand::RunMacro, {macro.image.id});
+  return Started::Yes;
+}
+
+Started start_program(const Program& program, const Options& options, vm::Ball& ball) {
+  const auto line = options.line.value_or(program.first_line().value_or(0));
+  if (options.client == Client::Absent)
+    return ball.execute_basic(options.area, line) == vm::Outcome::Done ? Started::Yes
+                                                                       : Started::Refused;
+  Bytes data{static_cast<std::uint8_t>(options.area)};
+  append_u16(data, line);
+  send_now(ball, spec::ApiCommand::ExecuteOrbbasicProgram, std::move(data));
+  return Started::Yes;
+}
+
+/// Why the ball does not start what it was given.
+Failure refusal(const Load& load, const Options& options, const vm::Ball& ball) {
+  if (!load.programs.empty())
+    return {ExitCode::Refused, fmt::format("the ball does not run the program: its firmware {} "
+                                           "has no orbBasic; choose another with `--firmware`",
+                                           spec::info(options.firmware).name)};
+  const auto& macro = *load.macros.front();
+  static_cast<void>(ball);
+  if (options.client == Client::Connected &&
+      (macro.image.flags & static_cast<std::uint8_t>(spec::MacroFlag::InhIfConn)) != 0)
+    return {ExitCode::Refused,
+            fmt::format("the ball does not run macro `{}` while a client is connected: its flag "
+                        "`inh_if_conn` forbids it; run it with `--disconnected`",
+                        macro.name)};
+  return {ExitCode::Refused, fmt::format("the ball does not run macro `{}`", macro.name)};
+}
+
+/// Lets the ball live until the run is over or `limit` is reached.
+void live(vm::Ball& ball, const Watcher& watcher, Listener& listener, Answer& answer, Instant limit,
+          Duration slice) {
+  while (ball.now() < limit) {
+    ball.advance_until_quiet(std::min(limit, ball.now() + slice));
+    answer.take(ball.take_output());
+    if (watcher.seen() != Sought::Nothing)
+      return;
+    if (ball.machine().waits_for_input() && !ball.input_queued()) {
+      if (const auto value = listener.ask_number()) {
+        ball.queue_input(*value);
+        continue;
+      }
+    }
+    if (ball.quiet())
+      return;
+    listener.on_time(ball.now() - watcher.start());
+  }
+}
+
+Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
+  if (!watcher.faults().empty())
+    return Reason::Error;
+  if (watcher.seen() != Sought::Nothing)
+    return Reason::Abort;
+  if (ball.basic_running() && ball.quiet())
+    return Reason::Input;
+  if (!ball.quiet() && ball.now() >= limit)
+    return Reason::TimeLimit;
+  switch (watcher.end().value_or(vm::event::End::Reason::End)) {
+  case vm::event::End::Reason::End: return Reason::End;
+  case vm::event::End::Reason::Error: return Reason::Error;
+  case vm::event::End::Reason::Abort: return Reason::Abort;
+  case vm::event::End::Reason::Sleep: return Reason::Sleep;
+  }
+  return Reason::End;
+}
+
+/// Where a fault is in the user's file, and what the linter knows about that line.
+Fault explain(const Watcher::RobotFault& fault, const Load::ProgramOf& of,
+              const compiler::Target& target) {
+  const auto& source = *of.input->source;
+  const auto& parsed = of.program->parsed;
+  Fault found{static_cast<std::uint32_t>(fault.line), fault.code, source.name(), {0, 0}, {}, {}};
+  const auto line = std::find_if(parsed.lines.begin(), parsed.lines.end(), [&](const auto& one) {
+    return one.number == found.robot_line && one.has_statement();
+  });
+  if (line == parsed.lines.end())
+    return found;
+  found.place = source.position(parsed.statements[line->statement].span.begin);
+  const auto checked = compiler::check(parsed.text, target);
+  for (const auto& diagnostic : checked.diagnostics)
+    if (diagnostic.rule->robot_error == spec::code(fault.code) &&
+        source.position(diagnostic.span.begin).line == found.place.line) {
+      found.finding = diagnostic.message;
+      found.help = diagnostic.help;
+      break;
+    }
+  return found;
+}
+
+/// Tells the journey which files there are and where the robot's lines and commands stand in them.
+void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey) {
+  bool first = true; // of two programs the lines of the second are told by their number alone
+  for (const auto& input : inputs) {
+    const auto& source = *input.source;
+    const bool has_lines =
+        std::any_of(input.macros.begin(), input.macros.end(),
+                    [](const Macro& macro) { return !macro.command_lines.empty(); });
+    if (!input.program && !has_lines)
+      continue;
+    const int file = journey.add_file(source.name(), std::string(source.text()));
+    if (input.program && std::exchange(first, false)) {
+      const auto& lines = input.program->parsed.lines;
+      for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+        if (line->has_number())
+          journey.map_line(static_cast<int>(line->number),
+                           {file, static_cast<int>(source.position(line->span.begin).line)});
+    }
+    for (const auto& macro : input.macros)
+      for (std::size_t k = 0; k < macro.command_lines.size(); ++k)
+        journey.map_command(macro.image.id, static_cast<int>(k) + 1,
+                            {file, static_cast<int>(macro.command_lines[k])});
+  }
+  for (const auto& event : options.stimuli)
+    if (const auto* wall = std::get_if<vm::Wall>(&event.stimulus))
+      journey.add_wall(*wall);
+}
+
+/// That the inputs cannot be run; nothing where they can.
+std::optional<Failure> objection(const Load& load) {
+  if (load.programs.size() > 2)
+    return Failure{ExitCode::Usage, "a ball holds two programs: one in RAM, one in flash"};
+  for (const auto& [input, program] : load.programs)
+    if (!program->first_line())
+      return Failure{ExitCode::BadInput,
+                     fmt::format("{} holds no program: no line begins with a line number and a "
+                                 "statement",
+                                 input->source->name())};
+  if (load.programs.empty() && load.macros.empty())
+    return Failure{ExitCode::BadInput, "there is no macro to run"};
+  for (const auto* macro : load.macros)
+    if (const auto size = encode(macro->image).size();
+        job_of(*macro).kind == uploader::MacroKind::User && size > spec::macro_max_packet)
+      return Failure{ExitCode::BadInput,
+                     fmt::format("macro `{}` has an id and {} bytes; a ball keeps at most {} under "
+                                 "an id. Without `id=` it runs as a temporary or streamed macro",
+                                 macro->name, size, spec::macro_max_packet)};
+  return std::nullopt;
+}
+
+} // namespace
+
+tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& options,
+                                  Listener& listener, report::Journey* journey) {
+  const auto load = load_of(inputs);
+  if (auto why = objection(load))
+    return tl::unexpected(*std::move(why));
+  Watcher watcher(options, listener, journey);
+  vm::Ball ball(ball_options(options, watcher, journey));
+  vm::BallTransport transport(ball);
+  uploader::Session session(transport, {}, 0);
+  if (auto done = upload(load, options.area, session); !done)
+    return tl::unexpected(done.error());
+
+  // A whole second, so that times in a trace do not depend on how long the upload took.
+  ball.advance_to(ball.now() + 1s - ball.now().time_since_epoch() % 1s);
+  ball.take_output();
+  if (options.client == Client::Absent)
+    ball.disconnect();
+  const bool streams =
+      load.programs.empty() && job_of(*load.macros.front()).kind == uploader::MacroKind::Stream;
+  watcher.begin(ball, streams ? Watcher::From::FirstCommand : Watcher::From::Now);
+  if (journey != nullptr)
+    describe(inputs, options, *journey);
+  ball.schedule(options.stimuli);
+  for (const auto number : options.numbers)
+    ball.queue_input(number);
+  const auto started = load.programs.empty()
+                           ? start_macro(*load.macros.front(), options, ball, session)
+                           : start_program(*load.programs.front().program, options, ball);
+  const Instant limit = options.bound == Duration{} ? never - 1h : watcher.start() + options.bound;
+  Answer answer;
+  if (started == Started::Yes)
+    live(ball, watcher, listener, answer, limit, options.slice);
+  if (started == Started::Refused || answer.refused())
+    return tl::unexpected(refusal(load, options, ball));
+
+  Ending ending;
+  ending.reason = reason_of(ball, watcher, limit);
+  ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
+  ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
+  ending.seen = watcher.seen();
+  for (const auto& fault : watcher.faults()) {
+    const bool first = fault.area == options.area || load.programs.size() < 2;
+    ending.faults.push_back(explain(fault, load.programs[first ? 0 : 1], options.target));
+  }
+  if (journey != nullptr)
+    journey->finish(ending.lasted, std::string(to_string(ending.reason)), to_string(ending));
+  return ending;
+}
+
+} // namespace orb::run

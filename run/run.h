@@ -1,0 +1,96 @@
+#pragma once
+
+#include "base/exit_code.h"
+#include "base/time.h"
+#include "report/journey.h"
+#include "run/input.h"
+#include "spec/firmware.h"
+#include "vm/ball.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+// A run: sources and options in; prints and events while it goes on; how it ended out. It uploads
+// to a ball in this process and lets it live in virtual time: the same inputs and options give the
+// same run.
+
+namespace orb::run {
+
+/// Whether a client is connected while the program runs.
+enum class Client : std::uint8_t { Connected, Absent };
+
+struct Options {
+  Duration bound = 60s;              ///< of robot time; zero: none
+  std::optional<std::uint16_t> line; ///< where the program starts; else at its first line
+  std::uint64_t seed = 1;
+  std::vector<std::int32_t> numbers; ///< for `input`, in order
+  Client client = Client::Connected;
+  vm::Area area = vm::Area::Ram;
+  compiler::Target target; ///< for what the linter adds to a fault
+  spec::Firmware firmware = spec::default_firmware;
+  std::optional<std::size_t> ram_bytes; ///< else what the firmware has
+  std::uint32_t lines_per_second =
+      static_cast<std::uint32_t>(spec::value_of(spec::Limit::LinesPerSecond));
+  bool trace_lines = false; ///< the listener hears every line
+  Duration slice = 1s;      ///< how often the listener hears of the time
+  std::vector<vm::TimedStimulus> stimuli;
+  std::string expect;    ///< printed: the run stops well; empty for none
+  std::string fail_text; ///< printed: the run stops as a failure; empty for none
+};
+
+/// Hears a run while it goes on. Times count from its start.
+class Listener {
+public:
+  virtual ~Listener() = default;
+  virtual void on_event(Duration t, const vm::Event& event) = 0;
+  /// The run has reached `t`, which for --realtime is the moment to wait.
+  virtual void on_time(Duration) {}
+  /// `input` waits and no number is left; nothing when there will be none.
+  virtual std::optional<std::int32_t> ask_number() { return std::nullopt; }
+};
+
+/// Why a run is over. The words of the trace: to_string().
+enum class Reason : std::uint8_t { End, Error, Abort, TimeLimit, Sleep, Input };
+std::string_view to_string(Reason reason);
+
+/// A fault of the robot and where it is in the user's file.
+struct Fault {
+  std::uint32_t robot_line = 0;
+  spec::BasicError code{};
+  std::string file;
+  Position place{0, 0}; ///< line 0: the file has no such line
+  std::string finding;  ///< what the linter says of that line; may be empty
+  std::string help;     ///< and what to write; may be empty
+};
+
+/// What was looked for in the output.
+enum class Sought : std::uint8_t { Nothing, Expected, Forbidden };
+
+struct Ending {
+  Reason reason = Reason::End;
+  Duration lasted{};
+  std::uint64_t lines = 0;
+  std::vector<Fault> faults;
+  Sought seen = Sought::Nothing;
+};
+
+/// The sentence about an ending: `ended after 1.234 s of robot time, 3702 lines`.
+std::string to_string(const Ending& ending);
+
+/// What a newcomer may be missing when a run ended so without a stimulus script: a sentence, or
+/// nothing where there is nothing to say.
+std::string hint(const Ending& ending, std::span<const Input> inputs);
+
+/// Runs the first program, or where there is none the first macro; the others are loaded beside it.
+/// A second program lies in the other area. `journey` may be null. Fails where the ball does not
+/// take what it is given; what the program itself does wrong is part of the ending.
+tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& options,
+                                  Listener& listener, report::Journey* journey);
+
+} // namespace orb::run
