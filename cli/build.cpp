@@ -7,11 +7,11 @@
 #include "compiler/image.h"
 #include "compiler/rules.h"
 #include "disk/disk.h"
+#include "run/line_map.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace orb::cli {
 namespace {
@@ -25,23 +25,6 @@ struct Options {
   bool pack = false;
   bool no_check = false;
 };
-
-std::string map_json(const std::string& file, const compiler::Image& image) {
-  nlohmann::ordered_json json;
-  json["schema"] = "orb.map/1";
-  json["file"] = file;
-  json["lines"] = nlohmann::ordered_json::array();
-  for (const auto& line : image.lines) {
-    nlohmann::ordered_json entry;
-    entry["line"] = line.source_line;
-    if (line.number != compiler::none)
-      entry["basicLine"] = line.number;
-    entry["offset"] = line.offset;
-    entry["size"] = line.size;
-    json["lines"].push_back(std::move(entry));
-  }
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-}
 
 /// Prints the errors; the size is left to the image that is really built.
 bool has_errors(Context& context, const Source& source, const std::vector<Diagnostic>& found) {
@@ -75,14 +58,14 @@ void build_basic(Context& context, const Options& options, const Source& source)
       checked.program, options.pack ? compiler::Packing::Packed : compiler::Packing::Plain);
   const auto room = static_cast<std::size_t>(compiler::area_bytes(target));
   if (image.bytes.size() > room) {
-    print_error(context,
-                fmt::format("{} takes {} bytes, {} more than the {} of the {} area{}",
-                            source.name(), image.bytes.size(), image.bytes.size() - room, room,
-                            options.target.area, options.pack ? "" : "; try `--pack`"));
-    context.exit = ExitCode::BadInput;
-    return;
+    return fail(context,
+                {ExitCode::BadInput,
+                 fmt::format("{} takes {} bytes, {} more than the {} of the {} area{}",
+                             source.name(), image.bytes.size(), image.bytes.size() - room, room,
+                             options.target.area, options.pack ? "" : "; try `--pack`")});
   }
-  if (!options.map.empty() && !write(context, options.map, map_json(source.name(), image)))
+  if (!options.map.empty() &&
+      !write(context, options.map, run::print_line_map(source.name(), image)))
     return;
   if (write(context, options.out, image.bytes))
     print_note(context,

@@ -127,9 +127,8 @@ void check(Context& context, const Options& options) {
     return;
   if (options.fix &&
       std::find(options.files.begin(), options.files.end(), "-") != options.files.end()) {
-    print_error(context, "`--fix` writes the file back; standard input has none");
-    context.exit = ExitCode::Usage;
-    return;
+    return fail(context,
+                {ExitCode::Usage, "`--fix` writes the file back; standard input has none"});
   }
   auto inputs = read_sources(options);
   if (!inputs)

@@ -55,4 +55,9 @@ void print_error(const Context& context, std::string_view message) {
   print_err(fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Error, "error"), message));
 }
 
+void fail(Context& context, const Failure& failure) {
+  print_error(context, failure.message);
+  context.exit = failure.code;
+}
+
 } // namespace orb::cli

@@ -36,4 +36,7 @@ void print_note(const Context& context, std::string_view message);
 /// Prints `orb: error: MESSAGE` to stderr.
 void print_error(const Context& context, std::string_view message);
 
+/// Prints why the command cannot do what it should, and leaves the code to end with.
+void fail(Context& context, const Failure& failure);
+
 } // namespace orb::cli

@@ -163,21 +163,17 @@ void decode(Context& context, const DecodeArguments& arguments) {
   if (words.empty() ||
       (words.size() == 1 && (words[0] == "-" || std::filesystem::exists(words[0], ignored)))) {
     const auto content = disk::read(words.empty() ? "-" : words[0]);
-    if (!content) {
-      print_error(context, content.error().message);
-      context.exit = ExitCode::File;
-      return;
-    }
+    if (!content)
+      return fail(context, {ExitCode::File, content.error().message});
     input = take_apart(*content);
   } else {
     for (const auto& word : words) {
       const auto bytes = from_hex(word);
       if (!bytes) {
-        print_error(context, fmt::format("`{}` is neither a file nor hex bytes; write bytes as in "
-                                         "`orb decode FFFF00015201AB`",
-                                         word));
-        context.exit = ExitCode::Usage;
-        return;
+        return fail(context, {ExitCode::Usage,
+                              fmt::format("`{}` is neither a file nor hex bytes; write bytes as in "
+                                          "`orb decode FFFF00015201AB`",
+                                          word)});
       }
       input.bytes.insert(input.bytes.end(), bytes->begin(), bytes->end());
     }

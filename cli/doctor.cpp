@@ -145,11 +145,8 @@ void run(Context& context, const PortOptions& options) {
   const auto endpoint =
       url ? uploader::parse_endpoint(*url)
           : tl::expected<Endpoint, std::string>(tl::unexpected(url.error().message));
-  if (!endpoint) {
-    print_error(context, endpoint.error());
-    context.exit = ExitCode::Usage;
-    return;
-  }
+  if (!endpoint)
+    return fail(context, {ExitCode::Usage, endpoint.error()});
   auto reachable = true;
   switch (endpoint->scheme) {
   case Scheme::Serial:

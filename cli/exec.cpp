@@ -1,6 +1,6 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/monitoring.h"
+#include "cli/messages.h"
 #include "protocol/describe.h"
 #include "protocol/payload.h"
 
@@ -51,11 +51,8 @@ void run(Context& context, const Options& options) {
     return;
   }
   const auto data = protocol::encode_operands(row->command, options.arguments);
-  if (!data) {
-    print_error(context, data.error().message);
-    context.exit = ExitCode::Usage;
-    return;
-  }
+  if (!data)
+    return fail(context, {ExitCode::Usage, data.error().message});
   with_ball(context, options.port,
             [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
               const auto answer = request(session, row->command, *data);

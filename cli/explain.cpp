@@ -44,10 +44,9 @@ void run(Context& context, const std::string& word) {
   const auto names = all_names(sections);
   const std::vector<std::string_view> views(names.begin(), names.end());
   const auto meant = closest(word, views);
-  print_error(context, fmt::format("nothing is known about `{}`{}", word,
-                                   meant ? fmt::format("; did you mean `{}`?", *meant)
-                                         : "; `orb spec` lists all there is"));
-  context.exit = ExitCode::BadInput;
+  fail(context, {ExitCode::BadInput, fmt::format("nothing is known about `{}`{}", word,
+                                                 meant ? fmt::format("; did you mean `{}`?", *meant)
+                                                       : "; `orb spec` lists all there is")});
 }
 
 } // namespace

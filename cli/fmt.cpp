@@ -68,9 +68,8 @@ std::optional<std::string> format_text(Context& context, const Source& source,
   const auto result = compiler::renumber(checked.program, *numbering);
   if (const auto* obstacle = std::get_if<compiler::Obstacle>(&result)) {
     const auto place = source.position(obstacle->span.begin);
-    print_error(context, fmt::format("{}:{}:{}: cannot renumber: {}", source.name(), place.line,
-                                     place.column, obstacle->message));
-    context.exit = ExitCode::BadInput;
+    fail(context, {ExitCode::BadInput, fmt::format("{}:{}:{}: cannot renumber: {}", source.name(),
+                                                   place.line, place.column, obstacle->message)});
     return std::nullopt;
   }
   const auto& text = std::get<std::string>(result);
@@ -123,13 +122,11 @@ void format_all(Context& context, const Options& options) {
   std::optional<compiler::Numbering> numbering;
   if (options.renumbers) {
     numbering = read_numbering(options.renumber);
-    if (!numbering) {
-      print_error(context,
-                  fmt::format("`--renumber={}` is not START:STEP, as in `--renumber=100:10`",
-                              options.renumber));
-      context.exit = ExitCode::Usage;
-      return;
-    }
+    if (!numbering)
+      return fail(context,
+                  {ExitCode::Usage,
+                   fmt::format("`--renumber={}` is not START:STEP, as in `--renumber=100:10`",
+                               options.renumber)});
   }
   for (const auto& path : options.files)
     run_one(context, options, path, numbering);

@@ -76,9 +76,4 @@ bool print_findings(const Context& context, const Source& source,
   return errors;
 }
 
-void fail(Context& context, const Failure& failure) {
-  print_error(context, failure.message);
-  context.exit = failure.code;
-}
-
 } // namespace orb::cli

@@ -44,7 +44,4 @@ tl::expected<std::vector<vm::TimedStimulus>, Failure> read_stimulus(const Contex
 bool print_findings(const Context& context, const Source& source,
                     const std::vector<Diagnostic>& findings);
 
-/// Prints the sentence and leaves the code.
-void fail(Context& context, const Failure& failure);
-
 } // namespace orb::cli

@@ -35,10 +35,9 @@ void print_page(Context& context, const std::vector<reference::ManualPage>& page
       names.push_back(names.back().substr(4));
   }
   const auto meant = closest(name, names);
-  print_error(context, fmt::format("there is no page `{}`{}", name,
-                                   meant ? fmt::format("; did you mean `{}`?", *meant)
-                                         : "; `orb man orb` names them all"));
-  context.exit = ExitCode::Usage;
+  fail(context, {ExitCode::Usage, fmt::format("there is no page `{}`{}", name,
+                                              meant ? fmt::format("; did you mean `{}`?", *meant)
+                                                    : "; `orb man orb` names them all")});
 }
 
 void write_pages(Context& context, const std::vector<reference::ManualPage>& pages,
@@ -47,11 +46,8 @@ void write_pages(Context& context, const std::vector<reference::ManualPage>& pag
     const auto place = fmt::format("{}/man{}", folder, page.file.back());
     std::error_code error;
     std::filesystem::create_directories(place, error); // writing says what is wrong
-    if (const auto done = disk::write(place + "/" + page.file, as_bytes(page.text)); !done) {
-      print_error(context, done.error().message);
-      context.exit = ExitCode::File;
-      return;
-    }
+    if (const auto done = disk::write(place + "/" + page.file, as_bytes(page.text)); !done)
+      return fail(context, {ExitCode::File, done.error().message});
   }
 }
 

@@ -1,7 +1,8 @@
-#include "cli/monitoring.h"
-
 #include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/messages.h"
 
+#include <fmt/format.h>
 #include <memory>
 
 namespace orb::cli {
@@ -12,15 +13,23 @@ struct Options {
   std::string map;
 };
 
-void run(Context& context, const Options& options) {
-  LineMap lines;
+tl::expected<run::LineMap, Failure> read_map(const std::string& path) {
+  const auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  auto map = run::parse_line_map(*text);
+  if (!map)
+    return tl::unexpected(
+        Failure{ExitCode::File, fmt::format("{} is not a map that `orb build --map` wrote", path)});
+  return *std::move(map);
+}
+
+void listen(Context& context, const Options& options) {
+  run::LineMap lines;
   if (!options.map.empty()) {
-    auto map = read_line_map(options.map);
-    if (!map) {
-      print_error(context, map.error());
-      context.exit = ExitCode::File;
-      return;
-    }
+    auto map = read_map(options.map);
+    if (!map)
+      return fail(context, map.error());
     lines = *std::move(map);
   }
   with_ball(context, options.port,
@@ -44,7 +53,7 @@ void add_monitor(CLI::App& app, Context& context) {
       ->add_option("--map", options->map,
                    "a map of `orb build --map`: errors then point into the source")
       ->type_name("FILE");
-  command->callback([&context, options] { run(context, *options); });
+  command->callback([&context, options] { listen(context, *options); });
 }
 
 } // namespace orb::cli

@@ -82,27 +82,21 @@ void make(Context& context, const std::string& folder) {
   const fs::path path(folder);
   std::error_code error;
   if (fs::exists(path, error) && (!fs::is_directory(path, error) || !fs::is_empty(path, error))) {
-    print_error(context, fmt::format("`{}` exists already; give another name", folder));
-    context.exit = ExitCode::File;
-    return;
+    return fail(context,
+                {ExitCode::File, fmt::format("`{}` exists already; give another name", folder)});
   }
   fs::create_directories(path, error);
-  if (error) {
-    print_error(context, fmt::format("cannot make `{}`: {}", folder, error.message()));
-    context.exit = ExitCode::File;
-    return;
-  }
+  if (error)
+    return fail(context,
+                {ExitCode::File, fmt::format("cannot make `{}`: {}", folder, error.message())});
   auto name = fs::absolute(path, error).lexically_normal().filename().string();
   if (name.empty())
     name = fs::absolute(path, error).lexically_normal().parent_path().filename().string();
   for (const auto& starter : starters) {
     const auto file = (path / filled(starter.name, name)).lexically_normal().string();
     const auto text = filled(starter.text, name);
-    if (const auto written = disk::write(file, as_bytes(text)); !written) {
-      print_error(context, written.error().message);
-      context.exit = ExitCode::File;
-      return;
-    }
+    if (const auto written = disk::write(file, as_bytes(text)); !written)
+      return fail(context, {ExitCode::File, written.error().message});
     print_out(fmt::format("{}\n", file));
   }
   const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", folder);

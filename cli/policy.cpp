@@ -51,10 +51,9 @@ bool check_rules(Context& context, const Policy& policy) {
       if (names(ids, id) || (list == &policy.deny && id == "all"))
         continue;
       const auto meant = closest(id, views);
-      print_error(context, fmt::format("there is no rule `{}`; {}", id,
-                                       meant ? fmt::format("did you mean `{}`?", *meant)
-                                             : "`orb spec rules` lists them"));
-      context.exit = ExitCode::Usage;
+      fail(context, {ExitCode::Usage, fmt::format("there is no rule `{}`; {}", id,
+                                                  meant ? fmt::format("did you mean `{}`?", *meant)
+                                                        : "`orb spec rules` lists them")});
       return false;
     }
   return true;

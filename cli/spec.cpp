@@ -56,11 +56,8 @@ void write_editor_files(Context& context, const std::string& folder) {
     const auto path = std::filesystem::path(folder) / file.path;
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error); // writing says what is wrong
-    if (const auto done = disk::write(path.string(), as_bytes(file.text)); !done) {
-      print_error(context, done.error().message);
-      context.exit = ExitCode::File;
-      return;
-    }
+    if (const auto done = disk::write(path.string(), as_bytes(file.text)); !done)
+      return fail(context, {ExitCode::File, done.error().message});
   }
 }
 

@@ -3,7 +3,7 @@
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/link.h"
-#include "cli/monitoring.h"
+#include "cli/messages.h"
 #include "cli/options.h"
 #include "cli/progress_bar.h"
 #include "cli/target.h"
@@ -155,17 +155,17 @@ ExitCode dry_run(const Context& context, const Options& options,
   return ExitCode::Done;
 }
 
-LineMap lines_of(const std::vector<run::Input>& inputs) {
+run::LineMap lines_of(const std::vector<run::Input>& inputs) {
   for (const auto& input : inputs)
     if (input.program)
-      return line_map(input.source->name(), input.program->image);
+      return run::line_map(input.source->name(), input.program->image);
   return {};
 }
 
 /// Tells how it ended, and watches what runs where that was asked for.
 ExitCode finish(const Context& context, const Options& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
-                const LineMap& lines) {
+                const run::LineMap& lines) {
   if (report.kind != Report::Kind::Done)
     return fail(context, exit_code(report.kind), report.message);
   print_note(context,
@@ -179,7 +179,7 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
 }
 
 ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
-              const LineMap& lines) {
+              const run::LineMap& lines) {
   const InterruptGuard guard;
   auto link = open_link(context, options.port);
   if (!link)

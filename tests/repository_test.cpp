@@ -222,6 +222,16 @@ std::string command_row(const orb::spec::MacroCommandInfo& info) {
                      info.executive, info.summary);
 }
 
+TEST(Docs, ArchitectureNamesFilesThatExist) {
+  const auto text = read_all(root / "docs" / "architecture.md");
+  const std::regex path(R"(`([a-z_]+/[a-z_0-9]+\.(?:cpp|h|def|js))`)");
+  const std::sregex_iterator end;
+  std::size_t count = 0;
+  for (std::sregex_iterator at(text.begin(), text.end(), path); at != end; ++at, ++count)
+    EXPECT_TRUE(fs::exists(root / (*at)[1].str())) << (*at)[1];
+  EXPECT_GT(count, 25U);
+}
+
 TEST(Docs, MacrosHasTheTableOfCommands) {
   std::string table = "| command | bytes | operands | executive | |\n|---|---|---|---|---|\n";
   for (const auto& info : orb::spec::macro_commands)

@@ -1,11 +1,10 @@
-#include "cli/monitoring.h"
+#include "cli/messages.h"
 
 #include "cli/interrupt.h"
 #include "protocol/describe.h"
 #include "spec/basic.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace orb::cli {
 namespace {
@@ -21,14 +20,14 @@ bool is(const Async& message, AsyncId id) {
   return message.id == static_cast<std::uint8_t>(id);
 }
 
-std::string place(const LineMap& lines, std::uint32_t robot_line) {
+std::string place(const run::LineMap& lines, std::uint32_t robot_line) {
   const auto found = lines.source_line.find(robot_line);
   if (lines.file.empty() || found == lines.source_line.end())
     return {};
   return fmt::format("{}:{}:1: ", lines.file, found->second);
 }
 
-void print_message(const Context& context, const Async& message, const LineMap& lines,
+void print_message(const Context& context, const Async& message, const run::LineMap& lines,
                    Watched& watched) {
   if (is(message, AsyncId::BasicPrint)) {
     print_out(as_text(message.data));
@@ -56,37 +55,8 @@ void print_message(const Context& context, const Async& message, const LineMap& 
 
 } // namespace
 
-LineMap line_map(const std::string& file, const compiler::Image& image) {
-  LineMap map{file, {}};
-  for (const auto& line : image.lines)
-    if (line.number != compiler::none)
-      map.source_line.emplace(line.number, line.source_line);
-  return map;
-}
-
-tl::expected<LineMap, std::string> read_line_map(const std::string& path) {
-  const auto text = disk::read(path);
-  if (!text)
-    return tl::unexpected(text.error().message);
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  LineMap map;
-  const auto wrong = fmt::format("{} is not a map that `orb build --map` wrote", path);
-  if (!json.is_object() || !json.contains("lines") || !json["lines"].is_array())
-    return tl::unexpected(wrong);
-  if (json.contains("file") && json["file"].is_string())
-    map.file = json["file"].get<std::string>();
-  for (const auto& line : json["lines"]) {
-    if (!line.is_object() || !line.contains("line") || !line["line"].is_number_unsigned())
-      return tl::unexpected(wrong);
-    if (line.contains("basicLine") && line["basicLine"].is_number_unsigned())
-      map.source_line.emplace(line["basicLine"].get<std::uint32_t>(),
-                              line["line"].get<std::uint32_t>());
-  }
-  return map;
-}
-
 Watched monitor(const Context& context, Link& link, uploader::Session& session,
-                const LineMap& lines) {
+                const run::LineMap& lines) {
   Watched watched;
   auto& inbox = session.inbox();
   while (true) {
