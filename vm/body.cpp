@@ -264,7 +264,11 @@ void Body::power_on() {
   vector_drive_limit_ = default_vector_drive_limit;
 }
 
-void Body::roll(const Roll& roll) {
+void Body::obey(const Motion& motion) {
+  std::visit([&](const auto& one) { obey_one(one); }, motion);
+}
+
+void Body::obey_one(const Roll& roll) {
   if (!stabilized_)
     return;
   target_deg_ = roll.heading_deg;
@@ -274,23 +278,33 @@ void Body::roll(const Roll& roll) {
   rotate_rate_ = 0;
 }
 
-void Body::rotate(int angle_deg, Duration time) {
+void Body::obey_one(const Rotate& turn) {
   if (!stabilized_)
     return;
-  const double least = std::abs(angle_deg) / greatest_yaw_rate;
-  rotate_left_deg_ = angle_deg;
-  rotate_rate_ = std::abs(angle_deg) / std::max({least, seconds(time), dt});
-  target_deg_ = wrap_360(yaw_deg_ + angle_deg);
+  const double least = std::abs(turn.angle_deg) / greatest_yaw_rate;
+  rotate_left_deg_ = turn.angle_deg;
+  rotate_rate_ = std::abs(turn.angle_deg) / std::max({least, seconds(turn.time), dt});
+  target_deg_ = wrap_360(yaw_deg_ + turn.angle_deg);
 }
 
-void Body::brake() {
+void Body::obey_one(const SetSpeed& change) {
+  obey_one(roll_at(change.speed));
+}
+
+Roll Body::roll_at(int speed) const {
+  const auto heading = static_cast<int>(std::lround(target_deg_)) % 360;
+  return {heading, speed, speed == 0 ? Go::Brake : Go::Drive};
+}
+
+void Body::obey_one(const Stop&) {
   target_speed_ = 0;
   go_ = Go::Brake;
   if (raw_)
     left_ = right_ = {MotorMode::Off, 0};
 }
 
-void Body::set_motors(Motor left, Motor right) {
+void Body::obey_one(const Motors& motors) {
+  const auto& [left, right] = motors;
   const auto ignored = [](const Motor& motor) { return motor.mode == MotorMode::Ignore; };
   if (ignored(left) && ignored(right))
     return;
@@ -306,7 +320,7 @@ void Body::set_motors(Motor left, Motor right) {
     right_ = right;
 }
 
-void Body::set_stabilization(Stabilization mode) {
+void Body::obey_one(Stabilization mode) {
   if (mode == Stabilization::Off) {
     stabilized_ = false;
     target_speed_ = 0;
@@ -325,20 +339,16 @@ void Body::set_stabilization(Stabilization mode) {
   left_ = right_ = {};
 }
 
-void Body::set_rotation_rate(double deg_per_s) {
-  rotation_rate_ = deg_per_s;
-}
-
 void Body::set_vector_drive(Switch vector_drive) {
   vector_drive_ = vector_drive;
 }
 
-void Body::set_heading(int heading_deg) {
-  const double turned = yaw_deg_ - heading_deg;
+void Body::obey_one(const SetHeading& name) {
+  const double turned = yaw_deg_ - name.heading_deg;
   world_offset_deg_ += turned;
   if (tare_correction_ == Switch::On)
     tare_deg_ += turned;
-  yaw_deg_ = target_deg_ = heading_deg;
+  yaw_deg_ = target_deg_ = name.heading_deg;
   rotate_left_deg_ = rotate_rate_ = 0;
 }
 

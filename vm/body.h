@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <variant>
 #include <vector>
 
 namespace orb::vm {
@@ -39,8 +40,41 @@ struct Motor {
   int power = 0; ///< 0..255
 };
 
+struct Motors {
+  Motor left;
+  Motor right;
+};
+
 /// The control system. `OnAndReset` also takes the present heading as the set-point.
 enum class Stabilization : std::uint8_t { Off = 0, OnAndReset = 1, On = 2 };
+
+/// Positive to the right; more than one turn is possible.
+struct Rotate {
+  int angle_deg = 0;
+  Duration time{};
+};
+
+/// Renames the present heading (Source: API §Set Heading); the locator follows its own rule.
+struct SetHeading {
+  int heading_deg = 0;
+};
+
+/// Another speed along the present heading (Source: macro 25h).
+struct SetSpeed {
+  int speed = 0; ///< 0..255
+};
+
+/// The rate of an ordinary turn.
+struct RotationRate {
+  double deg_per_s = 0;
+};
+
+/// Brakes to a stop and keeps the heading; motors that were set go off.
+struct Stop {};
+
+/// What clients, programs and macros ask of the control system.
+using Motion =
+    std::variant<Roll, Rotate, Motors, SetHeading, SetSpeed, Stabilization, RotationRate, Stop>;
 
 enum class Switch : std::uint8_t { Off, On };
 
@@ -107,32 +141,15 @@ public:
   void power_on();
 
   // Set-points.
-  void roll(const Roll& roll);
-  /// Turns by `angle_deg` (positive to the right, more than one turn is possible) within `time`.
-  void rotate(int angle_deg, Duration time);
-  /// Brakes to a stop, keeping the heading set-point.
-  void brake();
-  /// Gives the motors their modes; stabilisation goes off unless both are `Ignore`.
-  void set_motors(Motor left, Motor right);
-  void set_stabilization(Stabilization mode);
-  /// Degrees per second of an ordinary turn.
-  void set_rotation_rate(double deg_per_s);
+  void obey(const Motion& motion);
   void set_vector_drive(Switch vector_drive);
   /// The speed, 0 to 255, up to which vector drive turns before it moves.
   void set_vector_drive_limit(int speed) { vector_drive_limit_ = speed; }
-  /// Renames the present heading (Source: API §Set Heading); the locator follows its own rule.
-  void set_heading(int heading_deg);
 
   // Locator (Source: API §Configure Locator).
   void locate(double x_cm, double y_cm);
   void set_yaw_tare(int tare_deg);
   void set_tare_correction(Switch correct_on_set_heading);
-
-  // Lamps: what shows. Ball decides whose colour it is.
-  void show(Color color) { led_ = color; }
-  void show_back(std::uint8_t level) { back_led_ = level; }
-  Color led() const { return led_; }
-  std::uint8_t back_led() const { return back_led_; }
 
   // The world: stimuli.
   void add_wall(const Wall& wall);
@@ -163,6 +180,8 @@ public:
   Vector3 velocity_cm_s() const; ///< locator axes; z is 0
   double heading_setpoint_deg() const { return target_deg_; }
   int speed_setpoint() const { return target_speed_; }
+  /// The roll that changes nothing but the speed.
+  Roll roll_at(int speed) const;
   double left_motor_cm_s() const;
   double right_motor_cm_s() const;
   int left_motor_power() const;  ///< -255..255
@@ -175,6 +194,14 @@ public:
   bool charging() const { return charger_ == Switch::On; }
 
 private:
+  void obey_one(const Roll& roll);
+  void obey_one(const Rotate& turn);
+  void obey_one(const Motors& motors);
+  void obey_one(const SetHeading& name);
+  void obey_one(const SetSpeed& change);
+  void obey_one(Stabilization mode);
+  void obey_one(const RotationRate& rate) { rotation_rate_ = rate.deg_per_s; }
+  void obey_one(const Stop&);
   bool fast_turn() const;
   void single_step();
   void turn();
@@ -232,9 +259,6 @@ private:
   Switch charger_ = Switch::Off;
   Instant battery_at_{};
   double battery_v_;
-
-  Color led_;
-  std::uint8_t back_led_ = 0;
 
   struct Obstacle {
     Wall wall;

@@ -2,8 +2,11 @@
 
 // For vm/dispatch_*.cpp only: the handlers of the commands.
 
-#include "vm/ball.h"
 #include "vm/dispatcher.h"
+#include "vm/macro_executive.h"
+#include "vm/power.h"
+#include "vm/programs.h"
+#include "vm/streamer.h"
 
 /// Opens the handler of a command: `HANDLE(Ping) { … }`. It sees `call`.
 #define HANDLE(command)                                                                            \

@@ -33,25 +33,24 @@ HANDLE(GetChassisId) {
 }
 
 HANDLE(SetPermanentOptionFlags) {
-  call.ball.settings().permanent_flags = static_cast<std::uint32_t>(call.operands.number(0));
-  call.ball.settings_changed();
-  watch_gyro(call.ball);
+  host_.set(&Settings::permanent_flags, static_cast<std::uint32_t>(call.operands.number(0)));
+  watch_gyro();
   persist();
   return {};
 }
 
 HANDLE(GetPermanentOptionFlags) {
-  return call.answer({call.ball.settings().permanent_flags});
+  return call.answer({host_.settings().permanent_flags});
 }
 
 HANDLE(SetTemporaryOptionFlags) {
-  call.ball.settings().temporary_flags =
-      static_cast<std::uint32_t>(call.operands.number(0)) & assigned_temporary_flags;
+  host_.set(&Settings::temporary_flags,
+            static_cast<std::uint32_t>(call.operands.number(0)) & assigned_temporary_flags);
   return {};
 }
 
 HANDLE(GetTemporaryOptionFlags) {
-  return call.answer({call.ball.settings().temporary_flags});
+  return call.answer({host_.settings().temporary_flags});
 }
 
 HANDLE(GetConfigurationBlock) {
@@ -62,18 +61,18 @@ HANDLE(GetConfigurationBlock) {
     block.resize(spec::config_block_size - sizeof(std::uint16_t));
     append_u16(block, chassis_id(seed_));
   } else {
-    block = config_block(call.ball.settings(), profile_);
+    block = config_block(host_.settings(), profile_);
   }
-  call.ball.send(protocol::make_async(spec::AsyncId::ConfigBlock, {block}));
+  host_.send(protocol::make_async(spec::AsyncId::ConfigBlock, {block}));
   return {};
 }
 
 HANDLE(SetConfigurationBlock) {
-  if (!load_config_block(call.operands.data(), call.ball.settings(), profile_))
+  auto settings = host_.settings();
+  if (!load_config_block(call.operands.data(), settings, profile_))
     return {ResponseCode::BadParameter, {}};
-  call.ball.settings_changed();
-  call.ball.client_was_active();
-  watch_gyro(call.ball);
+  host_.change(settings);
+  watch_gyro();
   persist();
   return {};
 }
@@ -88,7 +87,7 @@ HANDLE(GetDeviceMode) {
 }
 
 HANDLE(GetSsb) {
-  call.ball.send(protocol::make_async(spec::AsyncId::SoulBlock, {profile_.soul.block()}));
+  host_.send(protocol::make_async(spec::AsyncId::SoulBlock, {profile_.soul.block()}));
   return {};
 }
 
@@ -100,7 +99,7 @@ HANDLE(RefillBank) {
   persist();
   if (soul_messages_) {
     const auto is_boost = bank == spec::bank::boost;
-    call.ball.send(
+    host_.send(
         protocol::make_async(is_boost ? spec::AsyncId::BoostUpdate : spec::AsyncId::ShieldDamage,
                              {is_boost ? profile_.soul.boost() : profile_.soul.shield()}));
   }
@@ -117,9 +116,9 @@ HANDLE(BuyConsumable) {
 
 HANDLE(UseConsumable) {
   const auto consumable = call.operands.u8(0);
-  if (call.ball.now() < consumable_until_ || !profile_.soul.use(consumable))
+  if (host_.now() < consumable_until_ || !profile_.soul.use(consumable))
     return {ResponseCode::ExecuteFailed, {}};
-  consumable_until_ = call.ball.now() + consumable_time;
+  consumable_until_ = host_.now() + consumable_time;
   return call.answer({consumable, profile_.soul.count(consumable)});
 }
 

@@ -39,8 +39,8 @@ std::string own_address(std::uint64_t seed) {
   return fmt::format("{}{:06X}", address_prefix, seed & 0xFFFFFF);
 }
 
-std::uint16_t centivolts(const Ball& ball) {
-  return static_cast<std::uint16_t>(std::lround(ball.body().battery_v() * 100));
+std::int64_t centivolts(const Body& body) {
+  return std::lround(body.battery_v() * 100);
 }
 
 } // namespace
@@ -50,7 +50,7 @@ HANDLE(Ping) {
 }
 
 HANDLE(GetVersioning) {
-  const auto record = spec::info(call.ball.firmware()).record();
+  const auto record = firmware_.record();
   return {ResponseCode::Ok, {record.begin(), record.end()}};
 }
 
@@ -78,49 +78,48 @@ HANDLE(GetAutoReconnect) {
 }
 
 HANDLE(GetPowerState) {
-  bring_up_to_date(call.ball);
-  return call.answer({power_record_version, call.ball.battery_state(), centivolts(call.ball),
+  bring_up_to_date();
+  return call.answer({power_record_version, host_.power().battery_state(), centivolts(host_.body()),
                       profile_.charges, clamp_u16(profile_.since_charge_s)});
 }
 
 HANDLE(SetPowerNotification) {
-  power_notice_at_ = call.operands.u8(0) == 0 ? never : call.ball.now() + power_notice_interval;
+  power_notice_at_ = call.operands.u8(0) == 0 ? never : host_.now() + power_notice_interval;
   return {};
 }
 
 HANDLE(Sleep) {
   if (call.operands.number(0) == deep_sleep)
     return {ResponseCode::Unsupported, {}};
-  call.ball.sleep({static_cast<int>(call.operands.number(0)), call.operands.u8(1),
-                   static_cast<int>(call.operands.number(2))});
+  host_.sleep({static_cast<int>(call.operands.number(0)), call.operands.u8(1),
+               static_cast<int>(call.operands.number(2))});
   return {};
 }
 
 HANDLE(GetVoltageTripPoints) {
-  return call.answer(
-      {call.ball.settings().low_battery_cv, call.ball.settings().critical_battery_cv});
+  return call.answer({host_.settings().low_battery_cv, host_.settings().critical_battery_cv});
 }
 
 HANDLE(SetVoltageTripPoints) {
   if (call.operands.number(0) - call.operands.number(1) < trip_point_distance_cv)
     return {ResponseCode::BadParameter, {}};
-  call.ball.settings().low_battery_cv = static_cast<int>(call.operands.number(0));
-  call.ball.settings().critical_battery_cv = static_cast<int>(call.operands.number(1));
-  call.ball.settings_changed();
+  auto settings = host_.settings();
+  settings.low_battery_cv = static_cast<int>(call.operands.number(0));
+  settings.critical_battery_cv = static_cast<int>(call.operands.number(1));
+  host_.change(settings);
   persist();
   return {};
 }
 
 HANDLE(SetInactivityTimeout) {
-  call.ball.settings().inactivity_timeout = std::chrono::seconds{call.operands.number(0)};
-  call.ball.client_was_active(); // the new time counts from now
+  host_.set<Duration>(&Settings::inactivity_timeout, std::chrono::seconds{call.operands.number(0)});
   persist();
   return {};
 }
 
 HANDLE(JumpToBootloader) {
   in_bootloader_ = true;
-  call.ball.shut_down();
+  host_.shut_down();
   return {};
 }
 
@@ -130,48 +129,49 @@ HANDLE(LeaveBootloader) {
 }
 
 HANDLE(PerformLevel1Diagnostics) {
-  const auto text = level_1(call.ball);
-  call.ball.send(protocol::make_async(spec::AsyncId::Level1Diagnostics, {as_bytes(text)}));
+  const auto text = level_1();
+  host_.send(protocol::make_async(spec::AsyncId::Level1Diagnostics, {as_bytes(text)}));
   return {};
 }
 
 HANDLE(PerformLevel2Diagnostics) {
-  bring_up_to_date(call.ball);
+  bring_up_to_date();
   Bytes boots;
   for (std::size_t i = 0; i < boot_counters; ++i)
     append_u16(boots, i == 0 ? profile_.cold_boots : i == wake_up_counter ? profile_.wake_ups : 0);
   return call.answer({level_2_record_version, 0, counters_.good, counters_.bad_did,
                       counters_.bad_dlen, counters_.bad_cid, counters_.bad_checksum,
-                      counters_.overruns, call.ball.sent(), call.ball.dropped(), boot_reason_cold,
-                      boots, 0, profile_.charges, clamp_u16(profile_.since_charge_s),
-                      profile_.awake_s, profile_.rolled_cm + call.ball.body().rolled_cm(), 0, 0});
+                      counters_.overruns, host_.link().sent(), host_.link().dropped(),
+                      boot_reason_cold, boots, 0, profile_.charges,
+                      clamp_u16(profile_.since_charge_s), profile_.awake_s,
+                      profile_.rolled_cm + host_.body().rolled_cm(), 0, 0});
 }
 
 HANDLE(ClearCounters) {
   if (device_mode_ == spec::device_mode::normal)
     return {ResponseCode::ExecuteFailed, {}};
   counters_ = {};
-  call.ball.clear_sent();
+  host_.link().clear_counters();
   return {};
 }
 
 HANDLE(AssignTimeValue) {
-  call.ball.set_clock_ms(static_cast<std::uint32_t>(call.operands.number(0)));
+  host_.link().set_clock_ms(static_cast<std::uint32_t>(call.operands.number(0)), host_.now());
   return {};
 }
 
 HANDLE(PollPacketTimes) {
   // Received and sent in the same millisecond.
-  return call.answer({call.operands.number(0), call.ball.clock_ms(), call.ball.clock_ms()});
+  const auto clock = host_.link().clock_ms(host_.now());
+  return call.answer({call.operands.number(0), clock, clock});
 }
 
-std::string Dispatcher::level_1(Ball& ball) {
-  bring_up_to_date(ball);
-  const auto& firmware = spec::info(ball.firmware());
-  const auto record = firmware.record();
+std::string Dispatcher::level_1() {
+  bring_up_to_date();
+  const auto record = firmware_.record();
   const auto nibbles = [](std::uint8_t byte) { return fmt::format("{}.{}", byte >> 4, byte & 15); };
-  const auto& settings = ball.settings();
-  const auto& body = ball.body();
+  const auto& settings = host_.settings();
+  const auto& body = host_.body();
   const auto felt = body.acceleration_g();
   const auto rate = body.rotation_deg_s();
   std::string out;
@@ -180,21 +180,20 @@ std::string Dispatcher::level_1(Ball& ball) {
   out += fmt::format("{} rechrg, {} s since last, {} s alive\n", profile_.charges,
                      profile_.since_charge_s, profile_.awake_s);
   out += fmt::format("Cold:{}, Wakeup:{}\n", profile_.cold_boots, profile_.wake_ups);
-  out += fmt::format(
-      "Dist rolled: {} cm, Vbatt {:.2f}, state: {}\n", profile_.rolled_cm + body.rolled_cm(),
-      body.battery_v(),
-      spec::value_name("power state", static_cast<std::uint32_t>(ball.battery_state())));
+  out += fmt::format("Dist rolled: {} cm, Vbatt {:.2f}, state: {}\n",
+                     profile_.rolled_cm + body.rolled_cm(), body.battery_v(),
+                     spec::value_name("power state", host_.power().battery_state()));
   out += fmt::format("Stabilize:{}\nAutoRN:{}\nMac:{}\nBas:{}\n", body.stabilized() ? 1 : 0,
-                     profile_.auto_reconnect ? 1 : 0, ball.macros().id(),
-                     ball.basic_running() ? 1 : 0);
+                     profile_.auto_reconnect ? 1 : 0, host_.macros().id(),
+                     host_.programs().running() ? 1 : 0);
   out += fmt::format("Bootldr={}\nMA={}.{}\nBoard={}\nOrbBasic={}\nMacExec={}\n",
                      nibbles(record[version_bootloader_at]), record[spec::version_firmware_at],
                      record[spec::version_firmware_at + 1], record[version_hardware_at],
-                     nibbles(firmware.orbbasic()), nibbles(record[spec::version_macro_at]));
+                     nibbles(firmware_.orbbasic()), nibbles(record[spec::version_macro_at]));
   out += fmt::format(
       "[Network]\nRx good:{}, bad:{}, Tx:{}\nRx overruns:{}, Tx:{}\n", counters_.good,
       counters_.bad_checksum + counters_.bad_did + counters_.bad_cid + counters_.bad_dlen,
-      ball.sent(), counters_.overruns, ball.dropped());
+      host_.link().sent(), counters_.overruns, host_.link().dropped());
   out += fmt::format("Dev name: {}, BTA:{}\n", own_name(profile_), own_address(seed_));
   out += fmt::format("[Options]\nPermanent:{:08X}, Temporary:{:08X}\nTrip points:{}, {}\n",
                      settings.permanent_flags, settings.temporary_flags, settings.low_battery_cv,

@@ -46,28 +46,29 @@ struct Dispatcher::Handlers {
   }
 };
 
-Dispatcher::Dispatcher(std::uint64_t seed) : seed_(seed) {
+Dispatcher::Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware)
+    : host_(host), seed_(seed), firmware_(spec::info(firmware)) {
   profile_.cold_boots = 1;
 }
 
-void Dispatcher::receive(ByteView bytes, Ball& ball) {
+void Dispatcher::receive(ByteView bytes) {
   if (bytes.empty())
     return;
-  last_byte_ = ball.now();
+  last_byte_ = host_.now();
   decoder_.feed(bytes);
-  take_items(ball);
+  take_items();
 }
 
-void Dispatcher::take_items(Ball& ball) {
+void Dispatcher::take_items() {
   while (const auto item = decoder_.next()) {
     switch (item->kind) {
     case Item::Kind::Command: {
       // An answer precedes the messages that its command causes.
-      ball.hold_messages();
-      const auto reply = obey(*item, ball);
-      answer(*item, reply, ball);
-      ball.release_messages();
-      if (ball.falls_asleep()) {
+      host_.link().hold_messages();
+      answer(*item, obey(*item));
+      host_.command_done();
+      host_.link().release_messages(host_.now());
+      if (host_.power().falls_asleep()) {
         decoder_.reset();
         return;
       }
@@ -75,9 +76,9 @@ void Dispatcher::take_items(Ball& ball) {
     }
     case Item::Kind::BadChecksum:
       ++counters_.bad_checksum;
-      answer(*item, {ResponseCode::BadChecksum, {}}, ball);
+      answer(*item, {ResponseCode::BadChecksum, {}});
       break;
-    case Item::Kind::Fragment: answer(*item, {ResponseCode::Fragment, {}}, ball); break;
+    case Item::Kind::Fragment: answer(*item, {ResponseCode::Fragment, {}}); break;
     case Item::Kind::Noise:
     case Item::Kind::Response:
     case Item::Kind::Async: break;
@@ -85,16 +86,17 @@ void Dispatcher::take_items(Ball& ball) {
   }
 }
 
-void Dispatcher::answer(const Item& item, const Reply& reply, Ball& ball) {
+void Dispatcher::answer(const Item& item, const Reply& reply) {
   if ((item.flags & spec::sop2_answer) != 0)
-    ball.send(protocol::Response{static_cast<std::uint8_t>(reply.code), item.seq, reply.data});
+    host_.link().send(
+        protocol::Response{static_cast<std::uint8_t>(reply.code), item.seq, reply.data},
+        host_.now());
 }
 
-Dispatcher::Reply Dispatcher::obey(const Item& item, Ball& ball) {
-  const auto& firmware = spec::info(ball.firmware());
+Dispatcher::Reply Dispatcher::obey(const Item& item) {
   const auto resets = (item.flags & spec::sop2_reset_timeout) != 0;
-  if (resets || !firmware.has_option_bits())
-    ball.client_was_active();
+  if (resets || !firmware_.has_option_bits())
+    host_.stay_awake();
 
   const auto leaves_bootloader =
       spec::api_command(item.did, item.cid) == ApiCommand::LeaveBootloader;
@@ -106,7 +108,7 @@ Dispatcher::Reply Dispatcher::obey(const Item& item, Ball& ball) {
     return {ResponseCode::BadDevice, {}};
   }
   const auto* row = spec::find_command(item.did, item.cid);
-  if (row == nullptr || !firmware.knows(*row)) {
+  if (row == nullptr || !firmware_.knows(*row)) {
     ++counters_.bad_cid;
     return {ResponseCode::BadCommand, {}};
   }
@@ -125,7 +127,7 @@ Dispatcher::Reply Dispatcher::obey(const Item& item, Ball& ball) {
     return {refused, {}};
   if (!operands)
     return {operands.error().code, {}};
-  return (this->*Handlers::find(*row))({*operands, ball, row->command});
+  return (this->*Handlers::find(*row))({*operands, row->command});
 }
 
 // What happens by itself.
@@ -136,56 +138,62 @@ Instant Dispatcher::next_event() const {
       {fragment, power_notice_at_, self_level_.next_event(), soul_tick_at_, gyro_check_at_});
 }
 
-void Dispatcher::run(Instant now, Ball& ball) {
+void Dispatcher::run(Instant now) {
   if (decoder_.pending() && now >= last_byte_ + spec::fragment_timeout) {
     decoder_.expire();
-    take_items(ball);
+    take_items();
   }
   if (now >= power_notice_at_) {
     power_notice_at_ = now + power_notice_interval;
-    ball.send(protocol::make_async(spec::AsyncId::PowerNotification, {ball.battery_state()}));
+    send_power_state();
   }
-  self_level_.run(now, ball);
+  if (const auto result = self_level_.run(now, host_.body()))
+    finish_levelling(*result);
   if (now >= soul_tick_at_)
-    tick_soul(ball);
+    tick_soul();
   if (now >= gyro_check_at_)
-    check_gyro(ball);
+    check_gyro();
 }
 
-void Dispatcher::on_battery(Ball& ball) {
-  bring_up_to_date(ball);
-  const auto charging = ball.battery_state() == spec::power_state::charging;
+void Dispatcher::send_power_state() {
+  host_.send(
+      protocol::make_async(spec::AsyncId::PowerNotification, {host_.power().battery_state()}));
+}
+
+void Dispatcher::on_battery() {
+  bring_up_to_date();
+  const auto charging = host_.power().battery_state() == spec::power_state::charging;
   if (was_charging_ && !charging) {
     ++profile_.charges;
     profile_.since_charge_s = 0;
   }
   was_charging_ = charging;
   if (power_notice_at_ != never)
-    ball.send(protocol::make_async(spec::AsyncId::PowerNotification, {ball.battery_state()}));
+    send_power_state();
 }
 
-void Dispatcher::on_collision(Ball& ball) {
+void Dispatcher::on_collision() {
   if (!profile_.soul.damage_shield())
     return;
   if (soul_messages_)
-    ball.send(protocol::make_async(spec::AsyncId::ShieldDamage, {profile_.soul.shield()}));
-  soul_tick_at_ = std::min(soul_tick_at_, ball.now() + Soul::tick_time);
+    host_.send(protocol::make_async(spec::AsyncId::ShieldDamage, {profile_.soul.shield()}));
+  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + Soul::tick_time);
 }
 
-void Dispatcher::on_motion(Ball& ball) {
-  soul_tick_at_ = std::min(soul_tick_at_, ball.now() + Soul::tick_time);
-  watch_gyro(ball);
+void Dispatcher::on_motion() {
+  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + Soul::tick_time);
+  watch_gyro();
 }
 
-void Dispatcher::on_disconnect(Ball&) {
+void Dispatcher::on_disconnect() {
   decoder_.reset();
   power_notice_at_ = never;
 }
 
-void Dispatcher::on_sleep(Ball& ball) {
-  bring_up_to_date(ball);
+void Dispatcher::on_sleep() {
+  bring_up_to_date();
   decoder_.reset();
-  self_level_.cancel();
+  self_level_.stop();
   profile_.soul.stop_boost();
   in_bootloader_ = false;
   device_mode_ = spec::device_mode::normal;
@@ -195,50 +203,56 @@ void Dispatcher::on_sleep(Ball& ball) {
   gyro_exceeded_ = 0;
 }
 
-void Dispatcher::on_wake(Ball& ball) {
+void Dispatcher::on_wake() {
   ++profile_.wake_ups;
-  counted_until_ = ball.now();
-  ball.set_clock_ms(0); // API §Assign Time Value: it starts at zero when the ball wakes up
+  counted_until_ = host_.now();
+  host_.link().set_clock_ms(
+      0, host_.now()); // API §Assign Time Value: it starts at zero when the ball wakes up
 }
 
-void Dispatcher::bring_up_to_date(const Ball& ball) {
-  if (ball.asleep())
+const Profile& Dispatcher::profile() {
+  bring_up_to_date();
+  return profile_;
+}
+
+/// The counters of a life have no events of their own.
+void Dispatcher::bring_up_to_date() {
+  if (host_.power().asleep())
     return;
-  const auto awake = std::chrono::floor<std::chrono::seconds>(ball.now() - counted_until_);
+  const auto awake = std::chrono::floor<std::chrono::seconds>(host_.now() - counted_until_);
   counted_until_ += awake;
   profile_.awake_s += static_cast<std::uint64_t>(awake.count());
   profile_.since_charge_s += static_cast<std::uint64_t>(awake.count());
 }
 
-void Dispatcher::tick_soul(Ball& ball) {
+void Dispatcher::tick_soul() {
   auto& soul = profile_.soul;
   const auto was_boosting = soul.boosting();
-  const auto moving = !ball.body().stopped();
+  const auto moving = !host_.body().stopped();
   const auto changes = soul.tick(moving);
   if (was_boosting && !soul.boosting())
-    set_boost(false, ball);
-  soul_tick_at_ = moving || soul.changing() ? ball.now() + Soul::tick_time : never;
+    boost(Switch::Off);
+  soul_tick_at_ = moving || soul.changing() ? host_.now() + Soul::tick_time : never;
   if (!soul_messages_)
     return;
   if (changes.level)
-    ball.send(protocol::make_async(spec::AsyncId::LevelUp, {soul.level(), soul.points()}));
+    host_.send(protocol::make_async(spec::AsyncId::LevelUp, {soul.level(), soul.points()}));
   if (changes.shield)
-    ball.send(protocol::make_async(spec::AsyncId::ShieldDamage, {soul.shield()}));
+    host_.send(protocol::make_async(spec::AsyncId::ShieldDamage, {soul.shield()}));
   if (changes.experience)
-    ball.send(protocol::make_async(spec::AsyncId::XpUpdate, {soul.experience()}));
+    host_.send(protocol::make_async(spec::AsyncId::XpUpdate, {soul.experience()}));
   if (changes.boost)
-    ball.send(protocol::make_async(spec::AsyncId::BoostUpdate, {soul.boost()}));
+    host_.send(protocol::make_async(spec::AsyncId::BoostUpdate, {soul.boost()}));
 }
 
 /// Looks for gyro limits only where somebody wants to know and the ball may turn.
-void Dispatcher::watch_gyro(const Ball& ball) {
-  const auto wanted =
-      (ball.settings().permanent_flags & spec::permanent_option_flags::gyro_limit_messages) != 0;
-  gyro_check_at_ = wanted && ball.body().moving() ? ball.now() : never;
+void Dispatcher::watch_gyro() {
+  const auto wanted = host_.settings().has(spec::permanent_option_flags::gyro_limit_messages);
+  gyro_check_at_ = wanted && host_.body().moving() ? host_.now() : never;
 }
 
-void Dispatcher::check_gyro(Ball& ball) {
-  const auto rate = ball.body().rotation_deg_s();
+void Dispatcher::check_gyro() {
+  const auto rate = host_.body().rotation_deg_s();
   const std::pair<double, std::uint32_t> axes[] = {
       {rate.x, spec::gyro_axis_flags::x_positive}, {-rate.x, spec::gyro_axis_flags::x_negative},
       {rate.y, spec::gyro_axis_flags::y_positive}, {-rate.y, spec::gyro_axis_flags::y_negative},
@@ -251,9 +265,9 @@ void Dispatcher::check_gyro(Ball& ball) {
   if (exceeded != 0) {
     // Each axis once, until Set Heading clears the measurements.
     gyro_exceeded_ = static_cast<std::uint8_t>(gyro_exceeded_ | exceeded);
-    ball.send(protocol::make_async(spec::AsyncId::GyroLimit, {exceeded}));
+    host_.send(protocol::make_async(spec::AsyncId::GyroLimit, {exceeded}));
   }
-  gyro_check_at_ = ball.body().moving() ? ball.now() + gyro_check_interval : never;
+  gyro_check_at_ = host_.body().moving() ? host_.now() + gyro_check_interval : never;
 }
 
 } // namespace orb::vm

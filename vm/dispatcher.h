@@ -5,6 +5,8 @@
 #include "protocol/decoder.h"
 #include "protocol/payload.h"
 #include "spec/api.h"
+#include "spec/firmware.h"
+#include "vm/api_host.h"
 #include "vm/profile.h"
 #include "vm/self_level.h"
 
@@ -13,38 +15,35 @@
 
 namespace orb::vm {
 
-class Ball;
-
-/// The API: finds packets in what a client sends, obeys them through Ball's actions with
-/// Actor::Client, and answers with `Ball::send`. What a command takes, and whether it is refused,
-/// stands in spec/api.def. Ball calls it like this:
-///   - `receive` with every piece of bytes, at the ball's present instant;
-///   - `next_event()` and `run` for what it must do by itself (half packets that time out, power
-///     notifications, self levelling, soul-block messages);
-///   - the `on_…` functions when something happens to the ball.
+/// The API: finds packets in what a client sends, obeys them through its host and answers. What a
+/// command takes, and whether it is refused, stands in spec/api.def.
 class Dispatcher {
 public:
-  explicit Dispatcher(std::uint64_t seed);
+  Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware);
 
-  void receive(ByteView bytes, Ball& ball);
+  /// Bytes from the client, at the host's present instant.
+  void receive(ByteView bytes);
+  /// What it must do by itself: half packets that time out, power notifications, self levelling,
+  /// soul-block messages.
   Instant next_event() const;
-  void run(Instant now, Ball& ball);
-  void on_disconnect(Ball& ball);
-  void on_sleep(Ball& ball);
-  void on_wake(Ball& ball);
-  /// The state of the battery changed (power notifications).
-  void on_battery(Ball& ball);
-  /// A collision was reported (shield).
-  void on_collision(Ball& ball);
-  /// The ball began to move (experience).
-  void on_motion(Ball& ball);
+  void run(Instant now);
 
-  const Profile& profile() const { return profile_; }
-  Profile& profile() { return profile_; }
+  // What happens to the ball.
+  void on_disconnect();
+  void on_sleep();
+  void on_wake();
+  /// The state of the battery changed (power notifications).
+  void on_battery();
+  /// A collision was reported (shield).
+  void on_collision();
+  /// The ball began to move (experience).
+  void on_motion();
+
+  /// The counters of its life are as of now.
+  const Profile& profile();
+  void restore(const Profile& profile) { profile_ = profile; }
   /// Counts up with every command that changes what outlives a power cycle.
   std::uint64_t revision() const { return revision_; }
-  /// The counters of a life, as of now; they have no events of their own.
-  void bring_up_to_date(const Ball& ball);
 
 private:
   struct Reply {
@@ -54,7 +53,6 @@ private:
   /// A command whose operands have been checked.
   struct Call {
     const protocol::Operands& operands;
-    Ball& ball;
     spec::ApiCommand command;
 
     /// OK with the fields of the command's answer.
@@ -74,9 +72,9 @@ private:
     std::uint32_t overruns = 0;
   };
 
-  void take_items(Ball& ball);
-  void answer(const protocol::Item& item, const Reply& reply, Ball& ball);
-  Reply obey(const protocol::Item& item, Ball& ball);
+  void take_items();
+  void answer(const protocol::Item& item, const Reply& reply);
+  Reply obey(const protocol::Item& item);
 
   /// What one command does: a specialisation for each implemented row of spec/api.def, without
   /// which the table of handlers does not link. They stand in vm/dispatch_*.cpp.
@@ -85,14 +83,21 @@ private:
   using Handler = Reply (Dispatcher::*)(Call call);
   struct Handlers;
 
-  std::string level_1(Ball& ball);
-  void set_boost(bool on, Ball& ball);
-  void tick_soul(Ball& ball);
-  void check_gyro(Ball& ball);
-  void watch_gyro(const Ball& ball);
+  std::string level_1();
+  /// Starts or ends the boost macro.
+  void boost(Switch state);
+  void tick_soul();
+  void check_gyro();
+  void watch_gyro();
+  void level(const SelfLevel::Request& request);
+  void finish_levelling(std::uint8_t result);
+  void send_power_state();
+  void bring_up_to_date();
   void persist() { ++revision_; }
 
+  ApiHost& host_;
   std::uint64_t seed_;
+  const spec::FirmwareInfo& firmware_;
   protocol::Decoder decoder_{protocol::Direction::ToBall};
   Instant last_byte_{};
   Counters counters_;

@@ -292,12 +292,12 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::SetSd2: parameters_.sd2_ms = static_cast<std::uint16_t>(value[0]); return;
   case MacroCommand::Stabilization:
     // The vendor's reader takes any value that it does not know as off.
-    host_.set_stabilization(value[0] > static_cast<int>(Stabilization::On)
-                                ? Stabilization::Off
-                                : static_cast<Stabilization>(value[0]));
+    host_.drive(value[0] > static_cast<int>(Stabilization::On)
+                    ? Stabilization::Off
+                    : static_cast<Stabilization>(value[0]));
     return wait_ms(value[1]);
   case MacroCommand::SetHeading:
-    host_.set_heading(value[0] % full_circle_deg);
+    host_.drive(SetHeading{value[0] % full_circle_deg});
     return wait_ms(value[1]);
   case MacroCommand::Roll:
   case MacroCommand::Roll2: roll(value[0], value[1]); return wait_ms(value[2]);
@@ -308,7 +308,7 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::RollSpd2Sd1:
     roll(parameters_.spd2, value[0]);
     return wait_ms(parameters_.sd1_ms);
-  case MacroCommand::SetSpeed: host_.set_speed(value[0]); return wait_ms(value[1]);
+  case MacroCommand::SetSpeed: host_.drive(SetSpeed{value[0]}); return wait_ms(value[1]);
   case MacroCommand::Rgb:
     fade_.active = false;
     set_color(color_of(step));
@@ -319,7 +319,7 @@ void MacroExecutive::perform(const MacroStep& step) {
     return wait_ms(parameters_.sd2_ms);
   case MacroCommand::BackLed: host_.set_back_led(value[0]); return wait_ms(value[1]);
   case MacroCommand::RawMotors:
-    host_.set_motors(motor(value[0], value[1]), motor(value[2], value[3]));
+    host_.drive(Motors{motor(value[0], value[1]), motor(value[2], value[3])});
     return wait_ms(value[4]);
   case MacroCommand::Delay: return wait_ms(value[0]);
   case MacroCommand::Goto: return go_to(byte(value[0]));
@@ -327,7 +327,7 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::Sleep: finish(MacroEnding::Slept); return host_.sleep_ms(value[0]);
   case MacroCommand::SetSpd1: parameters_.spd1 = byte(value[0]); return;
   case MacroCommand::SetSpd2: parameters_.spd2 = byte(value[0]); return;
-  case MacroCommand::RotationRate: return host_.set_rotation_rate(rate_deg_per_s(value[0]));
+  case MacroCommand::RotationRate: return host_.drive(RotationRate{rate_deg_per_s(value[0])});
   case MacroCommand::Fade: return start_fade(color_of(step), value[3]);
   case MacroCommand::Marker: return host_.emit_marker(value[0], id_, number_);
   case MacroCommand::WaitUntilStopped:
@@ -354,13 +354,13 @@ void MacroExecutive::wait_ms(std::int32_t time_ms) {
 
 void MacroExecutive::roll(int speed, std::int32_t heading_deg) {
   if (now_ >= rotating_until_)
-    host_.roll({heading_deg % full_circle_deg, speed, speed == 0 ? Go::Brake : Go::Drive});
+    host_.drive(Roll{heading_deg % full_circle_deg, speed, speed == 0 ? Go::Brake : Go::Drive});
 }
 
 void MacroExecutive::rotate(std::int32_t angle_deg, std::int32_t time_ms) {
   const auto time = std::chrono::milliseconds(time_ms);
   rotating_until_ = now_ + time;
-  host_.rotate(angle_deg, time);
+  host_.drive(Rotate{angle_deg, time});
 }
 
 void MacroExecutive::start_fade(Color to, std::int32_t time_ms) {
@@ -444,9 +444,9 @@ void MacroExecutive::reach_end() {
 
 void MacroExecutive::finish(MacroEnding ending) {
   if (now_ < rotating_until_)
-    host_.rotate(0, Duration{});
+    host_.drive(Rotate{});
   if (has(MacroFlag::MotorControl))
-    host_.stop_motors();
+    host_.drive(Stop{});
   id_ = spec::macro_id_none;
   flags_ = 0;
   depth_ = 0;

@@ -53,7 +53,7 @@ public:
   MacroExecutive(const MacroExecutive&) = delete;
   MacroExecutive& operator=(const MacroExecutive&) = delete;
 
-  // API commands 50h to 58h. Whoever asks for a client calls Ball::macros_changed() afterwards.
+  // API commands 50h to 58h.
 
   /// Run Macro, orbBasic's macrun. Cannot execute while one runs, or where the id is unknown or
   /// inhibited.

@@ -13,19 +13,10 @@ class MacroHost {
 public:
   virtual ~MacroHost() = default;
 
-  virtual void roll(const Roll& roll) = 0;
-  virtual void rotate(int angle_deg, Duration time) = 0;
-  virtual void set_motors(Motor left, Motor right) = 0;
-  virtual void set_heading(int heading_deg) = 0;
-  virtual void set_stabilization(Stabilization mode) = 0;
-  virtual void set_rotation_rate(double deg_per_s) = 0;
+  virtual void drive(const Motion& motion) = 0;
   virtual void set_led(Color color) = 0;
   virtual void set_back_led(int level) = 0;
   virtual void configure_collisions(const CollisionSettings& settings) = 0;
-  /// Source: macro 25h; keeps the heading set-point.
-  virtual void set_speed(int speed) = 0;
-  /// MF_MOTOR_CONTROL at exit: a stop roll, or motors off where stabilisation is off.
-  virtual void stop_motors() = 0;
   /// Sends the marker message (async 06h). `command` counts from 1.
   virtual void emit_marker(int marker, int macro, int command) = 0;
   /// Tells the observer which command begins.

@@ -2,15 +2,15 @@
 
 #include "base/time.h"
 #include "spec/api.h"
+#include "vm/body.h"
 
 #include <cstdint>
 #include <optional>
 
 namespace orb::vm {
 
-class Ball;
-
 /// The self level routine: waits until pitch and roll have stayed below a limit for a while.
+/// Whoever starts it turns the ball over to it and does what the options want afterwards.
 /// Source: API §Self Level.
 class SelfLevel {
 public:
@@ -22,19 +22,18 @@ public:
     std::uint8_t true_time_10ms = 0;
   };
 
-  void start(const Request& request, Ball& ball);
+  void start(const Request& request, const Body& body, Instant now);
   bool running() const { return next_ != never; }
-  /// Stops it at once; the result is `aborted`.
-  void abort(Ball& ball);
-  /// Forgets it without a word.
-  void cancel() { next_ = never; }
+  void stop() { next_ = never; }
+  /// Whether the request has an option of spec::self_level_options.
+  bool wants(std::uint32_t option) const { return (request_.options & option) != 0; }
+  double first_heading_deg() const { return first_heading_deg_; }
 
   Instant next_event() const { return next_; }
-  void run(Instant now, Ball& ball);
+  /// The result of spec::self_level_result, once it is there.
+  std::optional<std::uint8_t> run(Instant now, const Body& body);
 
 private:
-  void finish(std::uint8_t result, Ball& ball);
-
   Request request_;
   double first_heading_deg_ = 0;
   Instant next_ = never;

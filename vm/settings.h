@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "spec/api.h"
 #include "vm/body.h"
 
 #include <cstdint>
@@ -20,6 +21,17 @@ struct CollisionSettings {
 /// What clients set and the ball obeys. Ball acts on these; whatever else the API stores (names,
 /// dates, the soul block…) belongs to the dispatcher's own state.
 struct Settings {
+  /// Whether a flag of spec::permanent_option_flags is set.
+  bool has(std::uint32_t permanent_flag) const { return (permanent_flags & permanent_flag) != 0; }
+
+  /// Sleep ends what does not outlive it.
+  void fall_asleep() {
+    const Settings fresh;
+    temporary_flags = fresh.temporary_flags;
+    motion_timeout = fresh.motion_timeout;
+    collisions = fresh.collisions;
+  }
+
   // Kept across power cycles.
   Color user_color;
   std::uint32_t permanent_flags = 0;
@@ -32,14 +44,6 @@ struct Settings {
   Duration motion_timeout = std::chrono::milliseconds{2000};
   CollisionSettings collisions;
 };
-
-/// Source: API §Set Permanent Option Flags, §Set Temporary Option Flags.
-namespace option {
-inline constexpr std::uint32_t vector_drive = 1u << 1;
-inline constexpr std::uint32_t tail_led_always_on = 1u << 3;
-inline constexpr std::uint32_t motion_timeout = 1u << 4;
-inline constexpr std::uint32_t stop_on_disconnect = 1u << 0; ///< a temporary flag
-} // namespace option
 
 /// Source: API §Sleep.
 struct Sleep {

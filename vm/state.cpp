@@ -41,8 +41,7 @@ void load_life(ByteView bytes, Profile& profile) {
 } // namespace
 
 std::string save_state(Ball& ball) {
-  ball.dispatcher().bring_up_to_date(ball);
-  const auto& profile = ball.dispatcher().profile();
+  const auto& profile = ball.profile();
   std::string out(header);
   out += '\n';
   const auto line = [&](std::string_view word, ByteView bytes) {
@@ -91,10 +90,7 @@ tl::expected<void, std::string> load_state(std::string_view text, Ball& ball) {
   if (ball.erase_basic(Area::Flash) == Outcome::Refused ||
       ball.append_basic(Area::Flash, fields["flash"]) == Outcome::Refused)
     return tl::unexpected(std::string("`flash` is larger than the flash area"));
-  ball.settings() = settings;
-  ball.dispatcher().profile() = profile;
-  ball.settings_changed();
-  ball.client_was_active();
+  ball.restore(settings, profile);
   return {};
 }
 

@@ -1,6 +1,6 @@
 #include "vm/streamer.h"
 
-#include "vm/ball.h"
+#include "protocol/payload.h"
 
 #include <algorithm>
 #include <bit>
@@ -86,24 +86,24 @@ void Streamer::start(const Request& request, Instant now) {
   next_ = now - since_step + Body::step * request_.divisor;
 }
 
-void Streamer::run(Instant now, Ball& ball) {
+std::optional<protocol::Async> Streamer::run(Instant now, const Body& body) {
   if (now < next_)
-    return;
+    return std::nullopt;
   next_ += Body::step * request_.divisor;
   for (const auto& row : spec::streams)
     if ((row.mask & request_.mask) != 0) {
-      const auto value =
-          std::clamp<double>(std::round(sample(row.source, ball.body(), request_.accelerometer_g)),
-                             row.least, row.most);
+      const auto value = std::clamp<double>(
+          std::round(sample(row.source, body, request_.accelerometer_g)), row.least, row.most);
       append_u16(data_, static_cast<std::uint32_t>(static_cast<std::int32_t>(value)));
     }
   if (++collected_ < request_.frames)
-    return;
-  ball.send(protocol::make_async(spec::AsyncId::SensorData, {data_}));
+    return std::nullopt;
+  const auto full = protocol::make_async(spec::AsyncId::SensorData, {data_});
   data_.clear();
   collected_ = 0;
   if (++sent_ == request_.packets)
     stop();
+  return full;
 }
 
 } // namespace orb::vm

@@ -2,16 +2,16 @@
 
 #include "base/bytes.h"
 #include "base/time.h"
+#include "protocol/packet.h"
+#include "vm/body.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace orb::vm {
 
-class Ball;
-
-/// Sensor streaming (API §Set Data Streaming): samples `Ball::body()` every N steps of the control
-/// system and sends the frames with `Ball::send`. The dispatcher configures it through
-/// `Ball::streamer()`; Ball calls `run` at `next_event()`, after the body's step of that instant.
+/// Sensor streaming: samples the body every N steps of the control system, after the step of that
+/// instant, and makes messages of the frames. Source: API §Set Data Streaming.
 class Streamer {
 public:
   struct Request {
@@ -30,7 +30,8 @@ public:
   void stop() { next_ = never; }
 
   Instant next_event() const { return next_; }
-  void run(Instant now, Ball& ball);
+  /// Takes a sample, where it is time; the message that is full then.
+  std::optional<protocol::Async> run(Instant now, const Body& body);
 
 private:
   Request request_;

@@ -53,17 +53,10 @@ class Idle : public vm::MacroHost {
 public:
   std::uint64_t commands = 0;
 
-  void roll(const vm::Roll&) override {}
-  void rotate(int, Duration) override {}
-  void set_motors(vm::Motor, vm::Motor) override {}
-  void set_heading(int) override {}
-  void set_stabilization(vm::Stabilization) override {}
-  void set_rotation_rate(double) override {}
+  void drive(const vm::Motion&) override {}
   void set_led(vm::Color) override {}
   void set_back_led(int) override {}
   void configure_collisions(const vm::CollisionSettings&) override {}
-  void set_speed(int) override {}
-  void stop_motors() override {}
   void emit_marker(int, int, int) override {}
   void trace_command(int, int) override { ++commands; }
   void sleep_ms(int) override {}

@@ -53,21 +53,21 @@ protected:
 };
 
 TEST_F(TheBall, RollsAsClientsExpect) {
-  ball.roll(Actor::Client, {0, 120, Go::Drive});
+  ball.drive(Roll{0, 120, Go::Drive});
   ball.advance_to(ball.now() + 900ms);
   EXPECT_GT(ball.body().pose().y_cm, 5);
   EXPECT_NEAR(ball.body().pose().x_cm, 0, 1e-9);
-  ball.roll(Actor::Client, {0, 0, Go::Brake});
+  ball.drive(Roll{0, 0, Go::Brake});
   ball.advance_to(ball.now() + 3s);
   EXPECT_TRUE(ball.body().stopped());
   EXPECT_EQ(ball.body().next_step(), never) << "a ball at rest costs nothing";
 }
 
 TEST_F(TheBall, Heading90IsToTheRight) {
-  ball.roll(Actor::Client, {90, 0, Go::Drive});
+  ball.drive(Roll{90, 0, Go::Drive});
   ball.advance_to(ball.now() + 1s);
   EXPECT_DOUBLE_EQ(ball.body().yaw_deg(), 90);
-  ball.roll(Actor::Client, {90, 255, Go::Drive});
+  ball.drive(Roll{90, 255, Go::Drive});
   ball.advance_to(ball.now() + 4s);
   EXPECT_GT(ball.body().pose().x_cm, 300);
   EXPECT_EQ(ball.body().speed(), 255);
@@ -75,22 +75,22 @@ TEST_F(TheBall, Heading90IsToTheRight) {
 }
 
 TEST_F(TheBall, TurnsAtTheRotationRateWhileItDrives) {
-  ball.roll(Actor::Client, {0, 255, Go::Drive});
+  ball.drive(Roll{0, 255, Go::Drive});
   ball.advance_to(ball.now() + 3s);
-  ball.roll(Actor::Client, {90, 255, Go::Drive});
+  ball.drive(Roll{90, 255, Go::Drive});
   ball.advance_to(ball.now() + 250ms);
   EXPECT_NEAR(ball.body().yaw_deg(), 156.8 * 0.25, 0.5);
-  ball.roll(Actor::Client, {180, 255, Go::FastTurn});
+  ball.drive(Roll{180, 255, Go::FastTurn});
   ball.advance_to(ball.now() + 100ms);
   EXPECT_NEAR(ball.body().yaw_deg(), 156.8 * 0.25 + 100, 3);
 }
 
 TEST_F(TheBall, SetHeadingKeepsTheLocatorsAxes) {
-  ball.roll(Actor::Client, {90, 0, Go::Drive});
+  ball.drive(Roll{90, 0, Go::Drive});
   ball.advance_to(ball.now() + 1s);
-  ball.set_heading(Actor::Client, 0);
+  ball.drive(SetHeading{0});
   EXPECT_DOUBLE_EQ(ball.body().yaw_deg(), 0);
-  ball.roll(Actor::Client, {0, 200, Go::Drive});
+  ball.drive(Roll{0, 200, Go::Drive});
   ball.advance_to(ball.now() + 1s);
   EXPECT_GT(ball.body().pose().x_cm, 20) << "still driving along the old 90 degrees";
   EXPECT_NEAR(ball.body().pose().y_cm, 0, 1e-6);
@@ -98,8 +98,10 @@ TEST_F(TheBall, SetHeadingKeepsTheLocatorsAxes) {
 
 TEST_F(TheBall, AWallStopsItAndIsACollision) {
   ball.apply(Wall{Wall::Axis::Y, 50});
-  ball.settings().collisions = {1, 0, 0, 50, 0, 100};
-  ball.roll(Actor::Client, {0, 200, Go::Drive});
+  Settings settings = ball.settings();
+  settings.collisions = {1, 0, 0, 50, 0, 100};
+  ball.change(settings);
+  ball.drive(Roll{0, 200, Go::Drive});
   ball.advance_to(ball.now() + 5s);
   EXPECT_LT(ball.body().pose().y_cm, 50);
   const auto collisions = notebook.all<event::Collision>();
@@ -155,10 +157,10 @@ TEST_F(TheBall, WithoutAClientPrintsDoNotPause) {
 }
 
 TEST_F(TheBall, TheProgramsColourGoesBeforeTheClients) {
-  ball.set_led(Actor::Client, {1, 2, 3});
+  ball.set_led({1, 2, 3});
   run("10 RGB 9,8,7\n20 delay 1000\n", 500ms);
   EXPECT_EQ(ball.led(), (Color{9, 8, 7}));
-  ball.set_led(Actor::Client, {4, 5, 6});
+  ball.set_led({4, 5, 6});
   EXPECT_EQ(ball.led(), (Color{9, 8, 7}));
   ball.apply(stimulus::Battery{6.8});
   EXPECT_EQ(ball.led(), (Color{255, 0, 0})) << "the battery's warning goes before all";
@@ -169,14 +171,14 @@ TEST_F(TheBall, TheProgramsColourGoesBeforeTheClients) {
 
 TEST_F(TheBall, AnExclusiveProgramDrivesAlone) {
   run("10 basflg 1\n20 goroll 0,100,1\n30 delay 1000\n40 print cmdroll,hdgval,spdval\n", 500ms);
-  ball.roll(Actor::Client, {180, 255, Go::Drive});
+  ball.drive(Roll{180, 255, Go::Drive});
   ball.advance_to(ball.now() + 200ms);
   EXPECT_DOUBLE_EQ(ball.body().heading_setpoint_deg(), 0);
   ball.advance_to(ball.now() + 1s);
   const auto prints = notebook.all<event::Print>();
   ASSERT_EQ(prints.size(), 1u);
   EXPECT_EQ(prints[0].text, "1 180 255\n") << "the program sees what the client wanted";
-  ball.roll(Actor::Client, {180, 255, Go::Drive});
+  ball.drive(Roll{180, 255, Go::Drive});
   EXPECT_DOUBLE_EQ(ball.body().heading_setpoint_deg(), 180) << "the flag ended with the program";
 }
 
@@ -207,8 +209,10 @@ TEST_F(TheBall, WakesIntoFlash) {
 }
 
 TEST_F(TheBall, StopsOnDisconnectWhenAsked) {
-  ball.settings().temporary_flags = option::stop_on_disconnect;
-  ball.roll(Actor::Client, {0, 200, Go::Drive});
+  Settings settings = ball.settings();
+  settings.temporary_flags = spec::temporary_option_flags::stop_on_disconnect;
+  ball.change(settings);
+  ball.drive(Roll{0, 200, Go::Drive});
   ball.advance_to(ball.now() + 1s);
   ball.disconnect();
   ball.advance_to(ball.now() + 2s);
@@ -217,9 +221,10 @@ TEST_F(TheBall, StopsOnDisconnectWhenAsked) {
 }
 
 TEST_F(TheBall, MotionTimesOutWhenAsked) {
-  ball.settings().permanent_flags = option::motion_timeout;
-  ball.settings_changed();
-  ball.roll(Actor::Client, {0, 100, Go::Drive});
+  Settings settings = ball.settings();
+  settings.permanent_flags = spec::permanent_option_flags::motion_timeout;
+  ball.change(settings);
+  ball.drive(Roll{0, 100, Go::Drive});
   ball.advance_to(ball.now() + 5s);
   EXPECT_TRUE(ball.body().stopped());
 }

@@ -198,7 +198,7 @@ TEST(Dispatcher, NamesKeep48BytesAndReport16WithoutCuttingACharacter) {
   auto info = client.ask(ApiCommand::GetBluetoothInfo).data;
   ASSERT_EQ(info.size(), 32u);
   EXPECT_EQ(std::string(info.begin(), info.begin() + 16), std::string("fifteen letters\0", 16));
-  EXPECT_EQ(client.ball->dispatcher().profile().name, name.substr(0, 48));
+  EXPECT_EQ(client.ball->profile().name, name.substr(0, 48));
 }
 
 TEST(Dispatcher, TripPointsKeepTheirDistance) {

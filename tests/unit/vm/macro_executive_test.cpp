@@ -28,23 +28,22 @@ public:
   }
   std::string take() { return std::exchange(text, {}); }
 
-  void set_stabilization(Stabilization mode) override {
-    add(fmt::format("stabilize {}", static_cast<int>(mode)));
+  void drive(const Motion& motion) override {
+    std::visit([&](const auto& one) { note(one); }, motion);
   }
-  void set_heading(int heading) override { add(fmt::format("heading {}", heading)); }
-  void roll(const Roll& roll) override {
-    add(fmt::format("roll {} {}", roll.speed, roll.heading_deg));
+  void note(Stabilization mode) { add(fmt::format("stabilize {}", static_cast<int>(mode))); }
+  void note(const SetHeading& name) { add(fmt::format("heading {}", name.heading_deg)); }
+  void note(const Roll& roll) { add(fmt::format("roll {} {}", roll.speed, roll.heading_deg)); }
+  void note(const SetSpeed& change) { add(fmt::format("speed {}", change.speed)); }
+  void note(const Motors& m) {
+    add(fmt::format("raw {} {} {} {}", static_cast<int>(m.left.mode), m.left.power,
+                    static_cast<int>(m.right.mode), m.right.power));
   }
-  void set_speed(int speed) override { add(fmt::format("speed {}", speed)); }
-  void set_motors(Motor l, Motor r) override {
-    add(fmt::format("raw {} {} {} {}", static_cast<int>(l.mode), l.power, static_cast<int>(r.mode),
-                    r.power));
+  void note(const Rotate& turn) {
+    add(fmt::format("rotate {} {}", turn.angle_deg, turn.time / 1ms));
   }
-  void rotate(int angle, Duration time) override {
-    add(fmt::format("rotate {} {}", angle, time / 1ms));
-  }
-  void stop_motors() override { add("stop motors"); }
-  void set_rotation_rate(double rate) override { add(fmt::format("rate {}", rate)); }
+  void note(const Stop&) { add("stop motors"); }
+  void note(const RotationRate& rate) { add(fmt::format("rate {}", rate.deg_per_s)); }
   void set_led(Color c) override { add(fmt::format("rgb {} {} {}", c.red, c.green, c.blue)); }
   void set_back_led(int value) override { add(fmt::format("back {}", value)); }
   void configure_collisions(const CollisionSettings& s) override {

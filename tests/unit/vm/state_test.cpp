@@ -26,14 +26,14 @@ TEST(State, WhatOutlivesAPowerCycleComesBack) {
   Ball second(BallOptions{});
   const auto loaded = load_state(save_state(first), second);
   ASSERT_TRUE(loaded) << loaded.error();
-  EXPECT_EQ(second.dispatcher().profile().name, "Red");
+  EXPECT_EQ(second.profile().name, "Red");
   EXPECT_EQ(second.settings().user_color, (Color{1, 2, 3}));
   EXPECT_EQ(second.settings().permanent_flags, 0x10u);
   EXPECT_EQ(second.settings().inactivity_timeout, 90s);
-  EXPECT_EQ(second.dispatcher().profile().soul.count(2), 3);
+  EXPECT_EQ(second.profile().soul.count(2), 3);
   EXPECT_EQ(second.basic_text(Area::Flash), program);
   EXPECT_EQ(second.basic_text(Area::Ram), "");
-  EXPECT_EQ(second.dispatcher().profile().cold_boots, 2);
+  EXPECT_EQ(second.profile().cold_boots, 2);
 }
 
 TEST(State, ATornFileIsRefusedAndChangesNothing) {

@@ -96,7 +96,9 @@ TraceHash trace(std::string_view text, Duration time, std::uint64_t seed, Dispat
   ball.apply(Wall{Wall::Axis::X, 60});
   ball.apply(Wall{Wall::Axis::Y, -45});
   ball.apply(stimulus::Noise{Switch::On});
-  ball.settings().collisions = {1, 20, 20, 20, 20, 10};
+  Settings settings = ball.settings();
+  settings.collisions = {1, 20, 20, 20, 20, 10};
+  ball.change(settings);
   ball.append_basic(Area::Ram, as_bytes(text));
   ball.execute_basic(Area::Ram, 10);
   for (Instant at = ball.now(); at < Instant{time}; at += piece) {

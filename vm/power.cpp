@@ -1,0 +1,68 @@
+#include "vm/power.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace orb::vm {
+namespace {
+
+namespace state = spec::power_state;
+
+constexpr Duration sleep_warning = std::chrono::seconds{10}; // API §Async messages
+constexpr double volt_cv = 100;
+
+} // namespace
+
+Power::Power(const Settings& settings) {
+  stay_awake({}, settings);
+}
+
+bool Power::battery_warns() const {
+  return battery_state_ == state::low || battery_state_ == state::critical;
+}
+
+Power::Change Power::check_battery(const Body& body, const Settings& settings) {
+  // Hundredths, rounded up but for the dust of the arithmetic.
+  const int centivolts = static_cast<int>(std::ceil(body.battery_v() * volt_cv - 1e-6));
+  const auto now = body.charging()                              ? state::charging
+                   : centivolts <= settings.critical_battery_cv ? state::critical
+                   : centivolts <= settings.low_battery_cv      ? state::low
+                                                                : state::ok;
+  return std::exchange(battery_state_, now) == now ? Change::None : Change::Changed;
+}
+
+void Power::stay_awake(Instant now, const Settings& settings) {
+  inactive_at_ = now + settings.inactivity_timeout;
+  warned_ = false;
+}
+
+bool Power::sleeps_soon(Instant now) const {
+  return now >= inactive_at_ - sleep_warning;
+}
+
+Sleep Power::begin_sleep(Instant now) {
+  last_ = *std::exchange(asked_, std::nullopt);
+  const Duration time =
+      std::chrono::seconds{last_.seconds} + std::chrono::milliseconds{last_.milliseconds};
+  wake_at_ = time == Duration{} ? never : now + time;
+  return last_;
+}
+
+Sleep Power::wake(Instant now) {
+  asleep_ = false;
+  return wake_at_ <= now ? last_ : Sleep{};
+}
+
+Instant Power::next_event(const Body& body, const Settings& settings) const {
+  if (asleep_)
+    return wake_at_;
+  const Instant tired = warned_ ? inactive_at_ : inactive_at_ - sleep_warning;
+  const auto trips = [&](int centivolts) { return body.battery_reaches(centivolts / volt_cv); };
+  const Instant lower = battery_state_ == state::ok    ? trips(settings.low_battery_cv)
+                        : battery_state_ == state::low ? trips(settings.critical_battery_cv)
+                                                       : never;
+  return std::min({wake_at_, tired, lower});
+}
+
+} // namespace orb::vm
