@@ -114,9 +114,10 @@ void Journey::add(Duration t, const vm::Event& event) {
           happen(t, Kind::Sleep,
                  seen.seconds == 0 ? std::string("sleeps until it is woken")
                                    : fmt::format("sleeps for {} s", seen.seconds));
-        } else {
-          static_assert(std::is_same_v<Seen, of::End>);
+        } else if constexpr (std::is_same_v<Seen, of::End>) {
           totals_.lines = std::max(totals_.lines, seen.lines);
+        } else {
+          static_assert(std::is_same_v<Seen, of::MacroEnd>); // its last command says it
         }
       },
       event);

@@ -169,6 +169,7 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
                         {{"seconds", n(x.seconds)}, {"macro", n(x.macro)}, {"line", n(x.line)}});
           },
           [&](const e::End&) { return std::string(); },
+          [&](const e::MacroEnd&) { return std::string(); },
       },
       event);
 }

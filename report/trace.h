@@ -25,7 +25,8 @@ struct TraceField {
 std::string trace_line(TraceFormat format, Duration t, std::string_view event,
                        const std::vector<TraceField>& fields);
 
-/// The same for an event of a ball; empty for vm::event::End, which is not the end of a run.
+/// The same for an event of a ball; empty for the end of a program or a macro, which is
+/// not the end of a run.
 std::string trace_line(TraceFormat format, Duration t, const vm::Event& event);
 
 /// The first line of the CSV form: the columns. Empty for JSON.

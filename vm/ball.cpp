@@ -197,13 +197,13 @@ void Ball::keep_house() {
 /// What has come to its end since the last call takes effect.
 void Ball::settle() {
   finish_program();
-  if (macro_ran_ && !macros_.running()) {
+  if (const auto macro = macros_.take_finished()) {
+    trace(macro->end);
     lamps_.release(Actor::Macro);
-    if (!programs_.has(BasicFlag::Stealth))
+    if (!spec::has_flag(macro->flags, MacroFlag::Stealth))
       stay_awake();
     show_lamps();
   }
-  macro_ran_ = macros_.running();
   share_drive();
 }
 
@@ -418,8 +418,8 @@ void Ball::shut_down() {
 }
 
 void Ball::fall_asleep() {
-  const auto sleep = power_.begin_sleep(now_);
-  trace(event::Sleep{sleep.seconds, sleep.macro, sleep.line});
+  trace(event::Sleep{power_.asked().seconds, power_.asked().macro, power_.asked().line});
+  power_.begin_sleep(now_);
   programs_.stop(event::End::Reason::Sleep);
   macros_.fall_asleep(now_);
   settle();

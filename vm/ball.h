@@ -163,7 +163,6 @@ private:
   std::vector<TimedStimulus> script_; ///< `at` counts from the ball's power-on; latest first
   bool interrupted_ = false;
   std::optional<Instant> idle_since_;
-  bool macro_ran_ = false;
   bool double_shake_ = false;
   Instant deaf_until_{}; ///< the dead time after a collision
   Instant watch_at_ = never;

@@ -264,31 +264,37 @@ void Body::power_on() {
   vector_drive_limit_ = default_vector_drive_limit;
 }
 
-void Body::obey(const Motion& motion) {
-  std::visit([&](const auto& one) { obey_one(one); }, motion);
+Outcome Body::obey(const Motion& motion) {
+  return std::visit([&](const auto& one) { return obey_one(one); }, motion);
 }
 
-void Body::obey_one(const Roll& roll) {
+Outcome Body::obey_one(const Roll& roll) {
   if (!stabilized_)
-    return;
+    return Outcome::Refused;
   target_deg_ = roll.heading_deg;
   target_speed_ = roll.go == Go::Brake ? 0 : roll.speed;
   go_ = roll.go;
   rotate_left_deg_ = 0;
   rotate_rate_ = 0;
+  return Outcome::Done;
 }
 
-void Body::obey_one(const Rotate& turn) {
+Outcome Body::obey_one(const Rotate& turn) {
   if (!stabilized_)
-    return;
+    return Outcome::Refused;
   const double least = std::abs(turn.angle_deg) / greatest_yaw_rate;
   rotate_left_deg_ = turn.angle_deg;
   rotate_rate_ = std::abs(turn.angle_deg) / std::max({least, seconds(turn.time), dt});
   target_deg_ = wrap_360(yaw_deg_ + turn.angle_deg);
+  return Outcome::Done;
 }
 
-void Body::obey_one(const SetSpeed& change) {
-  obey_one(roll_at(change.speed));
+Outcome Body::obey_one(const SetSpeed& change) {
+  if (!stabilized_)
+    return Outcome::Refused;
+  target_speed_ = change.speed;
+  go_ = roll_at(change.speed).go;
+  return Outcome::Done;
 }
 
 Roll Body::roll_at(int speed) const {
@@ -296,18 +302,24 @@ Roll Body::roll_at(int speed) const {
   return {heading, speed, speed == 0 ? Go::Brake : Go::Drive};
 }
 
-void Body::obey_one(const Stop&) {
+Outcome Body::obey_one(const Stop&) {
   target_speed_ = 0;
   go_ = Go::Brake;
   if (raw_)
     left_ = right_ = {MotorMode::Off, 0};
+  return Outcome::Done;
 }
 
-void Body::obey_one(const Motors& motors) {
+Outcome Body::obey_one(const RotationRate& rate) {
+  rotation_rate_ = rate.deg_per_s;
+  return Outcome::Done;
+}
+
+Outcome Body::obey_one(const Motors& motors) {
   const auto& [left, right] = motors;
   const auto ignored = [](const Motor& motor) { return motor.mode == MotorMode::Ignore; };
   if (ignored(left) && ignored(right))
-    return;
+    return Outcome::Refused;
   if (!raw_)
     left_wheel_ = right_wheel_ = forward_;
   raw_ = true;
@@ -318,14 +330,15 @@ void Body::obey_one(const Motors& motors) {
     left_ = left;
   if (!ignored(right))
     right_ = right;
+  return Outcome::Done;
 }
 
-void Body::obey_one(Stabilization mode) {
+Outcome Body::obey_one(Stabilization mode) {
   if (mode == Stabilization::Off) {
     stabilized_ = false;
     target_speed_ = 0;
     rotate_left_deg_ = rotate_rate_ = 0;
-    return;
+    return Outcome::Done;
   }
   if (!stabilized_ || mode == Stabilization::OnAndReset) {
     target_deg_ = yaw_deg_;
@@ -337,19 +350,21 @@ void Body::obey_one(Stabilization mode) {
   raw_ = false;
   left_wheel_ = right_wheel_ = 0;
   left_ = right_ = {};
+  return Outcome::Done;
 }
 
 void Body::set_vector_drive(Switch vector_drive) {
   vector_drive_ = vector_drive;
 }
 
-void Body::obey_one(const SetHeading& name) {
+Outcome Body::obey_one(const SetHeading& name) {
   const double turned = yaw_deg_ - name.heading_deg;
   world_offset_deg_ += turned;
   if (tare_correction_ == Switch::On)
     tare_deg_ += turned;
   yaw_deg_ = target_deg_ = name.heading_deg;
   rotate_left_deg_ = rotate_rate_ = 0;
+  return Outcome::Done;
 }
 
 void Body::locate(double x_cm, double y_cm) {

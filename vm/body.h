@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "vm/ask.h"
 
 #include <cstdint>
 #include <optional>
@@ -141,7 +142,8 @@ public:
   void power_on();
 
   // Set-points.
-  void obey(const Motion& motion);
+  /// Refused where it has no effect: while the control system is off most have none.
+  Outcome obey(const Motion& motion);
   void set_vector_drive(Switch vector_drive);
   /// The speed, 0 to 255, up to which vector drive turns before it moves.
   void set_vector_drive_limit(int speed) { vector_drive_limit_ = speed; }
@@ -194,14 +196,14 @@ public:
   bool charging() const { return charger_ == Switch::On; }
 
 private:
-  void obey_one(const Roll& roll);
-  void obey_one(const Rotate& turn);
-  void obey_one(const Motors& motors);
-  void obey_one(const SetHeading& name);
-  void obey_one(const SetSpeed& change);
-  void obey_one(Stabilization mode);
-  void obey_one(const RotationRate& rate) { rotation_rate_ = rate.deg_per_s; }
-  void obey_one(const Stop&);
+  Outcome obey_one(const Roll& roll);
+  Outcome obey_one(const Rotate& turn);
+  Outcome obey_one(const Motors& motors);
+  Outcome obey_one(const SetHeading& name);
+  Outcome obey_one(const SetSpeed& change);
+  Outcome obey_one(Stabilization mode);
+  Outcome obey_one(const RotationRate& rate);
+  Outcome obey_one(const Stop&);
   bool fast_turn() const;
   void single_step();
   void turn();

@@ -19,7 +19,10 @@ ResponseCode code(MacroOutcome outcome) {
   switch (outcome) {
   case MacroOutcome::Done: return ResponseCode::Ok;
   case MacroOutcome::BadParameter: return ResponseCode::BadParameter;
-  case MacroOutcome::CannotExecute: return ResponseCode::ExecuteFailed;
+  case MacroOutcome::NoSuchMacro:
+  case MacroOutcome::Busy:
+  case MacroOutcome::Inhibited:
+  case MacroOutcome::NoRoom: return ResponseCode::ExecuteFailed;
   }
   return ResponseCode::General;
 }

@@ -23,12 +23,12 @@ Outcome Drive::obey(Actor actor, const Motion& motion, Instant now) {
   if (!may(actor) && !std::holds_alternative<RotationRate>(motion))
     return Outcome::Refused;
   body_.advance_to(now);
-  body_.obey(motion);
+  const auto outcome = body_.obey(motion);
   if (sets_in_motion(motion))
     deadline_ = settings_.has(spec::permanent_option_flags::motion_timeout)
                     ? now + settings_.motion_timeout
                     : never;
-  return Outcome::Done;
+  return outcome;
 }
 
 void Drive::share(Wanted wanted) {

@@ -17,7 +17,7 @@ class Drive {
 public:
   Drive(Body& body, const Settings& settings) : body_(body), settings_(settings) {}
 
-  /// Does what is asked, unless it is excluded.
+  /// Does what is asked, unless it is excluded or the body ignores it.
   Outcome obey(Actor actor, const Motion& motion, Instant now);
   /// Whether the ball may begin or cease to move by it.
   static bool may_move(const Motion& motion);

@@ -55,11 +55,13 @@ MacroOutcome MacroExecutive::start(int wanted, Instant now) {
       id == spec::macro_id_stream)
     return MacroOutcome::BadParameter;
   if (running())
-    return MacroOutcome::CannotExecute;
+    return MacroOutcome::Busy;
   const auto image = image_of(id);
   const auto header = protocol::read_macro_header(image);
-  if (!header || inhibited(header->flags))
-    return MacroOutcome::CannotExecute;
+  if (!header)
+    return MacroOutcome::NoSuchMacro;
+  if (inhibited(header->flags))
+    return MacroOutcome::Inhibited;
   begin();
   enter(id, header->flags, image.subspan(header->size));
   return MacroOutcome::Done;
@@ -106,9 +108,7 @@ MacroOutcome MacroExecutive::append_chunk(ByteView chunk, Instant now) {
   if (chunk.empty() || chunk.size() > spec::macro_max_packet)
     return MacroOutcome::BadParameter;
   end_buffer_macro();
-  if (!store_.append_temporary(chunk))
-    return MacroOutcome::CannotExecute;
-  return MacroOutcome::Done;
+  return store_.append_temporary(chunk) ? MacroOutcome::Done : MacroOutcome::NoRoom;
 }
 
 MacroOutcome MacroExecutive::save(ByteView image, Instant now) {
@@ -122,7 +122,7 @@ MacroOutcome MacroExecutive::save(ByteView image, Instant now) {
   case spec::MacroIdKind::Temporary: return MacroOutcome::BadParameter;
   case spec::MacroIdKind::Stream: return save_stream(*header, image.subspan(header->size));
   case spec::MacroIdKind::User:
-    return store_.save_user(header->id, image) ? MacroOutcome::Done : MacroOutcome::CannotExecute;
+    return store_.save_user(header->id, image) ? MacroOutcome::Done : MacroOutcome::NoRoom;
   }
   return MacroOutcome::BadParameter;
 }
@@ -134,7 +134,7 @@ MacroOutcome MacroExecutive::save_stream(const MacroHeader& header, ByteView com
         loop_.id == spec::macro_id_stream && loop_.start < next_ ? loop_.start : next_;
     const auto shift = store_.append_stream(commands, live_from);
     if (!shift)
-      return MacroOutcome::CannotExecute;
+      return MacroOutcome::NoRoom;
     next_ -= *shift;
     if (loop_.id == spec::macro_id_stream)
       loop_.start -= *shift;
@@ -144,10 +144,10 @@ MacroOutcome MacroExecutive::save_stream(const MacroHeader& header, ByteView com
     return MacroOutcome::Done;
   }
   if (inhibited(header.flags))
-    return MacroOutcome::CannotExecute;
+    return MacroOutcome::Inhibited;
   end_buffer_macro();
   if (running())
-    return MacroOutcome::CannotExecute;
+    return MacroOutcome::Busy;
   store_.clear_buffer();
   store_.append_stream(commands, 0);
   begin();
@@ -232,10 +232,8 @@ void MacroExecutive::collide(Instant now) {
 
 void MacroExecutive::fall_asleep(Instant now) {
   move_to(now);
-  id_ = spec::macro_id_none;
-  fade_.active = false;
-  wake_ = never;
-  waits_for_stop_ = false;
+  if (running())
+    rest(MacroEnding::Slept);
   store_.forget_users();
 }
 
@@ -447,6 +445,12 @@ void MacroExecutive::finish(MacroEnding ending) {
     host_.drive(Rotate{});
   if (has(MacroFlag::MotorControl))
     host_.drive(Stop{});
+  rest(ending);
+}
+
+/// Nothing runs from here on.
+void MacroExecutive::rest(MacroEnding ending) {
+  finished_ = {{id_, number_, ending}, flags_};
   id_ = spec::macro_id_none;
   flags_ = 0;
   depth_ = 0;
@@ -454,7 +458,6 @@ void MacroExecutive::finish(MacroEnding ending) {
   waits_for_stop_ = false;
   fade_.active = false;
   rotating_until_ = now_;
-  ending_ = ending;
 }
 
 } // namespace orb::vm

@@ -6,27 +6,28 @@
 #include "spec/macro.h"
 #include "vm/macro_host.h"
 #include "vm/macro_store.h"
+#include "vm/observer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace orb::vm {
 
 /// How a macro came to its end.
-enum class MacroEnding : std::uint8_t {
-  Ended,       ///< End, the last byte, or Stream End in a stream
-  Aborted,     ///< by the client, by orbBasic, or because its buffer is being rewritten
-  NoSuchMacro, ///< goto, gosub or a collision led to an id that is not there
-  BadCommand,  ///< a byte that is no command, or a command that runs past the macro
-  StreamEnd,   ///< Stream End in a macro that is no stream
-  Inhibited,   ///< goto or a collision led to a macro that does not run while connected
-  Slept        ///< a sleep command
-};
+using MacroEnding = event::MacroEnd::Reason;
 
-/// What the API answers: 00h, 07h or 08h.
-enum class MacroOutcome : std::uint8_t { Done, BadParameter, CannotExecute };
+/// What came of an ask; the API answers 00h, 07h for a bad parameter, and 08h otherwise.
+enum class MacroOutcome : std::uint8_t {
+  Done,
+  BadParameter,
+  NoSuchMacro,
+  Busy,      ///< one runs
+  Inhibited, ///< it does not run while a client is connected
+  NoRoom     ///< or the id is taken
+};
 
 /// An answer to Abort Macro or Get Macro Status.
 struct MacroStatus {
@@ -55,8 +56,7 @@ public:
 
   // API commands 50h to 58h.
 
-  /// Run Macro, orbBasic's macrun. Cannot execute while one runs, or where the id is unknown or
-  /// inhibited.
+  /// Run Macro, orbBasic's macrun.
   MacroOutcome start(int id, Instant now);
   /// Save Temporary Macro: `image` is id (any), flags, body. Ends a temporary or stream macro.
   MacroOutcome save_temporary(ByteView image, Instant now);
@@ -93,8 +93,13 @@ public:
   bool has(spec::MacroFlag flag) const { return spec::has_flag(flags(), flag); }
   /// `id << 16 | command number`; 0 when none runs (orbBasic `macstat`).
   std::uint32_t macstat() const;
-  /// How the last macro came to its end.
-  std::optional<MacroEnding> ending() const { return ending_; }
+  /// Of a macro that has come to its end.
+  struct Finished {
+    event::MacroEnd end;
+    std::uint8_t flags = 0; ///< that were in force
+  };
+  /// The one that has finished since the last call.
+  std::optional<Finished> take_finished() { return std::exchange(finished_, std::nullopt); }
   /// The colour that macros set last.
   Color color() const { return color_; }
   const MacroStore& store() const { return store_; }
@@ -132,6 +137,7 @@ private:
   bool inhibited(std::uint8_t flags) const;
   void enter(std::uint8_t id, std::uint8_t flags, ByteView code);
   void finish(MacroEnding ending);
+  void rest(MacroEnding ending);
   void go_to(std::uint8_t id);
   void call(std::uint8_t id);
   void reach_end();
@@ -173,7 +179,7 @@ private:
   Instant rotating_until_{};
   Color color_;
   Fade fade_;
-  std::optional<MacroEnding> ending_; ///< of the last macro
+  std::optional<Finished> finished_;
 };
 
 } // namespace orb::vm

@@ -61,12 +61,27 @@ struct Collision {
   int y_magnitude = 0;
   int speed = 0;
 };
+/// A macro came to its end, by itself or not.
+struct MacroEnd {
+  enum class Reason : std::uint8_t {
+    Ended,       ///< End, the last byte, or Stream End in a stream
+    Aborted,     ///< by the client, by orbBasic, or because its buffer is being rewritten
+    NoSuchMacro, ///< goto, gosub or a collision led to an id that is not there
+    BadCommand,  ///< a byte that is no command, or a command that runs past the macro
+    StreamEnd,   ///< Stream End in a macro that is no stream
+    Inhibited,   ///< goto or a collision led to a macro that does not run while connected
+    Slept        ///< a sleep command, or the ball fell asleep
+  };
+  int macro = 0;
+  int command = 0; ///< the last that was begun, from 1
+  Reason reason = Reason::Ended;
+};
 struct Sleep {
   int seconds = 0;
   int macro = 0;
   int line = 0;
 };
-/// The program ended. A macro's end is a Marker, where it asks for one.
+/// The program ended.
 struct End {
   enum class Reason : std::uint8_t { End, Error, Abort, Sleep };
   Reason reason = Reason::End;
@@ -77,7 +92,7 @@ struct End {
 
 using Event = std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
                            event::Position, event::Marker, event::Macro, event::Line,
-                           event::Collision, event::Sleep, event::End>;
+                           event::Collision, event::Sleep, event::End, event::MacroEnd>;
 
 /// Sees what happens to a ball, in the order in which it happens.
 class Observer {

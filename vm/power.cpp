@@ -41,12 +41,11 @@ bool Power::sleeps_soon(Instant now) const {
   return now >= inactive_at_ - sleep_warning;
 }
 
-Sleep Power::begin_sleep(Instant now) {
+void Power::begin_sleep(Instant now) {
   last_ = *std::exchange(asked_, std::nullopt);
   const Duration time =
       std::chrono::seconds{last_.seconds} + std::chrono::milliseconds{last_.milliseconds};
   wake_at_ = time == Duration{} ? never : now + time;
-  return last_;
 }
 
 Sleep Power::wake(Instant now) {

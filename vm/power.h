@@ -38,7 +38,8 @@ public:
   void ask_to_sleep(const Sleep& sleep) { asked_ = sleep; }
   bool falls_asleep() const { return asked_.has_value(); }
   /// Takes the ask up: it counts from now when it will wake.
-  Sleep begin_sleep(Instant now);
+  void begin_sleep(Instant now);
+  const Sleep& asked() const { return *asked_; }
   void fall_asleep() { asleep_ = true; }
   /// How it fell asleep last.
   const Sleep& last_sleep() const { return last_; }

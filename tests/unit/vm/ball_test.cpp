@@ -134,6 +134,16 @@ TEST_F(TheBall, AbortIsReported) {
   EXPECT_EQ(as_text(found[0].data), "Line 10: User abort\n");
 }
 
+TEST_F(TheBall, ANumberThatHasNoPlaceIsAnError) {
+  run("10 input Z\n", 1s); // Y is 0
+  ball.apply(stimulus::Number{5});
+  ball.advance_to(ball.now() + 1s);
+  const auto errors = notebook.all<event::Error>();
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].code, spec::BasicError::IllegalIndex);
+  EXPECT_EQ(notebook.all<event::End>().size(), 1u);
+}
+
 TEST_F(TheBall, AFullQueuePausesTheProgramAndLosesNothing) {
   run("10 A = A + 1\n20 print A\n30 goto 10\n", 1s);
   std::string text;

@@ -17,6 +17,10 @@ public:
   std::vector<event::Drive> drives;
   std::vector<event::Marker> markers;
   std::vector<event::Macro> commands;
+  std::vector<event::MacroEnd> ends;
+  std::vector<event::Sleep> sleeps;
+  bool idle_at_sleep = false;
+  const Ball* ball = nullptr;
 
   void on_event(Instant, const Event& event) override {
     if (const auto* led = std::get_if<event::Led>(&event))
@@ -27,6 +31,12 @@ public:
       markers.push_back(*marker);
     if (const auto* command = std::get_if<event::Macro>(&event))
       commands.push_back(*command);
+    if (const auto* end = std::get_if<event::MacroEnd>(&event))
+      ends.push_back(*end);
+    if (const auto* sleep = std::get_if<event::Sleep>(&event)) {
+      sleeps.push_back(*sleep);
+      idle_at_sleep = ball->idle();
+    }
   }
 };
 
@@ -39,6 +49,7 @@ protected:
     BallOptions options;
     options.observer = &seen;
     ball = std::make_unique<Ball>(options);
+    seen.ball = ball.get();
     ball->connect();
   }
 
@@ -99,6 +110,76 @@ TEST_F(MacroOnBall, TheClientChangesASystemDelayWhileItRuns) {
   EXPECT_TRUE(seen.markers.empty());
   advance(6ms);
   EXPECT_EQ(seen.markers.size(), 1U);
+}
+
+TEST_F(MacroOnBall, TellsHowAMacroEnded) {
+  using Reason = event::MacroEnd::Reason;
+  struct Case {
+    const char* hex;
+    int command;
+    Reason reason;
+  };
+  tell(ApiCommand::SaveMacro, *from_hex("41 08 00")); // inhibited while connected
+  for (const auto& [hex, command, reason] :
+       {Case{"FF 00 15 01 00", 2, Reason::Ended}, Case{"FF 00 0C 63", 1, Reason::NoSuchMacro},
+        Case{"FF 00 15 01 0D 63 00", 2, Reason::NoSuchMacro},
+        Case{"FF 00 1B", 1, Reason::StreamEnd}, Case{"FF 00 20 00 09 61 00", 0, Reason::BadCommand},
+        Case{"FF 00 0C 41", 1, Reason::Inhibited}, Case{"FF 00 0E 00 00 00", 1, Reason::Slept}}) {
+    seen.ends.clear();
+    run(hex);
+    ASSERT_EQ(seen.ends.size(), 1U) << hex;
+    EXPECT_EQ(seen.ends[0].macro, 255) << hex;
+    EXPECT_EQ(seen.ends[0].command, command) << hex;
+    EXPECT_EQ(seen.ends[0].reason, reason) << hex;
+  }
+  EXPECT_EQ(seen.sleeps.size(), 1U);
+  EXPECT_FALSE(seen.idle_at_sleep) << "a run is not over before the ball sleeps";
+}
+
+TEST_F(MacroOnBall, TellsWhyAMacroDoesNotRun) {
+  EXPECT_EQ(ball->run_macro(0), MacroOutcome::BadParameter);
+  EXPECT_EQ(ball->run_macro(64), MacroOutcome::NoSuchMacro);
+  tell(ApiCommand::SaveMacro, *from_hex("41 08 00"));
+  EXPECT_EQ(ball->run_macro(65), MacroOutcome::Inhibited);
+  ball->disconnect();
+  EXPECT_EQ(ball->run_macro(65), MacroOutcome::Done);
+  EXPECT_EQ(ball->run_macro(65), MacroOutcome::Busy);
+}
+
+TEST_F(MacroOnBall, ANewSpeedLetsARotationGoOn) {
+  run("FF 00 1A 00 5A 03 E8 0B 00 FA 25 00 00 0B 03 E8 00"); // rotate 90 in 1 s; set_speed 0 at 250
+                                                             // ms
+  advance(260ms);
+  EXPECT_NEAR(ball->body().yaw_deg(), 23, 1);
+  advance(300ms);
+  EXPECT_NEAR(ball->body().yaw_deg(), 50, 1);
+  advance(500ms);
+  EXPECT_DOUBLE_EQ(ball->body().yaw_deg(), 90);
+}
+
+TEST_F(MacroOnBall, ANewSpeedKeepsTheHeadingAndARollDuringARotationIsIgnored) {
+  run("FF 00 05 64 00 00 64 1A 00 5A 03 E8 05 64 00 B4 64 25 C8 00 0B 07 D0 00");
+  advance(1200ms); // roll along 0, turn by 90 within a second, roll along 180 in vain, then faster
+  EXPECT_DOUBLE_EQ(ball->body().heading_setpoint_deg(), 90);
+  EXPECT_EQ(ball->body().speed_setpoint(), 200);
+}
+
+TEST_F(MacroOnBall, WhatTheBodyIgnoresIsNoDrive) {
+  tell(ApiCommand::SetStabilization, {0});
+  tell(ApiCommand::Roll, {100, 0, 0, 1});
+  run("FF 00 05 64 00 00 64 25 C8 00 00");
+  advance(1s);
+  EXPECT_TRUE(seen.drives.empty());
+  tell(ApiCommand::SetStabilization, {1});
+  tell(ApiCommand::Roll, {100, 0, 0, 1});
+  EXPECT_EQ(seen.drives.size(), 1U);
+}
+
+TEST_F(MacroOnBall, TheEndOfAStealthyMacroIsNoActivity) {
+  tell(ApiCommand::SetInactivityTimeout, {0, 60});
+  run("FF 20 0B C3 50 00"); // 50 s
+  advance(61s);
+  EXPECT_TRUE(ball->asleep());
 }
 
 TEST_F(MacroOnBall, StealthDoesNotKeepTheBallAwake) {

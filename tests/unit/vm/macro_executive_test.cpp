@@ -67,18 +67,15 @@ protected:
   void note_ending() {
     static constexpr const char* names[] = {
         "ended", "aborted", "no such macro", "bad command", "stream end", "inhibited", "slept"};
-    if (const auto ending = executive.ending(); ending && was_running && !executive.running())
-      log.add(fmt::format("{} {}", names[static_cast<int>(*ending)], executive.status().number));
-    was_running = executive.running();
+    if (const auto stop = executive.take_finished())
+      log.add(fmt::format("{} {}", names[static_cast<int>(stop->end.reason)], stop->end.command));
   }
-  bool was_running = false;
 
   /// Advances event by event, so that the log knows the time of each.
   void advance_ms(int ms) {
     const auto until = log.now + std::chrono::milliseconds(ms);
     while (executive.next_event() <= until) {
       log.now = executive.next_event();
-      was_running = executive.running();
       executive.advance_to(log.now);
       note_ending();
     }
@@ -254,26 +251,24 @@ TEST_F(Executive, AMissingEndIsTheLastByte) {
 TEST_F(Executive, RunRefusesWhatItCannotRun) {
   EXPECT_EQ(executive.start(0, log.now), MacroOutcome::BadParameter);
   EXPECT_EQ(executive.start(254, log.now), MacroOutcome::BadParameter);
-  EXPECT_EQ(executive.start(255, log.now), MacroOutcome::CannotExecute);
-  EXPECT_EQ(executive.start(77, log.now), MacroOutcome::CannotExecute);
+  EXPECT_EQ(executive.start(255, log.now), MacroOutcome::NoSuchMacro);
+  EXPECT_EQ(executive.start(77, log.now), MacroOutcome::NoSuchMacro);
   load("40 08 0B 00 05 00");
-  EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::CannotExecute)
-      << "inhibited while connected";
+  EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::Inhibited) << "inhibited while connected";
   log.client = false;
   EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::Done);
-  EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::CannotExecute) << "one runs already";
+  EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::Busy) << "one runs already";
 }
 
 TEST_F(Executive, SaveRefusesSystemTakenAndTooMany) {
   for (const auto* hex : {"00 00 00", "01 00 00", "1F 00 00", "FF 00 00", "40", ""})
     EXPECT_EQ(executive.save(*from_hex(hex), log.now), MacroOutcome::BadParameter) << hex;
   load("20 00 00");
-  EXPECT_EQ(executive.save(*from_hex("20 00 00"), log.now), MacroOutcome::CannotExecute);
+  EXPECT_EQ(executive.save(*from_hex("20 00 00"), log.now), MacroOutcome::NoRoom);
   for (int id = 33; id < 48; ++id)
     EXPECT_EQ(executive.save(Bytes{static_cast<std::uint8_t>(id), 0, 0}, log.now),
               MacroOutcome::Done);
-  EXPECT_EQ(executive.save(*from_hex("50 00 00"), log.now), MacroOutcome::CannotExecute)
-      << "16 entries";
+  EXPECT_EQ(executive.save(*from_hex("50 00 00"), log.now), MacroOutcome::NoRoom) << "16 entries";
   executive.reinitialize(log.now);
   Bytes large(254, 0x1F);
   for (int id = 32; id < 40; ++id) {
@@ -281,7 +276,7 @@ TEST_F(Executive, SaveRefusesSystemTakenAndTooMany) {
     EXPECT_EQ(executive.save(large, log.now), MacroOutcome::Done);
   }
   large[0] = 50;
-  EXPECT_EQ(executive.save(large, log.now), MacroOutcome::CannotExecute) << "2048 bytes";
+  EXPECT_EQ(executive.save(large, log.now), MacroOutcome::NoRoom) << "2048 bytes";
 }
 
 TEST_F(Executive, AbortAndStatusNameTheCommandInProcess) {
@@ -320,8 +315,7 @@ TEST_F(Executive, ChunksBuildOneLongTemporaryMacro) {
   const Bytes chunk(254, 0x1F);
   for (int i = 0; i < 3; ++i)
     EXPECT_EQ(executive.append_chunk(chunk, log.now), MacroOutcome::Done);
-  EXPECT_EQ(executive.append_chunk(Bytes(251), log.now), MacroOutcome::CannotExecute)
-      << "12 + 762 + 251";
+  EXPECT_EQ(executive.append_chunk(Bytes(251), log.now), MacroOutcome::NoRoom) << "12 + 762 + 251";
   EXPECT_EQ(executive.append_chunk(Bytes(250), log.now), MacroOutcome::Done);
   executive.abort(log.now);
   EXPECT_EQ(executive.append_chunk(*from_hex("FF 00 15 07 00"), log.now), MacroOutcome::Done);
@@ -346,7 +340,7 @@ TEST_F(Executive, AStreamStartsAtOnceIgnoresEndAndWaitsForMore) {
   load("FE 00 15 03 1B 15 04");
   advance_ms(50);
   EXPECT_EQ(log.take(), "50 marker 03 FE 5\n50 marker 00 FE 6\n50 ended 6\n");
-  EXPECT_EQ(executive.start(255, log.now), MacroOutcome::CannotExecute)
+  EXPECT_EQ(executive.start(255, log.now), MacroOutcome::NoSuchMacro)
       << "the buffer held the stream";
 }
 
@@ -357,7 +351,7 @@ TEST_F(Executive, AFullStreamAsksForALittlePatience) {
     chunk.insert(chunk.end(), roll.begin(), roll.end());
   for (int i = 0; i < 4; ++i)
     EXPECT_EQ(executive.save(chunk, log.now), MacroOutcome::Done);
-  EXPECT_EQ(executive.save(chunk, log.now), MacroOutcome::CannotExecute);
+  EXPECT_EQ(executive.save(chunk, log.now), MacroOutcome::NoRoom);
   advance_ms(499);
   log.take();
   EXPECT_EQ(executive.save(chunk, log.now), MacroOutcome::Done) << "250 bytes are done with";
@@ -383,7 +377,7 @@ TEST_F(Executive, ALoopInAStreamSurvivesTheNextChunk) {
 TEST_F(Executive, SleepForgetsUserMacros) {
   load("40 00 00");
   executive.fall_asleep(log.now);
-  EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::CannotExecute);
+  EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::NoSuchMacro);
 }
 
 TEST_F(Executive, TicksKeepTheirGridWhateverTheCallersSteps) {

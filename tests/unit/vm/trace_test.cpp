@@ -64,6 +64,7 @@ private:
   }
   void take(const event::Sleep& x) { mix_int(x.seconds); }
   void take(const event::End& x) { mix(x.lines); }
+  void take(const event::MacroEnd& x) { mix_int(x.command); }
 };
 
 /// Drives, blinks, reads every sensor, draws random numbers and bumps into walls.
