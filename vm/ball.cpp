@@ -183,7 +183,8 @@ void Ball::keep_house() {
   if (asleep())
     return;
   check_battery();
-  show_lamps();
+  if (!connected())
+    show_lamps(); // the identification colours blink
   if (keeps_awake() && power_.sleeps_soon(now_))
     stay_awake();
   if (power_.warns(now_)) {

@@ -40,6 +40,8 @@ constexpr double charge_rate = 0.6 / 3600;   // V/s [?]
 constexpr double to_radians = std::numbers::pi / 180;
 
 double wrap_360(double degrees) {
+  if (0 <= degrees && degrees < 360)
+    return degrees; // nearly always: std::fmod costs ten times as much
   const double wrapped = std::fmod(degrees, 360.0);
   return wrapped < 0 ? wrapped + 360.0 : wrapped;
 }
@@ -175,28 +177,37 @@ void Body::drive() {
   forward_acceleration_ = (forward_ - before) / dt;
 }
 
+const Body::Course& Body::course() const {
+  const double heading = yaw_deg_ + world_offset_deg_;
+  if (course_.forward != forward_ || course_.heading_deg != heading ||
+      course_.drift_x != drift_x_ || course_.drift_y != drift_y_) {
+    const double vx = forward_ * std::sin(heading * to_radians) + drift_x_;
+    const double vy = forward_ * std::cos(heading * to_radians) + drift_y_;
+    course_ = {forward_, heading, drift_x_, drift_y_, vx, vy, std::hypot(vx, vy)};
+  }
+  return course_;
+}
+
 void Body::travel() {
-  const double drift = std::hypot(drift_x_, drift_y_);
-  if (drift > 0) {
+  if (drifts()) {
+    const double drift = std::hypot(drift_x_, drift_y_);
     const double left = std::max(0.0, drift - drift_friction * dt) / drift;
     drift_x_ *= left;
     drift_y_ *= left;
   }
-  if (forward_ == 0 && drift_x_ == 0 && drift_y_ == 0)
+  if (forward_ == 0 && !drifts())
     return;
 
-  const double world = (yaw_deg_ + world_offset_deg_) * to_radians;
-  const double vx = forward_ * std::sin(world) + drift_x_;
-  const double vy = forward_ * std::cos(world) + drift_y_;
-  double x = world_x_ + vx * dt;
-  double y = world_y_ + vy * dt;
+  const auto& going = course();
+  double x = world_x_ + going.vx * dt;
+  double y = world_y_ + going.vy * dt;
   if (!walls_.empty())
-    hit_walls(x, y, vx, vy);
+    hit_walls(x, y, going.vx, going.vy);
 
   // The locator sees the same way, turned into its own axes.
   const double dx = x - world_x_;
   const double dy = y - world_y_;
-  rolled_cm_ += std::hypot(dx, dy);
+  rolled_cm_ += walls_.empty() ? going.speed * dt : std::hypot(dx, dy);
   world_x_ = x;
   world_y_ = y;
   const double turned = tare_deg_ - world_offset_deg_;
@@ -209,7 +220,7 @@ void Body::travel() {
     locator_x_ += dx * cosine + dy * sine;
     locator_y_ += dy * cosine - dx * sine;
   }
-  battery_v_ -= motion_drain * dt * std::min(1.0, std::hypot(vx, vy) / full_speed);
+  battery_v_ -= motion_drain * dt * std::min(1.0, going.speed / full_speed);
 }
 
 void Body::hit_walls(double& x, double& y, double vx, double vy) {
@@ -425,7 +436,8 @@ void Body::set_charger(Switch charger) {
 }
 
 bool Body::stopped() const {
-  return std::abs(forward_) < stopped_below && std::hypot(drift_x_, drift_y_) < stopped_below;
+  return std::abs(forward_) < stopped_below &&
+         (!drifts() || std::hypot(drift_x_, drift_y_) < stopped_below);
 }
 
 double Body::left_motor_cm_s() const {
@@ -444,6 +456,8 @@ int Body::right_motor_power() const {
 }
 
 Vector3 Body::velocity_cm_s() const {
+  if (tare_deg_ == world_offset_deg_) // the locator has the world's axes
+    return {course().vx, course().vy, 0};
   const double way = (yaw_deg_ + tare_deg_) * to_radians;
   const double turned = (tare_deg_ - world_offset_deg_) * to_radians;
   const double sine = std::sin(turned);
@@ -452,15 +466,19 @@ Vector3 Body::velocity_cm_s() const {
           forward_ * std::cos(way) + drift_y_ * cosine - drift_x_ * sine, 0};
 }
 
-Pose Body::pose() const {
+double Body::speed_cm_s() const {
+  if (tare_deg_ == world_offset_deg_)
+    return course().speed;
   const auto velocity = velocity_cm_s();
-  return {locator_x_, locator_y_, yaw_deg_, std::hypot(velocity.x, velocity.y)};
+  return std::hypot(velocity.x, velocity.y);
+}
+
+Pose Body::pose() const {
+  return {locator_x_, locator_y_, yaw_deg_, speed_cm_s()};
 }
 
 int Body::speed() const {
-  const auto velocity = velocity_cm_s();
-  const double share = std::hypot(velocity.x, velocity.y) / full_speed;
-  return static_cast<int>(std::lround(std::min(share, 1.0) * 255));
+  return static_cast<int>(std::lround(std::min(speed_cm_s() / full_speed, 1.0) * 255));
 }
 
 double Body::yaw_deg() const {

@@ -204,6 +204,19 @@ private:
   Outcome obey_one(Stabilization mode);
   Outcome obey_one(const RotationRate& rate);
   Outcome obey_one(const Stop&);
+  /// Where the ball goes, with what it was computed from: straight on, it is the same every step.
+  struct Course {
+    double forward = 0;
+    double heading_deg = 0; ///< of the world
+    double drift_x = 0;
+    double drift_y = 0;
+    double vx = 0; ///< cm/s, in world axes
+    double vy = 0;
+    double speed = 0;
+  };
+  const Course& course() const;
+  double speed_cm_s() const;
+  bool drifts() const { return drift_x_ != 0 || drift_y_ != 0; }
   bool fast_turn() const;
   void single_step();
   void turn();
@@ -241,6 +254,7 @@ private:
   double right_wheel_ = 0;
   double drift_x_ = 0; ///< what pushes and bounces add, in world axes
   double drift_y_ = 0;
+  mutable Course course_; ///< of the last call of course()
   double world_x_ = 0;
   double world_y_ = 0;
   double locator_x_ = 0;
