@@ -25,8 +25,8 @@ std::int32_t rounded_s16(double value) {
 Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), body_(options.seed),
       link_(options.wire), drive_(body_, settings_), power_(settings_),
-      programs_(options, options.seed), macros_(asks_->macro),
-      dispatcher_(asks_->client, options.seed, options.firmware) {}
+      programs_(options, options.seed), macros_(asks_->of_macro),
+      dispatcher_(asks_->of_client, options.seed, options.firmware) {}
 
 Ball::~Ball() = default;
 
@@ -128,7 +128,7 @@ void Ball::advance(Instant target, Until until) {
       continue;
     }
     if (programs_.next_event() < limit) {
-      now_ = std::max(now_, programs_.run(limit, asks_->program));
+      now_ = std::max(now_, programs_.run(limit, asks_->of_program));
       finish_program();
       continue;
     }

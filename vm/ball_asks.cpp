@@ -29,7 +29,7 @@ std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   const auto& body = ball_.body_;
   auto& lamps = ball_.lamps_;
   auto& drive = ball_.drive_;
-  constexpr double g = 4096; // accelerometer units
+  constexpr double g = 4096; // 8 g are full scale of 16 bits; other units: spec/basic.def
   switch (variable) {
   case Variable::TimerA:
   case Variable::TimerB:

@@ -10,7 +10,7 @@
 namespace orb::vm {
 
 struct Ball::Asks {
-  explicit Asks(Ball& ball) : program(ball), macro(ball), client(ball) {}
+  explicit Asks(Ball& ball) : of_program(ball), of_macro(ball), of_client(ball) {}
 
   class OfProgram final : public Host {
   public:
@@ -73,9 +73,9 @@ struct Ball::Asks {
     Ball& ball_;
   };
 
-  OfProgram program;
-  OfMacro macro;
-  OfClient client;
+  OfProgram of_program;
+  OfMacro of_macro;
+  OfClient of_client;
 };
 
 } // namespace orb::vm

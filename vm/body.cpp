@@ -10,7 +10,8 @@ namespace {
 
 // The model. Marked [S] where a document gives the figure, [?] where it is a choice.
 constexpr double dt = 0.0025;                   // s, control system at 400 Hz [S]
-constexpr double full_speed = 200;              // cm/s at speed 255 [?]
+constexpr double greatest = 255;                // of speeds, powers and strengths [S]
+constexpr double full_speed = 200;              // cm/s at the greatest speed [?]
 constexpr double acceleration = 150;            // cm/s2 [?]
 constexpr double braking = 300;                 // cm/s2, go 0 [?]
 constexpr double coasting = 50;                 // cm/s2, motors off [?]
@@ -152,7 +153,7 @@ void Body::drive() {
   const double before = forward_;
   if (raw_) {
     const auto wheel = [](double speed, const Motor& motor) {
-      const double commanded = full_speed * motor.power / 255;
+      const double commanded = full_speed * motor.power / greatest;
       switch (motor.mode) {
       case MotorMode::Off: return toward(speed, 0, coasting * dt);
       case MotorMode::Forward: return toward(speed, commanded, acceleration * dt);
@@ -168,10 +169,10 @@ void Body::drive() {
   } else if (!stabilized_) {
     forward_ = toward(forward_, 0, coasting * dt);
   } else {
-    const bool slow = std::abs(forward_) <= full_speed * vector_drive_limit_ / 255;
+    const bool slow = std::abs(forward_) <= full_speed * vector_drive_limit_ / greatest;
     const bool waits =
         vector_drive_ == Switch::On && slow && std::abs(shortest_turn(yaw_deg_, target_deg_)) > 1;
-    const double target = waits ? 0 : full_speed * target_speed_ / 255;
+    const double target = waits ? 0 : full_speed * target_speed_ / greatest;
     forward_ = toward(forward_, target, (go_ == Go::Brake ? braking : acceleration) * dt);
   }
   forward_acceleration_ = (forward_ - before) / dt;
@@ -249,7 +250,7 @@ void Body::hit_walls(double& x, double& y, double vx, double vy) {
 void Body::strike(double vx, double vy) {
   // Into the ball's own axes: y ahead, x to the right.
   const double world = (yaw_deg_ + world_offset_deg_) * to_radians;
-  const double scale = power_per_speed * 255 / full_speed;
+  const double scale = power_per_speed * greatest / full_speed;
   Impact impact;
   impact.x_power = scale * (vx * std::cos(world) - vy * std::sin(world));
   impact.y_power = scale * (vx * std::sin(world) + vy * std::cos(world));
@@ -398,7 +399,7 @@ void Body::add_wall(const Wall& wall) {
 
 void Body::push(int heading_deg, int strength) {
   const double direction = heading_deg * to_radians;
-  const double speed = full_speed * strength / 255;
+  const double speed = full_speed * strength / greatest;
   const double vx = speed * std::sin(direction);
   const double vy = speed * std::cos(direction);
   // A push to the right is a blow on the left side.
@@ -448,11 +449,11 @@ double Body::right_motor_cm_s() const {
 }
 
 int Body::left_motor_power() const {
-  return static_cast<int>(std::lround(left_motor_cm_s() / full_speed * 255));
+  return static_cast<int>(std::lround(left_motor_cm_s() / full_speed * greatest));
 }
 
 int Body::right_motor_power() const {
-  return static_cast<int>(std::lround(right_motor_cm_s() / full_speed * 255));
+  return static_cast<int>(std::lround(right_motor_cm_s() / full_speed * greatest));
 }
 
 Vector3 Body::velocity_cm_s() const {
@@ -478,7 +479,7 @@ Pose Body::pose() const {
 }
 
 int Body::speed() const {
-  return static_cast<int>(std::lround(std::min(speed_cm_s() / full_speed, 1.0) * 255));
+  return static_cast<int>(std::lround(std::min(speed_cm_s() / full_speed, 1.0) * greatest));
 }
 
 double Body::yaw_deg() const {
@@ -549,7 +550,7 @@ Instant Body::battery_reaches(double volts) const {
 double Body::noise(std::uint32_t channel) const {
   if (noise_ == Switch::Off)
     return 0;
-  // A value of its own for each channel in each step of the control system.
+  // A value of its own for each channel in each step of the control system: splitmix64.
   std::uint64_t mixed = seed_ + 0x9E3779B97F4A7C15u * (channel + 1u) +
                         static_cast<std::uint64_t>(now_.time_since_epoch() / step);
   mixed = (mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9u;

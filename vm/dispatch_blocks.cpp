@@ -9,7 +9,7 @@ namespace {
 
 using spec::ResponseCode;
 
-constexpr std::uint32_t chassis_base = 0x1000;                // [?]
+constexpr std::uint32_t chassis_base = 0x1000;                // [?]: ids 1000h to 1FFFh
 constexpr std::uint8_t factory_block = 0;                     // API §Get Configuration Block
 constexpr Duration consumable_time = std::chrono::seconds{3}; // how long its macro runs [?]
 constexpr std::uint32_t assigned_temporary_flags = spec::temporary_option_flags::stop_on_disconnect;

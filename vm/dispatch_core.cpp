@@ -34,7 +34,8 @@ std::string_view own_name(const Profile& profile) {
   return profile.name.empty() ? default_name : std::string_view(profile.name);
 }
 
-/// A ball's address follows from its seed, so that the balls of one server differ.
+/// A ball's address follows from its seed, so that the balls of one server differ: 24 bits of its
+/// own.
 std::string own_address(std::uint64_t seed) {
   return fmt::format("{}{:06X}", address_prefix, seed & 0xFFFFFF);
 }
