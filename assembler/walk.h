@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace orb::assembler {
 
@@ -43,11 +46,13 @@ struct WalkResult {
 
 inline constexpr std::size_t longest_walk = 500'000; ///< commands
 
-/// Which macro has an id; nowhere where none has.
 inline constexpr std::size_t nowhere = SIZE_MAX;
 
-inline std::array<std::size_t, 256> macros_by_id(const Assembly& assembly) {
-  std::array<std::size_t, 256> found;
+/// Which macro has an id; nowhere where none has.
+using MacrosById = std::array<std::size_t, spec::macro_id_temporary + 1>;
+
+inline MacrosById macros_by_id(const Assembly& assembly) {
+  MacrosById found;
   found.fill(nowhere);
   for (std::size_t i = assembly.macros.size(); i-- > 0;)
     found[assembly.macros[i].id.value_or(spec::macro_id_temporary)] = i;
@@ -76,101 +81,143 @@ inline Wait wait_of(const PlacedCommand& command, std::int32_t sd1_ms, std::int3
   return {};
 }
 
-/// Calls `visit(Visit)` for each command in the order in which they run, `most` of them.
+/// Follows one macro as the executive does. Private to walk().
 template <class Visitor>
-WalkResult walk(const Assembly& assembly, std::size_t start, std::size_t most, Visitor visit) {
-  using spec::MacroCommand;
+class Walker {
+public:
+  Walker(const Assembly& assembly, std::size_t start, Visitor visit)
+      : assembly_(assembly), by_id_(macros_by_id(assembly)), visit_(std::move(visit)) {
+    now_.macro = start;
+  }
+
+  WalkResult run(std::size_t most) {
+    std::optional<WalkEnd> end;
+    for (std::size_t steps = 0; steps < most && !end; ++steps)
+      end = step();
+    result_.end = end.value_or(WalkEnd::TooLong);
+    result_.earliest_ms = now_.earliest_ms;
+    result_.latest_ms = now_.latest_ms;
+    return result_;
+  }
+
+private:
+  using MacroCommand = spec::MacroCommand;
   struct Place {
     std::size_t macro = 0;
     std::size_t command = 0;
+
+    friend auto operator<=>(const Place&, const Place&) = default;
   };
+  static constexpr Place elsewhere{nowhere, 0};
   struct Loop {
-    std::size_t macro = SIZE_MAX;
-    std::size_t first = 0;
+    Place first = elsewhere;
     std::int32_t left = 0;
+
+    friend auto operator<=>(const Loop&, const Loop&) = default;
   };
-  WalkResult result;
-  Visit now;
-  now.macro = start;
-  Place caller;
-  Loop loop;
-  std::set<std::tuple<std::size_t, std::int32_t, std::int32_t, std::size_t, std::size_t,
-                      std::int32_t, std::size_t>>
-      jumps;
-  const auto by_id = macros_by_id(assembly);
-  const auto find = [&](std::int32_t id) { return by_id[static_cast<std::uint8_t>(id)]; };
-  const auto ended = [&](WalkEnd end) {
-    result.end = end;
-    result.earliest_ms = now.earliest_ms;
-    result.latest_ms = now.latest_ms;
-    return result;
-  };
-  for (std::size_t steps = 0; steps < most; ++steps) {
-    const auto& macro = assembly.macros[now.macro];
-    const bool at_end = now.command >= macro.commands.size();
-    if (!at_end)
-      visit(now);
-    const auto* command = at_end ? nullptr : &macro.commands[now.command];
-    if (!at_end && command->info == nullptr)
-      return ended(WalkEnd::Aborts);
-    const auto kind = at_end ? MacroCommand::End : command->info->command;
-    if (!at_end && command->origin == PlacedCommand::Origin::Broken) {
-      ++now.command;
-      continue;
-    }
-    if (kind == MacroCommand::End && macro.id != spec::macro_id_stream) {
-      if (!now.in_gosub)
-        return ended(WalkEnd::Ended);
-      now.in_gosub = false;
-      now.macro = caller.macro;
-      now.command = caller.command;
-      continue;
-    }
-    if (at_end || kind == MacroCommand::StreamEnd)
-      return ended(WalkEnd::Ended);
-    const auto wait = wait_of(*command, now.sd1_ms, now.sd2_ms);
-    now.earliest_ms += wait.least_ms;
-    now.latest_ms += wait.most_ms;
-    ++now.command;
-    if (kind == MacroCommand::SetSd1) {
-      now.sd1_ms = command->value[0];
-    } else if (kind == MacroCommand::SetSd2) {
-      now.sd2_ms = command->value[0];
-    } else if (kind == MacroCommand::Sleep) {
-      return ended(WalkEnd::Sleeps);
-    } else if (kind == MacroCommand::LoopStart || kind == MacroCommand::LoopStartSystem) {
-      const bool fixed = kind == MacroCommand::LoopStart;
-      result.counts_by_api = result.counts_by_api || !fixed;
-      loop = {now.macro, now.command, fixed ? std::max(command->value[0], 1) : 1};
-    } else if (kind == MacroCommand::LoopEnd && loop.macro == now.macro) {
-      if (--loop.left > 0)
-        now.command = loop.first;
-      else
-        loop = {};
-    } else if (kind == MacroCommand::Goto) {
-      const auto target = find(command->value[0]);
-      if (target == nowhere)
-        return ended(WalkEnd::Leaves);
-      now.macro = target;
-      now.command = 0;
-      if (!jumps
-               .insert({target, now.sd1_ms, now.sd2_ms, loop.macro, loop.first, loop.left,
-                        now.in_gosub ? caller.macro * 65536 + caller.command : SIZE_MAX})
-               .second)
-        return ended(WalkEnd::Endless);
-    } else if (kind == MacroCommand::Gosub && !now.in_gosub && macro.id != spec::macro_id_stream) {
-      const auto target = find(command->value[0]);
-      if (target == nowhere) {
-        result.calls_unknown = true;
-        continue;
-      }
-      caller = {now.macro, now.command};
-      now.in_gosub = true;
-      now.macro = target;
-      now.command = 0;
-    }
+
+  /// One command; how the walk ended where it did.
+  std::optional<WalkEnd> step() {
+    const auto& macro = assembly_.macros[now_.macro];
+    const auto is_stream = macro.id == spec::macro_id_stream;
+    if (now_.command >= macro.commands.size())
+      return is_stream ? WalkEnd::Ended : come_back();
+    visit_(std::as_const(now_));
+    const auto& command = macro.commands[now_.command];
+    if (command.info == nullptr)
+      return WalkEnd::Aborts;
+    ++now_.command;
+    if (command.origin == PlacedCommand::Origin::Broken)
+      return std::nullopt;
+    const auto kind = command.info->command;
+    if (kind == MacroCommand::End && !is_stream)
+      return come_back();
+    if (kind == MacroCommand::StreamEnd)
+      return WalkEnd::Ended;
+    const auto wait = wait_of(command, now_.sd1_ms, now_.sd2_ms);
+    now_.earliest_ms += wait.least_ms;
+    now_.latest_ms += wait.most_ms;
+    if (kind == MacroCommand::Sleep)
+      return WalkEnd::Sleeps;
+    if (kind == MacroCommand::Goto)
+      return jump(command.value[0]);
+    if (kind == MacroCommand::Gosub && !now_.in_gosub && !is_stream)
+      call(command.value[0]);
+    else if (kind == MacroCommand::SetSd1)
+      now_.sd1_ms = command.value[0];
+    else if (kind == MacroCommand::SetSd2)
+      now_.sd2_ms = command.value[0];
+    else
+      repeat(kind, command.value[0]);
+    return std::nullopt;
   }
-  return ended(WalkEnd::TooLong);
+
+  std::optional<WalkEnd> come_back() {
+    if (!now_.in_gosub)
+      return WalkEnd::Ended;
+    now_.in_gosub = false;
+    go_to(caller_);
+    return std::nullopt;
+  }
+
+  void go_to(Place place) {
+    now_.macro = place.macro;
+    now_.command = place.command;
+  }
+
+  std::optional<WalkEnd> jump(std::int32_t id) {
+    const auto target = by_id_[static_cast<std::uint8_t>(id)];
+    if (target == nowhere)
+      return WalkEnd::Leaves;
+    go_to({target, 0});
+    const auto is_new =
+        jumps_
+            .insert({target, now_.sd1_ms, now_.sd2_ms, loop_, now_.in_gosub ? caller_ : elsewhere})
+            .second;
+    return is_new ? std::nullopt : std::optional(WalkEnd::Endless);
+  }
+
+  void call(std::int32_t id) {
+    const auto target = by_id_[static_cast<std::uint8_t>(id)];
+    if (target == nowhere) {
+      result_.calls_unknown = true;
+      return;
+    }
+    caller_ = {now_.macro, now_.command};
+    now_.in_gosub = true;
+    go_to({target, 0});
+  }
+
+  void repeat(MacroCommand kind, std::int32_t count) {
+    if (kind == MacroCommand::LoopStart)
+      loop_ = {{now_.macro, now_.command}, std::max(count, 1)};
+    if (kind == MacroCommand::LoopStartSystem) {
+      result_.counts_by_api = true;
+      loop_ = {{now_.macro, now_.command}, 1};
+    }
+    if (kind != MacroCommand::LoopEnd || loop_.first.macro != now_.macro)
+      return;
+    if (--loop_.left > 0)
+      go_to(loop_.first);
+    else
+      loop_ = {};
+  }
+
+  const Assembly& assembly_;
+  MacrosById by_id_;
+  Visitor visit_;
+  WalkResult result_;
+  Visit now_;
+  Place caller_;
+  Loop loop_;
+  /// The states in which a macro was jumped to.
+  std::set<std::tuple<std::size_t, std::int32_t, std::int32_t, Loop, Place>> jumps_;
+};
+
+/// Calls `visit(Visit)` for each command in the order in which they run, `most` of them.
+template <class Visitor>
+WalkResult walk(const Assembly& assembly, std::size_t start, std::size_t most, Visitor visit) {
+  return Walker(assembly, start, std::move(visit)).run(most);
 }
 
 } // namespace orb::assembler
