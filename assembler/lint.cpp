@@ -4,6 +4,7 @@
 #include "assembler/timing.h"
 #include "assembler/walk.h"
 #include "base/silence.h"
+#include "spec/api.h"
 
 #include <algorithm>
 #include <bitset>
@@ -18,7 +19,7 @@ using spec::MacroCommand;
 using spec::MacroFlag;
 using spec::MacroIdKind;
 using Origin = PlacedCommand::Origin;
-using Ids = std::bitset<256>;
+using Ids = std::bitset<spec::macro_id_temporary + 1>;
 
 bool is(const PlacedCommand& command, MacroCommand kind) {
   return command.info != nullptr && command.origin != Origin::Broken &&
@@ -56,6 +57,7 @@ public:
       check_commands(macro);
       check_loops(macro);
     }
+    check_heap();
     check_gosub_depth();
     follow();
     return std::move(diagnostics_);
@@ -225,6 +227,29 @@ private:
       report(rules::LoopOpen, open->span, "this loop has no end", "write `loop_end` below");
   }
 
+  /// The user macros of a file share the heap and the index of a ball.
+  void check_heap() {
+    std::size_t heap = 0;
+    std::size_t entries = 0;
+    for (const auto& macro : assembly_.macros) {
+      if (kind_of(macro) != MacroIdKind::User)
+        continue;
+      heap += macro.framed_size();
+      ++entries;
+      if (heap <= spec::macro_heap_size && entries <= spec::macro_heap_entries)
+        continue;
+      report(
+          rules::HeapFull, macro.span,
+          entries > spec::macro_heap_entries
+              ? fmt::format("this is user macro {}; the ball's index has {} entries", entries,
+                            spec::macro_heap_entries)
+              : fmt::format("with this one the user macros have {} bytes; the ball's heap has {}",
+                            heap, spec::macro_heap_size),
+          "run some of them as temporary macros");
+      return;
+    }
+  }
+
   void check_gosub_depth() {
     struct Call {
       const AssembledMacro* from;
@@ -288,63 +313,77 @@ private:
         follow(i, seen);
   }
 
-  void follow(std::size_t start, std::vector<bool>& seen) {
-    seen[start] = true;
+  /// What goes on while commands run.
+  struct Ongoing {
     Background fade;
     Background rotation;
-    const PlacedCommand* unstabilized = nullptr;
+    const PlacedCommand* unstabilized = nullptr; ///< what switched stabilization off
+  };
+
+  void follow(std::size_t start, std::vector<bool>& seen) {
+    seen[start] = true;
+    Ongoing ongoing;
     const auto result = walk(assembly_, start, budget_, [&](const Visit& visit) {
       --budget_;
       seen[visit.macro] = true;
       const auto& command = assembly_.macros[visit.macro].commands[visit.command];
       if (command.info == nullptr || command.origin == Origin::Broken)
         return;
-      const auto kind = command.info->command;
-      const auto now = visit.latest_ms;
-      if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
-          first_time(rules::RollDuringRotation, command.span))
-        report(rules::RollDuringRotation, command.span,
-               "this roll is ignored: a rotation still runs",
-               fmt::format("add `delay {}` before it", rotation.end_ms - now))
-            .notes.push_back({rotation.command->span, "the rotation begins here"});
-      if ((rolls(kind) || kind == MacroCommand::SetSpeed) && unstabilized != nullptr &&
-          first_time(rules::RollUnstabilized, command.span))
-        report(rules::RollUnstabilized, command.span,
-               fmt::format("`{}` does nothing while stabilization is off", command.info->mnemonic),
-               "write `stabilization on` before it")
-            .notes.push_back({unstabilized->span, "switched off here"});
-      if (kind == MacroCommand::Stabilization)
-        unstabilized = command.value[0] == 0 ? &command : nullptr;
-      if (kind == MacroCommand::RawMotors) {
-        constexpr auto ignore = std::size(spec::macro_detail::motor_words) - 1;
-        if (static_cast<std::size_t>(command.value[0]) != ignore ||
-            static_cast<std::size_t>(command.value[2]) != ignore)
-          unstabilized = &command;
-      }
-      if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
-        cut(fade, now, command.span, "another colour is set");
-        fade = {};
-      }
-      if (command.info->background == MacroBackground::Fade) {
-        cut(fade, now, command.span, "the next one begins");
-        fade = {&command, now, now + command.value[3]};
-      }
-      if (command.info->background == MacroBackground::Rotate) {
-        cut(rotation, now, command.span, "the next one begins");
-        const auto time = kind == MacroCommand::Rotate      ? command.value[1]
-                          : kind == MacroCommand::RotateSd1 ? visit.sd1_ms
-                                                            : visit.sd2_ms;
-        rotation = {&command, now, now + time};
-      }
-      if (kind == MacroCommand::Gosub && !defines(command.value[0])) {
-        fade = rotation = {}; // who knows what happens there
-        unstabilized = nullptr;
-      }
+      check_roll(command, visit.latest_ms, ongoing);
+      stabilize(command, ongoing);
+      begin_background(command, visit, ongoing);
+      if (command.info->command == MacroCommand::Gosub && !defines(command.value[0]))
+        ongoing = {}; // who knows what happens there
     });
     if (result.end != WalkEnd::Ended && result.end != WalkEnd::Sleeps)
       return;
-    cut(fade, result.latest_ms, {}, {});
-    cut(rotation, result.latest_ms, {}, {});
+    cut(ongoing.fade, result.latest_ms, {}, {});
+    cut(ongoing.rotation, result.latest_ms, {}, {});
+  }
+
+  void check_roll(const PlacedCommand& command, std::int64_t now, const Ongoing& ongoing) {
+    const auto kind = command.info->command;
+    const auto& rotation = ongoing.rotation;
+    if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
+        first_time(rules::RollDuringRotation, command.span))
+      report(rules::RollDuringRotation, command.span, "this roll is ignored: a rotation still runs",
+             fmt::format("add `delay {}` before it", rotation.end_ms - now))
+          .notes.push_back({rotation.command->span, "the rotation begins here"});
+    if ((rolls(kind) || kind == MacroCommand::SetSpeed) && ongoing.unstabilized != nullptr &&
+        first_time(rules::RollUnstabilized, command.span))
+      report(rules::RollUnstabilized, command.span,
+             fmt::format("`{}` does nothing while stabilization is off", command.info->mnemonic),
+             "write `stabilization on` before it")
+          .notes.push_back({ongoing.unstabilized->span, "switched off here"});
+  }
+
+  static void stabilize(const PlacedCommand& command, Ongoing& ongoing) {
+    const auto kind = command.info->command;
+    if (kind == MacroCommand::Stabilization)
+      ongoing.unstabilized = command.value[0] == 0 ? &command : nullptr;
+    if (kind == MacroCommand::RawMotors && (command.value[0] != spec::motor_mode::ignore ||
+                                            command.value[2] != spec::motor_mode::ignore))
+      ongoing.unstabilized = &command;
+  }
+
+  void begin_background(const PlacedCommand& command, const Visit& visit, Ongoing& ongoing) {
+    const auto kind = command.info->command;
+    const auto now = visit.latest_ms;
+    if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
+      cut(ongoing.fade, now, command.span, "another colour is set");
+      ongoing.fade = {};
+    }
+    if (command.info->background == MacroBackground::Fade) {
+      cut(ongoing.fade, now, command.span, "the next one begins");
+      ongoing.fade = {&command, now, now + command.value[3]};
+    }
+    if (command.info->background == MacroBackground::Rotate) {
+      cut(ongoing.rotation, now, command.span, "the next one begins");
+      const auto time = kind == MacroCommand::Rotate      ? command.value[1]
+                        : kind == MacroCommand::RotateSd1 ? visit.sd1_ms
+                                                          : visit.sd2_ms;
+      ongoing.rotation = {&command, now, now + time};
+    }
   }
 
   bool defines(std::int32_t id) const {
@@ -399,46 +438,6 @@ void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
     orb::silence(source.text(), comments, rules::all(), rules::UnknownRule, diagnostics);
 }
 
-/// What the files of one ball share: ids, heap and index.
-void check_shared(std::span<const Assembly> assemblies, std::span<const Source* const> sources,
-                  std::vector<FileFindings>& files) {
-  struct Owner {
-    std::size_t file = 0;
-    const AssembledMacro* macro = nullptr;
-  };
-  std::array<Owner, 256> owners{};
-  std::size_t heap = 0;
-  std::size_t entries = 0;
-  bool full = false;
-  for (std::size_t i = 0; i < assemblies.size(); ++i)
-    for (const auto& macro : assemblies[i].macros) {
-      if (!macro.id || spec::macro_id_kind(*macro.id) != MacroIdKind::User)
-        continue;
-      auto& owner = owners[*macro.id];
-      if (owner.macro != nullptr && owner.file != i)
-        files[i].diagnostics.push_back(
-            finding(rules::DuplicateId, macro.span,
-                    fmt::format("`{}` and `{}` of {} have the same id {}", macro.name,
-                                owner.macro->name, sources[owner.file]->name(), *macro.id)));
-      if (owner.macro == nullptr)
-        owner = {i, &macro};
-      heap += macro.framed_size();
-      ++entries;
-      if (full || (heap <= spec::macro_heap_size && entries <= spec::macro_heap_entries))
-        continue;
-      full = true;
-      files[i].diagnostics.push_back(
-          finding(rules::HeapFull, macro.span,
-                  entries > spec::macro_heap_entries
-                      ? fmt::format("this is user macro {}; the ball's index has {} entries",
-                                    entries, spec::macro_heap_entries)
-                      : fmt::format("with this one the user macros have {} bytes; the ball's heap "
-                                    "has {}",
-                                    heap, spec::macro_heap_size),
-                  "run some of them as temporary macros"));
-    }
-}
-
 } // namespace
 
 std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
@@ -472,7 +471,6 @@ std::vector<FileFindings> check(std::span<const Source* const> sources,
       size += macro.framed_size();
     file.built_size = size;
   }
-  check_shared(assemblies, sources, files);
   for (auto& file : files)
     sort_by_place(file.diagnostics);
   return files;

@@ -21,8 +21,9 @@ std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
 /// All findings about one file of macro source, the assembler's and the linter's, by place.
 std::vector<Diagnostic> check(const Source& source, const LintOptions& options = {});
 
-/// The same for files that go to one ball together: they may lead to each other's macros, and they
-/// share ids, heap and index. A result per source, in order, with the size of the framed macros.
+/// The same for several files, which may lead to each other's macros. Each may go to a ball of its
+/// own: ids, heap and index are those of one file. A result per source, in order, with the size of
+/// the framed macros.
 std::vector<FileFindings> check(std::span<const Source* const> sources,
                                 const LintOptions& options = {});
 

@@ -206,7 +206,7 @@ TEST(Timing, AMacroThatComesBackIsEndless) {
   EXPECT_EQ(time_macro(assembled("delay 5\ngoto 77\n"), 0).note, TimingNote::Leaves);
 }
 
-TEST(Lint, FilesOfOneBallShareIdsAndHeap) {
+TEST(Lint, FilesLeadToEachOtherAndTheMacrosOfOneShareTheHeap) {
   const Source a("a.macro", ".macro a id=40\ngoto 41\n");
   const Source b("b.macro", ".macro b id=41\nmarker 20\n");
   const Source c("c.macro", ".macro c id=41\nmarker 20\n");
@@ -214,9 +214,8 @@ TEST(Lint, FilesOfOneBallShareIdsAndHeap) {
   for (const auto& file : check(two))
     EXPECT_TRUE(file.diagnostics.empty()) << file.source->name();
   const Source* three[] = {&a, &b, &c};
-  const auto files = check(three);
-  ASSERT_EQ(files[2].diagnostics.size(), 1U);
-  EXPECT_EQ(files[2].diagnostics[0].rule->id, "macro-duplicate-id");
+  for (const auto& file : check(three)) // each may go to a ball of its own
+    EXPECT_TRUE(file.diagnostics.empty()) << file.source->name();
   std::string many;
   for (int id = 32; id < 49; ++id)
     many += fmt::format(".macro m{} id={}\nmarker 20\n", id, id);
