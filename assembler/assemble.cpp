@@ -60,6 +60,11 @@ std::string range_of(const MacroOperand& operand) {
                      unit);
 }
 
+/// An angle within one turn.
+std::int64_t same_way(std::int64_t angle_deg, std::int64_t turn_deg) {
+  return (angle_deg % turn_deg + turn_deg) % turn_deg;
+}
+
 std::string operand_list(const spec::MacroCommandInfo& info) {
   std::string list;
   for (const auto& operand : info)
@@ -628,7 +633,7 @@ private:
       help = fmt::format("put `{} {}` on the next line", spec::info(MacroCommand::Delay).mnemonic,
                          value);
     else if (operand.unit == MacroUnit::Degrees && !operand.is_signed)
-      help = fmt::format("{} deg is the same way", (value % 360 + 360) % 360);
+      help = fmt::format("{} deg is the same way", same_way(value, operand.maximum + 1));
     else if (operand.word_count > 0)
       for (std::size_t i = 0; i < operand.word_count; ++i)
         help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);

@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "base/source.h"
 #include "protocol/macro.h"
+#include "spec/limits.h"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +14,8 @@
 namespace orb::assembler {
 
 /// The largest source that is looked at, in bytes.
-inline constexpr std::size_t largest_source = 65536;
+inline constexpr auto largest_source =
+    static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
 
 /// A command in its place.
 struct PlacedCommand {

@@ -100,7 +100,8 @@ tl::expected<std::string, std::string> disassemble(ByteView bytes, Reading readi
       return tl::unexpected(protocol::to_string(header.error()));
     if (header->id == spec::macro_id_none)
       return tl::unexpected(
-          std::string("offset 0 (00h): 0 is the id of no macro; expected an id from 1 to 255"));
+          fmt::format("offset 0 (00h): {} is the id of no macro; expected an id from {} to {}",
+                      spec::macro_id_none, spec::macro_id_system_first, spec::macro_id_temporary));
     out = header_line(*header);
     header_size = header->size;
   }

@@ -18,7 +18,8 @@ constexpr Duration hold_time = 100ms;
 constexpr Duration split_gap = 1ms;
 /// The raster on which merged bytes arrive; about the interval at which a radio link is polled.
 constexpr Duration merge_raster = 20ms;
-constexpr std::uint8_t storm_async_id = 0x03; // sensor data, the message that comes in bursts
+/// The message that comes in bursts.
+constexpr auto storm_message = static_cast<std::uint8_t>(spec::AsyncId::SensorData);
 constexpr std::uint64_t storm_most_messages = 8;
 constexpr std::uint64_t storm_most_payload = 80; // bytes; a full sensor frame has up to 64
 constexpr std::uint64_t stray_most_bytes = 3;    // real balls were seen to send one or two
@@ -278,7 +279,7 @@ void FaultPipe::queue(Side& way, ByteView bytes, Instant now) {
 
 void FaultPipe::queue_storm(Side& way, Instant now) {
   for (auto left = 1 + random_.below(storm_most_messages); left > 0; --left) {
-    Async message{storm_async_id, Bytes(1 + random_.below(storm_most_payload))};
+    Async message{storm_message, Bytes(1 + random_.below(storm_most_payload))};
     for (auto& byte : message.data)
       byte = static_cast<std::uint8_t>(random_.next());
     queue(way, encode(message), now);
