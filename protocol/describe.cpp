@@ -1,6 +1,7 @@
 #include "protocol/describe.h"
 
 #include "protocol/payload.h"
+#include "spec/basic.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,9 @@ std::string value_text(const FieldValue& value) {
   auto name = std::string(spec::value_name(field.unit, bits));
   if (name.empty())
     name = spec::bit_names(field.unit, bits);
+  if (field.unit == "orbBasic error")
+    if (const auto error = spec::find_error(bits))
+      name = spec::info(*error).text;
   const auto is_mask = field.unit.starts_with("stream mask") || field.unit.ends_with("flags");
   const auto number = is_mask ? fmt::format("{:0{}X}h", bits, 2 * spec::field_size(field.type))
                               : fmt::format("{}", value.number);
