@@ -1,5 +1,7 @@
 #include "cli/commands.h"
 #include "cli/link.h"
+#include "protocol/payload.h"
+#include "spec/basic.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -9,11 +11,26 @@ namespace {
 
 using spec::ApiCommand;
 
-constexpr std::size_t abort_answer_size = 3;         // API §Abort Macro: id and command number
 constexpr std::uint16_t unkillable_command = 0xFFFF; // API §Abort Macro
+constexpr auto command_at = spec::answer_offset(ApiCommand::AbortMacro, "command");
+
+/// What the ball says when a program is stopped; nothing where none ran.
+std::optional<std::uint16_t> stopped_line(uploader::Session& session) {
+  (void)session.listen(session.now() + session.budgets().settle);
+  for (const auto& message : session.inbox()) {
+    if (message.id != static_cast<std::uint8_t>(spec::AsyncId::BasicError))
+      continue;
+    const auto fields =
+        protocol::read_fields(spec::fields(spec::AsyncId::BasicError), message.data);
+    if (fields.size() == 2 && fields[1].number == spec::code(spec::BasicError::UserAbort))
+      return static_cast<std::uint16_t>(fields[0].number);
+  }
+  return std::nullopt;
+}
 
 ExitCode abort_all(Context& context, uploader::Session& session,
                    const uploader::Greeting& greeting) {
+  session.inbox().clear();
   if (greeting.firmware.has_basic)
     if (const auto done = request(session, ApiCommand::AbortOrbbasicProgram); !done) {
       print_error(context, done.error().message);
@@ -24,14 +41,19 @@ ExitCode abort_all(Context& context, uploader::Session& session,
     print_error(context, macro.error().message);
     return exit_code(macro.error().kind);
   }
-  const auto id = macro->data.size() >= abort_answer_size ? macro->data[0] : std::uint8_t{0};
-  if (id != 0 && read_u16(macro->data, 1) == unkillable_command) {
+  const auto line = stopped_line(session);
+  const auto id = macro->data.front();
+  const auto command = read_u16(macro->data, command_at);
+  if (id != spec::macro_id_none && command == unkillable_command) {
     print_error(context, fmt::format("macro {} is a system macro that cannot be stopped", id));
     return ExitCode::Refused;
   }
-  print_note(context, id == 0 ? "no program and no macro runs"
-                              : fmt::format("macro {} was stopped in command {}; no program runs",
-                                            id, read_u16(macro->data, 1)));
+  const auto of_macro = id == spec::macro_id_none
+                            ? std::string("no macro runs")
+                            : fmt::format("macro {} was stopped in command {}", id, command);
+  print_note(context, line ? fmt::format("the program was stopped in line {}; {}", *line, of_macro)
+                      : id != spec::macro_id_none ? of_macro + "; no program runs"
+                                                  : "no program and no macro runs");
   return ExitCode::Done;
 }
 
