@@ -519,13 +519,16 @@ int main(int argc, char** argv) {
   Page page;
   page.add(fmt::format(
       "# How reliable uploading is\n\n"
-      "Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`; do "
-      "not edit. The ball\nis the built-in one, time is virtual, every upload has its own seed, so "
-      "the numbers repeat exactly.\nAfter each upload the ball's storage is compared with what was "
-      "reported: *ok* is a success that is one,\n*reported* is a failure whose message describes "
-      "the ball truly, *wrong* is everything else. The columns\nof other libraries are from 2000 "
-      "runs of each against a ball with the same faults (a duplicate there is\na doubled answer); "
-      "what they were not measured with is marked –.\n\n",
+      "Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`, the "
+      "last section by\n`tests/reliability/injected_faults`; do not edit. The ball is the built-in "
+      "one, time is virtual, every\nupload has its own seed, so the numbers repeat exactly. After "
+      "each upload the ball's storage is compared\nwith what was reported: *ok* is a success that "
+      "is "
+      "one, *reported* is a failure whose message describes the\nball truly, *wrong* is everything "
+      "else. The columns of other libraries are from 2000 runs of each against a\nball with the "
+      "same "
+      "faults (a duplicate there is a doubled answer); what they were not measured with is\nmarked "
+      "–.\n\n",
       uploads));
   add_profiles(page, uploads);
   add_doubled_requests(page, uploads);
