@@ -4,6 +4,7 @@
 
 #include "protocol/describe.h"
 #include "protocol/packet_v2.h"
+#include "protocol/recording.h"
 
 #include <algorithm>
 #include <cctype>
@@ -22,12 +23,6 @@ struct DecodeArguments {
   std::vector<std::string> words;
   bool v2 = false;
   std::string from = "client";
-};
-
-/// Bytes with the way they travel, where the input says so.
-struct Lump {
-  Direction direction;
-  Bytes bytes;
 };
 
 /// A stream of one direction, printed as its packets become whole.
@@ -68,29 +63,6 @@ private:
   std::size_t shown_ = 0; ///< how many of the bytes to come have been printed already
 };
 
-/// The lines of a recording: `>` to the ball, `<` from it, `#` a comment. Nothing when the text is
-/// something else.
-std::optional<std::vector<Lump>> read_recording(std::string_view text) {
-  std::vector<Lump> lumps;
-  bool directed = false;
-  while (!text.empty()) {
-    auto line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const auto first = line.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos || line[first] == '#')
-      continue;
-    line.remove_prefix(first);
-    if (line[0] != '>' && line[0] != '<')
-      return std::nullopt;
-    const auto bytes = from_hex(line.substr(1));
-    if (!bytes)
-      return std::nullopt;
-    directed = true;
-    lumps.push_back({line[0] == '>' ? Direction::ToBall : Direction::FromBall, *bytes});
-  }
-  return directed ? std::optional(std::move(lumps)) : std::nullopt;
-}
-
 bool is_text(std::string_view content) {
   return std::ranges::all_of(content, [](char c) {
     const auto byte = static_cast<unsigned char>(c);
@@ -100,19 +72,19 @@ bool is_text(std::string_view content) {
 
 /// What is to be decoded: a recording, hex text or the bytes themselves.
 struct Input {
-  std::optional<std::vector<Lump>> recording;
+  std::vector<protocol::RecordedPiece> recording; ///< empty: the bytes count
   Bytes bytes;
 };
 
 Input take_apart(std::string_view content) {
   if (is_text(content)) {
-    if (auto recording = read_recording(content))
-      return {std::move(recording), {}};
+    if (auto recording = protocol::parse_recording(content); recording && !recording->empty())
+      return {*std::move(recording), {}};
     if (auto hex = from_hex(content))
-      return {std::nullopt, std::move(*hex)};
+      return {{}, *std::move(hex)};
   }
   const auto bytes = as_bytes(content);
-  return {std::nullopt, {bytes.begin(), bytes.end()}};
+  return {{}, {bytes.begin(), bytes.end()}};
 }
 
 void print_v2(const Input& input) {
@@ -122,16 +94,16 @@ void print_v2(const Input& input) {
       print_out(fmt::format("{}{}\n", prefix, describe(*item)));
   };
   protocol::DecoderV2 to_ball, from_ball;
-  if (!input.recording) {
+  if (input.recording.empty()) {
     to_ball.feed(input.bytes);
     to_ball.expire();
     print(to_ball, "");
     return;
   }
-  for (const auto& lump : *input.recording) {
-    const auto out = lump.direction == Direction::ToBall;
+  for (const auto& piece : input.recording) {
+    const auto out = piece.direction == Direction::ToBall;
     auto& decoder = out ? to_ball : from_ball;
-    decoder.feed(lump.bytes);
+    decoder.feed(piece.bytes);
     print(decoder, out ? "> " : "< ");
   }
   to_ball.expire();
@@ -142,7 +114,7 @@ void print_v2(const Input& input) {
 
 void print_v1(const Input& input, Direction direction) {
   protocol::Describer describer;
-  if (!input.recording) {
+  if (input.recording.empty()) {
     Printer printer(direction, "", describer);
     printer.feed(input.bytes);
     printer.finish();
@@ -150,8 +122,8 @@ void print_v1(const Input& input, Direction direction) {
   }
   Printer to_ball(Direction::ToBall, "> ", describer);
   Printer from_ball(Direction::FromBall, "< ", describer);
-  for (const auto& lump : *input.recording)
-    (lump.direction == Direction::ToBall ? to_ball : from_ball).feed(lump.bytes);
+  for (const auto& piece : input.recording)
+    (piece.direction == Direction::ToBall ? to_ball : from_ball).feed(piece.bytes);
   to_ball.finish();
   from_ball.finish();
 }

@@ -5,6 +5,7 @@
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "compiler/load.h"
+#include "disk/disk.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
 
@@ -36,9 +37,9 @@ std::uint8_t first_seq_of(const Endpoint& endpoint) {
   if (endpoint.scheme != Scheme::Replay)
     return draw_first_seq();
   const auto text = disk::read(endpoint.path);
-  const auto pieces = text ? uploader::parse_recording(*text)
-                           : tl::expected<std::vector<uploader::RecordedPiece>, std::string>();
-  return pieces ? uploader::first_recorded_seq(*pieces).value_or(0) : std::uint8_t{0};
+  const auto pieces = text ? protocol::parse_recording(*text)
+                           : tl::expected<std::vector<protocol::RecordedPiece>, std::string>();
+  return pieces ? protocol::first_recorded_seq(*pieces).value_or(0) : std::uint8_t{0};
 }
 
 } // namespace
@@ -63,16 +64,20 @@ void add_port_options(CLI::App& command, PortOptions& options) {
 }
 
 void WireLog::on_bytes(protocol::Direction direction, ByteView bytes, Instant) {
-  const auto line = uploader::recording_line(direction, bytes);
+  const auto line = protocol::recording_line(direction, bytes);
   recording_ += line;
   if (verbosity_ >= 2)
     print_err(line);
 }
 
-tl::expected<void, IoError> Link::finish() const {
+ExitCode Link::finish(const Context& context, ExitCode exit) const {
   if (record_file.empty())
-    return {};
-  return disk::write(record_file, as_bytes(log->recording()));
+    return exit;
+  const auto written = disk::write(record_file, as_bytes(log->recording()));
+  if (written)
+    return exit;
+  print_error(context, written.error().message);
+  return exit == ExitCode::Done ? ExitCode::File : exit;
 }
 
 namespace {
@@ -99,6 +104,10 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   const auto endpoint = find_endpoint(context, options);
   if (!endpoint)
     return tl::unexpected(endpoint.error());
+  // Nothing may be done to a ball whose recording then cannot be written.
+  if (!options.record.empty())
+    if (const auto writable = disk::write(options.record, {}); !writable)
+      return failure(ExitCode::File, writable.error().message);
   Link link;
   link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
@@ -119,7 +128,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   if (!options.record.empty() || context.verbosity >= 2) {
     link.log = std::make_unique<WireLog>(context.verbosity);
     link.transport =
-        std::make_unique<uploader::RecordingTransport>(std::move(link.transport), *link.log);
+        std::make_unique<protocol::RecordingTransport>(std::move(link.transport), *link.log);
   }
   link.transport = std::make_unique<InterruptibleTransport>(std::move(link.transport));
   return link;
@@ -139,8 +148,7 @@ void with_ball(
   } else {
     fail(context, {exit_code(greeting.error().kind), greeting.error().message});
   }
-  if (const auto written = link->finish(); !written)
-    fail(context, {ExitCode::File, written.error().message});
+  context.exit = link->finish(context, context.exit);
 }
 
 } // namespace orb::cli

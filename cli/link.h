@@ -1,10 +1,8 @@
 #pragma once
 
 #include "cli/context.h"
-#include "disk/disk.h"
-#include "protocol/transport.h"
+#include "protocol/recording.h"
 #include "uploader/budgets.h"
-#include "uploader/recording.h"
 #include "uploader/upload.h"
 #include "vm/ball.h"
 
@@ -31,7 +29,7 @@ struct PortOptions {
 void add_port_options(CLI::App& command, PortOptions& options);
 
 /// Hears the wire for a recording and for `-vv`.
-class WireLog final : public uploader::WireListener {
+class WireLog final : public protocol::WireListener {
 public:
   explicit WireLog(int verbosity) : verbosity_(verbosity) {}
   void on_bytes(protocol::Direction direction, ByteView bytes, Instant now) override;
@@ -53,8 +51,9 @@ struct Link {
   std::unique_ptr<vm::Ball> ball; ///< of `sim:`
   std::unique_ptr<protocol::Transport> transport;
 
-  /// Writes the recording, if there is to be one.
-  tl::expected<void, IoError> finish() const;
+  /// Writes the recording, if there is to be one. The code to end with: `exit`, where that is a
+  /// failure already, whatever becomes of the recording.
+  ExitCode finish(const Context& context, ExitCode exit) const;
 };
 
 /// Whether the options name a port at all, in words where not; nothing is opened.

@@ -1,6 +1,7 @@
 #include "cli/messages.h"
 
 #include "cli/interrupt.h"
+#include "disk/disk.h"
 #include "protocol/describe.h"
 #include "spec/basic.h"
 
@@ -10,6 +11,7 @@ namespace orb::cli {
 namespace {
 
 using protocol::Async;
+using protocol::LinkError;
 using spec::AsyncId;
 
 /// How long the built-in ball may be silent before it is asked whether anything still runs.
@@ -67,7 +69,8 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
     const auto resting = link.is_sim && link.ball->idle();
     const auto heard = session.listen(session.now() + look, [&] { return !inbox.empty(); });
     if (!heard) {
-      watched.lost = heard.error().link.kind != protocol::LinkError::Kind::Interrupted;
+      const auto why = heard.error().link.kind;
+      watched.lost = why != LinkError::Kind::Interrupted && why != LinkError::Kind::Ended;
       if (watched.lost)
         print_error(context, heard.error().link.message);
       return watched;

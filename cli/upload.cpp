@@ -180,7 +180,6 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
 
 ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
               const run::LineMap& lines) {
-  const InterruptGuard guard;
   auto link = open_link(context, options.port);
   if (!link)
     return fail(context, link.error().code, link.error().message);
@@ -195,13 +194,12 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
                 options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse,
                 progress);
   }
-  auto exit = finish(context, options, *link, session, report, session.now() - start, lines);
-  if (const auto written = link->finish(); !written)
-    exit = fail(context, ExitCode::File, written.error().message);
-  return exit;
+  return link->finish(
+      context, finish(context, options, *link, session, report, session.now() - start, lines));
 }
 
 void upload(Context& context, const Options& options) {
+  const InterruptGuard guard; // from here on the last word is what is on the ball
   if (const auto port = check_port(context, options.port); !port)
     return cli::fail(context, port.error());
   const auto inputs = load_all(context, options);

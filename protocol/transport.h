@@ -15,6 +15,7 @@ struct LinkError {
     Closed,     ///< the other side hung up
     Broken,     ///< the operating system reported an error
     Mismatch,   ///< a replayed recording saw other bytes than it holds
+    Ended,      ///< a replayed recording has been played to its end
     Interrupted ///< the user stopped it (Ctrl-C)
   };
   Kind kind = Kind::Broken;

@@ -1,7 +1,7 @@
 // The links that the operating system gives: each is an Asio stream behind the Transport interface.
 
 #include "uploader/endpoint.h"
-#include "uploader/recording.h"
+#include "uploader/replay.h"
 
 #include <array>
 #include <asio.hpp>

@@ -1,4 +1,4 @@
-#include "uploader/recording.h"
+#include "protocol/recording.h"
 
 #include "tests/unit/uploader/model_ball.h"
 
@@ -7,10 +7,14 @@
 namespace orb::uploader {
 namespace {
 
-class Recorder final : public WireListener {
+using protocol::parse_recording;
+using protocol::RecordingTransport;
+using protocol::ReplayTransport;
+
+class Recorder final : public protocol::WireListener {
 public:
   void on_bytes(protocol::Direction direction, ByteView bytes, Instant) override {
-    text += recording_line(direction, bytes);
+    text += protocol::recording_line(direction, bytes);
   }
   std::string text = "# a recording\n";
 };
@@ -35,7 +39,7 @@ std::string record() {
 TEST(Recording, PlaysBackWhatWasRecorded) {
   const auto pieces = parse_recording(record());
   ASSERT_TRUE(pieces.has_value());
-  EXPECT_EQ(first_recorded_seq(*pieces), 0x77);
+  EXPECT_EQ(protocol::first_recorded_seq(*pieces), 0x77);
   ReplayTransport replay(*pieces);
   EXPECT_EQ(upload_over(replay, 0x77).kind, Report::Kind::Done);
 }
@@ -54,6 +58,21 @@ TEST(Recording, FailsWhereItEndsTooEarly) {
   pieces.resize(pieces.size() / 2);
   ReplayTransport replay(pieces);
   EXPECT_EQ(upload_over(replay, 0x77).kind, Report::Kind::LinkLost);
+}
+
+TEST(Recording, IsHeardToItsEndByAClientThatOnlyListens) {
+  ReplayTransport replay(*parse_recording("  > 01\n< 02\n> 03\n> 04\n< 05\n"));
+  Bytes heard;
+  for (int reads = 0; reads < 100'000; ++reads) {
+    const auto read = replay.read(replay.now() + 100ms);
+    if (!read) {
+      EXPECT_EQ(read.error().kind, protocol::LinkError::Kind::Ended);
+      EXPECT_EQ(heard, (Bytes{2, 5}));
+      return;
+    }
+    heard.insert(heard.end(), read->begin(), read->end());
+  }
+  FAIL() << "it never ends";
 }
 
 TEST(Recording, NamesALineThatIsNone) {

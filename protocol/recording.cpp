@@ -1,14 +1,16 @@
-#include "uploader/recording.h"
+#include "protocol/recording.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
+#include <utility>
 
-namespace orb::uploader {
+namespace orb::protocol {
+namespace {
 
-using protocol::Direction;
-using protocol::LinkError;
+/// A client that has written nothing for so long only listens: no wait of a client is as long.
+constexpr Duration only_listens = 1h;
+
+} // namespace
 
 tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::string_view text) {
   std::vector<RecordedPiece> pieces;
@@ -16,8 +18,7 @@ tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::strin
     const auto end = std::min(text.find('\n'), text.size());
     auto content = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (content.ends_with('\r'))
-      content.remove_suffix(1);
+    content.remove_prefix(std::min(content.find_first_not_of(" \t\r"), content.size()));
     if (content.empty() || content.front() == '#')
       continue;
     const auto bytes = from_hex(content.substr(1));
@@ -47,10 +48,10 @@ tl::expected<Bytes, LinkError> RecordingTransport::read(Instant deadline) {
 }
 
 tl::expected<void, LinkError> ReplayTransport::write(ByteView bytes) {
-  // What came by itself and was not read in time does not stand in the way.
+  waited_ = {};
   for (const auto byte : bytes) {
-    while (next_ < pieces_.size() && pieces_[next_].direction == Direction::FromBall)
-      ++next_;
+    for (; next_ < pieces_.size() && pieces_[next_].direction == Direction::FromBall; ++next_)
+      unread_.insert(unread_.end(), pieces_[next_].bytes.begin(), pieces_[next_].bytes.end());
     if (next_ == pieces_.size())
       return tl::unexpected(LinkError{
           LinkError::Kind::Mismatch,
@@ -72,27 +73,21 @@ tl::expected<void, LinkError> ReplayTransport::write(ByteView bytes) {
 }
 
 tl::expected<Bytes, LinkError> ReplayTransport::read(Instant deadline) {
+  if (!unread_.empty())
+    return std::exchange(unread_, {});
+  while (next_ < pieces_.size() && pieces_[next_].direction == Direction::ToBall) {
+    const auto wait = deadline == never ? only_listens : std::max(deadline - now_, Duration{});
+    if (waited_ + wait < only_listens) {
+      waited_ += wait;
+      now_ += wait;
+      return Bytes{};
+    }
+    ++next_;
+    written_ = 0;
+  }
   if (next_ == pieces_.size())
-    return tl::unexpected(LinkError{LinkError::Kind::Closed, "the recording ends here"});
-  if (pieces_[next_].direction == Direction::FromBall)
-    return pieces_[next_++].bytes;
-  if (deadline != never)
-    now_ = std::max(now_, deadline);
-  return Bytes{};
-}
-
-tl::expected<std::unique_ptr<protocol::Transport>, LinkError> open_replay(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad())
-    return tl::unexpected(
-        LinkError{LinkError::Kind::CannotOpen,
-                  fmt::format("cannot read {}; `--record FILE` makes a recording", path)});
-  auto pieces = parse_recording(text);
-  if (!pieces)
-    return tl::unexpected(
-        LinkError{LinkError::Kind::CannotOpen, fmt::format("{}: {}", path, pieces.error())});
-  return std::make_unique<ReplayTransport>(std::move(*pieces));
+    return tl::unexpected(LinkError{LinkError::Kind::Ended, "the recording ends here"});
+  return pieces_[next_++].bytes;
 }
 
 std::optional<std::uint8_t> first_recorded_seq(const std::vector<RecordedPiece>& pieces) {
@@ -100,12 +95,12 @@ std::optional<std::uint8_t> first_recorded_seq(const std::vector<RecordedPiece>&
   for (const auto& piece : pieces)
     if (piece.direction == Direction::ToBall)
       sent.insert(sent.end(), piece.bytes.begin(), piece.bytes.end());
-  protocol::Decoder decoder(Direction::ToBall);
+  Decoder decoder(Direction::ToBall);
   decoder.feed(sent);
   while (const auto item = decoder.next())
-    if (item->kind == protocol::Item::Kind::Command)
+    if (item->kind == Item::Kind::Command)
       return item->seq;
   return std::nullopt;
 }
 
-} // namespace orb::uploader
+} // namespace orb::protocol
