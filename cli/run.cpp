@@ -228,6 +228,8 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   print_note(context, run::to_string(*ending));
   if (auto good = judge(given, *ending); !good)
     return good;
+  if (!ending->aborted.empty())
+    return refuse(ExitCode::BadInput, ending->aborted);
   if (!ending->faults.empty())
     context.exit = ExitCode::BadInput;
   return {};

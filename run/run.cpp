@@ -116,6 +116,7 @@ public:
   }
   const std::vector<RobotFault>& faults() const { return faults_; }
   std::optional<vm::event::End::Reason> end() const { return end_; }
+  const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
   std::uint64_t lines() const { return lines_; }
 
 private:
@@ -137,6 +138,8 @@ private:
       lines_ += end->lines;
       return true;
     }
+    if (const auto* end = std::get_if<vm::event::MacroEnd>(&event))
+      macro_end_ = *end;
     return false;
   }
 
@@ -149,6 +152,7 @@ private:
   Search forbidden_;
   std::vector<RobotFault> faults_;
   std::optional<vm::event::End::Reason> end_;
+  std::optional<vm::event::MacroEnd> macro_end_;
   std::uint64_t lines_ = 0;
   std::optional<Instant> over_;
 };
@@ -298,6 +302,29 @@ void live(vm::Ball& ball, const Watcher& watcher, Listener& listener, Answer& an
   }
 }
 
+/// Why a macro aborted by itself; empty where it did not.
+std::string_view why(const vm::event::MacroEnd& end) {
+  switch (end.reason) {
+  case vm::event::MacroEnd::Reason::Ended:
+  case vm::event::MacroEnd::Reason::Aborted:
+  case vm::event::MacroEnd::Reason::Slept: return {};
+  case vm::event::MacroEnd::Reason::NoSuchMacro:
+    return "it leads to an id that no macro of the ball has; hand over that macro, too";
+  case vm::event::MacroEnd::Reason::BadCommand:
+    return "what follows is not a whole command; see `orb asm --listing`";
+  case vm::event::MacroEnd::Reason::StreamEnd: return "`stream_end` ends only streams; write `end`";
+  case vm::event::MacroEnd::Reason::Inhibited:
+    return "it leads to a macro that `inh_if_conn` keeps from running while a client is connected";
+  }
+  return {};
+}
+
+std::string how_aborted(const std::optional<vm::event::MacroEnd>& end) {
+  if (!end || why(*end).empty())
+    return {};
+  return fmt::format("macro {} aborted at its command {}: {}", end->macro, end->command, why(*end));
+}
+
 Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
   if (!watcher.faults().empty())
     return Reason::Error;
@@ -307,6 +334,11 @@ Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
     return Reason::Input;
   if (!ball.quiet() && ball.now() >= limit)
     return Reason::TimeLimit;
+  if (!watcher.end() && watcher.macro_end()) {
+    if (watcher.macro_end()->reason == vm::event::MacroEnd::Reason::Slept)
+      return Reason::Sleep;
+    return why(*watcher.macro_end()).empty() ? Reason::End : Reason::Abort;
+  }
   switch (watcher.end().value_or(vm::event::End::Reason::End)) {
   case vm::event::End::Reason::End: return Reason::End;
   case vm::event::End::Reason::Error: return Reason::Error;
@@ -431,6 +463,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
   ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
   ending.seen = watcher.seen();
+  ending.aborted = how_aborted(watcher.macro_end());
   for (const auto& fault : watcher.faults()) {
     const bool first = fault.area == options.area || load.programs.size() < 2;
     ending.faults.push_back(explain(fault, load.programs[first ? 0 : 1], options.target));

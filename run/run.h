@@ -77,6 +77,7 @@ struct Ending {
   Duration lasted{};
   std::uint64_t lines = 0;
   std::vector<Fault> faults;
+  std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
 };
 
