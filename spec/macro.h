@@ -117,13 +117,23 @@ struct MacroParameterInfo {
 };
 
 // Identifiers. Source: low-level API §Macro IDs.
-inline constexpr std::uint8_t macro_id_none = 0; ///< no macro
-inline constexpr std::uint8_t macro_id_system_first = 1;
-inline constexpr std::uint8_t macro_id_system_last = 31;
-inline constexpr std::uint8_t macro_id_user_first = 32;
-inline constexpr std::uint8_t macro_id_user_last = 253;
-inline constexpr std::uint8_t macro_id_stream = 254;
-inline constexpr std::uint8_t macro_id_temporary = 255;
+#define MACRO_NUMBER(type, name, value, source, summary) inline constexpr type name = value;
+#include "spec/macro.def"
+#undef MACRO_NUMBER
+
+/// The same as rows.
+struct MacroNumber {
+  std::string_view name;
+  std::uint32_t value = 0;
+  std::string_view source;
+  std::string_view summary;
+};
+
+inline constexpr MacroNumber macro_numbers[] = {
+#define MACRO_NUMBER(type, name, value, source, summary) {#name, value, source, summary},
+#include "spec/macro.def"
+#undef MACRO_NUMBER
+};
 
 enum class MacroIdKind : std::uint8_t { None, System, User, Stream, Temporary };
 
@@ -136,31 +146,6 @@ constexpr MacroIdKind macro_id_kind(std::uint8_t id) {
     return MacroIdKind::User;
   return id == macro_id_stream ? MacroIdKind::Stream : MacroIdKind::Temporary;
 }
-
-// Sizes, in bytes with id and flags unless said otherwise. Source: low-level API §Macros.
-inline constexpr std::size_t macro_max_packet = 254;      ///< that one packet carries
-inline constexpr std::size_t macro_buffer_size = 1024;    ///< temporary and stream macro share it
-inline constexpr std::size_t macro_buffer_planned = 1000; ///< of it that the vendor's clients use
-inline constexpr std::size_t macro_stream_piece =
-    250;                                              ///< of a stream, as the vendor's clients send
-inline constexpr std::size_t macro_heap_size = 2048;  ///< all user macros
-inline constexpr std::size_t macro_heap_entries = 16; ///< how many user macros
-inline constexpr std::size_t macro_gosub_depth = 1;
-
-/// What the robot puts behind each chunk of a stream: wait here for the next chunk.
-inline constexpr std::uint8_t macro_stream_pause = 0x1C;
-/// The marker that ENDSIG emits; commands should not use it.
-inline constexpr std::uint8_t macro_end_marker = 0;
-/// Markers up to this one mean something to the vendor's streaming client.
-inline constexpr std::uint8_t macro_reserved_markers = 10;
-/// What a framed macro carries where its source names no flags, as the vendor's client does.
-inline constexpr std::uint8_t macro_default_flags = 0x01;
-/// `sleep` with this time takes the time of the API command Sleep.
-inline constexpr std::uint16_t macro_sleep_inherit = 0xFFFF;
-/// A loop count of 0 is taken as this.
-inline constexpr std::uint8_t macro_loop_least = 1;
-inline constexpr std::uint8_t macro_executive_oldest = 2;
-inline constexpr std::uint8_t macro_executive_newest = 4;
 
 namespace macro_detail {
 
@@ -240,7 +225,7 @@ constexpr MacroCommandInfo row(MacroCommand command, std::uint8_t code, std::str
 
 /// Every command, by ascending code.
 inline constexpr MacroCommandInfo macro_commands[] = {
-#define MACRO_COMMAND(Name, code, mnemonic, title, operands, wait, background, place, executive, source, summary, example) \
+#define MACRO_COMMAND(Name, code, mnemonic, wait, background, place, executive, title, source, operands, summary, example) \
   [] { constexpr auto base = macro_detail::row(MacroCommand::Name, code, mnemonic, title, MacroWait::wait, MacroBackground::background, \
                                                MacroPlace::place, executive, source, summary, example); \
        return macro_detail::with_operands operands; }(),
