@@ -114,6 +114,13 @@ tl::expected<Bytes, EncodeError> parse_text(std::string_view text) {
   return out;
 }
 
+tl::expected<Bytes, EncodeError> parse_hex(const Field& field, std::string_view word) {
+  if (auto bytes = from_hex(word))
+    return *std::move(bytes);
+  return tl::unexpected(
+      EncodeError{fmt::format("`{}` is hex bytes, found `{}`", field.name, word)});
+}
+
 EncodeError out_of_range(const Field& field, std::int64_t value) {
   return {fmt::format("`{}` is {} to {}, found {}", field.name, field.least, field.most, value)};
 }
@@ -190,10 +197,57 @@ tl::expected<Operands, PayloadFault> Operands::read(spec::ApiCommand command, By
   }
   if (at != data.size())
     return tl::unexpected(PayloadFault{});
+  if (const auto* distance = spec::distance(command);
+      distance != nullptr && wrong == nullptr &&
+      out.numbers_[distance->upper] - out.numbers_[distance->lower] < distance->least)
+    wrong = &spec::operands(command)[distance->lower];
   if (wrong != nullptr)
     return tl::unexpected(PayloadFault{spec::ResponseCode::BadParameter, wrong});
   return out;
 }
+
+namespace {
+
+/// The bytes of the last operand, from all words that are left.
+tl::expected<Bytes, EncodeError> encode_rest(const Field& field,
+                                             std::span<const std::string> words) {
+  const auto is_text = field.unit == "text";
+  Bytes data;
+  for (const auto& word : words) {
+    auto bytes = is_text ? parse_text(word) : parse_hex(field, word);
+    if (!bytes)
+      return bytes;
+    if (is_text && !data.empty())
+      data.push_back(' ');
+    data.insert(data.end(), bytes->begin(), bytes->end());
+  }
+  const auto size = static_cast<std::int64_t>(data.size());
+  if (size < field.least || size > field.most)
+    return tl::unexpected(EncodeError{fmt::format("`{}` is {} to {} bytes, found {}", field.name,
+                                                  field.least, field.most, size)});
+  return data;
+}
+
+tl::expected<std::int64_t, EncodeError> encode_number(const Field& field, const std::string& word) {
+  auto value = parse_number(word);
+  if (!value)
+    value = named_value(field, word);
+  if (!value)
+    return tl::unexpected(
+        EncodeError{fmt::format("`{}` is a number, found `{}`", field.name, word)});
+  if (*value < field.least || *value > field.most)
+    return tl::unexpected(out_of_range(field, *value));
+  return *value;
+}
+
+EncodeError too_close(const spec::Distance& distance, std::int64_t upper, std::int64_t lower) {
+  const auto fields = spec::operands(distance.command);
+  return {fmt::format("`{}` is at least {} more than `{}`, found {} and {}",
+                      fields[distance.upper].name, distance.least, fields[distance.lower].name,
+                      upper, lower)};
+}
+
+} // namespace
 
 tl::expected<Bytes, EncodeError> encode_operands(spec::ApiCommand command,
                                                  std::span<const std::string> words) {
@@ -210,39 +264,24 @@ tl::expected<Bytes, EncodeError> encode_operands(spec::ApiCommand command,
     if (words.empty())
       break;
     if (field.type == FieldType::Data) {
-      Bytes data;
-      for (const auto& word : words) {
-        auto bytes =
-            field.unit == "text" ? parse_text(word) : [&]() -> tl::expected<Bytes, EncodeError> {
-          if (auto hex = from_hex(word))
-            return *hex;
-          return tl::unexpected(
-              EncodeError{fmt::format("`{}` is hex bytes, found `{}`", field.name, word)});
-        }();
-        if (!bytes)
-          return bytes;
-        if (field.unit == "text" && !data.empty())
-          data.push_back(' ');
-        data.insert(data.end(), bytes->begin(), bytes->end());
-      }
-      const auto size = static_cast<std::int64_t>(data.size());
-      if (size < field.least || size > field.most)
-        return tl::unexpected(EncodeError{fmt::format("`{}` is {} to {} bytes, found {}",
-                                                      field.name, field.least, field.most, size)});
-      out.insert(out.end(), data.begin(), data.end());
+      const auto data = encode_rest(field, words);
+      if (!data)
+        return data;
+      out.insert(out.end(), data->begin(), data->end());
       break;
     }
-    const auto& word = words.front();
-    auto value = parse_number(word);
+    const auto value = encode_number(field, words.front());
     if (!value)
-      value = named_value(field, word);
-    if (!value)
-      return tl::unexpected(
-          EncodeError{fmt::format("`{}` is a number, found `{}`", field.name, word)});
-    if (*value < field.least || *value > field.most)
-      return tl::unexpected(out_of_range(field, *value));
+      return tl::unexpected(value.error());
     append_number(out, field.type, *value);
     words = words.subspan(1);
+  }
+  if (const auto* distance = spec::distance(command)) {
+    const auto values = read_fields(fields, out);
+    const auto upper = values[distance->upper].number;
+    const auto lower = values[distance->lower].number;
+    if (upper - lower < distance->least)
+      return tl::unexpected(too_close(*distance, upper, lower));
   }
   return out;
 }

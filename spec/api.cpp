@@ -17,6 +17,11 @@ constexpr auto operand_rows = std::to_array<Field>({
 #include "spec/api.def"
 });
 
+constexpr auto distance_rows = std::to_array<Distance>({
+#define DISTANCE(enumerator, upper, lower, least) {ApiCommand::enumerator, upper, lower, least},
+#include "spec/api.def"
+});
+
 constexpr auto async_rows = std::to_array<Field>({
 #define ASYNC_FIELD(enumerator, type, name, unit)                                                  \
   {static_cast<std::uint16_t>(AsyncId::enumerator),                                                \
@@ -96,6 +101,11 @@ Retry retry_of(std::uint8_t code) {
 
 std::span<const Field> operands(ApiCommand command) {
   return owned_by(operand_rows, static_cast<std::uint16_t>(command));
+}
+
+const Distance* distance(ApiCommand command) {
+  const auto* found = std::ranges::find(distance_rows, command, &Distance::command);
+  return found == distance_rows.end() ? nullptr : found;
 }
 
 std::span<const Field> answer(ApiCommand command) {

@@ -189,6 +189,17 @@ inline constexpr auto api_commands = std::to_array<CommandInfo>({
 #include "spec/api.def"
 });
 
+/// Two operands of a command that may not come close to each other.
+struct Distance {
+  ApiCommand command;
+  std::size_t upper; ///< which operand
+  std::size_t lower;
+  std::int64_t least; ///< how much more `upper` is, in the unit of both
+};
+
+/// The row of a command; null for most of them.
+const Distance* distance(ApiCommand command);
+
 /// The fields of all answers, in the order of the commands.
 inline constexpr auto answer_rows = std::to_array<Field>({
 #define ANSWER_FIELD(enumerator, type, name, presence, unit)                                       \
