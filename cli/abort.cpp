@@ -11,7 +11,6 @@ namespace {
 
 using spec::ApiCommand;
 
-constexpr std::uint16_t unkillable_command = 0xFFFF; // API §Abort Macro
 constexpr auto command_at = spec::answer_offset(ApiCommand::AbortMacro, "command");
 
 /// What the ball says when a program is stopped; nothing where none ran.
@@ -44,7 +43,7 @@ ExitCode abort_all(Context& context, uploader::Session& session,
   const auto line = stopped_line(session);
   const auto id = macro->data.front();
   const auto command = read_u16(macro->data, command_at);
-  if (id != spec::macro_id_none && command == unkillable_command) {
+  if (id != spec::macro_id_none && command == spec::macro_unkillable) {
     print_error(context, fmt::format("macro {} is a system macro that cannot be stopped", id));
     return ExitCode::Refused;
   }
