@@ -87,7 +87,7 @@ Instant Ball::next_of_others() const {
     next = std::min(next, Instant{} + script_.back().at);
   if (asleep())
     return next;
-  if (observer_)
+  if (observer_ && !connected())
     next = std::min(next, lamps_.next_blink(lamp_situation()));
   return std::min({next, macros_.next_event(), streamer_.next_event()});
 }
