@@ -122,8 +122,10 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
   const bool jumps_known =
       std::none_of(program.faults.begin(), program.faults.end(),
                    [&](const Fault& fault) { return may_steer(program, fault); });
-  if (jumps_known)
+  if (jumps_known) {
     lint_flow(program, flow, findings);
+    lint_intent(program, flow, findings);
+  }
   check_size(program, flow, target, findings);
   drop_doubles(findings.all());
   silence(program, findings);

@@ -54,4 +54,8 @@ void lint_loops(const Program& program, const Flow& flow, Findings& findings);
 /// The rules about jumps, loops and subroutines.
 void lint_flow(const Program& program, const Flow& flow, Findings& findings);
 
+/// What runs through and is still not meant: colours and rolls that nobody sees, a ball left
+/// driving.
+void lint_intent(const Program& program, const Flow& flow, Findings& findings);
+
 } // namespace orb::compiler

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t letters = 25; // A to Y
 constexpr std::uint32_t index_letter = 24;
+constexpr std::int32_t full_turn =
+    spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1; // degrees
 static_assert(letters == spec::value_of(spec::Limit::DirectVariables));
 
 char letter_name(std::uint32_t index) {
@@ -134,6 +136,7 @@ private:
     known_.begin_block();
     data_ = {};
     cleared_ = 0;
+    counting_ = 0;
   }
 
   void check_lines() {
@@ -146,6 +149,8 @@ private:
       const auto& statement = program_.statements[code.statement];
       check(statement);
       check_branches(statement);
+      if (code.jumps_begin != code.jumps_end || statement.error)
+        counting_ = 0;                        // the loop may be left early
       falls = code.falls && !statement.error; // a line that does not parse may set anything
       for (const auto& jump : flow_.jumps_of(code))
         if (jump.call)
@@ -189,12 +194,58 @@ private:
 
   void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter) {
     const auto range = range_of(value);
-    if (!range.misses(parameter.least, parameter.greatest))
+    if (!range.misses(parameter.least, parameter.greatest)) {
+      if (range.lo < parameter.least || range.hi > parameter.greatest)
+        check_loop_range(value, word, parameter);
       return;
+    }
     const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
     findings_.add(rules::ValueOutOfRange, value.span,
                   fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
                               parameter.greatest, shown(range)));
+  }
+
+  /// A loop that nothing leaves early reaches both ends of its range, and so does what is computed
+  /// from its letter by `+`, `-` and `*` alone.
+  void check_loop_range(const Item& value, std::string_view word,
+                        const spec::Parameter& parameter) {
+    const auto& root = program_.nodes[value.value];
+    std::uint32_t counters = 0;
+    for (auto n = root.first; n <= value.value; ++n) {
+      const auto& node = program_.nodes[n];
+      if (node.kind == NodeKind::Letter && (counting_ & bit(node.what)) != 0)
+        ++counters;
+      else if (node.kind != NodeKind::Number && node.kind != NodeKind::Group &&
+               (node.kind != NodeKind::Binary || !keeps_ends(node)))
+        return;
+    }
+    const bool wraps = range_of(value) == Range{};
+    if (counters != 1 || conditional_ || wraps)
+      return;
+    const auto text = program_.text_of(value.span);
+    auto& d = findings_.add(rules::LoopLeavesRange, value.span,
+                            fmt::format("`{}` takes {} {} to {}, and `{}` counts {} here", word,
+                                        parameter.name, parameter.least, parameter.greatest, text,
+                                        shown(range_of(value))));
+    const bool heading = parameter.greatest + 1 == full_turn && range_of(value).lo >= 0;
+    const bool single = root.kind == NodeKind::Letter;
+    if (heading) {
+      d.help =
+          fmt::format("write `{}{}{} % {}`", single ? "" : "(", text, single ? "" : ")", full_turn);
+      d.fix = Fix{d.help,
+                  {{{value.span.begin, value.span.begin}, single ? "" : "("},
+                   {{value.span.end, value.span.end},
+                    fmt::format("{} % {}", single ? "" : ")", full_turn)}},
+                  Safety::Safe};
+    } else if (single && range_of(value).hi > parameter.greatest) {
+      d.help = fmt::format("let the loop end at {}", parameter.greatest);
+    }
+  }
+
+  static bool keeps_ends(const Node& node) {
+    const auto op = static_cast<spec::Operator>(node.what);
+    return op == spec::Operator::Add || op == spec::Operator::Subtract ||
+           op == spec::Operator::Multiply;
   }
 
   void check_arguments(const StatementNode& statement) {
@@ -286,8 +337,16 @@ private:
     // The first line of the body is entered from here and from `next`: of all letters only the
     // loop's own is known there, and only when nothing else sets it.
     begin_block();
-    if (!letters_[variable.value].assigned)
-      set_letter(variable.value, join(start, end));
+    if (letters_[variable.value].assigned)
+      return;
+    set_letter(variable.value, join(start, end));
+    if (!start.constant() || !end.constant() || !step.constant() || step.lo == 0 || away)
+      return;
+    const auto rounds = (std::int64_t{end.lo} - start.lo) / step.lo;
+    set_letter(variable.value,
+               join(start, Range::only(static_cast<std::int32_t>(start.lo + rounds * step.lo))));
+    if (!conditional_)
+      counting_ |= bit(variable.value);
   }
 
   /// A variable gets a value that is not known.
@@ -509,6 +568,7 @@ private:
   DataSet data_;
   std::uint32_t cleared_ = 0;         ///< variables that are 0 because they have been read
   std::uint32_t cleared_on_line_ = 0; ///< the same, by this line
+  std::uint32_t counting_ = 0;        ///< letters of loops that reach their ends for certain
   std::uint32_t line_end_ = 0;
   bool conditional_ = false; ///< in a branch
 
