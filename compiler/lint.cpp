@@ -98,6 +98,10 @@ void place(const Program& program, std::vector<Diagnostic>& findings) {
 
 } // namespace
 
+void add_note(Diagnostic& diagnostic, Span where, std::string_view what) {
+  diagnostic.notes.push_back({where, std::string(what)});
+}
+
 std::int32_t area_bytes(const Target& target) {
   if (target.area == Area::Flash)
     return spec::value_of(spec::Limit::FlashBytes);

@@ -57,21 +57,19 @@ private:
 
   enum class Calls : std::uint8_t { Enter, StepOver };
 
-  /// Marks what can follow `start`.
-  void spread(std::uint32_t start, std::vector<std::uint8_t>& marks, Calls calls) {
-    if (start == none || marks[start] != 0)
-      return;
-    std::vector<std::uint32_t> open{start};
-    marks[start] = 1;
+  /// Marks what can follow `start`, and returns what was not marked before.
+  std::vector<std::uint32_t> spread(std::uint32_t start, std::vector<std::uint8_t>& marks,
+                                    Calls calls) const {
+    std::vector<std::uint32_t> found;
     const auto visit = [&](std::uint32_t to) {
       if (to < size_ && marks[to] == 0) {
         marks[to] = 1;
-        open.push_back(to);
+        found.push_back(to);
       }
     };
-    while (!open.empty()) {
-      const auto at = open.back();
-      open.pop_back();
+    visit(start);
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      const auto at = found[n];
       const auto& code = flow_.code[at];
       if (code.falls)
         visit(at + 1);
@@ -79,6 +77,7 @@ private:
         if (!jump.call || calls == Calls::Enter)
           visit(jump.to);
     }
+    return found;
   }
 
   void mark_reached() {
@@ -153,7 +152,7 @@ private:
           rules::FallIntoSubroutine, statement(i - 1).span,
           fmt::format("the program runs on into the subroutine at line {}", number_of(i)),
           "put an `end` behind this line");
-      d.notes.push_back({statement(i).span, "the subroutine begins here"});
+      add_note(d, statement(i).span, "the subroutine begins here");
     }
     if (reported)
       return;
@@ -231,15 +230,14 @@ private:
     if (routines.empty() || routines.size() > most_routines)
       return;
     std::vector<std::vector<std::uint32_t>> calls(routines.size());
-    for (std::size_t r = 0; r < routines.size(); ++r) {
-      std::vector<std::uint8_t> marks(size_, 0);
-      spread(routines[r], marks, Calls::StepOver);
-      for (std::uint32_t i = 0; i < size_; ++i)
-        if (marks[i] != 0)
-          for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-            if (jump.call && jump.to != none && index[jump.to] != none)
-              calls[r].push_back(index[jump.to]);
-    }
+    std::vector<std::uint8_t> marks(size_, 0);
+    for (std::size_t r = 0; r < routines.size(); ++r)
+      for (const auto i : spread(routines[r], marks, Calls::StepOver)) {
+        marks[i] = 0; // for the next routine
+        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+          if (jump.call && jump.to != none && index[jump.to] != none)
+            calls[r].push_back(index[jump.to]);
+      }
     for (std::size_t r = 0; r < routines.size(); ++r) {
       std::vector<std::uint8_t> seen(routines.size(), 0);
       std::vector<std::uint32_t> open = calls[r];

@@ -50,7 +50,7 @@ public:
     }
     if (falls && driving_ != nullptr)
       add_driving(program_.statements[flow_.code.back().statement].span);
-    if (!headings_.empty())
+    if (!headings_.empty() && grows_)
       check_growth();
   }
 
@@ -78,6 +78,8 @@ private:
       forget_shown();
     else if (statement.kind == Statement::End && driving_ != nullptr)
       add_driving(statement.span);
+    else if (statement.kind == Statement::Let)
+      grows_ = grows_ || is_sum(statement);
     else if (after != spec::After::Falls || is_foreign_hand(statement.kind))
       forget();
   }
@@ -95,7 +97,7 @@ private:
           rules::MissingDelay, last->span,
           fmt::format("this {0} is never seen: another {0} follows at once", name_of(what)),
           "put a `delay 500` between them");
-      d.notes.push_back({statement.span, fmt::format("the next {}", name_of(what))});
+      add_note(d, statement.span, fmt::format("the next {}", name_of(what)));
     }
     last = &statement;
     if (what != Shows::Roll)
@@ -154,6 +156,12 @@ private:
   }
 
   // ---- headings that grow
+
+  bool is_sum(const StatementNode& let) const {
+    const auto& root = program_.nodes[program_.as<LetView>(let).expression.value];
+    return root.kind == NodeKind::Binary &&
+           static_cast<spec::Operator>(root.what) == spec::Operator::Add;
+  }
 
   struct Growth {
     std::uint32_t code = none;         ///< the line that adds to the letter; none where none does
@@ -244,7 +252,7 @@ private:
   void add_driving(Span span) {
     auto& d = findings_.add(rules::DrivesOn, span, "the program ends while the ball drives",
                             "stop it first: `goroll 0,0,0`");
-    d.notes.push_back({driving_->span, "it drives since here"});
+    add_note(d, driving_->span, "it drives since here");
     driving_ = nullptr;
   }
 
@@ -253,6 +261,7 @@ private:
   Findings& findings_;
   std::uint32_t size_;
   std::vector<Heading> headings_;          ///< rolls whose heading is a letter
+  bool grows_ = false;                     ///< something is set to a sum
   const StatementNode* colour_ = nullptr;  ///< set on this straight run, and not shown yet
   const StatementNode* roll_ = nullptr;    ///< the same of a roll
   const StatementNode* driving_ = nullptr; ///< the roll with which the ball drives for certain

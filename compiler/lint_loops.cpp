@@ -141,7 +141,7 @@ private:
               rules::JumpOutOfFor, program_.items[jump.item].span,
               fmt::format("line {} lies outside of the loop, which stays open", number_of(jump.to)),
               "set the loop variable to its end value and go to the `next`");
-          d.notes.push_back({statement(pairs_[pair].begin).span, "the loop"});
+          add_note(d, statement(pairs_[pair].begin).span, "the loop");
         }
     }
   }
@@ -236,9 +236,10 @@ private:
   /// The loops behind line `i`; nothing where the line ends the program for certain.
   std::optional<Loops> step(std::uint32_t i, Loops loops) const {
     const auto& node = statement(i);
-    const auto branches = program_.whole(node).subspan(1);
-    if (std::any_of(branches.begin(), branches.end(), is_loop_part))
-      return Loops::unknown();
+    if (node.then_branch != none) {
+      const auto whole = program_.whole(node);
+      return std::any_of(whole.begin(), whole.end(), is_loop_part) ? Loops::unknown() : loops;
+    }
     if (!loops.known || !is_loop_part(node))
       return loops;
     if (node.kind == spec::Statement::Next) {
@@ -288,18 +289,19 @@ private:
 
   Diagnostic& add_depth(const StatementNode& node, const State& state) {
     std::string chain;
-    std::vector<Note> notes;
+    std::vector<std::uint32_t> callers; // outermost first
     for (const auto* call = &calls_[state.call]; call->from != none;
          call = &calls_[call->from_call]) {
       chain = fmt::format("{} line {} calls line {}{}", call->from_call == 0 ? ", as" : " and",
                           number_of(call->from), number_of(call->entry), chain);
-      notes.insert(notes.begin(), {statement(call->from).span, "called here"});
+      callers.insert(callers.begin(), call->from);
     }
     auto& d =
         findings_.add(rules::ForDepth, node.span,
                       fmt::format("{} loops are open here already{}", state.loops.count, chain),
                       "end one of them first, or compute two counters from one");
-    d.notes = std::move(notes);
+    for (const auto caller : callers)
+      add_note(d, statement(caller).span, "called here");
     return d;
   }
 

@@ -27,6 +27,9 @@ private:
   std::vector<Diagnostic> all_;
 };
 
+/// Adds a place that belongs to a finding.
+void add_note(Diagnostic& diagnostic, Span where, std::string_view what);
+
 /// A fix of one edit.
 inline Fix single_fix(std::string title, Span span, std::string text,
                       Safety safety = Safety::Safe) {

@@ -178,7 +178,7 @@ private:
       auto& d = findings_.add(rules::DuplicateLine, line.number_span,
                               fmt::format("line number {} is taken already", row.number));
       const auto& original = program_.lines[flow_.numbers[first].line];
-      d.notes.push_back({original.number_span, "the first line of that number"});
+      add_note(d, original.number_span, "the first line of that number");
       if (++found > most_fixes)
         continue;
       if (const auto free = free_number(row.line)) {

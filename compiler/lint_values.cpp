@@ -433,7 +433,7 @@ private:
           findings_.add(rules::DataReplaced, statement.word,
                         "these values replace those of the line before, which were never read",
                         "put all values on one line");
-      d.notes.push_back({data_.unread->span, "the values that are lost"});
+      add_note(d, data_.unread->span, "the values that are lost");
     }
     const auto count = static_cast<std::uint32_t>(program_.items_of(statement).size());
     data_.size =

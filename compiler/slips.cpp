@@ -105,7 +105,9 @@ private:
 
   std::optional<Diagnostic> foreign_value() const {
     const bool inside = is(Reason::ExpectedExpression) || is(Reason::Trailing) ||
-                        is(Reason::ExpectedThen) || is(Reason::ExpectedRelation);
+                        is(Reason::ExpectedThen) || is(Reason::ExpectedRelation) ||
+                        is(Reason::ExpectedComma) || is(Reason::ExpectedParenthesis) ||
+                        is(Reason::ExpectedTo);
     const auto* row = inside && wordy() ? find_foreign(token(), Foreign::Place::Value) : nullptr;
     if (row == nullptr || spec::find_variable(token()) || spec::find_function(token()))
       return std::nullopt;
