@@ -16,7 +16,7 @@ struct Options {
 };
 
 ExitCode erase(Context& context, uploader::Session& session, const std::string& area) {
-  const auto number = area == "flash" ? uploader::Area::Flash : uploader::Area::Ram;
+  const auto number = area == "flash" ? spec::Area::Flash : spec::Area::Ram;
   // A running program holds its area.
   for (const auto& [command, data] :
        {std::pair{ApiCommand::AbortOrbbasicProgram, Bytes{}},

@@ -147,7 +147,6 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
   options.firmware = spec::find_firmware(given.firmware)->firmware; // the option is checked
   options.client = given.disconnected ? run::Client::Absent : run::Client::Connected;
   options.target = given.target.target();
-  options.area = given.target.area == "flash" ? vm::Area::Flash : vm::Area::Ram;
   if (given.target.ram != 0)
     options.ram_bytes = static_cast<std::size_t>(given.target.ram);
   constexpr Duration frame = 20ms;

@@ -32,7 +32,7 @@ compiler::Target TargetOptions::target() const {
   if (const auto found = spec::find_version(version))
     target.version = *found;
   if (area == "flash")
-    target.area = compiler::Area::Flash;
+    target.area = spec::Area::Flash;
   if (ram != 0)
     target.ram_bytes = ram;
   return target;

@@ -100,7 +100,7 @@ tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
     const auto& bytes = input.program->image.bytes;
     delivery.program = uploader::ProgramJob{
         {bytes.begin(), bytes.end()},
-        options.target.area == "flash" ? uploader::Area::Flash : uploader::Area::Ram,
+        options.target.area == "flash" ? spec::Area::Flash : spec::Area::Ram,
         options.run ? std::optional(start_line(options, *input.program)) : std::nullopt};
   }
   const auto kept = [](const uploader::Delivery::NamedMacro& macro) {

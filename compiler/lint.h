@@ -2,6 +2,7 @@
 
 #include "base/diagnostic.h"
 #include "compiler/program.h"
+#include "spec/api.h"
 #include "spec/basic.h"
 
 #include <cstdint>
@@ -10,8 +11,7 @@
 
 namespace orb::compiler {
 
-/// Where a program is to lie on the robot.
-enum class Area : std::uint8_t { Ram, Flash };
+using spec::Area;
 
 /// The robot that a program is meant for.
 struct Target {

@@ -34,8 +34,8 @@ Load load_of(std::span<const Input> inputs) {
   return load;
 }
 
-vm::Area other(vm::Area area) {
-  return area == vm::Area::Ram ? vm::Area::Flash : vm::Area::Ram;
+spec::Area other(spec::Area area) {
+  return area == spec::Area::Ram ? spec::Area::Flash : spec::Area::Ram;
 }
 
 /// Finds a text in output that arrives in pieces.
@@ -69,7 +69,7 @@ public:
   struct RobotFault {
     int line = 0;
     spec::BasicError code{};
-    vm::Area area{};
+    spec::Area area{};
   };
 
   /// From when on the ball's events are those of the run.
@@ -185,14 +185,14 @@ uploader::MacroJob job_of(const Macro& macro) {
 }
 
 /// Brings everything into the ball the way any client would.
-tl::expected<void, Failure> upload(const Load& load, vm::Area area, uploader::Session& session) {
+tl::expected<void, Failure> upload(const Load& load, spec::Area area, uploader::Session& session) {
   uploader::Delivery delivery;
   // The last temporary macro stays, and the first is the one to run.
   for (auto macro = load.macros.rbegin(); macro != load.macros.rend(); ++macro)
     if (auto job = job_of(**macro); job.kind != uploader::MacroKind::Stream) // see start()
       delivery.macros.push_back({(*macro)->name, std::move(job)});
   // Flash first: on its way there a program passes through RAM.
-  for (const auto there : {vm::Area::Flash, vm::Area::Ram})
+  for (const auto there : {spec::Area::Flash, spec::Area::Ram})
     for (std::size_t i = 0; i < load.programs.size(); ++i) {
       if ((i == 0 ? area : other(area)) != there)
         continue;
@@ -200,8 +200,7 @@ tl::expected<void, Failure> upload(const Load& load, vm::Area area, uploader::Se
       const auto bytes = as_bytes(program->image.bytes);
       delivery.program_name = input->source->name();
       delivery.program = uploader::ProgramJob{{bytes.begin(), bytes.end()},
-                                              there == vm::Area::Flash ? uploader::Area::Flash
-                                                                       : uploader::Area::Ram,
+                                              there,
                                               std::nullopt};
       if (auto done = deliver(session, delivery); !done)
         return done;
@@ -257,9 +256,9 @@ Started start_macro(const Macro& macro, const Options& options, vm::Ball& ball,
 Started start_program(const Program& program, const Options& options, vm::Ball& ball) {
   const auto line = options.line.value_or(program.first_line().value_or(0));
   if (options.client == Client::Absent)
-    return ball.execute_basic(options.area, line) == vm::Outcome::Done ? Started::Yes
+    return ball.execute_basic(options.target.area, line) == vm::Outcome::Done ? Started::Yes
                                                                        : Started::Refused;
-  Bytes data{static_cast<std::uint8_t>(options.area)};
+  Bytes data{static_cast<std::uint8_t>(options.target.area)};
   append_u16(data, line);
   send_now(ball, spec::ApiCommand::ExecuteOrbbasicProgram, std::move(data));
   return Started::Yes;
@@ -432,7 +431,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   vm::Ball ball(ball_options(options, watcher, journey));
   vm::BallTransport transport(ball);
   uploader::Session session(transport, {}, 0);
-  if (auto done = upload(load, options.area, session); !done)
+  if (auto done = upload(load, options.target.area, session); !done)
     return tl::unexpected(done.error());
 
   // A whole second, so that times in a trace do not depend on how long the upload took.
@@ -465,7 +464,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   ending.seen = watcher.seen();
   ending.aborted = how_aborted(watcher.macro_end());
   for (const auto& fault : watcher.faults()) {
-    const bool first = fault.area == options.area || load.programs.size() < 2;
+    const bool first = fault.area == options.target.area || load.programs.size() < 2;
     ending.faults.push_back(explain(fault, load.programs[first ? 0 : 1], options.target));
   }
   if (journey != nullptr)

@@ -31,8 +31,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::vector<std::int32_t> numbers; ///< for `input`, in order
   Client client = Client::Connected;
-  vm::Area area = vm::Area::Ram;
-  compiler::Target target; ///< for what the linter adds to a fault
+  compiler::Target target; ///< its area is where the program lies
   spec::Firmware firmware = spec::default_firmware;
   std::optional<std::size_t> ram_bytes; ///< else what the firmware has
   std::uint32_t lines_per_second =

@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "bytecode/chunk.h"
+#include "spec/api.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
 #include "vm/ask.h"
@@ -20,8 +21,7 @@ namespace orb::vm {
 /// with the robot's own error.
 using Loader = bytecode::Chunk (*)(std::string_view text);
 
-/// Where programs are stored.
-enum class Area : std::uint8_t { Ram = 0, Flash = 1 };
+using spec::Area;
 
 struct ProgramOptions {
   std::uint32_t lines_per_second = static_cast<std::uint32_t>(
