@@ -25,7 +25,7 @@ struct ExitCodeInfo {
   std::string_view meaning;
 };
 
-/// The exit codes in words: one table for the manual, the docs and `orb explain`.
+/// The exit codes in words: one table for the manual and for whoever asks.
 inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
     {ExitCode::Done, "done; no finding of error level"},
     {ExitCode::BadInput,
@@ -40,7 +40,7 @@ inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
     {ExitCode::Unknown,
      "the outcome is unknown, for example because the answer to a commit was lost"},
     {ExitCode::Bug, "a bug in orb"},
-    {ExitCode::Interrupted, "ended by Ctrl-C"},
+    {ExitCode::Interrupted, "an upload or a command to a ball was ended by Ctrl-C"},
 });
 
 /// Why something could not be done: the sentence to print and the code to end with.

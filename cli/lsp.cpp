@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "editor/server.h"
+#include "editor/language_server.h"
 #include "editor/wire.h"
 
 #include <array>

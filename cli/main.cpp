@@ -2,7 +2,8 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/ports.h"
-#include "reference/candidates.h"
+#include "reference/completion_words.h"
+#include "run/input.h"
 
 #include <algorithm>
 #include <csignal>
@@ -54,10 +55,6 @@ std::string meant_instead(const std::string& word, const std::vector<std::string
   return meant ? fmt::format("; did you mean `{}`?", *meant) : "";
 }
 
-bool names_a_source(std::string_view word) {
-  return word.ends_with(".bas") || word.ends_with(".orbbas") || word.ends_with(".macro");
-}
-
 /// Why `word` has no place where it stands, and what was probably meant.
 std::string describe(const CLI::App& app, const std::string& word) {
   const auto* command = chosen_command(app);
@@ -69,7 +66,7 @@ std::string describe(const CLI::App& app, const std::string& word) {
   }
   if (command != nullptr)
     return fmt::format("`{}` is one word too many for {}", word, whom);
-  if (names_a_source(word))
+  if (orb::run::form_of(word, ""))
     return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
   return fmt::format("`{}` is not a command of orb{}", word,
                      meant_instead(word, command_names(app)));

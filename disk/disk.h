@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/bytes.h"
-#include "base/files.h"
+#include "base/io_error.h"
 
 #include <string>
 #include <tl/expected.hpp>

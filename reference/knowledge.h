@@ -33,7 +33,7 @@ std::vector<Section> knowledge();
 std::string print_entry(const Section& section, const Entry& entry);
 
 /// One section as a page of docs/reference/, with links to the pages of the others
-/// (reference/page.cpp).
+/// (reference/markdown.cpp).
 std::string print_markdown(const std::vector<Section>& sections, const Section& section);
 
 /// All sections as one JSON document.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/files.h"
+#include "base/io_error.h"
 #include "protocol/fault.h"
 #include "vm/ball.h"
 #include "vm/stimulus.h"

@@ -1,7 +1,7 @@
 #include "cli/options.h"
 
 #include "cli/commands.h"
-#include "reference/candidates.h"
+#include "reference/completion_words.h"
 
 #include <gtest/gtest.h>
 

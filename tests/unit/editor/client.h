@@ -1,6 +1,6 @@
 #pragma once
 
-#include "editor/server.h"
+#include "editor/language_server.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

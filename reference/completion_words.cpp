@@ -1,4 +1,4 @@
-#include "reference/candidates.h"
+#include "reference/completion_words.h"
 
 #include "reference/knowledge.h"
 

@@ -1,8 +1,9 @@
-#include "editor/server.h"
+#include "editor/language_server.h"
 
 #include "base/utf8.h"
 #include "editor/language.h"
 #include "editor/text.h"
+#include "run/input.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -65,18 +66,12 @@ struct Document {
   std::optional<std::int64_t> version;
 };
 
-std::string_view ending(std::string_view uri) {
-  const auto dot = uri.rfind('.');
-  return dot == std::string_view::npos ? std::string_view() : uri.substr(dot + 1);
-}
-
 /// The language by the editor's word for it, else by the ending of the file's name.
 const LanguageService& language_of(std::string_view id, std::string_view uri) {
-  if (id == "orbmacro" || id == "macro")
-    return macro_service;
-  if (id == "orbbasic" || id == "basic")
-    return basic_service;
-  return ending(uri) == "macro" ? macro_service : basic_service;
+  const auto word = id == "orbmacro" || id == "macro"   ? std::string_view("macro")
+                    : id == "orbbasic" || id == "basic" ? std::string_view("basic")
+                                                        : std::string_view();
+  return run::language_of(uri, word) == run::Language::Macro ? macro_service : basic_service;
 }
 
 int severity_number(Severity severity) {
