@@ -215,7 +215,7 @@ private:
       return;
     const auto kind = spec::macro_id_kind(*id);
     if (kind == spec::MacroIdKind::None)
-      report(rules::Header, value.span, "id 0 says that no macro runs",
+      report(rules::Header, value.span, "id 0 means that no macro is running",
              fmt::format("write an id from {} to {}", spec::macro_id_user_first,
                          spec::macro_id_user_last));
     if (kind == spec::MacroIdKind::System)
@@ -249,7 +249,7 @@ private:
           all += fmt::format("{}`{}`", i == 0 ? "" : ", ", words[i]);
         }
         const auto meant = closest(word, words);
-        report(rules::Header, value.span, fmt::format("`{}` is no macro flag", word),
+        report(rules::Header, value.span, fmt::format("`{}` is not a macro flag", word),
                meant ? fmt::format("did you mean `{}`?", *meant)
                      : fmt::format("there are {}", all));
         return;
@@ -316,7 +316,7 @@ private:
     if (!inside_) {
       if (!outside_reported_)
         report(rules::OutsideMacro, statement.span, "this stands before the first `.macro` line",
-               "move it behind a `.macro` line, or write one above it");
+               "move it below a `.macro` line, or write one above it");
       outside_reported_ = true;
       return;
     }
@@ -347,7 +347,7 @@ private:
          ++value) {
       static constexpr auto byte = spec::macro_detail::number("byte", MacroUnit::None, 1, 0, 255);
       if (value->name.size() != 0)
-        report(rules::UnknownOperand, value->name, "`.raw` takes bytes, no names");
+        report(rules::UnknownOperand, value->name, "`.raw` takes bytes, not names");
       else if (const auto number = resolve(*value, byte, ".raw"))
         out.body.push_back(static_cast<std::uint8_t>(*number));
     }
@@ -372,7 +372,7 @@ private:
     auto& out = macro();
     if (out.has_end && out.id != spec::macro_id_stream) {
       if (!after_end_reported_)
-        report(rules::AfterEnd, statement.span, "this stands behind `end`",
+        report(rules::AfterEnd, statement.span, "this comes after `end`",
                "remove `end`, or begin another macro with `.macro`");
       after_end_reported_ = true;
       return;
@@ -516,7 +516,7 @@ private:
       return to_number(value, value.span, operand, command);
     if (value.kind == Value::Kind::Text) {
       report(rules::OutOfRange, value.span,
-             fmt::format("`{}` of `{}` is a number, found a text", operand.name, command));
+             fmt::format("`{}` of `{}` is a number, found text", operand.name, command));
       return std::nullopt;
     }
     const auto word = text(value.span);
@@ -615,7 +615,7 @@ private:
     if (number.unit == Unit::Unknown) {
       const auto word = text(number.span);
       const bool hex = word.ends_with('h') || word.ends_with('H');
-      report(rules::WrongUnit, span, fmt::format("`{}` is no number", word),
+      report(rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
              hex ? fmt::format("hex is written `0x{}`", word.substr(0, word.size() - 1))
                  : "units are `ms`, `s` and `deg`, with at most three decimals before them");
       return;
@@ -645,7 +645,7 @@ private:
 
   std::string read_text(const Value& value) {
     if (value.kind != Value::Kind::Text) {
-      report(rules::OutOfRange, value.span, "a comment takes a text in quotes",
+      report(rules::OutOfRange, value.span, "a comment takes text in quotes",
              fmt::format("write `comment \"{}\"`", text(value.span)));
       return {};
     }
@@ -725,9 +725,9 @@ std::optional<Diagnostic> unreadable(const Source& source) {
     return finding(rules::EmptyFile, {0, 0}, "the file is empty",
                    "write a command, such as `marker 20`");
   if (text.size() > largest_source)
-    return finding(rules::SourceTooLarge, {0, 0},
-                   fmt::format("the file has {} bytes; at most {} are looked at", text.size(),
-                               largest_source));
+    return finding(
+        rules::SourceTooLarge, {0, 0},
+        fmt::format("the file has {} bytes; the limit is {}", text.size(), largest_source));
   // One pass without branches first: nearly every file is text.
   bool any = false;
   for (const char c : text)
@@ -740,7 +740,7 @@ std::optional<Diagnostic> unreadable(const Source& source) {
   const auto at = static_cast<std::uint32_t>(binary - text.data());
   return finding(
       rules::BinaryFile, {at, at + 1},
-      fmt::format("the file is no text: byte {:02X}h", static_cast<unsigned char>(*binary)),
+      fmt::format("the file is not text: byte {:02X}h", static_cast<unsigned char>(*binary)),
       "`orb disasm` reads the bytes of a macro");
 }
 

@@ -46,7 +46,7 @@ std::size_t remark_of(std::string_view line) {
   return std::min(at, line.size());
 }
 
-/// The blanks of a statement as they should be: none before a comma, one behind it; none around the
+/// The blanks of a statement as they should be: none before a comma, one after it; none around the
 /// `=` of an operand; else one where there are any.
 std::string respace(std::string_view code) {
   const bool is_const = code.starts_with(".const");

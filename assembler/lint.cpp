@@ -91,7 +91,7 @@ private:
              fmt::format("the macro has {} bytes; a user macro has at most {}, with id, flags and "
                          "end",
                          size, spec::macro_max_packet),
-             "split it and chain the parts by `goto`");
+             "split it and chain the parts with `goto`");
       return;
     case MacroIdKind::Temporary:
       if (size <= spec::macro_buffer_size)
@@ -133,7 +133,7 @@ private:
       if (command.info->place == spec::MacroPlace::OnlyInStream && !stream) {
         auto& diagnostic =
             report(rules::StreamOnly, command.span,
-                   fmt::format("`{}` aborts a macro that is no stream", word),
+                   fmt::format("`{}` aborts a macro that is not a stream", word),
                    fmt::format("write `end`, or give the macro `id={}`", spec::macro_id_stream));
         if (!macro.id)
           diagnostic.severity = Severity::Warning; // it may be sent as a stream yet
@@ -189,7 +189,7 @@ private:
       return;
     case MacroIdKind::None:
       if (command.info->command != MacroCommand::OnCollision)
-        report(rules::UnknownTarget, command.operand, "0 is the id of no macro");
+        report(rules::UnknownTarget, command.operand, "no macro has the id 0");
       return;
     case MacroIdKind::User:
       if (!known_[id])
@@ -291,7 +291,7 @@ private:
                                                                                   : "rotation",
                     print_time(background.end_ms - background.begin_ms),
                     print_time(now_ms - background.begin_ms)),
-        fmt::format("add `delay {}` behind it", background.end_ms - now_ms));
+        fmt::format("add `delay {}` after it", background.end_ms - now_ms));
     if (by.size() > 0)
       diagnostic.notes.push_back({by, fmt::format("{} here", what)});
   }
@@ -346,7 +346,8 @@ private:
     const auto& rotation = ongoing.rotation;
     if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
         first_time(rules::RollDuringRotation, command.span))
-      report(rules::RollDuringRotation, command.span, "this roll is ignored: a rotation still runs",
+      report(rules::RollDuringRotation, command.span,
+             "this roll is ignored: a rotation is still running",
              fmt::format("add `delay {}` before it", rotation.end_ms - now))
           .notes.push_back({rotation.command->span, "the rotation begins here"});
     if ((rolls(kind) || kind == MacroCommand::SetSpeed) && ongoing.unstabilized != nullptr &&

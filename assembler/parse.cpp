@@ -177,16 +177,16 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
   const auto found = seen(stop.at, end);
   switch (stop.expected) {
   case Stop::Expected::Value:
-    return finding(rules::Syntax, span, fmt::format("expected a value behind `=`, found {}", found),
+    return finding(rules::Syntax, span, fmt::format("expected a value after `=`, found {}", found),
                    "write a number or a name");
   case Stop::Expected::ClosingQuote:
     if (stop.at != end)
-      return finding(rules::Syntax, span, "this is no escape",
+      return finding(rules::Syntax, span, "this is not an escape sequence",
                      "write one of `\\\"`, `\\\\`, `\\n`, `\\r`, `\\t`, `\\0`, `\\x41`");
     return finding(rules::Syntax, span, "the text has no end", "add `\"`");
   case Stop::Expected::Operand:
     return finding(rules::Syntax, span,
-                   fmt::format("expected an operand behind the comma, found {}", found), {});
+                   fmt::format("expected an operand after the comma, found {}", found), {});
   case Stop::Expected::NothingMore: break;
   }
   std::string help;
@@ -197,7 +197,7 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
   else if (*stop.at == ':')
     help = "there are no labels in a macro; `.macro NAME id=40` begins one that goto can reach";
   else if (*stop.at == '\\')
-    help = "a text stands in quotes: `\"...\"`";
+    help = "text needs quotes: `\"...\"`";
   return finding(rules::Syntax, span, fmt::format("{} does not belong here", found), help);
 }
 
@@ -212,7 +212,7 @@ Diagnostic unknown_command(std::string_view word, Span span) {
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = spec::macro_commands[i].mnemonic;
   auto diagnostic =
-      finding(rules::UnknownCommand, span, fmt::format("`{}` is no macro command", word),
+      finding(rules::UnknownCommand, span, fmt::format("`{}` is not a macro command", word),
               did_you_mean(word, names, "`orb spec` lists the commands"));
   if (const auto meant = closest(word, names))
     diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
@@ -223,7 +223,7 @@ Diagnostic unknown_directive(std::string_view word, Span span) {
   std::array<std::string_view, std::size(directives)> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = directives[i].word;
-  return finding(rules::UnknownDirective, span, fmt::format("`{}` is no directive", word),
+  return finding(rules::UnknownDirective, span, fmt::format("`{}` is not a directive", word),
                  did_you_mean(word, names, "there are `.macro`, `.const`, `.raw` and `.noend`"));
 }
 

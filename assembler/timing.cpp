@@ -68,7 +68,7 @@ std::string to_string(const MacroTiming& timing) {
   case TimingNote::Calls: return time + ", and the macros of other files that it calls";
   case TimingNote::SystemLoops: return time + ", with one system loop";
   case TimingNote::Sleeps: return time + ", then the ball sleeps";
-  case TimingNote::Broken: return time + ", then bytes that are no command";
+  case TimingNote::Broken: return time + ", then bytes that are not a command";
   case TimingNote::TooLong: return "more than " + time;
   }
   return time;

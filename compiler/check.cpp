@@ -46,17 +46,17 @@ Checked check(std::string_view text, const Target& target) {
   const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
   if (text.size() > most)
     return refuse(rules::SourceTooLarge,
-                  fmt::format("the file has {} bytes; {} are the most", text.size(), most),
+                  fmt::format("the file has {} bytes; the limit is {}", text.size(), most),
                   fmt::format("no area of the robot takes more than {}",
                               spec::value_of(spec::Limit::FlashBytes)));
   if (is_binary(text))
-    return refuse(rules::BinaryFile, "the file is binary, no orbBasic program",
+    return refuse(rules::BinaryFile, "the file is binary, not an orbBasic program",
                   "programs are plain text");
   Checked checked;
   checked.program = parse(text);
   if (!holds_program(checked.program)) {
     auto refused = refuse(rules::EmptyProgram, "the file holds no program line",
-                          "a line is a number, a blank and a statement: `10 print \"hello\"`");
+                          "a line is a number, a space and a statement: `10 print \"hello\"`");
     refused.program = std::move(checked.program);
     return refused;
   }

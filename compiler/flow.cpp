@@ -56,7 +56,7 @@ private:
   /// Notes where a statement jumps; returns whether the next line can follow.
   bool follow(const StatementNode& statement) {
     if (statement.error)
-      return true; // once mended it goes on; lint asks may_steer() first
+      return true; // once corrected it goes on; lint asks may_steer() first
     const auto after = spec::info(statement.kind).after;
     const bool calls =
         statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;

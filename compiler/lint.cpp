@@ -42,7 +42,7 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
     const auto line = line_at_byte(program, flow, oldest);
     findings.add(
         rules::LargerThanOldRam, program.lines[line].span,
-        fmt::format("the program takes {} bytes; older robots have {}", size, oldest),
+        fmt::format("the program takes {} bytes; older robots have room for {}", size, oldest),
         fmt::format("give `--ram {}` if yours has more", spec::value_of(spec::Limit::RamBytes)));
   }
 }

@@ -103,10 +103,10 @@ private:
       const auto& line = program_.lines[line_of(first)];
       if (!line.has_number())
         continue;
-      findings_.add(rules::UnreachableLine, line.number_span,
-                    i == first
-                        ? fmt::format("no way leads to line {}", line.number)
-                        : fmt::format("no way leads to lines {} to {}", line.number, number_of(i)));
+      findings_.add(
+          rules::UnreachableLine, line.number_span,
+          i == first ? fmt::format("line {} is never reached", line.number)
+                     : fmt::format("lines {} to {} are never reached", line.number, number_of(i)));
     }
   }
 
@@ -151,7 +151,7 @@ private:
       auto& d = findings_.add(
           rules::FallIntoSubroutine, statement(i - 1).span,
           fmt::format("the program runs on into the subroutine at line {}", number_of(i)),
-          "put an `end` behind this line");
+          "put an `end` after this line");
       add_note(d, statement(i).span, "the subroutine begins here");
     }
     if (reported)
@@ -212,7 +212,7 @@ private:
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (jump.call) {
             findings_.add(rules::GosubDepth, statement(i).span,
-                          fmt::format("{} calls are open here already", most),
+                          fmt::format("{} calls are already open here", most),
                           "put the subroutine's lines here, or call it from further up");
             break;
           }

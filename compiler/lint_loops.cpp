@@ -139,7 +139,7 @@ private:
             (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end)) {
           auto& d = findings_.add(
               rules::JumpOutOfFor, program_.items[jump.item].span,
-              fmt::format("line {} lies outside of the loop, which stays open", number_of(jump.to)),
+              fmt::format("line {} is outside the loop, which stays open", number_of(jump.to)),
               "set the loop variable to its end value and go to the `next`");
           add_note(d, statement(pairs_[pair].begin).span, "the loop");
         }
@@ -298,7 +298,7 @@ private:
     }
     auto& d =
         findings_.add(rules::ForDepth, node.span,
-                      fmt::format("{} loops are open here already{}", state.loops.count, chain),
+                      fmt::format("{} loops are already open here{}", state.loops.count, chain),
                       "end one of them first, or compute two counters from one");
     for (const auto caller : callers)
       add_note(d, statement(caller).span, "called here");

@@ -84,9 +84,9 @@ private:
   }
 
   void add_tab(std::uint32_t index, std::uint32_t first, std::uint32_t end) {
-    auto& d = findings_.add(rules::Tab, {first, first + 1}, "a tab stands where a blank belongs",
-                            "write a blank");
-    Fix fix{"write blanks", {}, Safety::Safe};
+    auto& d = findings_.add(rules::Tab, {first, first + 1}, "a tab stands where a space belongs",
+                            "write a space");
+    Fix fix{"write spaces", {}, Safety::Safe};
     bool in_string = false;
     for (auto i = program_.lines[index].span.begin; i < end; ++i) {
       in_string = in_string != (program_.text[i] == '"');
@@ -165,7 +165,7 @@ private:
   }
 
   void check_duplicates() {
-    constexpr std::size_t most_fixes = 64; // the rest gets its turn when these are mended
+    constexpr std::size_t most_fixes = 64; // the rest gets its turn when these are applied
     std::size_t first = 0;
     std::size_t found = 0;
     for (std::size_t i = 1; i < flow_.numbers.size(); ++i) {
@@ -176,9 +176,9 @@ private:
       }
       const auto& line = program_.lines[row.line];
       auto& d = findings_.add(rules::DuplicateLine, line.number_span,
-                              fmt::format("line number {} is taken already", row.number));
+                              fmt::format("line number {} is already taken", row.number));
       const auto& original = program_.lines[flow_.numbers[first].line];
-      add_note(d, original.number_span, "the first line of that number");
+      add_note(d, original.number_span, "the first line with that number");
       if (++found > most_fixes)
         continue;
       if (const auto free = free_number(row.line)) {
@@ -235,7 +235,7 @@ private:
     if (row.in_then == spec::InThen::Unlisted)
       findings_.add(rules::UndocumentedInBranch, statement.word,
                     fmt::format("`{}` is not documented inside `then` and `else`", row.word),
-                    "jump to a line that holds it");
+                    "put it on a line of its own and jump there");
   }
 
   void check(const StatementNode& statement) {
@@ -269,7 +269,7 @@ private:
   void check_let(const StatementNode& statement) {
     if (statement.spelling != Spelling::Let)
       return;
-    auto& d = findings_.add(rules::UndocumentedLet, statement.word, "`let` is in no document",
+    auto& d = findings_.add(rules::UndocumentedLet, statement.word, "`let` is not documented",
                             "leave it out");
     const auto begin = program_.as<LetView>(statement).variable.span.begin;
     d.fix = single_fix("remove `let`", {statement.word.begin, begin}, "");
@@ -365,10 +365,10 @@ private:
   void add_semicolon(const Item& semicolon, const Item& next) {
     auto& d = findings_.add(rules::SemicolonInPrint, semicolon.span,
                             "a `;` means something only at the end of a print",
-                            "leave it out, or write `,` for a blank");
+                            "leave it out, or write `,` for a space");
     // A blank keeps what stands on both sides apart; a minus sign would join them.
     if (program_.text[next.span.begin] != '-')
-      d.fix = single_fix("write a blank", {semicolon.span.begin, next.span.begin}, " ");
+      d.fix = single_fix("write a space", {semicolon.span.begin, next.span.begin}, " ");
   }
 
   void check_data(std::span<const Item> values) {
@@ -393,7 +393,7 @@ private:
   void check_read(const StatementNode& statement) {
     if (program_.items_of(statement).size() > 1)
       findings_.add(rules::ReadSeveral, statement.span,
-                    "some firmware reads one variable in a `read`",
+                    "some firmware reads only one variable per `read`",
                     "write one `read` for each variable");
   }
 
@@ -418,8 +418,8 @@ private:
       return; // one for a line is enough
     blank_missing_ = true;
     auto& d = findings_.add(rules::MissingBlank, {at, at},
-                            fmt::format("a blank is missing beside {}", what));
-    d.fix = single_fix("insert a blank", {at, at}, " ");
+                            fmt::format("a space is missing next to {}", what));
+    d.fix = single_fix("insert a space", {at, at}, " ");
   }
 
   // ---- expressions
@@ -462,7 +462,7 @@ private:
     if (node.depth == most + 1)
       findings_.add(rules::ExpressionLevels, node.span,
                     fmt::format("more than {} parentheses and functions are open at once", most),
-                    "compute a part of it on a line of its own");
+                    "compute part of it on a line of its own");
   }
 
   void add_negative(const Node& node) {
@@ -501,8 +501,8 @@ private:
     const bool old_name = !row.old_word.empty() && program_.text_of(node.span) == row.old_word;
     if (old_name && target_.version >= row.since) {
       auto& d = findings_.add(rules::OldName, node.span,
-                              fmt::format("`{}` is called `{}` since orbBasic {}", row.old_word,
-                                          row.word, spec::info(row.since).text),
+                              fmt::format("`{}` has been called `{}` since orbBasic {}",
+                                          row.old_word, row.word, spec::info(row.since).text),
                               fmt::format("write `{}`", row.word));
       d.fix = single_fix(d.help, node.span, std::string(row.word));
     } else if (!old_name && row.since > target_.version) {
@@ -530,7 +530,7 @@ private:
     // Other fixes of the same round may put parentheses around and into this operand.
     const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
     if (levels <= spec::value_of(spec::Limit::ExpressionLevels))
-      d.fix = Fix{"put the operand into parentheses",
+      d.fix = Fix{"put the operand in parentheses",
                   {{{operand.span.begin, operand.span.begin},
                     program_.text[operand.span.begin - 1] == ' ' ? "(" : " ("},
                    {{operand.span.end, operand.span.end}, ")"}},

@@ -371,7 +371,7 @@ private:
               ? "`Z` is used, but `Y` is never set and 0 names no element"
               : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
       if (index.first_set == nullptr)
-        d.help = "`Z` is the list element that `Y` names; take another letter";
+        d.help = "`Z` is the list element that `Y` names; use another letter";
     } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ &&
                !before_y_) {
       before_y_ = true;
@@ -412,11 +412,11 @@ private:
     const auto limit = static_cast<std::uint64_t>(spec::value_of(spec::Limit::PrintBytes));
     if (least > limit)
       findings_.add(rules::PrintTooLong, statement.span,
-                    fmt::format("the print takes at least {} bytes; {} are the most", least, limit),
+                    fmt::format("the print takes at least {} bytes; the limit is {}", least, limit),
                     "end the first part with `;` and print the rest on the next line");
     else if (most > limit)
       findings_.add(rules::PrintMayBeTooLong, statement.span,
-                    fmt::format("the print can take {} bytes; {} are the most", most, limit));
+                    fmt::format("the print can take {} bytes; the limit is {}", most, limit));
   }
 
   void check_input(const StatementNode& statement) {
@@ -517,7 +517,7 @@ private:
     if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
       findings_.add(
           rules::ClearedByReading, node.span,
-          fmt::format("`{}` is read again, but the reading before has set it to 0", row.word),
+          fmt::format("`{}` is read again, but the read before has already set it to 0", row.word),
           "copy it into a variable and use that");
     cleared_on_line_ |= bit(slot);
     if (!conditional_)

@@ -57,7 +57,7 @@ public:
     case Reason::ReadOnly: return read_only();
     case Reason::IndexedParenthesis:
       return make(rules::IndexedParenthesis, "`Z` takes no index in parentheses",
-                  "set `Y` on a line before, then use `Z` alone");
+                  "set `Y` on an earlier line, then use `Z` alone");
     case Reason::ImpliedGoto: {
       auto d = make(rules::ImpliedGoto, fmt::format("`{}` is not a statement", token()),
                     fmt::format("write `goto {}`", token()));
@@ -68,7 +68,7 @@ public:
       return make(rules::ExpressionLevels,
                   fmt::format("far more than {} parentheses and functions are open at once",
                               spec::value_of(spec::Limit::ExpressionLevels)),
-                  "compute a part of it on a line of its own");
+                  "compute part of it on a line of its own");
     case Reason::ExpectedStatement: return expected_statement();
     case Reason::ExpectedExpression: return expected_expression();
     case Reason::ExpectedTarget: return expected_target();
@@ -137,7 +137,7 @@ private:
       if (name.starts_with(prefix) &&
           find_word(name.substr(prefix.size())).kind != WordKind::Unknown) {
         auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a statement", name),
-                      fmt::format("put a blank behind `{}`", prefix));
+                      fmt::format("put a space after `{}`", prefix));
         const auto at = fault_.span.begin + static_cast<std::uint32_t>(prefix.size());
         set_fix(d, d.help, {at, at}, " ", Safety::Safe);
         return d;
@@ -213,8 +213,9 @@ private:
       names.push_back(row.word);
     for (const auto& row : spec::functions)
       names.push_back(row.word);
-    auto d = make(rules::SyntaxError, fmt::format("`{}` is no variable and no function", name),
-                  "variables are named A to Z");
+    auto d =
+        make(rules::SyntaxError, fmt::format("`{}` is neither a variable nor a function", name),
+             "variables are named A to Z");
     if (const auto best = closest(name, names)) {
       const bool same = lower(*best) == lower(name);
       d.help = same ? fmt::format("write `{}`; orbBasic is case-sensitive", *best)
@@ -277,14 +278,14 @@ private:
 
   Diagnostic non_literal() const {
     return make(rules::NonLiteralTarget,
-                fmt::format("`{}` takes a line number written out, found {}", word(), found()),
+                fmt::format("`{}` takes a plain line number, found {}", word(), found()),
                 "to choose between lines use `on A goto 100,200`");
   }
 
   Diagnostic expected_then() const {
     if (token() == "and" || token() == "or")
       return make(rules::TooManyRelations, "an `if` takes at most two comparisons",
-                  "put the third into an `if` on a line of its own");
+                  "put the third in an `if` on a line of its own");
     if (token().size() > 1 && is_relation(token()[0]))
       return bad_operator(fault_.span);
     return expected("`then`");
@@ -310,7 +311,7 @@ private:
 
   Diagnostic expected_parenthesis() const {
     if (!token().empty() && is_relation(token()[0])) {
-      return make(rules::SyntaxError, "comparisons stand only in `if`");
+      return make(rules::SyntaxError, "comparisons are only allowed in `if`");
     }
     if (token() == ".")
       return unsupported_number();
@@ -356,7 +357,7 @@ private:
     if (!here.empty() && is_relation(here[0])) {
       if (here.size() > 1)
         return bad_operator(fault_.span);
-      return make(rules::SyntaxError, "comparisons stand only in `if`");
+      return make(rules::SyntaxError, "comparisons are only allowed in `if`");
     }
     const bool branches = spec::info(fault_.statement).form == spec::Form::Branch ||
                           fault_.statement == spec::Statement::On;
@@ -368,7 +369,7 @@ private:
     const auto what = fault_.statement == spec::Statement::Let ? std::string("assignment")
                                                                : fmt::format("`{}`", word());
     return make(rules::SyntaxError,
-                fmt::format("unexpected {} behind the complete {}", found(), what));
+                fmt::format("unexpected {} after the complete {}", found(), what));
   }
 };
 

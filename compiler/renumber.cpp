@@ -40,7 +40,7 @@ private:
       if (next > static_cast<std::uint64_t>(greatest))
         return Obstacle{
             line.number_span,
-            fmt::format("this line would get number {}; {} is the greatest", next, greatest)};
+            fmt::format("this line would get number {}; the highest is {}", next, greatest)};
       numbers_[i] = static_cast<std::uint32_t>(next);
       edits_.push_back({line.number_span, std::to_string(next)});
       next += numbering_.step;
@@ -54,7 +54,7 @@ private:
         continue;
       const auto* number = flow_.find(item.value);
       if (number == nullptr)
-        return Obstacle{item.span, fmt::format("there is no line {}; under new numbers there "
+        return Obstacle{item.span, fmt::format("there is no line {}; after renumbering there "
                                                "might be one",
                                                program_.text_of(item.span))};
       edits_.push_back({item.span, std::to_string(numbers_[number->line])});

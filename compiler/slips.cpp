@@ -112,7 +112,7 @@ private:
     if (row == nullptr || spec::find_variable(token()) || spec::find_function(token()))
       return std::nullopt;
     auto d = finding(rules::SyntaxError, fault_.span,
-                     fmt::format("`{}` is no variable and no function", token()),
+                     fmt::format("`{}` is neither a variable nor a function", token()),
                      std::string(row->help));
     replace(d, *row, fault_.span);
     return d;
@@ -175,7 +175,7 @@ private:
     if (!is(Reason::ExpectedTarget) || !wordy() || token().size() < 2)
       return std::nullopt;
     auto d = finding(rules::NonLiteralTarget, fault_.span,
-                     fmt::format("`{}` takes a line number written out, found `{}`",
+                     fmt::format("`{}` takes a plain line number, found `{}`",
                                  spec::info(fault_.statement).word, token()),
                      "jump to a line by its number: `goto 100`");
     const auto name = program_.text_of(word_at(begin()));
@@ -307,9 +307,9 @@ private:
     stop = skip_back(stop);
     const auto text = text_.substr(begin(), stop - begin());
     auto d = finding(rules::SyntaxError, fault_.span,
-                     fmt::format("`{}` is no variable and no function", token()),
-                     fmt::format("text stands in quotes: `print \"{}\"`", text));
-    offer(d, "put it into quotes", {{{begin(), stop}, fmt::format("\"{}\"", text)}});
+                     fmt::format("`{}` is neither a variable nor a function", token()),
+                     fmt::format("text needs quotes: `print \"{}\"`", text));
+    offer(d, "put it in quotes", {{{begin(), stop}, fmt::format("\"{}\"", text)}});
     return d;
   }
 
@@ -413,7 +413,7 @@ private:
       return std::nullopt;
     const auto call = fmt::format("rnd {}", program_.text_of(most));
     auto d =
-        finding(rules::SyntaxError, fault_.span, fmt::format("`{}` is no function", token()),
+        finding(rules::SyntaxError, fault_.span, fmt::format("`{}` is not a function", token()),
                 fmt::format("write `{}`: a number from 1 to {}", call, program_.text_of(most)));
     offer(d, fmt::format("write `{}`", call), {{{begin(), most.end}, call}});
     return d;
@@ -582,7 +582,7 @@ private:
     auto d = finding(rules::Colon, fault_.span,
                      "a line takes one statement; `:` does not separate statements",
                      "put what follows on a line of its own");
-    // Behind `then` the rest belongs to the branch, which holds one statement.
+    // After `then` the rest belongs to the branch, which holds one statement.
     const bool branch = program_.text_of(word_at(skip_blanks(line_.number_span.end))) == "if";
     if (!line_.has_number() || line_.number_span.size() == 0 || branch)
       return d;
@@ -618,9 +618,9 @@ private:
     const bool beside = before(begin()) == '"' || after(end()) == '"';
     if (!is(Reason::Trailing) || !in(Statement::Print) || token() != "+" || !beside)
       return std::nullopt;
-    auto d = finding(rules::SyntaxError, fault_.span, "texts are not joined by `+`",
+    auto d = finding(rules::SyntaxError, fault_.span, "text is not joined with `+`",
                      "write them side by side: `print \"a\" \"b\"`");
-    offer(d, "write a blank", {{{skip_back(begin()), skip_blanks(end())}, " "}});
+    offer(d, "write a space", {{{skip_back(begin()), skip_blanks(end())}, " "}});
     return d;
   }
 
@@ -639,7 +639,7 @@ private:
     if (!is(Reason::ExpectedTarget) || token().empty() || token()[0] != '"' || number.size() == 0 ||
         text_[number.end] != '"')
       return std::nullopt;
-    auto d = finding(rules::NonLiteralTarget, fault_.span, "a line number stands without quotes",
+    auto d = finding(rules::NonLiteralTarget, fault_.span, "a line number takes no quotes",
                      fmt::format("write `goto {}`", program_.text_of(number)));
     offer(d, "remove the quotes",
           {{{begin(), number.end + 1}, std::string(program_.text_of(number))}});

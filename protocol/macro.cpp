@@ -45,9 +45,9 @@ std::string seen_and_expected(const MacroError& error) {
                                                      : error.offset == 1 ? "the flags"
                                                                          : "the extended flags");
   case MacroError::Kind::UnknownCode:
-    return fmt::format("{:02X}h is no macro command; expected a command code, {:02X}h to {:02X}h",
-                       error.byte, std::begin(spec::macro_commands)->code,
-                       (std::end(spec::macro_commands) - 1)->code);
+    return fmt::format(
+        "{:02X}h is not a macro command; expected a command code, {:02X}h to {:02X}h", error.byte,
+        std::begin(spec::macro_commands)->code, (std::end(spec::macro_commands) - 1)->code);
   case MacroError::Kind::CutOperand:
     return fmt::format("the bytes end inside `{}` ({:02X}h); expected its operand `{}`, {} of the "
                        "{} that the command takes are there",

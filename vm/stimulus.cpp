@@ -213,7 +213,7 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
     const auto time = rest.size() > 1 ? parse_duration(rest[1].text) : std::nullopt;
     if (!time || rest.size() < 3) {
       script.diagnostics.push_back(finding(syntax_rule, rest[rest.size() > 1 ? 1 : 0].span,
-                                           "behind `at` stand a time and an event",
+                                           "`at` takes a time and an event",
                                            "write it like `at 2.5s shake`"));
       return;
     }
@@ -229,7 +229,7 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
             ? finding(syntax_rule, rest[0].span,
                       fmt::format("a time without `at`: `{}`", rest[0].text),
                       fmt::format("write `at {}`", rest[0].text))
-            : finding(event_rule, rest[0].span, fmt::format("`{}` is no event", rest[0].text),
+            : finding(event_rule, rest[0].span, fmt::format("`{}` is not an event", rest[0].text),
                       event_help(rest[0].text)));
     return;
   }
