@@ -62,7 +62,7 @@ struct Assembly {
 };
 
 /// Whether a `delay` becomes the post command delay of the command before it where that is exact:
-/// the same times, fewer bytes. Commands after it get lower numbers in markers.
+/// the same times, fewer bytes. Commands behind it get lower numbers in markers.
 enum class Folding : std::uint8_t { Keep, Fold };
 
 /// Assembles a source file: all its findings in one run, at most one syntax error a line. Any bytes

@@ -128,7 +128,7 @@ void check(Context& context, const Options& options) {
   if (options.fix &&
       std::find(options.files.begin(), options.files.end(), "-") != options.files.end()) {
     return fail(context,
-                {ExitCode::Usage, "`--fix` writes the file back; standard input has none"});
+                {ExitCode::Usage, "`--fix` writes files back; standard input is not a file"});
   }
   auto inputs = read_sources(options);
   if (!inputs)

@@ -33,7 +33,7 @@ constexpr auto starters = std::to_array<Starter>({
 100 LEDC 6
 110 delay 50
 120 if dshake = 0 then goto 110
-130 print "shaken, good bye"
+130 print "shaken, goodbye"
 140 LEDC 0
 )"},
     {"wink.macro", R"(; %: winks twice and turns on the spot.
@@ -83,7 +83,7 @@ void make(Context& context, const std::string& folder) {
   std::error_code error;
   if (fs::exists(path, error) && (!fs::is_directory(path, error) || !fs::is_empty(path, error))) {
     return fail(context,
-                {ExitCode::File, fmt::format("`{}` exists already; give another name", folder)});
+                {ExitCode::File, fmt::format("`{}` already exists; choose another name", folder)});
   }
   fs::create_directories(path, error);
   if (error)
@@ -108,8 +108,8 @@ void make(Context& context, const std::string& folder) {
 } // namespace
 
 void add_new(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "new", "make a folder with a working starter", "orb new dance\norb new .");
+  auto* command = add_command(app, "new", "make a folder with a working starter project",
+                              "orb new dance\norb new .");
   auto folder = std::make_shared<std::string>();
   command
       ->add_option("NAME", *folder,

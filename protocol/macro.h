@@ -58,7 +58,7 @@ struct MacroError {
   std::uint32_t present = 0; ///< bytes that there are
 };
 
-/// What was seen and what was expected: ``offset 12 (0Ch): 16h is not a macro command; …``.
+/// What was seen and what was expected: ``offset 12 (0Ch): 16h is no macro command; …``.
 std::string to_string(const MacroError& error);
 
 /// All commands of a macro, or those before the first fault and the fault.
