@@ -1,0 +1,337 @@
+#include "serve/served_ball.h"
+
+#include "disk/disk.h"
+#include "serve/pty_link.h"
+#include "serve/tcp_link.h"
+#include "vm/state.h"
+
+#include <algorithm>
+#include <array>
+#include <asio/post.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+namespace orb::serve {
+namespace {
+
+/// A client that does not read is not read from while this much waits for it.
+constexpr std::size_t backlog_most = 256 * 1024;
+constexpr std::size_t read_size = 64 * 1024;
+/// How much a client that has left is still heard when the next one knocks.
+constexpr int farewell_reads = 64;
+
+vm::BallOptions ball_options(const ServeOptions& options, int index) {
+  auto ball = options.ball;
+  ball.seed += static_cast<std::uint64_t>(index);
+  ball.wire = vm::Wire::Unpaced;
+  return ball;
+}
+
+bool only_later(ssize_t result) {
+  return result < 0 && (errno == EAGAIN || errno == EINTR);
+}
+
+} // namespace
+
+ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int index)
+    : io_(io), options_(options), index_(index), ball_(ball_options(options, index)), timer_(io) {
+  if (options.fault)
+    pipe_.emplace(*options.fault);
+  ball_.schedule(options.stimulus);
+}
+
+// Opening.
+
+/// The name for this ball of what is called `name` for one ball alone.
+std::string ServedBall::numbered(const std::string& name) const {
+  return options_.count == 1 || name.empty() ? name : fmt::format("{}-{}", name, index_ + 1);
+}
+
+tl::expected<void, IoError> ServedBall::load() {
+  const auto path = numbered(options_.state_file);
+  if (path.empty() || ::access(path.c_str(), F_OK) != 0)
+    return {}; // a new ball
+  const auto text = disk::read(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  if (const auto loaded = vm::load_state(*text, ball_); !loaded)
+    return tl::unexpected(IoError{fmt::format(
+        "{} is no state of a ball: {}; remove it to begin with a new ball", path, loaded.error())});
+  saved_revision_ = ball_.dispatcher().revision();
+  return {};
+}
+
+tl::expected<void, IoError> ServedBall::open_links() {
+  if (options_.pty) {
+    auto pty = std::make_unique<PtyLink>(io_);
+    if (auto opened = pty->open(numbered(options_.pty_link)); !opened)
+      return opened;
+    links_.push_back(std::move(pty));
+  }
+  if (options_.tcp) {
+    auto tcp = std::make_unique<TcpLink>(io_);
+    const auto port = options_.tcp->port == 0 ? 0 : options_.tcp->port + index_;
+    if (auto listening = tcp->listen(options_.tcp->host, port); !listening)
+      return listening;
+    links_.push_back(std::move(tcp));
+  }
+  return {};
+}
+
+tl::expected<void, IoError> ServedBall::open() {
+  if (auto loaded = load(); !loaded)
+    return loaded;
+  if (!options_.log_file.empty()) {
+    const auto path = numbered(options_.log_file);
+    log_.open(path);
+    if (!log_)
+      return tl::unexpected(
+          IoError{fmt::format("cannot write {}: {}", path, std::strerror(errno))});
+  }
+  return open_links();
+}
+
+tl::expected<void, IoError> ServedBall::save() {
+  if (options_.state_file.empty())
+    return {};
+  saved_revision_ = ball_.dispatcher().revision();
+  return disk::write(numbered(options_.state_file), as_bytes(vm::save_state(ball_)));
+}
+
+std::string ServedBall::addresses() const {
+  std::string out;
+  for (const auto& link : links_)
+    out += link->address() + "\n";
+  return out;
+}
+
+void ServedBall::start(Clock::time_point start) {
+  start_ = start;
+  for (const auto& link : links_)
+    link->start(*this);
+  step();
+}
+
+// Time: the steady clock; the ball's own runs faster or slower.
+
+Instant ServedBall::real_time() const {
+  return Instant{} + std::chrono::duration_cast<Duration>(Clock::now() - start_);
+}
+
+Instant ServedBall::now() const {
+  const auto real = static_cast<double>(real_time().time_since_epoch().count());
+  return Instant{} + Duration{static_cast<Duration::rep>(real * options_.speed)};
+}
+
+// Clients come and go.
+
+bool ServedBall::admits() {
+  if (client_ == nullptr || !client_->client_left())
+    return client_ == nullptr;
+  // What it said at last is heard before the next one is let in.
+  const auto session = session_;
+  for (int i = 0; i < farewell_reads && session == session_; ++i)
+    on_input();
+  if (session == session_)
+    leave();
+  return client_ == nullptr;
+}
+
+void ServedBall::enter(Link& link) {
+  client_ = &link;
+  ++session_;
+  ball_.advance_to(now());
+  ball_.connect();
+  if (pipe_)
+    pipe_->reconnect(now());
+  await_input();
+  step();
+}
+
+void ServedBall::leave() {
+  if (client_ == nullptr)
+    return;
+  auto& link = *std::exchange(client_, nullptr);
+  ++session_;
+  spacer_.clear();
+  backlog_.clear();
+  writing_ = reading_ = false;
+  ball_.advance_to(now());
+  ball_.disconnect();
+  link.hang_up();
+  step();
+}
+
+void ServedBall::wait_client(Link::Ready ready, void (ServedBall::*handler)()) {
+  client_->wait(ready, [this, session = session_, handler] {
+    if (session == session_)
+      (this->*handler)();
+  });
+}
+
+// Bytes in.
+
+void ServedBall::await_input() {
+  if (reading_ || client_ == nullptr || backlog_.size() > backlog_most)
+    return;
+  reading_ = true;
+  wait_client(Link::Ready::wait_read, &ServedBall::on_input);
+}
+
+void ServedBall::on_input() {
+  static thread_local std::array<std::uint8_t, read_size> buffer;
+  reading_ = false;
+  const auto size = client_->read(buffer);
+  if (only_later(size))
+    return await_input();
+  if (size <= 0) // the end, or EIO when the slave of a pty was closed
+    return leave();
+  const auto bytes = ByteView(buffer).first(static_cast<std::size_t>(size));
+  log('>', bytes);
+  ball_.advance_to(now());
+  if (pipe_)
+    pipe_->push(protocol::Direction::ToBall, bytes, now());
+  else
+    ball_.receive(bytes);
+  const auto session = session_;
+  step();
+  if (session == session_)
+    await_input();
+}
+
+// Time passes, packets leave.
+
+void ServedBall::step() {
+  const auto time = now();
+  ball_.advance_to(time);
+  if (pipe_) {
+    for (auto bytes = pipe_->take(protocol::Direction::ToBall, time); !bytes.empty();
+         bytes = pipe_->take(protocol::Direction::ToBall, time))
+      ball_.receive(bytes);
+    ball_.advance_to(time);
+  }
+  if (!options_.state_file.empty() && ball_.dispatcher().revision() != saved_revision_)
+    if (auto saved = save(); !saved)
+      error_ = saved.error(); // answers still go out: the ball itself has changed
+  take_packets();
+  const auto session = session_;
+  if (pipe_)
+    send_faulty();
+  for (const auto& bytes : spacer_.take(real_time()))
+    write(bytes);
+  // Sleep ends the connection; who cannot be hung up on is just not heard any more.
+  if (session == session_ && client_ != nullptr && client_->can_hang_up() && !ball_.connected() &&
+      backlog_.empty() && !spacer_.has_messages())
+    leave();
+  arm();
+}
+
+void ServedBall::take_packets() {
+  while (auto packet = ball_.take_packet()) {
+    if (client_ == nullptr)
+      continue;
+    if (pipe_) {
+      pipe_->push(protocol::Direction::FromBall, *packet, now());
+      continue;
+    }
+    if ((*packet)[1] == spec::sop2_async) {
+      if (backlog_.size() <= backlog_most)
+        spacer_.add_message(std::move(*packet), real_time());
+      continue;
+    }
+    // Once streaming has stopped, no sensor data may follow the answer that says so.
+    if (spacer_.has_messages() && ball_.streamer().next_event() == never)
+      spacer_.hurry();
+    spacer_.add_answer(std::move(*packet));
+  }
+}
+
+/// The plan of faults decides when packets leave, and whether.
+void ServedBall::send_faulty() {
+  const auto time = now();
+  const auto session = session_;
+  for (auto bytes = pipe_->take(protocol::Direction::FromBall, time);
+       !bytes.empty() && session == session_;
+       bytes = pipe_->take(protocol::Direction::FromBall, time))
+    write(bytes);
+  if (pipe_->cut() && session == session_)
+    leave();
+}
+
+void ServedBall::write(ByteView bytes) {
+  if (client_ == nullptr)
+    return;
+  log('<', bytes);
+  if (backlog_.empty()) {
+    const auto sent = client_->write(bytes);
+    if (sent < 0 && !only_later(sent))
+      return lose_client();
+    bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(0, sent)));
+  }
+  if (bytes.empty())
+    return;
+  backlog_.insert(backlog_.end(), bytes.begin(), bytes.end());
+  write_backlog();
+}
+
+/// Leaves as soon as whoever writes has returned.
+void ServedBall::lose_client() {
+  asio::post(io_, [this, session = session_] {
+    if (session == session_)
+      leave();
+  });
+}
+
+void ServedBall::write_backlog() {
+  if (!std::exchange(writing_, true))
+    wait_client(Link::Ready::wait_write, &ServedBall::on_writable);
+}
+
+void ServedBall::on_writable() {
+  writing_ = false;
+  const auto sent = client_->write(backlog_);
+  if (sent < 0 && !only_later(sent))
+    return leave();
+  backlog_.erase(backlog_.begin(), backlog_.begin() + std::max<ssize_t>(0, sent));
+  if (!backlog_.empty())
+    write_backlog();
+  await_input();
+}
+
+/// Sleeps until something happens by itself.
+void ServedBall::arm() {
+  auto wake = Clock::time_point::max();
+  const auto next = std::min(ball_.next_event(), pipe_ ? pipe_->next_due() : never);
+  if (next != never) {
+    const auto real = static_cast<double>(next.time_since_epoch().count()) / options_.speed;
+    constexpr double century = 3e18;
+    if (real < century)
+      wake = start_ + Duration{static_cast<Duration::rep>(real) + 1};
+  }
+  if (spacer_.has_messages())
+    wake = std::min(wake, start_ + spacer_.next_due().time_since_epoch());
+  if (wake == armed_)
+    return;
+  armed_ = wake;
+  if (wake == Clock::time_point::max()) {
+    timer_.cancel();
+    return;
+  }
+  timer_.expires_at(wake);
+  timer_.async_wait([this](asio::error_code error) {
+    if (error)
+      return;
+    armed_ = Clock::time_point::max();
+    step();
+  });
+}
+
+void ServedBall::log(char direction, ByteView bytes) {
+  if (log_.is_open())
+    log_ << direction << ' ' << to_hex(bytes) << std::endl;
+}
+
+} // namespace orb::serve

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "serve/link.h"
+#include "serve/packet_spacer.h"
+#include "serve/server.h"
+
+#include <asio/steady_timer.hpp>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+namespace orb::serve {
+
+/// One ball in real time, with its links, its client and its files.
+class ServedBall final : private Door {
+public:
+  using Clock = std::chrono::steady_clock;
+
+  /// The `index`-th ball of those that `options` ask for; they must outlive it.
+  ServedBall(asio::io_context& io, const ServeOptions& options, int index);
+
+  /// Opens its links and files.
+  tl::expected<void, IoError> open();
+  /// Begins to live; `start` is the moment at which balls have time 0.
+  void start(Clock::time_point start);
+  /// A line per link.
+  std::string addresses() const;
+  /// Writes the state file, where there is one.
+  tl::expected<void, IoError> save();
+  /// Why the state could not be kept, if it could not.
+  const std::optional<IoError>& error() const { return error_; }
+
+private:
+  bool admits() override;
+  void enter(Link& link) override;
+  void leave();
+
+  tl::expected<void, IoError> load();
+  tl::expected<void, IoError> open_links();
+
+  Instant now() const;
+  Instant real_time() const;
+  std::string numbered(const std::string& name) const;
+
+  void wait_client(Link::Ready ready, void (ServedBall::*handler)());
+  void await_input();
+  void on_input();
+  void step();
+  void take_packets();
+  void send_faulty();
+  void write(ByteView bytes);
+  void write_backlog();
+  void on_writable();
+  void lose_client();
+  void arm();
+  void log(char direction, ByteView bytes);
+
+  asio::io_context& io_;
+  const ServeOptions& options_;
+  int index_;
+  vm::Ball ball_;
+  std::optional<protocol::FaultPipe> pipe_;
+  Clock::time_point start_;
+  asio::steady_timer timer_;
+  Clock::time_point armed_ = Clock::time_point::max();
+
+  std::vector<std::unique_ptr<Link>> links_;
+  Link* client_ = nullptr;    ///< the link on which the client is
+  std::uint64_t session_ = 0; ///< tells the handlers of a client that left from those of the next
+  PacketSpacer spacer_;
+  Bytes backlog_; ///< what the client has not taken yet
+  bool writing_ = false;
+  bool reading_ = false;
+
+  std::ofstream log_;
+  std::uint64_t saved_revision_ = 0;
+  std::optional<IoError> error_;
+};
+
+} // namespace orb::serve

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "base/files.h"
+#include "serve/link.h"
+
+#include <asio/ip/tcp.hpp>
+#include <tl/expected.hpp>
+
+namespace orb::serve {
+
+/// A TCP port. A client that knocks while another one is there is turned away.
+class TcpLink final : public Link {
+public:
+  explicit TcpLink(asio::io_context& io) : Link(io), acceptor_(io) {}
+
+  /// Listens on a port of this machine; 0 picks a free one.
+  tl::expected<void, IoError> listen(const std::string& host, int port);
+
+  std::string address() const override;
+  void start(Door& door) override;
+  void hang_up() override { stream_.close(); }
+  bool can_hang_up() const override { return true; }
+
+private:
+  void let_in(Door& door, asio::ip::tcp::socket socket);
+
+  asio::ip::tcp::acceptor acceptor_;
+};
+
+} // namespace orb::serve
