@@ -1,6 +1,7 @@
 #include "assembler/formats.h"
 
 #include "assembler/timing.h"
+#include "base/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ std::string print_c(std::string_view name, const AssembledMacro& macro) {
   const auto bytes = protocol::encode(macro.image());
   const auto id = identifier(name);
   auto out = fmt::format("// Macro {}: id, flags, commands, end.\nconst unsigned char {}[] = {{",
-                         name, id);
+                         to_printable(name), id);
   for (std::size_t i = 0; i < bytes.size(); ++i)
     out += fmt::format("{}0x{:02X},", i % 12 == 0 ? "\n  " : " ", bytes[i]);
   return out + fmt::format("\n}};\nconst unsigned int {}_size = sizeof {};\n", id, id);

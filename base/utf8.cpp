@@ -1,5 +1,7 @@
 #include "base/utf8.h"
 
+#include <algorithm>
+
 namespace orb {
 namespace {
 
@@ -7,6 +9,25 @@ constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 bool continues(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
+/// Whether the code point at the front is one that a terminal shows and does not obey.
+bool is_shown(std::string_view text) {
+  const auto length = utf8_length(text);
+  const auto lead = static_cast<unsigned char>(text.front());
+  // C1 controls (U+0080 to U+009F) drive terminals just as the C0 ones do.
+  const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
+  return length > 0 && lead >= 0x20 && lead != 0x7F && !c1;
+}
+
+/// The length of a sequence `ESC [ digits m` (colour) or `ESC [ K` (clear the line), else 0.
+std::size_t own_sequence(std::string_view text) {
+  if (!text.starts_with("\x1b["))
+    return 0;
+  const auto end = text.find_first_not_of("0123456789;", 2);
+  if (end == std::string_view::npos || (text[end] != 'm' && (text[end] != 'K' || end != 2)))
+    return 0;
+  return end + 1;
 }
 
 } // namespace
@@ -50,18 +71,22 @@ std::string to_valid_utf8(std::string_view text) {
 
 std::string to_printable(std::string_view text) {
   std::string out;
-  for (; !text.empty();) {
-    const auto length = utf8_length(text);
-    const auto lead = static_cast<unsigned char>(text.front());
-    // C1 controls (U+0080 to U+009F) drive terminals just as the C0 ones do.
-    const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
-    if (lead == '\t')
-      out += ' ';
-    else if (length == 0 || lead < 0x20 || lead == 0x7F || c1)
-      out += replacement;
-    else
-      out += text.substr(0, length);
-    text.remove_prefix(length == 0 ? 1 : length);
+  while (!text.empty()) {
+    const auto length = std::max<std::size_t>(1, utf8_length(text));
+    out += text.front() == '\t' ? " " : is_shown(text) ? text.substr(0, length) : replacement;
+    text.remove_prefix(length);
+  }
+  return out;
+}
+
+std::string to_terminal_text(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto own = own_sequence(text);
+    const auto length = std::max({std::size_t{1}, own, utf8_length(text)});
+    const bool layout = std::string_view("\n\r\t").find(text.front()) != std::string_view::npos;
+    out += own > 0 || layout || is_shown(text) ? text.substr(0, length) : replacement;
+    text.remove_prefix(length);
   }
   return out;
 }

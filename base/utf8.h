@@ -20,4 +20,8 @@ std::string to_valid_utf8(std::string_view text);
 /// so that every code point takes one column and no escape sequence gets through.
 std::string to_printable(std::string_view text);
 
+/// `text` as it may be written to a terminal: as to_printable(), but line ends and tabs stay, and
+/// so do the colours and the clearing of a line that our own output is made of.
+std::string to_terminal_text(std::string_view text);
+
 } // namespace orb

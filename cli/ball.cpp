@@ -77,6 +77,10 @@ void run_ball(Context& context, const BallArguments& arguments) {
     return fail(context, stimulus.error());
   options.stimulus = *std::move(stimulus);
   options.announce = print_out;
+  options.warn = [&context](std::string_view message) {
+    print_err(
+        fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Warning, "warning"), message));
+  };
   if (const auto served = serve::serve(options); !served)
     fail(context, {ExitCode::File, served.error().message});
 }

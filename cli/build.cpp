@@ -40,6 +40,10 @@ bool has_errors(Context& context, const Source& source, const std::vector<Diagno
 }
 
 bool write(Context& context, const std::string& path, std::string_view bytes) {
+  if (path == "-") {
+    print_out(bytes);
+    return true;
+  }
   const auto written = disk::write(path, as_bytes(bytes));
   if (!written)
     fail(context, {ExitCode::File, written.error().message});

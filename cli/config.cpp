@@ -1,14 +1,19 @@
 #include "cli/config.h"
 
 #include "base/suggest.h"
+#include "cli/context.h"
 #include "disk/disk.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <sstream>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -26,12 +31,41 @@ std::optional<fs::path> user_file() {
   return std::nullopt;
 }
 
+/// What a project's file may set: it comes with what somebody else has written. No output, and
+/// nothing that writes.
+constexpr auto project_options = std::to_array<std::string_view>({
+    "target", "ram", "area", "executive", "firmware",                  // the ball
+    "deny", "warn", "allow", "max-errors",                             // the rules' levels
+    "pack", "fold-delays", "renumber",                                 // layout
+    "for", "lines-per-second", "seed", "speed", "timeout", "attempts", // budgets
+});
+
+/// Whether the file is the user's or root's: what somebody else has put into a folder above is not
+/// obeyed. Root in the user's name (sudo) takes what is the user's.
+bool is_trusted(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    return false;
+  const char* sudo = std::getenv("SUDO_UID");
+  const bool sudoed = ::geteuid() == 0 && sudo != nullptr && std::to_string(status.st_uid) == sudo;
+  return status.st_uid == ::geteuid() || status.st_uid == 0 || sudoed;
+}
+
+/// Found by walking up to the root of the repository or to the user's home.
 std::optional<fs::path> nearest_project_file() {
   std::error_code error;
+  const char* home = std::getenv("HOME");
   for (auto folder = fs::current_path(error); !folder.empty(); folder = folder.parent_path()) {
-    if (fs::is_regular_file(folder / project_file, error))
-      return folder / project_file;
-    if (folder == folder.root_path())
+    const auto file = folder / project_file;
+    if (fs::is_regular_file(file, error)) {
+      if (is_trusted(file))
+        return file;
+      print_err(
+          fmt::format("orb: warning: {} belongs to another user and is not read\n", file.string()));
+      break;
+    }
+    const bool at_home = home != nullptr && fs::equivalent(folder, home, error);
+    if (at_home || fs::exists(folder / ".git", error) || folder == folder.root_path())
       break;
   }
   return std::nullopt;
@@ -104,6 +138,9 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
         problem(setting.file, fmt::format("`[{}]` is not a section{}", setting.command,
                                           hint(setting.command, names))));
   }
+  const bool allowed = fs::path(setting.file).filename() != project_file ||
+                       std::find(project_options.begin(), project_options.end(), setting.option) !=
+                           project_options.end();
   bool known = false;
   std::vector<std::string> names;
   for (auto* command : commands) {
@@ -114,6 +151,8 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
     if (option == nullptr)
       continue;
     known = true;
+    if (!allowed)
+      break;
     try {
       set_default(*option, setting.values);
     } catch (const CLI::Error& error) {
@@ -126,6 +165,12 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
                 fmt::format("`{}` is not an option{}{}", setting.option,
                             setting.command.empty() ? "" : " of `orb " + setting.command + "`",
                             hint(setting.option, names))));
+  if (!allowed)
+    return tl::unexpected(problem(
+        setting.file,
+        fmt::format("`{0}` is not for a project's file to set; write `--{0}` on the command line, "
+                    "or `{0}` in {1}",
+                    setting.option, user_file().value_or("config.toml").string())));
   return {};
 }
 

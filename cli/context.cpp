@@ -1,5 +1,9 @@
 #include "cli/context.h"
 
+#include "base/utf8.h"
+#include "cli/output_error.h"
+
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -27,6 +31,14 @@ Style style_for(const std::string& color, int fd) {
   return {!dumb && ::isatty(fd) == 1};
 }
 
+/// A ball's or a file's name must not drive the user's terminal.
+bool print_to(std::FILE* file, std::string_view text) {
+  std::string shown;
+  if (::isatty(::fileno(file)) == 1)
+    text = shown = to_terminal_text(text);
+  return std::fwrite(text.data(), 1, text.size(), file) == text.size();
+}
+
 } // namespace
 
 Style Context::out_style() const {
@@ -38,12 +50,12 @@ Style Context::err_style() const {
 }
 
 void print_out(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+  if (!print_to(stdout, text) || std::fflush(stdout) != 0)
+    throw OutputError{errno};
 }
 
 void print_err(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  print_to(stderr, text);
 }
 
 void print_note(const Context& context, std::string_view message) {

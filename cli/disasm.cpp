@@ -69,8 +69,11 @@ ExitCode run(const Context& context, const Options& options) {
     print_error(context, fmt::format("{}: {}", name, text.error()));
     return ExitCode::BadInput;
   }
-  const auto written = disk::write(options.out.empty() ? "-" : options.out, as_bytes(*text));
-  if (!written) {
+  if (options.out.empty() || options.out == "-") {
+    print_out(*text);
+    return ExitCode::Done;
+  }
+  if (const auto written = disk::write(options.out, as_bytes(*text)); !written) {
     print_error(context, written.error().message);
     return ExitCode::File;
   }

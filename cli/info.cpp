@@ -1,3 +1,4 @@
+#include "base/utf8.h"
 #include "cli/commands.h"
 #include "cli/link.h"
 #include "protocol/payload.h"
@@ -32,7 +33,7 @@ public:
     for (const auto& value : values_)
       if (value.field->name == name) {
         const auto bytes = as_text(value.bytes);
-        return std::string(bytes.substr(0, bytes.find('\0')));
+        return to_printable(bytes.substr(0, bytes.find('\0')));
       }
     return {};
   }

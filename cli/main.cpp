@@ -1,14 +1,18 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output_error.h"
 #include "cli/ports.h"
 #include "reference/completion_words.h"
 #include "run/input.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <fmt/format.h>
+#include <sstream>
 
 namespace {
 
@@ -147,11 +151,25 @@ int run(int argc, char** argv) {
   try {
     app.parse(words_for(app, argc, argv));
   } catch (const CLI::Success& success) { // --help and --version
-    return app.exit(success);
+    std::ostringstream text;
+    const int code = app.exit(success, text, text);
+    orb::cli::print_out(text.str());
+    return code;
   } catch (const CLI::ParseError& error) {
     return static_cast<int>(report_usage(app, context, error));
   }
   return static_cast<int>(context.exit);
+}
+
+/// Ends as every program does whose reader has left, without a word; else says why nothing can be
+/// written.
+int end_without_output(int error) {
+  if (error == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  orb::cli::print_err(fmt::format("orb: error: cannot write <stdout>: {}\n", std::strerror(error)));
+  return static_cast<int>(ExitCode::File);
 }
 
 } // namespace
@@ -159,6 +177,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const orb::cli::OutputError& failure) {
+    return end_without_output(failure.error);
   } catch (const std::exception& error) {
     orb::cli::print_err(fmt::format(
         "orb: internal error: {}\nthis is a bug in orb; please report it with the command line\n",

@@ -79,12 +79,13 @@ public:
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  /// Takes note of an end; true when the run ended since the last call.
-  bool ended() {
-    if (process_ <= 0 || ::waitpid(process_, nullptr, WNOHANG) == 0)
-      return false;
+  /// Takes note of an end since the last call: its status, as waitpid(2) gives it.
+  std::optional<int> ended() {
+    int status = 0;
+    if (process_ <= 0 || ::waitpid(process_, &status, WNOHANG) == 0)
+      return std::nullopt;
     process_ = 0;
-    return true;
+    return status;
   }
 
 private:
@@ -101,8 +102,11 @@ void watch(Context& context, const std::vector<std::string>& files,
   std::optional<Run> run;
   run.emplace(context, held, once);
   while (!held.came()) {
-    if (run->ended())
+    if (const auto status = run->ended()) {
+      if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGPIPE)
+        return; // nobody reads any more
       print_note(context, "waiting for a change; Ctrl-C ends");
+    }
     const auto now = stamps(files);
     if (now == seen)
       continue;

@@ -60,6 +60,9 @@ tl::unexpected<IoError> failure(std::string_view action, const std::string& path
       IoError{fmt::format("cannot {} {}: {}{}", action, path, std::strerror(reason), help)});
 }
 
+/// More than any input of ours is; without it a device such as /dev/zero would be read for ever.
+constexpr std::size_t read_most = 64 * 1024 * 1024;
+
 tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& name) {
   std::string text;
   char buffer[65536];
@@ -69,7 +72,11 @@ tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& na
       return text;
     if (n > 0)
       text.append(buffer, static_cast<std::size_t>(n));
-    else if (errno != EINTR)
+    if (text.size() > read_most)
+      return tl::unexpected(
+          IoError{fmt::format("cannot read {}: it holds more than {} MB; is it the right file?",
+                              name, read_most >> 20)});
+    if (n < 0 && errno != EINTR)
       return failure("read", name);
   }
 }
@@ -85,14 +92,54 @@ bool write_all(int fd, ByteView bytes) {
   return true;
 }
 
-/// The permissions that a new file at `path` gets: those of the file it replaces, else the umask's.
-mode_t mode_for(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0)
-    return status.st_mode & 07777;
+/// Where the bytes go in the end: what links at `path` lead to, even where that is not there yet.
+std::string resolved(std::string path) {
+  namespace fs = std::filesystem;
+  constexpr int links_most = 40; // as the kernel
+  std::error_code error;
+  for (int i = 0; i < links_most && fs::is_symlink(path, error); ++i)
+    path = (fs::path(path).parent_path() / fs::read_symlink(path, error)).string();
+  return path;
+}
+
+mode_t default_mode() {
   const auto mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
+}
+
+tl::expected<void, IoError> overwrite(const std::string& path, ByteView bytes) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.get() < 0 || !write_all(file.get(), bytes))
+    return failure("write", path);
+  struct stat status {};
+  if (::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) &&
+      (::ftruncate(file.get(), static_cast<off_t>(bytes.size())) != 0 || ::fsync(file.get()) != 0))
+    return failure("write", path);
+  return {};
+}
+
+/// A file beside `path`, renamed to it. `before` is what it replaces; null for nothing.
+tl::expected<void, IoError> replace(const std::string& path, ByteView bytes,
+                                    const struct stat* before) {
+  std::string temporary = path + ".XXXXXX";
+  const Descriptor file(::mkstemp(temporary.data()));
+  if (file.get() < 0)
+    return failure("write", path);
+  if (before != nullptr && ::fchown(file.get(), before->st_uid, before->st_gid) != 0) {
+    ::unlink(temporary.c_str());
+    return overwrite(path, bytes); // somebody else's file, which we may write to
+  }
+  const auto mode = before != nullptr ? before->st_mode & 07777 : default_mode();
+  const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 &&
+                       ::fsync(file.get()) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
+  if (!written) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    errno = error;
+    return failure("write", path);
+  }
+  return {};
 }
 
 } // namespace
@@ -116,33 +163,18 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
       return failure("write", "<stdout>");
     return {};
   }
+  const auto place = resolved(path);
   struct stat status {};
-  const bool exists = ::stat(path.c_str(), &status) == 0;
+  const bool exists = ::stat(place.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
     errno = EISDIR;
     return failure("write", path);
   }
-  if (exists && !S_ISREG(status.st_mode)) {
-    // A device or a pipe (/dev/stdout) cannot be replaced, only written to.
-    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (device.get() < 0 || !write_all(device.get(), bytes))
-      return failure("write", path);
-    return {};
-  }
-  const auto mode = mode_for(path);
-  std::string temporary = path + ".XXXXXX";
-  const Descriptor file(::mkstemp(temporary.data()));
-  if (file.get() < 0)
-    return failure("write", path);
-  const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 &&
-                       ::fsync(file.get()) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
-  if (!written) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    errno = error;
-    return failure("write", path);
-  }
-  return {};
+  // A device or a pipe (/dev/stdout) cannot be replaced, and a file of several names would lose
+  // the others.
+  if (exists && (!S_ISREG(status.st_mode) || status.st_nlink > 1))
+    return overwrite(place, bytes);
+  return replace(place, bytes, exists ? &status : nullptr);
 }
 
 } // namespace orb::disk

@@ -11,8 +11,8 @@ namespace orb::disk {
 /// The whole content of `path`; `-` is standard input. Directories and unreadable files are errors.
 tl::expected<std::string, IoError> read(const std::string& path);
 
-/// Writes `bytes` to `path` whole or not at all: a temporary file beside it, fsync, rename.
-/// `-` is standard output.
+/// Writes `bytes` to what `path` leads to, whole or not at all; mode, owner and other names stay
+/// (in place, where they would be lost). `-` is standard output.
 tl::expected<void, IoError> write(const std::string& path, ByteView bytes);
 
 /// How a file is called in messages: its path, or `<stdin>` for `-`.

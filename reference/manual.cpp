@@ -272,9 +272,11 @@ ManualPage main_page(const CommandLine& line) {
           "Configuration of a project, found in the working folder or one above it.\n"
           "A section\n.Li [balls]\nnames balls\n.Pq Li red = \\(dqrfcomm://...\\(dq\n"
           "that are used as\n.Li @red ;\n"
-          "other sections give the options of the command of that name.\n"
+          "other sections give the options of the command of that name:\n"
+          "targets, levels of rules, layout and budgets, but no outputs.\n"
+          "The search ends at the root of the repository or at home.\n"
           ".It Pa $XDG_CONFIG_HOME/orb/config.toml\n"
-          "The same for all projects; weaker than\n.Pa orb.toml .\n.El\n";
+          "The same for all projects, and any option; weaker than\n.Pa orb.toml .\n.El\n";
   text += exit_status();
   text += ".Sh EXAMPLES\n" + literal(line.orb.examples);
   std::sort(pages.begin(), pages.end());

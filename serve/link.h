@@ -19,6 +19,8 @@ public:
   virtual bool admits() = 0;
   /// The client of `link` is there, until hang_up().
   virtual void enter(Link& link) = 0;
+  /// `link` has another address from now on.
+  virtual void moved(const Link& link) = 0;
 
 protected:
   ~Door() = default;
@@ -44,7 +46,7 @@ public:
   void wait(Ready ready, std::function<void()> handler);
   /// As read(2) and write(2).
   ssize_t read(std::span<std::uint8_t> buffer);
-  ssize_t write(ByteView bytes);
+  virtual ssize_t write(ByteView bytes);
   /// Whether nobody is at the other end (any more); bytes may still wait.
   bool client_left();
 

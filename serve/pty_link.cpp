@@ -6,68 +6,105 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
-#include <sys/stat.h>
+#include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 namespace orb::serve {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// How often a pty without a client is looked at for one.
 constexpr std::chrono::milliseconds interval{20};
+
+int open_slave(const std::string& slave) {
+  return ::open(slave.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+}
+
+/// Without echo, translation and signals. On Linux the settings of a master are those of its slave.
+termios raw_settings(int master) {
+  termios settings{};
+  ::tcgetattr(master, &settings);
+  ::cfmakeraw(&settings);
+  return settings;
+}
+
+void keep_raw(int master) {
+  termios now{};
+  const auto raw = raw_settings(master);
+  if (::tcgetattr(master, &now) == 0 && std::memcmp(&raw, &now, sizeof raw) != 0)
+    ::tcsetattr(master, TCSANOW, &raw);
+}
+
+/// Drops what was said to a client that is gone: on its way, then received but not read. What the
+/// next client may have written already stays.
+void drop_unread(int master) {
+  ::tcflush(master, TCOFLUSH);
+  const auto raw = raw_settings(master);
+  ::tcsetattr(master, TCSAFLUSH, &raw);
+}
+
+std::string target_of(const std::string& link) {
+  std::error_code error;
+  return fs::read_symlink(link, error).string();
+}
+
+bool leads_to_gone_pty(const std::string& link) {
+  const auto target = target_of(link);
+  return target.starts_with("/dev/pts/") && ::access(target.c_str(), F_OK) != 0;
+}
+
+IoError failure(std::string_view what) {
+  return {fmt::format("cannot {}: {}", what, std::strerror(errno))};
+}
 
 } // namespace
 
 PtyLink::~PtyLink() {
-  if (!link_.empty())
-    ::unlink(link_.c_str());
+  if (!path_.empty() && target_of(path_) == slave_)
+    ::unlink(path_.c_str());
 }
 
-tl::expected<void, IoError> PtyLink::open(const std::string& link) {
+tl::expected<void, IoError> PtyLink::open() {
   const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (master < 0)
+    return tl::unexpected(failure("open a pty"));
+  asio::posix::stream_descriptor stream(stream_.get_executor(), master);
   std::array<char, 128> name{};
-  if (master >= 0)
-    stream_.assign(master);
-  if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0 ||
+  if (::grantpt(master) != 0 || ::unlockpt(master) != 0 ||
       ::ptsname_r(master, name.data(), name.size()) != 0)
-    return tl::unexpected(IoError{fmt::format("cannot open a pty: {}", std::strerror(errno))});
+    return tl::unexpected(failure("open a pty"));
+  stream_ = std::move(stream);
   slave_ = name.data();
-  make_raw();
-  if (link.empty())
-    return {};
-  struct stat status {};
-  if (::lstat(link.c_str(), &status) == 0) {
-    if (!S_ISLNK(status.st_mode))
-      return tl::unexpected(
-          IoError{fmt::format("`{}` exists and is no link; give another name", link)});
-    ::unlink(link.c_str()); // left over from a run that was killed
-  }
-  if (::symlink(slave_.c_str(), link.c_str()) != 0)
-    return tl::unexpected(
-        IoError{fmt::format("cannot make link {}: {}", link, std::strerror(errno))});
-  link_ = link;
+  keep_raw(master);
+  ::close(open_slave(slave_)); // brings the master into its state without a client
   return {};
 }
 
-/// Without echo, translation and signals, and nothing left over from the client before. Opening and
-/// closing the slave also brings the master into its state without a client.
-void PtyLink::make_raw() const {
-  const int slave = ::open(slave_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-  if (slave < 0)
-    return;
-  termios settings{};
-  if (::tcgetattr(slave, &settings) == 0) {
-    ::cfmakeraw(&settings);
-    ::tcsetattr(slave, TCSANOW, &settings);
+tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
+  if (leads_to_gone_pty(path))
+    ::unlink(path.c_str()); // left over from a ball that was killed
+  if (const auto target = target_of(path); !target.empty())
+    return tl::unexpected(IoError{
+        fmt::format("`{}` leads to {} already; remove it or give another name", path, target)});
+  if (::symlink(slave_.c_str(), path.c_str()) != 0) {
+    if (errno == EEXIST)
+      return tl::unexpected(
+          IoError{fmt::format("`{}` exists and is not a link; give another name", path)});
+    return tl::unexpected(failure("make link " + path));
   }
-  ::tcflush(slave, TCIOFLUSH);
-  ::close(slave);
+  path_ = path;
+  return {};
 }
 
 void PtyLink::start(Door& door) {
   door_ = &door;
-  if (!client_left()) {
+  keep_raw(stream_.native_handle()); // a visit that said nothing may have changed it
+  if (has_visit()) {
     if (door.admits())
       return door.enter(*this); // hang_up() comes back here
     // Who writes while another client is there is not heard, now or later.
@@ -82,10 +119,49 @@ void PtyLink::start(Door& door) {
   });
 }
 
+/// Whether somebody is there, or has been and left bytes.
+bool PtyLink::has_visit() {
+  pollfd query{stream_.native_handle(), POLLIN, 0};
+  return ::poll(&query, 1, 0) >= 0 && ((query.revents & POLLIN) || !(query.revents & POLLHUP));
+}
+
+/// The settings are looked at before each write: an echo of it would come back as a command.
+ssize_t PtyLink::write(ByteView bytes) {
+  keep_raw(stream_.native_handle());
+  return Link::write(bytes);
+}
+
 void PtyLink::hang_up() {
   stream_.cancel();
-  make_raw();
+  drop_unread(stream_.native_handle());
+  if (is_exclusive())
+    replace();
   start(*door_);
+}
+
+/// Whether nobody can open the slave any more: TIOCEXCL stays on it as long as the master is open,
+/// and only root can take it away.
+bool PtyLink::is_exclusive() {
+  if (!client_left())
+    return false;
+  const int slave = open_slave(slave_);
+  if (slave < 0)
+    return errno == EBUSY && client_left();
+  ::ioctl(slave, TIOCNXCL);
+  ::close(slave);
+  return false;
+}
+
+/// Moves to another pty, and the link with it.
+void PtyLink::replace() {
+  const auto before = slave_;
+  if (!open())
+    return;
+  if (path_.empty())
+    return door_->moved(*this);
+  const auto beside = path_ + ".new";
+  if (target_of(path_) == before && ::symlink(slave_.c_str(), beside.c_str()) == 0)
+    ::rename(beside.c_str(), path_.c_str());
 }
 
 } // namespace orb::serve

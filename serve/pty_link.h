@@ -8,7 +8,7 @@
 
 namespace orb::serve {
 
-/// The master of a raw pty, and the symlink to its slave. It has to be asked whether a client has
+/// The master of a raw pty, and a symlink to its slave. It has to be asked whether a client has
 /// opened the slave.
 class PtyLink final : public Link {
 public:
@@ -17,19 +17,24 @@ public:
   PtyLink& operator=(const PtyLink&) = delete;
   ~PtyLink() override;
 
-  /// Opens the pty and makes `link` a symlink to it; empty for none.
-  tl::expected<void, IoError> open(const std::string& link);
+  tl::expected<void, IoError> open();
+  /// Makes `path` a symlink to the slave, until the end. What is there already stays, but for a
+  /// link to a pty that is gone.
+  tl::expected<void, IoError> make_link(const std::string& path);
 
-  std::string address() const override { return "pty " + (link_.empty() ? slave_ : link_); }
+  std::string address() const override { return "pty " + (path_.empty() ? slave_ : path_); }
   void start(Door& door) override;
   void hang_up() override;
   bool can_hang_up() const override { return false; }
+  ssize_t write(ByteView bytes) override;
 
 private:
-  void make_raw() const;
+  bool has_visit();
+  bool is_exclusive();
+  void replace();
 
   std::string slave_;
-  std::string link_;
+  std::string path_; ///< of the symlink
   asio::steady_timer timer_;
   Door* door_ = nullptr;
 };

@@ -64,20 +64,30 @@ tl::expected<void, IoError> ServedBall::load() {
   return {};
 }
 
-tl::expected<void, IoError> ServedBall::open_links() {
-  if (options_.pty) {
-    auto pty = std::make_unique<PtyLink>(io_);
-    if (auto opened = pty->open(numbered(options_.pty_link)); !opened)
+tl::expected<void, IoError> ServedBall::open_pty() {
+  auto pty = std::make_unique<PtyLink>(io_);
+  if (auto opened = pty->open(); !opened) {
+    if (!options_.tcp)
       return opened;
-    links_.push_back(std::move(pty));
+    options_.warn(opened.error().message + "; this ball is on TCP only");
+    return {};
   }
-  if (options_.tcp) {
-    auto tcp = std::make_unique<TcpLink>(io_);
-    const auto port = options_.tcp->port == 0 ? 0 : options_.tcp->port + index_;
-    if (auto listening = tcp->listen(options_.tcp->host, port); !listening)
-      return listening;
-    links_.push_back(std::move(tcp));
-  }
+  if (const auto path = numbered(options_.pty_link); !path.empty())
+    if (auto linked = pty->make_link(path); !linked)
+      return linked;
+  links_.push_back(std::move(pty));
+  return {};
+}
+
+tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place) {
+  auto tcp = std::make_unique<TcpLink>(io_);
+  if (auto opened = tcp->listen(place.host, place.port == 0 ? 0 : place.port + index_); !opened)
+    return opened;
+  if (tcp->is_exposed() && index_ == 0)
+    options_.warn(fmt::format("whoever reaches {} from the network can drive and change this ball; "
+                              "127.0.0.1 keeps it to this machine",
+                              tcp->address()));
+  links_.push_back(std::move(tcp));
   return {};
 }
 
@@ -91,7 +101,10 @@ tl::expected<void, IoError> ServedBall::open() {
       return tl::unexpected(
           IoError{fmt::format("cannot write {}: {}", path, std::strerror(errno))});
   }
-  return open_links();
+  if (options_.pty)
+    if (auto opened = open_pty(); !opened)
+      return opened;
+  return options_.tcp ? open_tcp(*options_.tcp) : tl::expected<void, IoError>{};
 }
 
 tl::expected<void, IoError> ServedBall::save() {
@@ -215,7 +228,7 @@ void ServedBall::step() {
   }
   if (!options_.state_file.empty() && ball_.dispatcher().revision() != saved_revision_)
     if (auto saved = save(); !saved)
-      error_ = saved.error(); // answers still go out: the ball itself has changed
+      fail(saved.error()); // answers still go out: the ball itself has changed
   take_packets();
   const auto session = session_;
   if (pipe_)
@@ -330,8 +343,17 @@ void ServedBall::arm() {
 }
 
 void ServedBall::log(char direction, ByteView bytes) {
-  if (log_.is_open())
-    log_ << direction << ' ' << to_hex(bytes) << std::endl;
+  if (log_.is_open() && !(log_ << direction << ' ' << to_hex(bytes) << std::endl)) {
+    fail({fmt::format("cannot write {}: {}", numbered(options_.log_file), std::strerror(errno))});
+    log_.close();
+  }
+}
+
+/// Said at once, not only at the end: a ball may be served for days.
+void ServedBall::fail(const IoError& error) {
+  if (!error_)
+    options_.warn(error.message);
+  error_ = error;
 }
 
 } // namespace orb::serve

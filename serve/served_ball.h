@@ -28,16 +28,18 @@ public:
   std::string addresses() const;
   /// Writes the state file, where there is one.
   tl::expected<void, IoError> save();
-  /// Why the state could not be kept, if it could not.
+  /// Why a file could not be written, if one could not.
   const std::optional<IoError>& error() const { return error_; }
 
 private:
   bool admits() override;
   void enter(Link& link) override;
+  void moved(const Link& link) override { options_.announce(link.address() + "\n"); }
   void leave();
 
   tl::expected<void, IoError> load();
-  tl::expected<void, IoError> open_links();
+  tl::expected<void, IoError> open_pty();
+  tl::expected<void, IoError> open_tcp(const ServeOptions::Tcp& place);
 
   Instant now() const;
   Instant real_time() const;
@@ -55,6 +57,7 @@ private:
   void lose_client();
   void arm();
   void log(char direction, ByteView bytes);
+  void fail(const IoError& error);
 
   asio::io_context& io_;
   const ServeOptions& options_;

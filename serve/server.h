@@ -31,7 +31,8 @@ struct ServeOptions {
   std::optional<protocol::FaultPlan> fault;
   std::string state_file;                         ///< empty for none
   std::string log_file;                           ///< a recording; empty for none
-  std::function<void(std::string_view)> announce; ///< hears a line per link once all are open
+  std::function<void(std::string_view)> announce; ///< hears a line per link, and where one moves
+  std::function<void(std::string_view)> warn;     ///< hears what is unsafe or has failed
 };
 
 /// Serves balls until SIGINT or SIGTERM. Fails when a

@@ -16,6 +16,9 @@ public:
   /// Listens on a port of this machine; 0 picks a free one.
   tl::expected<void, IoError> listen(const std::string& host, int port);
 
+  /// Whether other machines can reach it.
+  bool is_exposed() const { return !acceptor_.local_endpoint().address().is_loopback(); }
+
   std::string address() const override;
   void start(Door& door) override;
   void hang_up() override { stream_.close(); }

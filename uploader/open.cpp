@@ -12,6 +12,8 @@
 #include <optional>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <termios.h>
 #include <thread>
 #include <utility>
@@ -114,6 +116,22 @@ private:
 
 using Opened = tl::expected<std::unique_ptr<protocol::Transport>, LinkError>;
 
+/// Whether a device is the slave of a pty. Source: Linux, admin-guide/devices.txt
+bool is_pty(int handle) {
+  constexpr unsigned first = 136, last = 143;
+  struct stat status {};
+  return ::fstat(handle, &status) == 0 && S_ISCHR(status.st_mode) &&
+         major(status.st_rdev) >= first && major(status.st_rdev) <= last;
+}
+
+/// Keeps others off. TIOCEXCL does not stop root and flock only stops those who ask: together they
+/// do. On a pty TIOCEXCL would outlive its client and lock everybody out for as long as the other
+/// end is open.
+bool lock(int handle) {
+  return ::flock(handle, LOCK_EX | LOCK_NB) == 0 &&
+         (is_pty(handle) || ::ioctl(handle, TIOCEXCL) == 0);
+}
+
 /// Raw, exclusive, flushed. A line discipline would turn LF into CR LF and eat XON and XOFF.
 Opened open_serial(const Endpoint& endpoint) {
   auto io = std::make_unique<asio::io_context>(1);
@@ -123,8 +141,7 @@ Opened open_serial(const Endpoint& endpoint) {
   if (error)
     return tl::unexpected(describe_open_error(endpoint, error.value()));
   const auto handle = port.native_handle();
-  // TIOCEXCL does not stop root and flock only stops those who ask: together they do.
-  if (::flock(handle, LOCK_EX | LOCK_NB) != 0 || ::ioctl(handle, TIOCEXCL) != 0)
+  if (!lock(handle))
     return tl::unexpected(describe_open_error(endpoint, errno));
   termios settings{};
   if (::tcgetattr(handle, &settings) != 0)
@@ -136,7 +153,8 @@ Opened open_serial(const Endpoint& endpoint) {
   if (::tcsetattr(handle, TCSANOW, &settings) != 0)
     return tl::unexpected(describe_open_error(endpoint, errno));
   port.set_option(asio::serial_port::baud_rate(baud_rate), error); // a pty may not care
-  ::tcflush(handle, TCIOFLUSH);
+  // What waits to be sent on a pty is what the client before has said, not noise of a radio.
+  ::tcflush(handle, is_pty(handle) ? TCIFLUSH : TCIOFLUSH);
   return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port));
 }
 

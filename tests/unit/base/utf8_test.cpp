@@ -28,5 +28,22 @@ TEST(Utf8, NoEscapeSequenceReachesTheTerminal) {
   EXPECT_EQ(to_printable("\xC2\x9B"), "\xEF\xBF\xBD"); // CSI as a C1 control
 }
 
+TEST(Utf8, LetsOnlyOurOwnSequencesThroughToATerminal) {
+  const std::string own = "\r\x1b[K\x1b[1;31merror\x1b[0m:\tü\n";
+  EXPECT_EQ(to_terminal_text(own), own);
+  for (const auto* bad :
+       {"\x1b]0;title\x07", "\x1b[2J", "\x1b[1K", "\x1b[6n", "\x1b", "\x1b[", "\x1b[1;",
+        "\xC2\x9B"
+        "2J",
+        "\x9B"
+        "2J",
+        "\x7F", "\x08"}) {
+    const auto shown = to_terminal_text(bad);
+    EXPECT_EQ(shown.find_first_of("\x1b\x07\x08\x7F"), std::string::npos);
+    EXPECT_EQ(shown.find("\xC2\x9B"), std::string::npos);
+    EXPECT_EQ(to_valid_utf8(shown), shown);
+  }
+}
+
 } // namespace
 } // namespace orb

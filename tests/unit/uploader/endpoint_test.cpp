@@ -14,6 +14,7 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <termios.h>
 #include <thread>
 #include <unistd.h>
@@ -38,12 +39,20 @@ struct Handle {
 /// The master of a pseudo-terminal, and the path that a client opens.
 struct Pty {
   Pty() : master(::posix_openpt(O_RDWR | O_NOCTTY)) {
-    EXPECT_EQ(::grantpt(master.fd), 0);
-    EXPECT_EQ(::unlockpt(master.fd), 0);
-    path = ::ptsname(master.fd);
+    if (::grantpt(master.fd) == 0 && ::unlockpt(master.fd) == 0)
+      path = ::ptsname(master.fd);
   }
   Handle master;
   std::string path;
+};
+
+/// Tests of ptys, where there are any.
+class PtyTest : public testing::Test {
+protected:
+  void SetUp() override {
+    if (Pty().path.empty())
+      GTEST_SKIP() << "no pty can be opened here";
+  }
 };
 
 Endpoint endpoint_of(std::string_view url) {
@@ -119,7 +128,7 @@ TEST(Open, NamesWhatIsNoDevice) {
   EXPECT_NE(open_error("tcp://127.0.0.1:1").find("nothing listens there"), std::string::npos);
 }
 
-TEST(Open, CarriesBytesThroughAPtyUnchanged) {
+TEST_F(PtyTest, CarriesBytesThroughAPtyUnchanged) {
   Pty pty;
   auto link = open(endpoint_of("pty://" + pty.path), Budgets{});
   ASSERT_TRUE(link.has_value()) << link.error().message;
@@ -146,7 +155,7 @@ TEST(Open, CarriesBytesThroughAPtyUnchanged) {
   EXPECT_EQ(back, all);
 }
 
-TEST(Open, WaitsNoLongerThanTheDeadline) {
+TEST_F(PtyTest, WaitsNoLongerThanTheDeadline) {
   Pty pty;
   auto link = open(endpoint_of(pty.path), Budgets{});
   ASSERT_TRUE(link.has_value());
@@ -158,7 +167,7 @@ TEST(Open, WaitsNoLongerThanTheDeadline) {
   EXPECT_LT(steady_time() - start, 500ms);
 }
 
-TEST(Open, NoticesThatTheOtherEndHungUp) {
+TEST_F(PtyTest, NoticesThatTheOtherEndHungUp) {
   Pty pty;
   auto link = open(endpoint_of(pty.path), Budgets{});
   ASSERT_TRUE(link.has_value());
@@ -170,11 +179,30 @@ TEST(Open, NoticesThatTheOtherEndHungUp) {
   EXPECT_LT(steady_time() - start, 1s);
 }
 
-TEST(Open, RefusesAPortInUse) {
+TEST_F(PtyTest, RefusesAPortInUse) {
   Pty pty;
   const auto first = open(endpoint_of(pty.path), Budgets{});
   ASSERT_TRUE(first.has_value());
   EXPECT_NE(open_error(pty.path).find("another program has it open"), std::string::npos);
+}
+
+/// Root is let in where others are not.
+TEST_F(PtyTest, LetsAnOrdinaryUserInAgain) {
+  constexpr uid_t nobody = 65534;
+  const auto child = ::fork();
+  if (child == 0) {
+    if (::getuid() == 0 && ::setresuid(nobody, nobody, nobody) != 0)
+      ::_exit(2);
+    const Pty pty;
+    const auto endpoint = *parse_endpoint(pty.path);
+    for (int visit = 0; visit < 3; ++visit)
+      if (!open(endpoint, Budgets{}))
+        ::_exit(1);
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(Open, ConnectsOverTcp) {
@@ -240,7 +268,7 @@ Report greet_talker(const std::function<Bytes(ByteView)>& talker) {
   return greeting ? Report{} : greeting.error();
 }
 
-TEST(Greeting, EndsInTimeWithATalkerThatIsNoBall) {
+TEST_F(PtyTest, GreetingEndsInTimeWithATalkerThatIsNoBall) {
   const auto echo = greet_talker([](ByteView sent) { return Bytes(sent.begin(), sent.end()); });
   EXPECT_EQ(echo.kind, Report::Kind::NoBall);
   EXPECT_NE(echo.message.find("echo"), std::string::npos) << echo.message;
