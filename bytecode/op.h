@@ -16,9 +16,13 @@ enum class Op : std::uint16_t {
 /// Whether the line goes on behind an instruction, or ends with it.
 enum class Ends : std::uint8_t { Value, Either, Line };
 
+/// How much of what an instruction does machine code can do.
+enum class Compiled : std::uint8_t { Wholly, Mostly, Never };
+
 struct OpInfo {
   std::string_view name;
   Ends ends;
+  Compiled compiled;
   std::string_view operands; ///< a letter for each of a to d, then t for a target
   std::string_view effect;
 
@@ -26,7 +30,8 @@ struct OpInfo {
 };
 
 inline constexpr auto ops = std::to_array<OpInfo>({
-#define ORB_OP(name, ends, operands, effect) {#name, Ends::ends, operands, effect},
+#define ORB_OP(name, ends, compiled, operands, effect)                                             \
+  {#name, Ends::ends, Compiled::compiled, operands, effect},
 #include "bytecode/op.def"
 });
 

@@ -5,6 +5,7 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -35,29 +36,16 @@ static_assert(with_relation(Op::UnlessEqual, Relation::Greater) == Op::UnlessGre
               with_relation(Op::WhenEqual, Relation::Less) == Op::WhenLess &&
               with_relation(Op::SelectEqual, Relation::NotEqual) == Op::SelectNotEqual);
 
-Op operation(Operator op) {
-  switch (op) {
-  case Operator::Multiply: return Op::Multiply;
-  case Operator::Divide: return Op::Divide;
-  case Operator::Remainder: return Op::Remainder;
-  case Operator::ShiftLeft: return Op::ShiftLeft;
-  case Operator::ShiftRight: return Op::ShiftRight;
-  case Operator::Add: return Op::Add;
-  case Operator::Subtract: return Op::Subtract;
-  case Operator::And: return Op::And;
-  case Operator::Or: return Op::Or;
-  }
-  return Op::Add;
-}
+constexpr std::array operations{Op::Multiply,  Op::Divide,     Op::Remainder,
+                                Op::ShiftLeft, Op::ShiftRight, Op::Add,
+                                Op::Subtract,  Op::And,        Op::Or};
+static_assert(operations.size() == spec::operators.size() &&
+              operations[static_cast<std::size_t>(Operator::ShiftRight)] == Op::ShiftRight &&
+              operations[static_cast<std::size_t>(Operator::Or)] == Op::Or);
 
-Op operation(Function function) {
-  switch (function) {
-  case Function::Sqrt: return Op::Sqrt;
-  case Function::Rnd: return Op::Rnd;
-  case Function::Abs: return Op::Abs;
-  }
-  return Op::Abs;
-}
+constexpr std::array functions{Op::Sqrt, Op::Rnd, Op::Abs};
+static_assert(functions.size() == spec::functions.size() &&
+              functions[static_cast<std::size_t>(Function::Abs)] == Op::Abs);
 
 /// The value of a calculation that cannot fault.
 std::optional<std::int32_t> folded(Operator op, std::int32_t x, std::int32_t y) {
@@ -215,7 +203,7 @@ private:
       stack_.push_back(constant(*value));
       return;
     }
-    Op op = operation(written);
+    Op op = operations[static_cast<std::size_t>(written)];
     if (y && *y > 1 && op == Op::Divide)
       op = Op::DivideBy;
     if (y && *y > 1 && op == Op::Remainder)
@@ -257,7 +245,7 @@ private:
       case NodeKind::Group: break;
       case NodeKind::Negate: negate(); break;
       case NodeKind::Binary: combine(static_cast<Operator>(node.what)); break;
-      case NodeKind::Call: compute(operation(static_cast<Function>(node.what)), pop()); break;
+      case NodeKind::Call: compute(functions[node.what], pop()); break;
       }
     }
     return stack_.back();
@@ -327,17 +315,12 @@ private:
     case Statement::Tron: emit(Op::Tron); return;
     case Statement::Troff: emit(Op::Troff); return;
     case Statement::Reset: emit(Op::Reset); return;
-    case Statement::Rgb:
-    case Statement::Ledc:
-    case Statement::BackLed:
-    case Statement::Goroll:
-    case Statement::Heading:
-    case Statement::Raw:
-    case Statement::Locate:
-    case Statement::Basflg:
-    case Statement::Sleep:
-    case Statement::Macrun:
-    case Statement::Mackill: perform(node.kind, items); return;
+    // clang-format off
+    case Statement::Rgb: case Statement::Ledc: case Statement::BackLed: case Statement::Goroll:
+    case Statement::Heading: case Statement::Raw: case Statement::Locate: case Statement::Basflg:
+    case Statement::Sleep: case Statement::Macrun: case Statement::Mackill:
+      perform(node.kind, items); return;
+      // clang-format on
     }
   }
 
@@ -528,24 +511,15 @@ private:
   void print(std::span<const Item> items) {
     const bool open = !items.empty() && items.back().kind == ItemKind::Semicolon;
     for (const auto& item : items) {
-      switch (item.kind) {
-      case ItemKind::Expression:
-      case ItemKind::Character:
+      if (item.kind == ItemKind::Expression || item.kind == ItemKind::Character) {
         if (!value(item.value))
           return;
         emit(item.kind == ItemKind::Character ? Op::PrintCharacter : Op::PrintNumber, pop());
-        break;
-      case ItemKind::String: text(program_.text_of(item.span)); break;
-      case ItemKind::Comma: emit(Op::PrintBlank); break;
-      case ItemKind::Semicolon: // only the last one means something
-      case ItemKind::Letter:
-      case ItemKind::Indexed:
-      case ItemKind::System:
-      case ItemKind::Target:
-      case ItemKind::Relation:
-      case ItemKind::And:
-      case ItemKind::Or: break;
-      }
+      } else if (item.kind == ItemKind::String) {
+        text(program_.text_of(item.span));
+      } else if (item.kind == ItemKind::Comma) {
+        emit(Op::PrintBlank);
+      } // of semicolons only the last one means something
     }
     emit(open ? Op::PrintOpen : Op::PrintLine);
   }

@@ -224,6 +224,11 @@ void Core::clear() {
   reseed();
 }
 
+Flow Core::trace() {
+  tron = true;
+  return Flow::Leave;
+}
+
 Flow Core::reset() {
   const Instant now = line_end();
   clear();
@@ -444,6 +449,8 @@ Exit Machine::run_native() {
     machine_code_->run(core_);
     if (core_.budget == 0)
       return Exit::Budget;
+    if (core_.budget < NativeCode::longest_block)
+      return engine_.run(core_);
     gain_ = std::min<std::int64_t>(0, gain_ + before - core_.budget - lines_to_pay_a_change);
     if (native_ == Native::Auto && gain_ < greatest_loss) {
       machine_code_ = nullptr;

@@ -146,6 +146,7 @@ struct Core {
   Flow perform(const Code& code);
   void reseed();
   void clear();
+  Flow trace();
   Flow reset();
   /// Sets what `input` waits for.
   Flow enter(std::int32_t value);

@@ -63,23 +63,27 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
 #define B r[pc->b]
 #define C r[pc->c]
 
-// An operation behind which the line may go on or end.
-#define VALUE(name, ...)                                                                           \
+// An operation behind which the line goes on.
+#define STEP(name, ...)                                                                            \
   OP(name) {                                                                                       \
     __VA_ARGS__;                                                                                   \
     ++pc;                                                                                          \
     DISPATCH();                                                                                    \
-  }                                                                                                \
+  }
+
+// An operation behind which the line may go on or end.
+#define VALUE(name, ...)                                                                           \
+  STEP(name, __VA_ARGS__)                                                                          \
   OP_LINE(name) {                                                                                  \
     __VA_ARGS__;                                                                                   \
     ++pc;                                                                                          \
     NEXT_LINE();                                                                                   \
   }
 
-// A statement that the machine does outside of the loop, with which the line ends.
-#define STATEMENT(name, call)                                                                      \
+// A statement with which the line ends; most are done outside of the loop.
+#define STATEMENT(name, ...)                                                                       \
   OP(name) {                                                                                       \
-    SLOW(pc->following_line(), call);                                                              \
+    __VA_ARGS__;                                                                                   \
     FOLLOWING_LINE();                                                                              \
   }
 
@@ -252,51 +256,22 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   }
 
   // --- statements -------------------------------------------------------------------------------
-  OP(PrintText) {
-    core.text += core.chunk.texts[pc->a];
-    ++pc;
-    DISPATCH();
-  }
-  OP(PrintNumber) {
-    core.print_number(A);
-    ++pc;
-    DISPATCH();
-  }
-  OP(PrintCharacter) {
-    core.text += static_cast<char>(static_cast<std::uint8_t>(A));
-    ++pc;
-    DISPATCH();
-  }
-  OP(PrintBlank) {
-    core.text += ' ';
-    ++pc;
-    DISPATCH();
-  }
-  STATEMENT(PrintLine, core.print(PrintEnd::Line))
-  STATEMENT(PrintOpen, core.print(PrintEnd::Open))
-  STATEMENT(Delay, core.delay(A))
-  STATEMENT(Input, core.input(*pc))
-  STATEMENT(InputTimed, core.input_timed(*pc))
-  STATEMENT(SetData, core.set_data(*pc))
-  STATEMENT(Perform, core.perform(*pc))
-  STATEMENT(Reset, core.reset())
-  OP(RestartData) {
-    core.data_next = 0;
-    FOLLOWING_LINE();
-  }
-  OP(Random) {
-    core.reseed();
-    FOLLOWING_LINE();
-  }
-  OP(Tron) {
-    SYNC(pc->following_line());
-    core.tron = true;
-    return Exit::Leave;
-  }
-  OP(Troff) {
-    core.tron = false;
-    FOLLOWING_LINE();
-  }
+  STEP(PrintText, core.text += core.chunk.texts[pc->a])
+  STEP(PrintNumber, core.print_number(A))
+  STEP(PrintCharacter, core.text += static_cast<char>(static_cast<std::uint8_t>(A)))
+  STEP(PrintBlank, core.text += ' ')
+  STATEMENT(PrintLine, SLOW(pc->following_line(), core.print(PrintEnd::Line)))
+  STATEMENT(PrintOpen, SLOW(pc->following_line(), core.print(PrintEnd::Open)))
+  STATEMENT(Delay, SLOW(pc->following_line(), core.delay(A)))
+  STATEMENT(Input, SLOW(pc->following_line(), core.input(*pc)))
+  STATEMENT(InputTimed, SLOW(pc->following_line(), core.input_timed(*pc)))
+  STATEMENT(SetData, SLOW(pc->following_line(), core.set_data(*pc)))
+  STATEMENT(RestartData, core.data_next = 0)
+  STATEMENT(Perform, SLOW(pc->following_line(), core.perform(*pc)))
+  STATEMENT(Random, core.reseed())
+  STATEMENT(Tron, SLOW(pc->following_line(), core.trace()))
+  STATEMENT(Troff, core.tron = false)
+  STATEMENT(Reset, SLOW(pc->following_line(), core.reset()))
 
 #ifdef ORB_SWITCH
 }
@@ -318,6 +293,7 @@ return Exit::Budget;
 #undef A
 #undef B
 #undef C
+#undef STEP
 #undef VALUE
 #undef STATEMENT
 #undef TEST

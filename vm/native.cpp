@@ -20,6 +20,7 @@ namespace orb::vm {
 namespace {
 
 using bytecode::Chunk;
+using bytecode::Compiled;
 using bytecode::Instruction;
 using bytecode::Op;
 
@@ -57,7 +58,8 @@ const std::array homes{x86::esi,  x86::edi,  x86::r8d,  x86::r9d,  x86::r10d,
 const std::array saved{x86::rbx, x86::rbp, x86::r12, x86::r13, x86::r14, x86::r15};
 const x86::Mem frames_at = x86::qword_ptr(x86::rsp);
 const x86::Mem budget_at = x86::qword_ptr(x86::rsp, 8);
-constexpr int stack_bytes = 16;
+const x86::Mem loop_at = x86::qword_ptr(x86::rsp, 16); ///< Frames::loop
+constexpr int stack_bytes = 24;
 
 using Entry = std::uint32_t (*)(std::int32_t* registers, Frames* frames, std::int64_t* budget,
                                 const void* line);
@@ -65,127 +67,124 @@ using Entry = std::uint32_t (*)(std::int32_t* registers, Frames* frames, std::in
 constexpr std::size_t most_instructions = 65536;
 constexpr std::uint32_t none = 0xFFFFFFFF;
 
-/// Whether machine code of an operation may turn to the loop, which then does the whole line.
-enum class Leaves : std::uint8_t { Never, Rarely, Always };
-
-Leaves leaves(Op op) {
-  using enum Op;
-  constexpr std::array never{
-      Copy,        Add,          Subtract,      Multiply,      DivideBy,   RemainderBy,
-      And,         Or,           Abs,           UnlessEqual,   UnlessLess, UnlessNotEqual,
-      WhenEqual,   WhenNotEqual, WhenLess,      WhenGreater,   Goto,       UnlessGreater,
-      SelectEqual, SelectLess,   SelectGreater, SelectNotEqual};
-  constexpr std::array rarely{Divide, Remainder,    ShiftLeft, ShiftRight, Sqrt,  LoadElement,
-                              For,    StoreElement, Next,      Gosub,      Return};
-  if (std::find(never.begin(), never.end(), op) != never.end())
-    return Leaves::Never;
-  return std::find(rarely.begin(), rarely.end(), op) != rarely.end() ? Leaves::Rarely
-                                                                     : Leaves::Always;
-}
-
 /// What is decided about a program before its code is written.
 class Plan {
 public:
-  explicit Plan(const Chunk& chunk) : chunk_(chunk), loop_of_(chunk.code.size(), none) {
+  explicit Plan(const Chunk& chunk) : chunk_(chunk), loops_(chunk.code.size()) {
     match_loops();
-    for (std::size_t line = 0; line < chunk.lines.size(); ++line)
-      is_native_.push_back(stays_in_machine_code(line));
+    form_blocks();
     choose_homes();
   }
 
+  struct KnownLoop {
+    std::uint32_t head = none; ///< the `for`
+    std::uint32_t body = none; ///< the first line behind it
+  };
+
+  /// Where a line begins; behind the last one, EndOfProgram.
   std::uint32_t begin(std::size_t line) const {
     return line < chunk_.lines.size() ? chunk_.lines[line].begin
                                       : static_cast<std::uint32_t>(chunk_.code.size() - 1);
   }
-  /// Where the line behind that of an instruction begins.
-  std::uint32_t line_after(std::uint32_t at) const {
-    const auto after =
-        std::upper_bound(chunk_.lines.begin(), chunk_.lines.end(), at,
-                         [](std::uint32_t place, const auto& line) { return place < line.begin; });
-    return begin(static_cast<std::size_t>(after - chunk_.lines.begin()));
+  std::span<const Instruction> line(std::size_t line) const {
+    return std::span(chunk_.code).subspan(begin(line), begin(line + 1) - begin(line));
   }
-  bool is_native(std::size_t line) const { return is_native_[line]; }
-  /// The `for` whose loop a `next` steps unless the program jumps about, or none.
-  std::uint32_t loop_of(std::uint32_t next) const { return loop_of_[next]; }
+  /// How many lines of its block are left, with this one: they are counted together. 0 where the
+  /// line is left to the loop.
+  int rest(std::size_t line) const { return rest_[line]; }
+  bool begins_block(std::size_t line) const { return line == 0 || rest_[line - 1] <= 1; }
+  /// The loop that a `next` steps, unless the program jumps about.
+  const KnownLoop& loop_of(std::uint32_t next) const { return loops_[next]; }
   /// The registers that live in those of the processor, one for each of `homes`.
   std::span<const std::uint16_t> housed() const { return housed_; }
-  bool is_written(std::uint16_t index) const { return is_written_[index]; }
 
 private:
-  /// A `next` belongs to the last `for` of its variable above it. Only a loop whose first line is
-  /// nobody else's can be told by that line.
+  /// A `next` belongs to the last `for` of its variable above it. A loop is known by its first
+  /// line, so that must be nobody else's, and by a step that is a number.
   void match_loops() {
-    std::vector<std::uint8_t> begun(chunk_.code.size());
-    std::vector<std::uint32_t> last(bytecode::first_temporary, none);
-    for (std::size_t line = 0; line < chunk_.lines.size(); ++line)
-      for (std::uint32_t at = begin(line); at < begin(line + 1); ++at) {
+    std::array<KnownLoop, bytecode::first_temporary> last;
+    for (std::size_t i = 0; i < chunk_.lines.size(); ++i) {
+      const auto begun = std::count_if(line(i).begin(), line(i).end(), [](const auto& instruction) {
+        return instruction.op == Op::For || instruction.op == Op::ForElement;
+      });
+      for (std::uint32_t at = begin(i); at < begin(i + 1); ++at) {
         const auto& instruction = chunk_.code[at];
-        if (instruction.op == Op::For || instruction.op == Op::ForElement)
-          begun[begin(line + 1)] = static_cast<std::uint8_t>(begun[begin(line + 1)] + 1);
-      }
-    for (std::size_t line = 0; line < chunk_.lines.size(); ++line)
-      for (std::uint32_t at = begin(line); at < begin(line + 1); ++at) {
-        const auto& instruction = chunk_.code[at];
-        if (instruction.a >= last.size())
-          continue;
         if (instruction.op == Op::For)
-          last[instruction.a] = begun[begin(line + 1)] == 1 ? at : none;
+          last[instruction.a] = begun == 1 && instruction.d >= chunk_.first_constant()
+                                    ? KnownLoop{at, begin(i + 1)}
+                                    : KnownLoop{};
         else if (instruction.op == Op::Next)
-          loop_of_[at] = last[instruction.a];
+          loops_[at] = last[instruction.a];
       }
+    }
   }
 
-  /// A line that turns to the loop is done again from its beginning, so nothing may have happened.
-  bool stays_in_machine_code(std::size_t line) const {
+  /// A line that is left to the loop is done again from its beginning, so nothing may have
+  /// happened.
+  bool can_be_machine_code(std::size_t index) const {
     bool changed = false;
-    for (std::uint32_t at = begin(line); at < begin(line + 1); ++at) {
+    for (std::uint32_t at = begin(index); at < begin(index + 1); ++at) {
       const auto& instruction = chunk_.code[at];
       const auto& row = bytecode::info(instruction.op);
-      const auto leaving = leaves(instruction.op);
-      if (leaving == Leaves::Always || (leaving == Leaves::Rarely && changed) ||
-          (instruction.op == Op::Next && loop_of_[at] == none))
+      if (row.compiled == Compiled::Never || (row.compiled == Compiled::Mostly && changed) ||
+          (instruction.op == Op::Next && loops_[at].head == none))
         return false;
       changed = changed || instruction.op == Op::StoreElement ||
                 (row.operands[0] == 'w' && instruction.a < bytecode::first_temporary);
-      if (instruction.ends_line || row.ends == bytecode::Ends::Line || instruction.op == Op::Goto)
+      if (instruction.ends_line || instruction.op == Op::Goto)
         changed = false; // what stands behind is reached from a test
     }
     return true;
   }
 
-  /// The registers that are used most, by a guess: inside a loop eight times as often as outside.
+  /// Blocks end where the program may go elsewhere, and before a line that it may come to.
+  void form_blocks() {
+    std::vector<bool> entered(chunk_.code.size());
+    std::vector<bool> leads_away(chunk_.lines.size());
+    for (std::size_t i = 0; i < chunk_.lines.size(); ++i)
+      for (const auto& instruction : line(i)) {
+        const bool jumps = (instruction.ends_line && instruction.target != begin(i + 1)) ||
+                           instruction.op == Op::Target || instruction.op == Op::Gosub;
+        if (jumps && bytecode::info(instruction.op).has_target())
+          entered[instruction.target] = leads_away[i] = true;
+        if (instruction.op == Op::For || instruction.op == Op::Next || instruction.op == Op::Return)
+          leads_away[i] = true;
+      }
+    rest_.assign(chunk_.lines.size() + 1, 0);
+    for (std::size_t i = chunk_.lines.size(); i-- > 0;) {
+      const bool last =
+          leads_away[i] || entered[begin(i + 1)] || rest_[i + 1] == NativeCode::longest_block;
+      if (can_be_machine_code(i))
+        rest_[i] = last ? 1 : rest_[i + 1] + 1;
+    }
+  }
+
+  /// The registers that are used most, by a guess: in a loop eight times as often as around it.
   void choose_homes() {
     const std::size_t size = chunk_.code.size();
     std::vector<int> deeper(size + 1);
     for (std::uint32_t at = 0; at < size; ++at) {
       const auto& instruction = chunk_.code[at];
-      const std::uint32_t back = loop_of_[at] != none                          ? loop_of_[at]
-                                 : bytecode::info(instruction.op).has_target() ? instruction.target
-                                                                               : none;
+      const bool jumps = bytecode::info(instruction.op).has_target();
+      const auto back = jumps ? instruction.target : loops_[at].body;
       if (back <= at) {
         ++deeper[back];
         --deeper[at + 1];
       }
     }
-    std::vector<std::uint64_t> uses(chunk_.first_constant() + std::size_t{1});
-    is_written_.resize(uses.size());
+    std::vector<std::uint64_t> uses(chunk_.register_count() + std::size_t{1});
     int depth = 0;
     for (std::uint32_t at = 0; at < size; ++at) {
       depth += deeper[at];
       const auto& instruction = chunk_.code[at];
-      const auto operands = bytecode::info(instruction.op).operands;
+      const auto& row = bytecode::info(instruction.op);
       const std::uint64_t weight = std::uint64_t{1} << 3 * std::clamp(depth, 0, 6);
       const std::array values{instruction.a, instruction.b, instruction.c, instruction.d};
-      if (leaves(instruction.op) == Leaves::Always)
-        continue;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool is_register = operands[i] == 'r' || operands[i] == 'w' || operands[i] == 'p';
-        if (is_register && values[i] < chunk_.first_constant())
+      for (std::size_t i = 0; i < values.size() && row.compiled != Compiled::Never; ++i) {
+        if (row.operands[i] != '-')
           uses[values[i]] += weight;
-        if (operands[i] == 'p')
+        if (row.operands[i] == 'p')
           uses[values[i] + 1u] += weight;
-        if (operands[i] == 'w')
-          is_written_[values[i]] = true;
       }
       if (instruction.op == Op::LoadElement || instruction.op == Op::StoreElement)
         uses[bytecode::index_variable] += weight;
@@ -199,10 +198,9 @@ private:
   }
 
   const Chunk& chunk_;
-  std::vector<std::uint32_t> loop_of_;
-  std::vector<bool> is_native_;
+  std::vector<KnownLoop> loops_; ///< by instruction, of `next`
+  std::vector<int> rest_;        ///< by line
   std::vector<std::uint16_t> housed_;
-  std::vector<bool> is_written_;
 };
 
 /// Division by a constant: the high part of a product, as bytecode::divide_by() has it, with the
@@ -231,31 +229,32 @@ public:
     for (std::size_t i = 0; i < plan.housed().size(); ++i)
       homes_[plan.housed()[i]] = homes[i];
     exit_ = a_.newLabel();
-    exit_uncounted_ = a_.newLabel();
     table_ = a_.newLabel();
   }
 
-  /// Returns for each line, and for what stands behind them, how long `log` was before it.
-  std::vector<std::size_t> program(const asmjit::StringLogger& log) {
-    std::vector<std::size_t> logged;
+  /// Where a line begins: in the code, and in what has been logged.
+  struct Place {
+    std::size_t code = 0;
+    std::size_t log = 0;
+  };
+
+  /// Returns the places of the lines and of what stands behind them.
+  std::vector<Place> program(const asmjit::StringLogger& log) {
+    std::vector<Place> places;
     enter();
     for (std::size_t line = 0; line < chunk_.lines.size(); ++line) {
-      logged.push_back(log.dataSize());
+      places.push_back({a_.offset(), log.dataSize()});
       write_line(line);
     }
-    logged.push_back(log.dataSize());
-    const auto end = plan_.begin(chunk_.lines.size());
-    a_.bind(labels_[end]);
-    a_.mov(x86::eax, end);
+    places.push_back({a_.offset(), log.dataSize()});
+    a_.bind(labels_.back());
+    a_.mov(x86::eax, labels_.size() - 1);
     a_.jmp(exit_);
-    for (const auto& [label, begin] : leaves_) {
-      a_.bind(label);
-      a_.mov(x86::eax, begin);
-      a_.jmp(exit_uncounted_);
-    }
+    for (const auto& door : doors_)
+      write_door(door);
     leave();
     write_table();
-    return logged;
+    return places;
   }
 
   const Label& table() const { return table_; }
@@ -269,6 +268,8 @@ private:
     a_.sub(x86::rsp, stack_bytes);
     a_.mov(frames_at, x86::rsi);
     a_.mov(budget_at, x86::rdx);
+    a_.mov(x86::rax, x86::qword_ptr(x86::rsi, offsetof(Frames, loop)));
+    a_.mov(loop_at, x86::rax);
     a_.mov(r, x86::rdi);
     a_.mov(budget, x86::qword_ptr(x86::rdx));
     for (const auto index : plan_.housed())
@@ -277,13 +278,15 @@ private:
     a_.jmp(x86::rcx);
   }
 
+  /// Returns eax, the line that is next.
   void leave() {
-    a_.bind(exit_uncounted_); // the line has counted down, and does not run here
-    a_.add(budget, 1);
     a_.bind(exit_);
     for (const auto index : plan_.housed())
-      if (index < bytecode::first_temporary && plan_.is_written(index))
+      if (index < bytecode::first_temporary)
         a_.mov(memory(index), *homes_[index]);
+    a_.mov(x86::rcx, frames_at);
+    a_.mov(x86::rdx, loop_at);
+    a_.mov(x86::qword_ptr(x86::rcx, offsetof(Frames, loop)), x86::rdx);
     a_.mov(x86::rcx, budget_at);
     a_.mov(x86::qword_ptr(x86::rcx), budget);
     a_.add(x86::rsp, stack_bytes);
@@ -296,37 +299,64 @@ private:
   void write_table() {
     a_.align(asmjit::AlignMode::kData, 4);
     a_.bind(table_);
-    std::vector<bool> begins(chunk_.code.size());
-    for (std::size_t line = 0; line <= chunk_.lines.size(); ++line)
-      begins[plan_.begin(line)] = true;
-    for (std::size_t at = 0; at < chunk_.code.size(); ++at) {
-      if (begins[at])
-        a_.embedLabelDelta(labels_[at], table_, 4);
+    for (const auto& label : labels_)
+      if (a_.code()->isLabelBound(label))
+        a_.embedLabelDelta(label, table_, 4);
       else
         a_.embedUInt32(0);
-    }
   }
 
   // Lines.
 
+  /// How a line is left, and entered if it does not begin its block.
+  struct Door {
+    std::uint32_t begin = 0;
+    int rest = 0;
+    Label out;
+    std::optional<Label> in;
+  };
+
   void write_line(std::size_t line) {
     const auto begin = plan_.begin(line);
-    a_.bind(labels_[begin]);
-    if (!plan_.is_native(line)) {
+    const int rest = plan_.rest(line);
+    if (rest == 0) {
+      a_.bind(labels_[begin]);
       a_.mov(x86::eax, begin);
       a_.jmp(exit_);
       return;
     }
+    const auto from_above = next_;
     leave_ = a_.newLabel();
-    leaves_.push_back({leave_, begin});
     following_ = plan_.begin(line + 1);
-    a_.sub(budget, 1);
-    a_.jc(leave_);
+    next_ = plan_.begins_block(line + 1) ? labels_[following_] : a_.newLabel();
+    masked_.reset();
+    doors_.push_back({begin, rest, leave_, {}});
+    if (plan_.begins_block(line)) {
+      a_.bind(labels_[begin]);
+      a_.sub(budget, rest);
+      a_.jc(leave_);
+    } else {
+      doors_.back().in = from_above;
+      a_.bind(from_above);
+    }
     for (std::uint32_t at = begin; at < following_; ++at) {
       if (at != begin)
         a_.bind(labels_[at]);
       write(at, chunk_.code[at]);
     }
+  }
+
+  /// A line that is left has not been executed, and neither has the rest of its block.
+  void write_door(const Door& door) {
+    if (door.in) {
+      a_.bind(labels_[door.begin]);
+      a_.sub(budget, door.rest);
+      a_.jnc(*door.in);
+    }
+    a_.bind(door.out);
+    a_.add(budget, door.rest);
+    a_.mov(x86::eax, door.begin);
+    a_.jmp(exit_);
   }
 
   void write(std::uint32_t at, const Instruction& i) {
@@ -340,11 +370,10 @@ private:
     case Op::Divide: divide(i, x86::eax); break;
     case Op::Remainder: divide(i, x86::edx); break;
     case Op::DivideBy: divide_by(i); break;
-    case Op::RemainderBy: remainder_by(i); break;
+    case Op::RemainderBy: remainder_by(at, i); break;
     case Op::ShiftLeft: shift(x86::Inst::kIdShl, i); break;
     case Op::ShiftRight: shift(x86::Inst::kIdSar, i); break;
     case Op::Abs: absolute(i); break;
-    case Op::Sqrt: square_root(i); break;
     case Op::LoadElement: load_element(i); break;
     case Op::StoreElement: store_element(i); break;
     case Op::UnlessEqual: test(i, x86::CondCode::kNE); break;
@@ -364,34 +393,14 @@ private:
     case Op::Next: end_loop(at, i); break;
     case Op::Gosub: call(at, i); break;
     case Op::Return: come_back(); break;
-    case Op::Rnd:
-    case Op::ReadSystem:
-    case Op::WriteSystem:
-    case Op::ReadData:
-    case Op::OnGoto:
-    case Op::OnGosub:
-    case Op::Target:
-    case Op::ForElement:
-    case Op::NextElement:
-    case Op::End:
-    case Op::EndOfProgram:
-    case Op::Trap:
-    case Op::PrintText:
-    case Op::PrintNumber:
-    case Op::PrintCharacter:
-    case Op::PrintBlank:
-    case Op::PrintLine:
-    case Op::PrintOpen:
-    case Op::Delay:
-    case Op::Input:
-    case Op::InputTimed:
-    case Op::SetData:
-    case Op::RestartData:
-    case Op::Perform:
-    case Op::Random:
-    case Op::Tron:
-    case Op::Troff:
-    case Op::Reset: break; // of lines that are left to the loop
+    // clang-format off
+    case Op::Sqrt: case Op::Rnd: case Op::ReadSystem: case Op::WriteSystem: case Op::ReadData:
+    case Op::OnGoto: case Op::OnGosub: case Op::Target: case Op::ForElement: case Op::NextElement:
+    case Op::End: case Op::EndOfProgram: case Op::Trap: case Op::PrintText: case Op::PrintNumber:
+    case Op::PrintCharacter: case Op::PrintBlank: case Op::PrintLine: case Op::PrintOpen:
+    case Op::Delay: case Op::Input: case Op::InputTimed: case Op::SetData: case Op::RestartData:
+    case Op::Perform: case Op::Random: case Op::Tron: case Op::Troff: case Op::Reset: break;
+      // clang-format on
     }
   }
 
@@ -493,22 +502,22 @@ private:
     store(i.a, result);
   }
 
-  /// Leaves the quotient in eax and b in what is returned; rounds toward zero.
-  x86::Gp quotient(const Instruction& i) {
+  /// Computes the quotient, rounded toward zero, in `to`; returns where b is, which is not there.
+  x86::Gp quotient(const Instruction& i, const x86::Gp& to) {
     const auto x = loaded(i.b, x86::ecx);
     const auto divisor = static_cast<std::uint32_t>(constant(i.c));
     const auto [factor, bits] = factor_of(divisor);
-    a_.movsxd(x86::rax, x);
+    a_.movsxd(to.r64(), x);
     if (factor <= 0x7FFFFFFF) {
-      a_.imul(x86::rax, x86::rax, factor);
+      a_.imul(to.r64(), to.r64(), factor);
     } else {
       a_.mov(x86::edx, factor);
-      a_.imul(x86::rax, x86::rdx);
+      a_.imul(to.r64(), x86::rdx);
     }
-    a_.sar(x86::rax, bits);
+    a_.sar(to.r64(), bits);
     a_.mov(x86::edx, x);
     a_.shr(x86::edx, 31);
-    a_.add(x86::eax, x86::edx);
+    a_.add(to, x86::edx);
     return x;
   }
 
@@ -529,27 +538,65 @@ private:
     if (std::has_single_bit(divisor)) {
       toward_zero(i, std::countr_zero(divisor));
       a_.sar(x86::eax, std::countr_zero(divisor));
+      store(i.a, x86::eax);
     } else {
-      quotient(i);
+      const bool apart = homes_[i.a] && operand(i.a) != operand(i.b);
+      const x86::Gp to = apart ? *homes_[i.a] : x86::Gp(x86::eax);
+      quotient(i, to);
+      store(i.a, to);
     }
-    store(i.a, x86::eax);
   }
 
-  void remainder_by(const Instruction& i) {
+  void remainder_by(std::uint32_t at, const Instruction& i) {
     const auto divisor = static_cast<std::uint32_t>(constant(i.c));
-    if (std::has_single_bit(divisor)) {
+    const auto place = place_of(i.a);
+    if (!std::has_single_bit(divisor)) {
+      const auto x = quotient(i, x86::eax);
+      a_.imul(x86::edx, x86::eax, constant(i.c));
+      if (place != x)
+        a_.mov(place, x);
+      a_.sub(place, x86::edx);
+      store(i.a, place);
+    } else if (is_only_tested(at, i)) {
+      masked_ = i;
+    } else {
       const auto x = toward_zero(i, std::countr_zero(divisor));
       a_.and_(x86::eax, -constant(i.c));
       a_.mov(x86::edx, x);
       a_.sub(x86::edx, x86::eax);
       store(i.a, x86::edx);
-    } else {
-      const auto x = quotient(i);
-      a_.imul(x86::edx, x86::eax, constant(i.c));
-      a_.mov(x86::eax, x);
-      a_.sub(x86::eax, x86::edx);
-      store(i.a, x86::eax);
     }
+  }
+
+  /// How often an instruction names a register in operands of these kinds.
+  static int count(const Instruction& i, std::string_view kinds, std::uint16_t index) {
+    const std::array values{i.a, i.b, i.c, i.d};
+    int found = 0;
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      const char kind = bytecode::info(i.op).operands[n];
+      const bool second = kind == 'p' && values[n] + 1 == index;
+      found += kinds.find(kind) != kinds.npos && (values[n] == index || second) ? 1 : 0;
+    }
+    return found;
+  }
+
+  /// Whether the line only asks whether a remainder is 0: the low bits of `i.b` tell.
+  bool is_only_tested(std::uint32_t at, const Instruction& i) const {
+    bool tested = false;
+    while (++at < following_ && i.a >= bytecode::first_temporary && !is_constant(i.b)) {
+      const auto& next = chunk_.code[at];
+      const bool selects = next.op == Op::SelectEqual || next.op == Op::SelectNotEqual;
+      const bool tests = next.op == Op::UnlessEqual || next.op == Op::UnlessNotEqual ||
+                         next.op == Op::WhenEqual || next.op == Op::WhenNotEqual;
+      const auto [left, right] = selects ? std::pair(next.b, next.c) : std::pair(next.a, next.b);
+      const bool with_zero = left == i.a && is_constant(right) && constant(right) == 0;
+      const int reads = count(next, "rp", i.a);
+      if (!tested && (selects || tests) && with_zero && reads == 1)
+        tested = true;
+      else if (reads > 0 || (!tested && count(next, "w", i.b) > 0))
+        return false;
+    }
+    return tested;
   }
 
   void shift(InstId op, const Instruction& i) {
@@ -578,16 +625,6 @@ private:
     store(i.a, x86::eax);
   }
 
-  void square_root(const Instruction& i) {
-    load(x86::eax, i.b);
-    a_.test(x86::eax, x86::eax);
-    a_.js(leave_);
-    a_.cvtsi2sd(x86::xmm0, x86::eax);
-    a_.sqrtsd(x86::xmm0, x86::xmm0);
-    a_.cvttsd2si(x86::eax, x86::xmm0);
-    store(i.a, x86::eax);
-  }
-
   /// The element of Z that Y names; spoils eax.
   x86::Mem element() {
     const auto y = loaded(bytecode::index_variable, x86::eax);
@@ -609,6 +646,11 @@ private:
   // Decisions.
 
   void compare(std::uint16_t left, std::uint16_t right) {
+    if (masked_ && masked_->a == left) {
+      a_.emit(x86::Inst::kIdTest, operand(masked_->b), Imm(constant(masked_->c) - 1));
+      masked_.reset();
+      return;
+    }
     if (homes_[left] && is_constant(right) && constant(right) == 0) {
       a_.test(*homes_[left], *homes_[left]);
       return;
@@ -622,7 +664,7 @@ private:
 
   void test(const Instruction& i, x86::CondCode jumps) {
     compare(i.a, i.b);
-    a_.j(jumps, labels_[i.target]);
+    a_.j(jumps, way_to(i.target));
   }
 
   void select(std::uint32_t at, const Instruction& i, x86::CondCode takes_first) {
@@ -638,31 +680,29 @@ private:
 
   void jump(std::uint32_t at, std::uint32_t target) {
     if (target != at + 1)
-      a_.jmp(labels_[target]);
+      a_.jmp(way_to(target));
   }
 
-  /// Leaves the frames in rcx and the innermost loop in rax.
-  void load_loop() {
-    a_.mov(x86::rcx, frames_at);
-    a_.mov(x86::rax, x86::qword_ptr(x86::rcx, offsetof(Frames, loop)));
+  /// Within a block the following line has been counted.
+  const Label& way_to(std::uint32_t target) const {
+    return target == following_ ? next_ : labels_[target];
   }
 
   void begin_loop(std::uint32_t at, const Instruction& i) {
+    const auto again = a_.newLabel();
     load(x86::edx, i.d == i.a ? i.b : i.d); // the start is assigned first
     a_.test(x86::edx, x86::edx);
     a_.jz(leave_);
-    const auto again = a_.newLabel();
-    load_loop();
-    a_.cmp(x86::dword_ptr(x86::rax, offsetof(Loop, variable)), i.a);
+    a_.mov(x86::rcx, loop_at);
+    a_.cmp(x86::dword_ptr(x86::rcx, offsetof(Loop, variable)), i.a);
     a_.je(again);
-    a_.lea(x86::rdx,
-           x86::ptr(x86::rcx, offsetof(Frames, loops) + sizeof(Loop) * Frames::for_depth));
-    a_.cmp(x86::rax, x86::rdx);
+    a_.mov(x86::rdx, frames_at);
+    a_.add(x86::rdx, offsetof(Frames, loops) + sizeof(Loop) * Frames::for_depth);
+    a_.cmp(x86::rcx, x86::rdx);
     a_.je(leave_);
-    a_.add(x86::rax, sizeof(Loop));
-    a_.mov(x86::qword_ptr(x86::rcx, offsetof(Frames, loop)), x86::rax);
+    a_.add(x86::rcx, sizeof(Loop));
+    a_.mov(loop_at, x86::rcx);
     a_.bind(again);
-    a_.mov(x86::rcx, x86::rax);
     copy(i.a, i.b);
     a_.mov(x86::dword_ptr(x86::rcx, offsetof(Loop, body)), following_);
     set(x86::dword_ptr(x86::rcx, offsetof(Loop, end)), i.c);
@@ -673,48 +713,19 @@ private:
 
   /// The loop that runs is most probably that of the `for` above: its first line tells.
   void end_loop(std::uint32_t at, const Instruction& i) {
-    const auto& loop = chunk_.code[plan_.loop_of(at)];
-    const auto first = plan_.line_after(plan_.loop_of(at));
-    const auto& body = labels_[first];
-    load_loop();
-    a_.cmp(x86::dword_ptr(x86::rax, offsetof(Loop, body)), first);
+    const auto& [head, body] = plan_.loop_of(at);
+    const auto end = chunk_.code[head].c;
+    const std::int32_t step = constant(chunk_.code[head].d);
+    a_.mov(x86::rax, loop_at);
+    a_.cmp(x86::dword_ptr(x86::rax, offsetof(Loop, body)), body);
     a_.jne(leave_);
-    if (is_constant(loop.d)) {
-      const auto value = step(i.a, Imm(constant(loop.d)));
-      compare_with_end(value, loop);
-      a_.j(constant(loop.d) > 0 ? x86::CondCode::kLE : x86::CondCode::kGE, body);
-    } else {
-      const auto downward = a_.newLabel();
-      const auto done = a_.newLabel();
-      a_.mov(x86::edx, x86::dword_ptr(x86::rax, offsetof(Loop, step)));
-      const auto value = step(i.a, x86::edx);
-      a_.test(x86::edx, x86::edx);
-      a_.js(downward);
-      compare_with_end(value, loop);
-      a_.jle(body);
-      a_.jmp(done);
-      a_.bind(downward);
-      compare_with_end(value, loop);
-      a_.jge(body);
-      a_.bind(done);
-    }
-    a_.sub(x86::qword_ptr(x86::rcx, offsetof(Frames, loop)), sizeof(Loop));
+    a_.emit(x86::Inst::kIdAdd, operand(i.a), Imm(step));
+    if (!is_constant(end))
+      a_.mov(x86::edx, x86::dword_ptr(x86::rax, offsetof(Loop, end)));
+    a_.emit(x86::Inst::kIdCmp, operand(i.a), is_constant(end) ? operand(end) : Operand(x86::edx));
+    a_.j(step > 0 ? x86::CondCode::kLE : x86::CondCode::kGE, labels_[body]);
+    a_.sub(loop_at, sizeof(Loop));
     jump(at, following_);
-  }
-
-  Operand step(std::uint16_t variable, const Operand& by) {
-    const auto value = operand(variable);
-    a_.emit(x86::Inst::kIdAdd, value, by);
-    return value;
-  }
-
-  void compare_with_end(const Operand& value, const Instruction& loop) {
-    if (is_constant(loop.c)) {
-      a_.emit(x86::Inst::kIdCmp, value, Imm(constant(loop.c)));
-      return;
-    }
-    a_.mov(x86::edx, x86::dword_ptr(x86::rax, offsetof(Loop, end)));
-    a_.emit(x86::Inst::kIdCmp, value, x86::edx);
   }
 
   void call(std::uint32_t at, const Instruction& i) {
@@ -744,47 +755,41 @@ private:
   const Chunk& chunk_;
   const Plan& plan_;
   x86::Assembler& a_;
-  std::vector<std::optional<x86::Gp>> homes_;           ///< by register of the program
-  std::vector<Label> labels_;                           ///< by instruction
-  std::vector<std::pair<Label, std::uint32_t>> leaves_; ///< with the line that the loop shall do
+  std::vector<std::optional<x86::Gp>> homes_; ///< by register of the program
+  std::vector<Label> labels_;                 ///< by instruction
+  std::vector<Door> doors_;
   Label exit_;
-  Label exit_uncounted_;
   Label table_;
   // Of the line that is being written.
   Label leave_;
+  Label next_; ///< the way to the line behind it
   std::uint32_t following_ = 0;
-};
-
-/// Remembers that something could not be written, as Writer does not ask each time.
-class Failure final : public asmjit::ErrorHandler {
-public:
-  void handleError(asmjit::Error, const char*, asmjit::BaseEmitter*) override { happened = true; }
-  bool happened = false;
+  std::optional<Instruction> masked_; ///< a remainder of which only low bits are looked at
 };
 
 /// The finished code of a program, not yet in memory of its own.
-struct Draft {
+struct Draft final : asmjit::ErrorHandler {
   explicit Draft(const Chunk& chunk, asmjit::StringLogger* log = nullptr) {
     code.init(asmjit::Environment::host());
-    code.setErrorHandler(&failure);
-    if (log)
-      code.setLogger(log);
+    code.setErrorHandler(this);
+    code.setLogger(log);
     x86::Assembler assembler(&code);
     const Plan plan(chunk);
     Writer writer(chunk, plan, assembler);
-    const asmjit::StringLogger no_log;
-    logged = writer.program(log ? *log : no_log);
+    const asmjit::StringLogger nothing;
+    places = writer.program(log ? *log : nothing);
     code.flatten();
     code.resolveUnresolvedLinks();
-    table = static_cast<std::size_t>(code.labelOffset(writer.table()));
-    is_good = !failure.happened && !code.hasUnresolvedLinks();
+    failed = failed || code.hasUnresolvedLinks();
+    table = code.labelOffset(writer.table());
   }
 
-  Failure failure;
+  void handleError(asmjit::Error, const char*, asmjit::BaseEmitter*) override { failed = true; }
+
+  bool failed = false; ///< something could not be written; the writer does not ask each time
   asmjit::CodeHolder code;
-  std::vector<std::size_t> logged;
+  std::vector<Writer::Place> places;
   std::size_t table = 0;
-  bool is_good = false;
 };
 
 } // namespace
@@ -800,16 +805,19 @@ std::unique_ptr<NativeCode> NativeCode::compile(const Chunk& chunk) {
   Draft draft(chunk);
   std::unique_ptr<NativeCode> made(new NativeCode);
   made->size_ = draft.code.codeSize();
-  if (!draft.is_good ||
+  if (draft.failed ||
       memory::alloc(&made->memory_, made->size_, memory::MemoryFlags::kAccessRW) != 0)
     return nullptr;
   draft.code.relocateToBase(reinterpret_cast<std::uintptr_t>(made->memory_));
   draft.code.copyFlattenedData(made->memory_, made->size_);
-  if (draft.failure.happened ||
+  if (draft.failed ||
       memory::protect(made->memory_, made->size_, memory::MemoryFlags::kAccessRX) != 0)
     return nullptr;
-  made->table_ =
-      reinterpret_cast<const std::int32_t*>(static_cast<char*>(made->memory_) + draft.table);
+  char* const base = static_cast<char*>(made->memory_);
+  made->table_ = reinterpret_cast<const std::int32_t*>(base + draft.table);
+  for (std::size_t i = 0; i < chunk.lines.size(); ++i)
+    made->pieces_.push_back({chunk.lines[i].number, base + draft.places[i].code,
+                             draft.places[i + 1].code - draft.places[i].code});
   return made;
 }
 
@@ -818,35 +826,19 @@ NativeCode::~NativeCode() {
     asmjit::VirtMem::release(memory_, size_);
 }
 
-const char* NativeCode::address_of(std::uint32_t at) const {
-  return reinterpret_cast<const char*>(table_) + table_[at];
-}
-
 void NativeCode::run(Core& core) const {
   const auto enter = reinterpret_cast<Entry>(memory_);
-  const auto next =
-      enter(core.registers.data(), &core.frames, &core.budget, address_of(core.index_of(core.pc)));
-  core.pc = core.code.data() + next;
-}
-
-std::vector<NativeCode::Piece> NativeCode::pieces(const Chunk& chunk) const {
-  std::vector<Piece> found;
-  for (std::size_t i = 0; i < chunk.lines.size(); ++i) {
-    const char* const begin = address_of(chunk.lines[i].begin);
-    const char* const end =
-        address_of(i + 1 < chunk.lines.size() ? chunk.lines[i + 1].begin
-                                              : static_cast<std::uint32_t>(chunk.code.size() - 1));
-    found.push_back({chunk.lines[i].number, begin, static_cast<std::size_t>(end - begin)});
-  }
-  return found;
+  const char* const line = reinterpret_cast<const char*>(table_) + table_[core.index_of(core.pc)];
+  core.pc = core.code.data() + enter(core.registers.data(), &core.frames, &core.budget, line);
 }
 
 std::string native_listing(const Chunk& chunk) {
   asmjit::StringLogger log;
   const Draft draft(chunk, &log);
   std::vector<std::string> behind;
-  for (std::size_t i = 0; i + 1 < draft.logged.size(); ++i)
-    behind.emplace_back(log.data() + draft.logged[i], draft.logged[i + 1] - draft.logged[i]);
+  for (std::size_t i = 0; i < chunk.lines.size(); ++i)
+    behind.emplace_back(log.data() + draft.places[i].log,
+                        draft.places[i + 1].log - draft.places[i].log);
   return bytecode::listing(chunk, behind);
 }
 
@@ -860,9 +852,6 @@ std::unique_ptr<NativeCode> NativeCode::compile(const Chunk&) {
 }
 NativeCode::~NativeCode() = default;
 void NativeCode::run(Core&) const {}
-std::vector<NativeCode::Piece> NativeCode::pieces(const Chunk&) const {
-  return {};
-}
 std::string native_listing(const Chunk& chunk) {
   return bytecode::listing(chunk);
 }

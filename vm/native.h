@@ -38,20 +38,23 @@ public:
   NativeCode& operator=(const NativeCode&) = delete;
   ~NativeCode();
 
-  /// Executes lines from core.pc on, until the budget is used up or a line is not for it; core.pc
-  /// is then the line that is next. Everything else in `core` is as the loop would have left it.
+  /// Executes lines from core.pc on, until a line is not for it, or the budget may not be enough
+  /// for the lines that are counted together; core.pc is then the line that is next. Everything
+  /// else in `core` is as the loop would have left it.
   void run(Core& core) const;
 
-  /// Of the chunk that it was compiled from, in the order of its lines.
-  std::vector<Piece> pieces(const bytecode::Chunk& chunk) const;
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+  /// Lines that are counted together. Where the budget is smaller, the loop does the rest.
+  static constexpr int longest_block = 8;
 
 private:
   NativeCode() = default;
-  const char* address_of(std::uint32_t at) const;
 
   void* memory_ = nullptr;
   std::size_t size_ = 0;
   const std::int32_t* table_ = nullptr; ///< by first instruction of a line: its place behind here
+  std::vector<Piece> pieces_;
 };
 
 /// Machine code of several programs, so that balls which run the same one share it. Balls may ask
