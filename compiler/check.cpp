@@ -12,13 +12,6 @@
 namespace orb::compiler {
 namespace {
 
-/// One finding for the whole file, shown at its first byte.
-Checked refuse(const Rule& rule, std::string message, std::string help = {}) {
-  Checked checked;
-  checked.diagnostics.push_back(finding(rule, {0, 0}, std::move(message), std::move(help)));
-  return checked;
-}
-
 /// A NUL that is not at the end, or more control characters than any text has.
 bool is_binary(std::string_view text) {
   const auto last = text.find_last_not_of('\0');
@@ -42,23 +35,31 @@ bool holds_program(const Program& program) {
 
 } // namespace
 
-Checked check(std::string_view text, const Target& target) {
+std::optional<Diagnostic> refuse_text(std::string_view text) {
   const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
   if (text.size() > most)
-    return refuse(rules::SourceTooLarge,
-                  fmt::format("the file has {} bytes; the limit is {}", text.size(), most),
-                  fmt::format("no area of the robot takes more than {}",
-                              spec::value_of(spec::Limit::FlashBytes)));
+    return finding(rules::SourceTooLarge, {0, 0},
+                   fmt::format("the file has {} bytes; the limit is {}", text.size(), most),
+                   fmt::format("no area of the robot takes more than {}",
+                               spec::value_of(spec::Limit::FlashBytes)));
   if (is_binary(text))
-    return refuse(rules::BinaryFile, "the file is binary, not an orbBasic program",
-                  "programs are plain text");
+    return finding(rules::BinaryFile, {0, 0}, "the file is binary, not an orbBasic program",
+                   "programs are plain text");
+  return std::nullopt;
+}
+
+Checked check(std::string_view text, const Target& target) {
   Checked checked;
+  if (auto refused = refuse_text(text)) {
+    checked.diagnostics.push_back(std::move(*refused));
+    return checked;
+  }
   checked.program = parse(text);
   if (!holds_program(checked.program)) {
-    auto refused = refuse(rules::EmptyProgram, "the file holds no program line",
-                          "a line is a number, a space and a statement: `10 print \"hello\"`");
-    refused.program = std::move(checked.program);
-    return refused;
+    checked.diagnostics.push_back(
+        finding(rules::EmptyProgram, {0, 0}, "the file holds no program line",
+                "a line is a number, a space and a statement: `10 print \"hello\"`"));
+    return checked;
   }
   checked.diagnostics = lint(checked.program, target);
   checked.image_bytes = image_size(checked.program);

@@ -24,6 +24,10 @@ struct Checked {
 /// one finding), then every line of it. `text` must outlive the result.
 Checked check(std::string_view text, const Target& target);
 
+/// What speaks against a whole text: it is binary, or larger than any program. Nothing for a text
+/// that can be looked into.
+std::optional<Diagnostic> refuse_text(std::string_view text);
+
 /// Makes every safe fix, again and again until none is left: fixing the result changes nothing
 /// more.
 Fixed fix(std::string text, const Target& target);
