@@ -1,0 +1,23 @@
+#pragma once
+
+#include "structured/program.h"
+
+#include <optional>
+#include <string_view>
+
+namespace orb::structured {
+
+/// What `end WORD` ends, where WORD is one that can be ended.
+std::optional<Kind> end_of_block(std::string_view word);
+
+/// Links the statements of a file that open, part and close the same block, and reports those that
+/// do not fit.
+void link_blocks(Program& program, const File& file);
+
+/// The statement's block words: whether it opens a block, parts or closes one.
+bool opens_block(Kind kind);
+bool parts_block(Kind kind);
+bool closes_block(Kind kind);
+bool is_loop(Kind kind);
+
+} // namespace orb::structured

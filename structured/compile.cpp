@@ -1,0 +1,223 @@
+#include "structured/compile.h"
+
+#include "compiler/image.h"
+#include "compiler/parse.h"
+#include "spec/limits.h"
+#include "structured/check.h"
+#include "structured/choices.h"
+#include "structured/lower.h"
+#include "structured/optimise.h"
+#include "structured/plan.h"
+#include "structured/read.h"
+#include "structured/relay.h"
+#include "structured/rules.h"
+#include "structured/words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::structured {
+namespace {
+
+/// The line that each statement begins on, counted through all files.
+std::vector<std::uint32_t> source_lines_of(const Program& program) {
+  std::vector<std::uint32_t> lines(program.statements.size(), 0);
+  std::uint32_t line = 0;
+  std::uint32_t at = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (; at < program.statements[i].span.begin; ++at)
+      line += is_line_end(program.text[at]) ? 1 : 0;
+    lines[i] = line;
+  }
+  return lines;
+}
+
+/// The letter that a variable would like: its own where it is one, else its first.
+std::vector<std::uint8_t> wishes_of(const Program& program, const Names& names, const Code& code) {
+  std::vector<std::uint8_t> wishes(code.variables.size(), no_letter);
+  for (std::size_t v = 1; v < code.variables.size(); ++v) {
+    const auto symbol = code.variables[v].symbol;
+    if (symbol == none)
+      continue;
+    const char first = lower(program.name(names.symbols[symbol].name).front());
+    if (is_letter(first) && first < 'z')
+      wishes[v] = static_cast<std::uint8_t>(first - 'a');
+  }
+  return wishes;
+}
+
+void report_crowd(Compiled& compiled) {
+  const auto& letters = compiled.letters;
+  auto& program = compiled.program;
+  std::string names;
+  std::size_t listed = 0;
+  for (const auto variable : letters.crowd) {
+    const auto symbol = compiled.code.variables[variable].symbol;
+    if (symbol == none || listed == 30)
+      continue;
+    names += fmt::format("{}`{}`", listed == 0 ? "" : ", ",
+                         program.name(compiled.names.symbols[symbol].name));
+    ++listed;
+  }
+  const auto& statement = program.statements[compiled.code.lines[letters.crowded_line].origin];
+  program.diagnostics.push_back(
+      finding(rules::TooManyVariables, statement.span,
+              fmt::format("{} variables are in use at once here; the robot has {} letters for them",
+                          letters.crowd.size(), letters.available),
+              fmt::format("in use: {}", names)));
+}
+
+bool report_chain(Compiled& compiled, const Plan& plan) {
+  if (plan.chain.empty())
+    return false;
+  auto& program = compiled.program;
+  std::string chain;
+  for (const auto routine : plan.chain)
+    chain += fmt::format(
+        "{}`{}`", chain.empty() ? "" : " calls ",
+        program.name(compiled.names.symbols[compiled.names.routines[routine].symbol].name));
+  const auto& last = compiled.names.symbols[compiled.names.routines[plan.chain.back()].symbol];
+  program.diagnostics.push_back(finding(
+      rules::CallDepth, last.span,
+      fmt::format("calls go more than {} deep: {}", spec::value_of(spec::Limit::GosubDepth), chain),
+      "put the lines of one of them into its caller"));
+  return true;
+}
+
+bool has_program(const Program& program) {
+  const auto& main = program.files.front();
+  for (auto i = main.statements_begin; i < main.statements_end; ++i) {
+    const auto& statement = program.statements[i];
+    if (statement.kind == Kind::Sub || statement.kind == Kind::Function) {
+      if (statement.next != none)
+        i = statement.next;
+    } else if (statement.kind != Kind::Const && statement.kind != Kind::Array &&
+               statement.kind != Kind::Use && statement.kind != Kind::Include) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Comments for people: what each part of the program is, and which line of the source.
+class ReadableComments final : public RobotComments {
+public:
+  explicit ReadableComments(const Compiled& compiled) : compiled_(compiled) {}
+
+  std::string before(const CodeLine& line) override {
+    std::string text;
+    const auto& program = compiled_.program;
+    if (line.routine != routine_) {
+      routine_ = line.routine;
+      const auto& symbol = compiled_.names.symbols[compiled_.names.routines[routine_].symbol];
+      text += fmt::format("' {} {}\n", symbol.kind == SymbolKind::Sub ? "sub" : "function",
+                          program.name(symbol.name));
+    }
+    if (line.origin == origin_)
+      return text;
+    origin_ = line.origin;
+    const auto span = program.statements[line.origin].span;
+    const auto whole = std::string_view(program.text);
+    auto begin = span.begin;
+    while (begin > 0 && !is_line_end(whole[begin - 1]))
+      --begin;
+    auto end = begin;
+    while (end < whole.size() && !is_line_end(whole[end]))
+      ++end;
+    auto source = whole.substr(begin, end - begin);
+    while (!source.empty() && is_blank(source.front()))
+      source.remove_prefix(1);
+    return text + fmt::format("'   {}\n", source);
+  }
+
+private:
+  const Compiled& compiled_;
+  std::uint32_t routine_ = 0;
+  std::uint32_t origin_ = none;
+};
+
+} // namespace
+
+bool Compiled::has_errors() const {
+  return std::any_of(program.diagnostics.begin(), program.diagnostics.end(),
+                     [](const Diagnostic& d) { return d.severity == Severity::Error; });
+}
+
+Compiled compile(std::string name, std::string path, std::string_view text,
+                 const compiler::Target& target, Files& files) {
+  Compiled compiled;
+  compiled.program = read(std::move(name), std::move(path), text, files);
+  compiled.names = resolve(compiled.program);
+  check(compiled.program, compiled.names, target);
+  compiled.runs = has_program(compiled.program);
+  if (compiled.has_errors() || !compiled.runs)
+    return compiled;
+  const auto decided = plan(compiled.program, compiled.names);
+  if (report_chain(compiled, decided))
+    return compiled;
+  compiled.code = lower(compiled.program, compiled.names, decided);
+  optimise(compiled.code);
+  if (compiled.code.too_large) {
+    report_too_large(compiled, target);
+    return compiled;
+  }
+  compiled.letters =
+      choose_letters(compiled.code, wishes_of(compiled.program, compiled.names, compiled.code));
+  if (compiled.letters.crowded_line != none) {
+    report_crowd(compiled);
+    return compiled;
+  }
+  write_choices(compiled.code, compiled.letters, source_lines_of(compiled.program));
+  compiled.robot = print(compiled.program, compiled.code, compiled.letters, {});
+  relay_findings(compiled, target);
+  return compiled;
+}
+
+std::string readable(const Compiled& compiled) {
+  if (compiled.robot.lines.empty())
+    return {};
+  ReadableComments comments(compiled);
+  std::string variables;
+  for (std::size_t v = 1; v < compiled.code.variables.size(); ++v) {
+    const auto symbol = compiled.code.variables[v].symbol;
+    if (symbol == none || compiled.letters.of[v] == no_letter)
+      continue;
+    const auto name = compiled.program.name(compiled.names.symbols[symbol].name);
+    variables += fmt::format("' {}: {}\n", static_cast<char>('A' + compiled.letters.of[v]), name);
+  }
+  constexpr Numbering by_tens{10, 10};
+  return variables +
+         print(compiled.program, compiled.code, compiled.letters, by_tens, &comments).text;
+}
+
+Place place_of(const Program& program, Span span) {
+  const auto& file = program.file_at(span.begin);
+  const auto index = static_cast<std::uint32_t>(&file - program.files.data());
+  const auto size = file.end - file.begin;
+  const auto begin = std::min(span.begin - file.begin, size);
+  return {index, {begin, std::max(begin, std::min(span.end - file.begin, size))}};
+}
+
+std::vector<std::vector<Diagnostic>> findings_by_file(const Program& program) {
+  std::vector<std::vector<Diagnostic>> files(program.files.size());
+  for (const auto& found : program.diagnostics) {
+    auto diagnostic = found;
+    const auto place = place_of(program, found.span);
+    const auto shift = program.files[place.file].begin;
+    diagnostic.span = place.span;
+    std::erase_if(diagnostic.notes, [&](Note& note) {
+      const auto there = place_of(program, note.span);
+      note.span = there.span;
+      return there.file != place.file; // a note is shown in the file of its finding
+    });
+    if (diagnostic.fix)
+      for (auto& edit : diagnostic.fix->edits)
+        edit.span = {edit.span.begin - shift, edit.span.end - shift};
+    files[place.file].push_back(std::move(diagnostic));
+  }
+  for (auto& findings : files)
+    sort_by_place(findings);
+  return files;
+}
+
+} // namespace orb::structured

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace orb::structured {
+
+/// Where included sources and macro files come from: the disk, an editor's buffers, a web page.
+class Files {
+public:
+  virtual ~Files() = default;
+
+  /// The text of `path`, or nothing where it cannot be read.
+  virtual std::optional<std::string> read(const std::string& path) = 0;
+};
+
+/// No file at all.
+class NoFiles final : public Files {
+public:
+  std::optional<std::string> read(const std::string&) override { return std::nullopt; }
+};
+
+/// `path` as it is written in the file `from`: its folder, `/`, the path. Absolute paths stay.
+std::string resolve_path(std::string_view from, std::string_view path);
+
+} // namespace orb::structured

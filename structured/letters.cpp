@@ -1,0 +1,261 @@
+#include "structured/letters.h"
+
+#include "spec/limits.h"
+#include "structured/flow.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace orb::structured {
+namespace {
+
+constexpr std::uint8_t index_letter = 24; // Y
+static_assert(index_letter + 1 == spec::value_of(spec::Limit::DirectVariables));
+
+/// Which variables must not share a letter.
+class Interference {
+public:
+  explicit Interference(const Code& code)
+      : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)),
+        edges(code.variables.size(), code.variables.size()), used(code.variables.size(), false) {
+    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
+      read_block(b);
+  }
+
+private:
+  const Code& code_;
+  Flow flow_;
+  Liveness liveness_;
+
+public:
+  VariableSets edges;
+  std::vector<bool> used;
+  std::uint32_t crowded_line = none;
+  std::vector<std::uint64_t> crowd;
+  std::size_t pressure = 0;
+
+private:
+  void read_block(std::uint32_t b) {
+    const auto out = liveness_.out[b];
+    std::vector<std::uint64_t> live(out.begin(), out.end());
+    for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
+      const auto& line = code_.lines[i];
+      each_line_read(code_, line, [&](std::uint32_t v) { used[v] = true; });
+      each_write(code_, line, [&](std::uint32_t v) {
+        used[v] = true;
+        add_edges(line, v, live);
+        add_edges(line, v, liveness_.across[line.routine]);
+      });
+      // The end of a loop is computed when its variable has been set.
+      if (line.kind == LineKind::For)
+        each_read(code_, line.end, [&](std::uint32_t v) { add_edge(line.variable, v); });
+      step_back(code_, flow_, liveness_, line, live);
+      measure(i, live);
+    }
+  }
+
+  void measure(std::uint32_t line, const std::vector<std::uint64_t>& live) {
+    auto all = live;
+    unite(all, liveness_.across[code_.lines[line].routine]);
+    std::size_t count = 0;
+    for (const auto word : all)
+      count += static_cast<std::size_t>(std::popcount(word));
+    if (count <= pressure)
+      return;
+    pressure = count;
+    crowded_line = line;
+    crowd = all;
+  }
+
+  void add_edges(const CodeLine& line, std::uint32_t variable,
+                 std::span<const std::uint64_t> live) {
+    const auto& term = line.kind == LineKind::Let ? code_.terms[line.term] : Term{};
+    const auto source = term.kind == TermKind::Variable ? term.left : none;
+    for (std::size_t word = 0; word < live.size(); ++word)
+      for (auto bits = live[word]; bits != 0; bits &= bits - 1) {
+        const auto other = static_cast<std::uint32_t>(word * 64) +
+                           static_cast<std::uint32_t>(std::countr_zero(bits));
+        if (other != source)
+          add_edge(variable, other);
+      }
+  }
+
+  void add_edge(std::uint32_t a, std::uint32_t b) {
+    if (a == b)
+      return;
+    insert(edges[a], b);
+    insert(edges[b], a);
+  }
+};
+
+/// Classes of variables that share a letter because they are copies of each other.
+class Classes {
+public:
+  explicit Classes(VariableSets edges, std::size_t count)
+      : edges_(std::move(edges)), parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    members_.resize(count);
+    for (std::uint32_t v = 0; v < count; ++v)
+      members_[v].push_back(v);
+  }
+
+  std::uint32_t find(std::uint32_t v) const {
+    while (parent_[v] != v)
+      v = parent_[v];
+    return v;
+  }
+
+  bool meet(std::uint32_t a, std::uint32_t b) const {
+    for (const auto member : members_[b])
+      if (contains(edges_[a], member))
+        return true;
+    return false;
+  }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b || meet(a, b))
+      return;
+    if (b == index_variable)
+      std::swap(a, b);
+    parent_[b] = a;
+    unite(edges_[a], edges_[b]);
+    members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
+  }
+
+  const std::vector<std::uint32_t>& members(std::uint32_t root) const { return members_[root]; }
+  const VariableSets& edges() const { return edges_; }
+
+private:
+  VariableSets edges_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::vector<std::uint32_t>> members_;
+};
+
+/// Colours the classes; false where the letters do not suffice.
+class Colouring {
+public:
+  Colouring(const Classes& classes, const std::vector<bool>& used,
+            const std::vector<std::uint8_t>& wishes, std::uint32_t letters, bool index_used)
+      : classes_(classes), wishes_(wishes), letters_(letters) {
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      bool any = false;
+      if (classes.find(v) == v)
+        for (const auto member : classes.members(v))
+          any = any || used[member];
+      if (any && v != index_variable)
+        roots_.push_back(v);
+    }
+    letter_.assign(used.size(), no_letter);
+    if (index_used)
+      letter_[index_variable] = index_letter;
+  }
+
+  bool run() {
+    for (const auto root : order())
+      if (!colour(root))
+        return false;
+    return true;
+  }
+
+  std::uint8_t letter(std::uint32_t v) const { return letter_[classes_.find(v)]; }
+
+private:
+  bool meet(std::uint32_t a, std::uint32_t b) const {
+    return classes_.meet(a, b) || classes_.meet(b, a);
+  }
+
+  /// Those with few neighbours last: they find a letter whatever the others have.
+  std::vector<std::uint32_t> order() const {
+    const auto count = roots_.size();
+    std::vector<std::vector<std::uint32_t>> neighbours(count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (std::uint32_t j = i + 1; j < count; ++j)
+        if (meet(roots_[i], roots_[j])) {
+          neighbours[i].push_back(j);
+          neighbours[j].push_back(i);
+        }
+    std::vector<std::size_t> degree(count);
+    for (std::size_t i = 0; i < count; ++i)
+      degree[i] = neighbours[i].size();
+    std::vector<bool> gone(count, false);
+    std::vector<std::uint32_t> ordered;
+    for (std::size_t n = 0; n < count; ++n) {
+      std::size_t least = count;
+      for (std::size_t i = 0; i < count; ++i)
+        if (!gone[i] && (least == count || degree[i] < degree[least]))
+          least = i;
+      gone[least] = true;
+      ordered.push_back(roots_[least]);
+      for (const auto neighbour : neighbours[least])
+        --degree[neighbour];
+    }
+    std::reverse(ordered.begin(), ordered.end());
+    return ordered;
+  }
+
+  bool colour(std::uint32_t root) {
+    std::uint32_t taken = 0;
+    for (const auto other : roots_)
+      if (letter_[other] != no_letter && meet(root, other))
+        taken |= std::uint32_t{1} << letter_[other];
+    for (const auto member : classes_.members(root)) {
+      const auto wish = wishes_[member];
+      if (wish != no_letter && wish < letters_ && (taken >> wish & 1) == 0) {
+        letter_[root] = wish;
+        return true;
+      }
+    }
+    for (std::uint8_t letter = 0; letter < letters_; ++letter)
+      if ((taken >> letter & 1) == 0) {
+        letter_[root] = letter;
+        return true;
+      }
+    return false;
+  }
+
+  const Classes& classes_;
+  const std::vector<std::uint8_t>& wishes_;
+  std::uint32_t letters_;
+  std::vector<std::uint32_t> roots_;
+  std::vector<std::uint8_t> letter_;
+};
+
+void join_copies(const Code& code, Classes& classes) {
+  for (const auto& line : code.lines)
+    if ((line.kind == LineKind::Let || line.kind == LineKind::For) &&
+        code.terms[line.term].kind == TermKind::Variable)
+      classes.join(line.variable, code.terms[line.term].left);
+}
+
+} // namespace
+
+Letters choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes) {
+  const Interference interference(code);
+  const auto count = code.variables.size();
+  const bool index_used = interference.used[index_variable];
+  Letters letters;
+  letters.of.assign(count, no_letter);
+  letters.available = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DirectVariables)) -
+                      (index_used ? 1 : 0);
+  Classes joined(interference.edges, count);
+  join_copies(code, joined);
+  const Classes apart(interference.edges, count);
+  for (const Classes* classes : {static_cast<const Classes*>(&joined), &apart}) {
+    Colouring colouring(*classes, interference.used, wishes, letters.available, index_used);
+    if (!colouring.run())
+      continue;
+    for (std::uint32_t v = 0; v < count; ++v)
+      letters.of[v] = colouring.letter(v);
+    return letters;
+  }
+  letters.crowded_line = interference.crowded_line;
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (contains(interference.crowd, v))
+      letters.crowd.push_back(v);
+  return letters;
+}
+
+} // namespace orb::structured

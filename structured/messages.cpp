@@ -1,0 +1,111 @@
+#include "structured/messages.h"
+
+#include "structured/rules.h"
+
+#include <fmt/format.h>
+
+namespace orb::structured {
+namespace {
+
+std::string shown(const Program& program, Span found) {
+  if (found.size() == 0)
+    return "the line ends here";
+  return fmt::format("found `{}`", program.text_of(found));
+}
+
+Diagnostic malformed(const Program& program, Span found, std::string_view what,
+                     std::string help = {}) {
+  return finding(rules::MalformedLine, found, fmt::format("{}, {}", what, shown(program, found)),
+                 std::move(help));
+}
+
+} // namespace
+
+Diagnostic explain(const Program& program, Reason reason, Span found) {
+  const auto text = std::string(program.text_of(found));
+  switch (reason) {
+  case Reason::Trailing:
+    if (text == ":")
+      return finding(rules::ForeignWord, found, "`:` parts no statements",
+                     "write one statement on a line");
+    return malformed(program, found, "the statement is complete");
+  case Reason::ExpectedStatement: return malformed(program, found, "a statement is missing");
+  case Reason::ExpectedExpression: return malformed(program, found, "a value is missing");
+  case Reason::ExpectedPlace:
+    return malformed(program, found, "a variable or an element belongs here");
+  case Reason::ExpectedName: return malformed(program, found, "a name belongs here");
+  case Reason::ExpectedEquals: return malformed(program, found, "`=` is missing");
+  case Reason::ExpectedThen:
+    return malformed(
+        program, found, "`then` is missing",
+        "write `if … then` and the statement, or `if … then` alone and `end if` below");
+  case Reason::ExpectedTo: return malformed(program, found, "`to` is missing");
+  case Reason::ExpectedComma: return malformed(program, found, "more values are missing");
+  case Reason::ExpectedBracket: return malformed(program, found, "a bracket is missing");
+  case Reason::ExpectedParenthesis: return malformed(program, found, "a parenthesis is missing");
+  case Reason::ExpectedOperand:
+    return malformed(program, found, "a function takes its value in parentheses",
+                     "write `abs(e)`, `sqrt(e)`, `rnd(e)`, `min(a, b)`, `max(a, b)`");
+  case Reason::ExpectedQuote:
+    return finding(rules::MalformedLine, found, "the text has no closing `\"`");
+  case Reason::ExpectedFile:
+    return malformed(program, found, "the name of a file in quotes belongs here");
+  case Reason::NotAStatement:
+    return finding(rules::MalformedLine, found, fmt::format("`{}` begins no statement", text));
+  case Reason::NakedArguments:
+    return malformed(program, found, "the arguments of a call stand in parentheses");
+  case Reason::TooManyArguments:
+    return finding(rules::ArgumentCount, found, "the statement takes no more values");
+  case Reason::ReadOnly:
+    return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text),
+                   "the three timers and `ctrl` can be set");
+  case Reason::Reserved:
+    return finding(rules::ReservedName, found, fmt::format("`{}` is a word of the language", text),
+                   "choose another name");
+  case Reason::NameTooLong:
+    return finding(rules::ReservedName, found,
+                   fmt::format("the name has {} characters; 31 are the most", found.size()));
+  case Reason::BadNumber:
+    return finding(rules::BadNumber, found, fmt::format("`{}` is no number", text),
+                   "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");
+  case Reason::FractionOfMillisecond:
+    return finding(rules::BadNumber, found,
+                   fmt::format("`{}` is no whole number of milliseconds", text));
+  case Reason::TooDeep:
+    return finding(rules::NestingDepth, found, "more than 64 brackets are open here",
+                   "compute a part on a line of its own");
+  case Reason::NestedIf:
+    return finding(rules::MisplacedStatement, found, "an `if` stands inside an `if` of one line",
+                   "write `if … then`, the inner `if` below it, and `end if`");
+  case Reason::BlockInOneLine:
+    return finding(rules::MisplacedStatement, found,
+                   fmt::format("`{}` cannot stand in an `if` of one line", text),
+                   "write `if … then`, the statement below it, and `end if`");
+  case Reason::LineNumber:
+    return finding(rules::NumberedLine, found, "structured programs have no line numbers",
+                   "`orb lift` turns a numbered "
+                   "program into a structured one");
+  case Reason::Gosub:
+    return finding(rules::ForeignWord, found, "there is no `gosub`",
+                   "write `sub name` … `end sub` and call it by its name");
+  case Reason::On:
+    return finding(rules::ForeignWord, found, "there is no `on`",
+                   "write `select e`, `case 1` … `end select`");
+  }
+  return finding(rules::MalformedLine, found, "the line does not parse");
+}
+
+Diagnostic habit(const Program& program, Span found, std::string_view instead,
+                 std::string_view help) {
+  auto d = finding(rules::ForeignWord, found,
+                   fmt::format("`{}` is of another language", program.text_of(found)),
+                   std::string(help));
+  if (!instead.empty()) {
+    const auto written = instead == " " ? std::string_view() : instead;
+    d.help = written.empty() ? "leave it out" : fmt::format("write `{}`", written);
+    d.fix = Fix{d.help, {Edit{found, std::string(written)}}, Safety::Safe};
+  }
+  return d;
+}
+
+} // namespace orb::structured

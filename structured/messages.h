@@ -1,0 +1,50 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "structured/program.h"
+
+#include <string_view>
+
+namespace orb::structured {
+
+/// Why a line does not parse: at most one for each line.
+enum class Reason : std::uint8_t {
+  Trailing, ///< something stands behind a complete statement
+  ExpectedStatement,
+  ExpectedExpression,
+  ExpectedPlace,
+  ExpectedName,
+  ExpectedEquals,
+  ExpectedThen,
+  ExpectedTo,
+  ExpectedComma,
+  ExpectedBracket, ///< `[` or `]`
+  ExpectedParenthesis,
+  ExpectedOperand, ///< `abs` without parentheses
+  ExpectedQuote,
+  ExpectedFile,
+  NotAStatement,  ///< a statement begins with a word that begins none
+  NakedArguments, ///< `leg 3`
+  TooManyArguments,
+  ReadOnly,
+  Reserved,
+  NameTooLong,
+  BadNumber,
+  FractionOfMillisecond,
+  TooDeep,
+  NestedIf,
+  BlockInOneLine,
+  LineNumber,
+  Gosub,
+  On,
+};
+
+/// Puts into words why a line does not parse; `found` is the token at which that shows.
+Diagnostic explain(const Program& program, Reason reason, Span found);
+
+/// A habit of another language that was taken all the same, with the word to write instead; an
+/// empty `instead` has no fix.
+Diagnostic habit(const Program& program, Span found, std::string_view instead,
+                 std::string_view help = {});
+
+} // namespace orb::structured

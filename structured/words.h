@@ -1,0 +1,105 @@
+#pragma once
+
+// The words of structured orbBasic: those of the robot's tables and its own. Case does not count.
+
+#include "spec/basic.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace orb::structured {
+
+/// Words that the robot's tables do not have, in their documented spelling.
+#define ORB_KEYWORDS(X)                                                                            \
+  X(Const, "const")                                                                                \
+  X(Local, "local")                                                                                \
+  X(Array, "array")                                                                                \
+  X(Use, "use")                                                                                    \
+  X(Include, "include")                                                                            \
+  X(Then, "then")                                                                                  \
+  X(ElseIf, "elseif")                                                                              \
+  X(Else, "else")                                                                                  \
+  X(While, "while")                                                                                \
+  X(Repeat, "repeat")                                                                              \
+  X(Until, "until")                                                                                \
+  X(Loop, "loop")                                                                                  \
+  X(To, "to")                                                                                      \
+  X(Step, "step")                                                                                  \
+  X(Exit, "exit") X(Continue, "continue") X(Select, "select") X(Case, "case") X(Sub, "sub")        \
+      X(Function, "function") X(And, "and") X(Or, "or") X(Not, "not") X(Min, "min") X(Max, "max")
+
+enum class Keyword : std::uint8_t {
+#define X(name, text) name,
+  ORB_KEYWORDS(X)
+#undef X
+};
+
+inline constexpr auto keywords = std::to_array<std::string_view>({
+#define X(name, text) text,
+    ORB_KEYWORDS(X)
+#undef X
+});
+
+enum class WordKind : std::uint8_t {
+  Name,      ///< no word of the language
+  Keyword,   ///< `index` is a Keyword
+  Statement, ///< `index` is a spec::Statement
+  Function,  ///< `index` is a spec::Function
+  Variable,  ///< `index` is a spec::Variable
+};
+
+struct Word {
+  WordKind kind = WordKind::Name;
+  std::uint8_t index = 0;
+
+  constexpr bool is(Keyword keyword) const {
+    return kind == WordKind::Keyword && index == static_cast<std::uint8_t>(keyword);
+  }
+  constexpr bool is(spec::Statement statement) const {
+    return kind == WordKind::Statement && index == static_cast<std::uint8_t>(statement);
+  }
+};
+
+constexpr char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+}
+constexpr bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+constexpr bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+constexpr bool is_line_end(char c) {
+  return c == '\n' || c == '\r';
+}
+constexpr bool begins_name(char c) {
+  return is_letter(c) || c == '_';
+}
+constexpr bool is_name_char(char c) {
+  return begins_name(c) || is_digit(c);
+}
+constexpr bool equal_words(std::string_view a, std::string_view b) {
+  if (a.size() != b.size())
+    return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (lower(a[i]) != lower(b[i]))
+      return false;
+  return true;
+}
+
+/// What a word means; `let` is none of the language's (the robot's own is undocumented).
+Word find_word(std::string_view text);
+
+/// A word in its documented spelling; empty for a name.
+std::string_view spelling(Word word);
+
+/// 0xRRGGBB of a colour name of CSS: the sixteen basic ones and `orange`.
+std::optional<std::uint32_t> find_colour(std::string_view name);
+
+} // namespace orb::structured

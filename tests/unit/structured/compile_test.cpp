@@ -1,0 +1,295 @@
+#include "structured/compile.h"
+
+#include "structured/rules.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace orb::structured {
+namespace {
+
+class MapFiles final : public Files {
+public:
+  std::optional<std::string> read(const std::string& path) override {
+    const auto found = texts.find(path);
+    return found == texts.end() ? std::nullopt : std::optional(found->second);
+  }
+  std::map<std::string, std::string> texts;
+};
+
+Compiled compiled(std::string_view text, compiler::Target target = {}) {
+  NoFiles files;
+  return compile("test.orb", "test.orb", text, target, files);
+}
+
+/// The robot's lines; the findings where there are errors.
+std::string lines(std::string_view text) {
+  const auto result = compiled(text);
+  if (!result.has_errors())
+    return result.robot.text;
+  std::string findings;
+  for (const auto& d : result.program.diagnostics)
+    findings += fmt::format("{}: {}\n", d.rule->id, d.message);
+  return findings;
+}
+
+std::string first_rule(const Compiled& result) {
+  return result.program.diagnostics.empty()
+             ? std::string()
+             : std::string(result.program.diagnostics.front().rule->id);
+}
+
+// ---- what blocks become
+
+TEST(Lines, AnIfOfOneStatementIsOneLine) {
+  EXPECT_EQ(lines("if yaw > 90 then LEDC 1 else LEDC 2\n"),
+            "1 if yaw > 90 then LEDC 1 else LEDC 2\n");
+  EXPECT_EQ(lines("if yaw > 90 then\n  LEDC 1\nend if\n"), "1 if yaw > 90 then LEDC 1\n");
+}
+
+TEST(Lines, ComparisonsThatTheRobotLacks) {
+  EXPECT_EQ(lines("if yaw <= 90 then LEDC 1\n"), "1 if yaw < 91 then LEDC 1\n");
+  EXPECT_EQ(lines("if yaw >= 90 then LEDC 1\n"), "1 if yaw > 89 then LEDC 1\n");
+  EXPECT_EQ(lines("if yaw >= 90 and not (speed <= 3) then LEDC 1\n"),
+            "1 if yaw > 89 and speed > 3 then LEDC 1\n");
+}
+
+TEST(Lines, AnUnknownValueIsNotRaisedWhereThatCouldWrap) {
+  EXPECT_EQ(lines("input x\ninput y\nif x <= y then LEDC 1\n"),
+            "1 input X\n2 input Y\n3 if X > Y then goto 4 else LEDC 1\n4 end\n");
+}
+
+TEST(Lines, LoopsOfTheRobotWhereTheyFit) {
+  EXPECT_EQ(lines("for i = 1 to 3\n  LEDC i\n  delay 1s\nnext i\n"),
+            "1 for I = 1 to 3\n2 LEDC I\n3 delay 1000\n4 next I\n");
+  EXPECT_EQ(lines("repeat 3\n  delay 1s\nend repeat\n"),
+            "1 for A = 1 to 3\n2 delay 1000\n3 next A\n");
+}
+
+TEST(Lines, ALoopThatCannotRunIsGone) {
+  EXPECT_EQ(lines("for i = 5 to 1\n  print i\nnext\nprint \"end\"\n"), "1 print \"end\"\n");
+}
+
+TEST(Lines, ALoopThatIsLeftKeepsNoFrame) {
+  EXPECT_EQ(lines("for i = 1 to 9\n  delay 1s\n  if dshake then exit\nnext\nprint i\n").find("for"),
+            std::string::npos);
+}
+
+TEST(Lines, AWhileIsTestedAtItsEnd) {
+  EXPECT_EQ(lines("while accelone > 300\nend while\n"), "1 if accelone > 300 then goto 1\n");
+  EXPECT_EQ(lines("while speed > 3\n  delay 50\nend while\n"),
+            "1 goto 3\n2 delay 50\n3 if speed > 3 then goto 2\n");
+}
+
+TEST(Lines, ASelectOfNeighboursIsOn) {
+  EXPECT_EQ(
+      lines("select Sbatt\n  case 1\n    LEDC 1\n  case 2\n    LEDC 2\n  case 3, 4\n    LEDC 3\n"
+            "end select\n"),
+      "1 on Sbatt goto 2,4,6,6\n2 LEDC 1\n3 end\n4 LEDC 2\n5 end\n6 LEDC 3\n");
+}
+
+TEST(Lines, FunctionsGoWhereTheyAreUsed) {
+  EXPECT_EQ(lines("function twice(n)\n  return n * 2\nend function\nprint twice(yaw) + 1\n"),
+            "1 print yaw * 2 + 1\n");
+}
+
+TEST(Lines, UnusedSubsAndDeadCodeCostNothing) {
+  EXPECT_EQ(lines("const debug = 0\nsub unused\n  print \"never\"\nend sub\n"
+                  "if debug then print \"debug\"\nprint \"a\"\nend\nprint \"b\"\n"),
+            "1 print \"a\"\n");
+}
+
+TEST(Lines, ClearingSensorsAreReadAsOftenAsTheProgramSays) {
+  EXPECT_EQ(lines("x = dshake\nif x and yaw > 3 then print x\n"),
+            "1 if dshake ! 0 and yaw > 3 then print 1\n");
+  EXPECT_EQ(lines("if yaw > 3 and dshake then print 1\n"),
+            "1 if yaw < 4 then goto 3\n2 if dshake ! 0 then print 1\n3 end\n");
+}
+
+TEST(Lines, NegativeNumbersAreDifferences) {
+  EXPECT_EQ(lines("locate -5, xpos + -3\n"), "1 locate 0-5,xpos - 3\n");
+  EXPECT_EQ(lines("print xpos * -4\n"), "1 print xpos * (0-4)\n");
+  EXPECT_EQ(lines("print -2147483648\n"), "1 print 0-2147483647-1\n");
+}
+
+// ---- limits
+
+TEST(Limits, DeepParenthesesGetTemporaries) {
+  const auto text = lines("x = ((((((yaw + 1) * 2) + 1) * 2 + 1) * 2 + 1) * 2 + 1) * 2\nprint x\n");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
+TEST(Limits, PrintsOf32And33Bytes) {
+  EXPECT_EQ(lines("print \"12345678901234567890123456789012\"\n"),
+            "1 print \"12345678901234567890123456789012\"\n");
+  EXPECT_EQ(lines("print \"123456789012345678901234567890123\"\n"),
+            "1 print \"12345678901234567890123456789012\";\n2 print \"3\"\n");
+  EXPECT_EQ(lines("print \"1234567890123456789012345678\" yaw yaw\n"),
+            "1 print \"1234567890123456789012345678\" yaw;\n2 print yaw\n");
+}
+
+/// A program in which `count` variables are in use at once.
+std::string many(int count, bool array) {
+  std::string text = array ? "array list[3]\n" : "";
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("input v{}\n", i);
+  text += array ? "list[2] = 1\n" : "";
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("print v{}\n", i);
+  return text + (array ? "print list[2]\n" : "");
+}
+
+TEST(Limits, TwentyFiveVariablesAtOnce) {
+  EXPECT_FALSE(compiled(many(24, true)).has_errors());
+  EXPECT_FALSE(compiled(many(25, false)).has_errors());
+  EXPECT_EQ(first_rule(compiled(many(25, true))), "too-many-variables");
+  EXPECT_EQ(first_rule(compiled(many(26, false))), "too-many-variables");
+}
+
+TEST(Limits, AnyNumberOfVariablesOneAfterTheOther) {
+  std::string text;
+  for (int i = 0; i < 60; ++i)
+    text += fmt::format("input v{0}\nprint v{0} v{0}\n", i);
+  EXPECT_FALSE(compiled(text).has_errors());
+}
+
+std::string nested_loops(int depth) {
+  std::string text;
+  for (int i = 0; i < depth; ++i)
+    text += fmt::format("for i{} = 1 to 2\n", i);
+  text += "delay 10\n";
+  for (int i = 0; i < depth; ++i)
+    text += "next\n";
+  return text;
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(Limits, FourLoopsOfTheRobotInsideEachOther) {
+  EXPECT_EQ(count_of(lines(nested_loops(4)), "for "), 4U);
+  EXPECT_EQ(count_of(lines(nested_loops(5)), "for "), 4U);
+  EXPECT_EQ(count_of(lines(nested_loops(6)), "for "), 4U);
+}
+
+std::string nested_calls(int depth) {
+  std::string text = "s0\ns0\n";
+  for (int i = 0; i < depth; ++i) {
+    text += fmt::format("sub s{}\n", i);
+    for (int n = 0; n < 6; ++n)
+      text += fmt::format("  print \"level {} line {}\"\n", i, n);
+    if (i + 1 < depth)
+      text += fmt::format("  s{0}\n  s{0}\n", i + 1);
+    text += "end sub\n";
+  }
+  return text;
+}
+
+TEST(Limits, CallsDeeperThanFourAreWrittenIntoTheirCallers) {
+  for (int depth = 3; depth <= 7; ++depth) {
+    const auto result = compiled(nested_calls(depth));
+    EXPECT_FALSE(result.has_errors()) << depth << ": " << first_rule(result);
+  }
+}
+
+TEST(Limits, AProgramThatIsTooLargeNamesItsParts) {
+  std::string text = "sub big(n)\n";
+  for (int i = 0; i < 300; ++i)
+    text += fmt::format("  RGB n, {}, {}\n", i % 256, (i * 7) % 256);
+  text += "end sub\nbig(1)\nbig(2)\n";
+  const auto result = compiled(text);
+  EXPECT_EQ(first_rule(result), "program-too-large");
+  EXPECT_NE(result.program.diagnostics.front().help.find("`big`"), std::string::npos);
+}
+
+TEST(Targets, NewerWordsAreNamed) {
+  compiler::Target target;
+  target.version = spec::BasicVersion::V0_9;
+  EXPECT_EQ(first_rule(compiled("goroll 0, 80, 1\n", target)), "newer-than-target");
+  const auto old = compiled("x = -5\nlocate x, -3\nprint x * -2\n", target);
+  EXPECT_FALSE(old.has_errors()) << first_rule(old);
+}
+
+// ---- files
+
+TEST(FilesOf, AnIncludeIsTakenOnceAndCountsFromItsFile) {
+  MapFiles files;
+  files.texts["lib/a.orb"] =
+      "include \"b.orb\"\nsub blink(n)\n  LEDC n * step_of\n  delay 1s\nend sub\n";
+  files.texts["lib/b.orb"] = "const step_of = 2\n";
+  const auto result = compile(
+      "main.orb", "main.orb",
+      "include \"lib/a.orb\"\ninclude \"lib/b.orb\"\nblink(1)\nblink(step_of)\n", {}, files);
+  EXPECT_FALSE(result.has_errors()) << first_rule(result);
+  EXPECT_EQ(result.program.files.size(), 3U);
+}
+
+TEST(FilesOf, CirclesAndMissingFilesAreFindings) {
+  MapFiles files;
+  files.texts["a.orb"] = "include \"b.orb\"\n";
+  files.texts["b.orb"] = "include \"a.orb\"\n";
+  EXPECT_EQ(first_rule(compile("m", "m", "include \"a.orb\"\nprint 1\n", {}, files)),
+            "include-circle");
+  EXPECT_EQ(first_rule(compile("m", "m", "include \"c.orb\"\nprint 1\n", {}, files)),
+            "missing-file");
+  files.texts["c.orb"] = "print 2\n";
+  EXPECT_EQ(first_rule(compile("m", "m", "include \"c.orb\"\nprint 1\n", {}, files)),
+            "included-statement");
+}
+
+TEST(FilesOf, MacrosAreCalledByName) {
+  MapFiles files;
+  files.texts["wink.macro"] = ".macro wink id=40\nrgb 0 255 0\ndelay 100\n";
+  const auto result = compile("m", "m", "use \"wink.macro\"\nmacrun wink\nprint wink\n", {}, files);
+  EXPECT_EQ(result.robot.text, "1 macrun 40\n2 print 40\n") << first_rule(result);
+  files.texts["bad.macro"] = "roll roll\n";
+  EXPECT_EQ(first_rule(compile("m", "m", "use \"bad.macro\"\nprint 1\n", {}, files)),
+            "bad-macro-file");
+}
+
+// ---- any bytes
+
+void expect_quick(const std::string& text) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = compiled(text);
+  const auto took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(took, std::chrono::seconds(5)) << text.substr(0, 40);
+  EXPECT_FALSE(result.program.diagnostics.empty()) << text.substr(0, 40);
+}
+
+std::string repeated(std::string_view text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i)
+    all += text;
+  return all;
+}
+
+TEST(AnyBytes, AreBoundedInTime) {
+  expect_quick("x = " + repeated("(", 60000) + "\n");
+  expect_quick("if " + repeated("not ", 12000) + "1 then end\n");
+  expect_quick("print " + repeated("1 + yaw + ", 6000) + "x\n");
+  expect_quick(repeated("if yaw then\n", 5000));
+  expect_quick(repeated("end while\n", 6000));
+  expect_quick(repeated("goto a\n", 9000));
+  expect_quick(repeated("a:\n", 20000));
+  std::string names;
+  for (int i = 0; i < 5000; ++i)
+    names += fmt::format("input n{}\n", i);
+  for (int i = 0; i < 400; ++i)
+    names += fmt::format("print n{}\n", i);
+  expect_quick(names.substr(0, 65000) + "\n");
+  std::string subs = "s0\n";
+  for (int i = 0; i < 1500; ++i)
+    subs += fmt::format("sub s{}\ns{}\ns{}\nend sub\n", i, i + 1, i + 1);
+  expect_quick(subs.substr(0, 65000));
+}
+
+} // namespace
+} // namespace orb::structured

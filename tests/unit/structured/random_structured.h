@@ -1,0 +1,333 @@
+#pragma once
+
+#include "base/random.h"
+#include "spec/basic.h"
+
+#include <string>
+#include <vector>
+
+namespace orb::testing {
+
+/// Writes structured programs at random, the same for the same seed: all statements and blocks,
+/// calls with side effects inside expressions, values at the edge of what is allowed. Most end.
+class RandomStructured {
+public:
+  explicit RandomStructured(std::uint64_t seed) : random_{seed} {}
+
+  std::string write() {
+    arrays_ = upto(3);
+    subs_ = upto(3);
+    functions_ = upto(3);
+    out_ = "const k1 = 3\nconst k2 = -7\nconst pause = 20ms\n";
+    for (int n = 0; n < arrays_; ++n)
+      out_ += "array list" + std::to_string(n) + "[" + std::to_string(sizes[n]) + "]\n";
+    out_ += "data 4, 1, -3, k1 * 2, 300\n";
+    for (const char* name : names)
+      out_ += std::string(name) + " = " + number() + "\n";
+    block(1, 3 + upto(5));
+    out_ += "print";
+    for (const char* name : names)
+      out_ += std::string(" ") + name + ",";
+    out_ += " 0\n";
+    for (routine_ = 1; routine_ <= subs_ + functions_; ++routine_)
+      routine();
+    return out_;
+  }
+
+private:
+  static constexpr const char* names[] = {"alpha", "b", "count", "d", "e1", "y"};
+  static constexpr int sizes[] = {5, 9, 11};
+
+  int upto(int n) { return static_cast<int>(random_.below(static_cast<std::uint64_t>(n))); }
+  bool chance(double share) { return random_.chance(share); }
+
+  // Routine n calls only those with a greater number, so nothing calls itself.
+  bool is_function(int n) const { return n > subs_; }
+  std::string name_of(int n) const { return (is_function(n) ? "f" : "s") + std::to_string(n); }
+  static int parameters_of(int n) { return n % 3; }
+
+  void routine() {
+    const bool function = is_function(routine_);
+    out_ += (function ? "function " : "sub ") + name_of(routine_);
+    const int parameters = parameters_of(routine_);
+    if (parameters > 0)
+      out_ += parameters == 1 ? "(p)" : "(p, q)";
+    out_ += "\n  local v\n";
+    loops_ = 0;
+    block(2, 1 + upto(3));
+    if (function && chance(0.8))
+      out_ += "  return " + expression(0) + "\n";
+    out_ += function ? "end function\n" : "end sub\n";
+  }
+
+  std::string variable() {
+    if (routine_ > 0 && chance(0.4)) {
+      const int parameters = parameters_of(routine_);
+      const int which = upto(parameters + 1);
+      return which == 0 ? "v" : which == 1 ? "p" : "q";
+    }
+    return names[upto(6)];
+  }
+
+  std::string number() {
+    static const std::vector<std::string> edges = {
+        "0", "1", "2", "31", "255", "359", "360", "65535", "2147483647", "0x7F", "k1", "k2"};
+    return chance(0.7) ? std::to_string(upto(12)) : edges[random_.below(edges.size())];
+  }
+
+  std::string arguments(int routine, int depth) {
+    std::string text = "(";
+    for (int n = 0; n < parameters_of(routine); ++n)
+      text += (n > 0 ? ", " : "") + expression(depth + 1);
+    return text + ")";
+  }
+
+  std::string operand(int depth) {
+    const int kind = depth > 3 ? upto(5) : upto(15);
+    if (kind < 2)
+      return number();
+    if (kind < 5)
+      return variable();
+    if (kind == 5) {
+      static const std::vector<std::string> sensors = {"speed", "yaw", "dshake", "cmdroll", "xpos"};
+      return sensors[random_.below(sensors.size())];
+    }
+    if (kind == 6 && arrays_ > 0)
+      return element(depth);
+    if (kind == 7 && functions_ > 0) {
+      const int callee = subs_ + 1 + upto(functions_);
+      if (callee > routine_)
+        return name_of(callee) + arguments(callee, depth);
+    }
+    if (kind == 8)
+      return (chance(0.5) ? "min(" : "max(") + expression(depth + 1) + ", " +
+             expression(depth + 1) + ")";
+    if (kind == 9)
+      return "rnd(" + std::to_string(1 + upto(20)) + ")";
+    if (kind == 10)
+      return (chance(0.7) ? "abs(" : "sqrt(") + expression(depth + 1) + ")";
+    if (kind == 11)
+      return "-" + variable();
+    return "(" + expression(depth + 1) + ")";
+  }
+
+  std::string element(int depth) {
+    const int array = upto(arrays_);
+    const std::string index = chance(0.5)   ? std::to_string(1 + upto(sizes[array]))
+                              : chance(0.7) ? "abs(" + expression(depth + 2) + ") % " +
+                                                  std::to_string(sizes[array]) + " + 1"
+                                            : expression(depth + 1);
+    return "list" + std::to_string(array) + "[" + index + "]";
+  }
+
+  std::string expression(int depth) {
+    auto text = operand(depth);
+    while (chance(0.4)) {
+      static const std::string often = "+-*&|+-";
+      const auto& row = spec::operators[random_.below(spec::operators.size())];
+      const char sign = chance(0.6) ? often[random_.below(often.size())] : row.symbol;
+      text += std::string(" ") + sign + " " + operand(depth);
+    }
+    return text;
+  }
+
+  /// An expression that is mostly within 0 to 255.
+  std::string small() {
+    const int kind = upto(4);
+    if (kind == 0)
+      return "(" + expression(2) + ") & 255";
+    if (kind == 1)
+      return "abs(" + variable() + ") % 200";
+    return chance(0.95) ? std::to_string(upto(256)) : number();
+  }
+
+  std::string condition(int depth) {
+    const int kind = upto(depth > 2 ? 3 : 6);
+    static const std::vector<std::string> signs = {"=", "<>", "<", ">", "<=", ">=", "!"};
+    if (kind < 3)
+      return expression(2) + " " + signs[random_.below(signs.size())] + " " + expression(2);
+    if (kind == 3)
+      return "not (" + condition(depth + 1) + ")";
+    if (kind == 4)
+      return condition(depth + 1) + (chance(0.5) ? " and " : " or ") + condition(depth + 1);
+    return chance(0.5) ? "(" + condition(depth + 1) + ")" : expression(2);
+  }
+
+  void line(int depth, const std::string& text) {
+    out_ += std::string(static_cast<std::size_t>(depth) * 2, ' ') + text + "\n";
+  }
+
+  void block(int depth, int statements) {
+    for (int n = 0; n < statements; ++n)
+      statement(depth);
+  }
+
+  std::string place(int depth) { return arrays_ > 0 && chance(0.25) ? element(depth) : variable(); }
+
+  std::string simple() {
+    switch (upto(14)) {
+    case 0:
+    case 1:
+    case 2:
+    case 3: return place(1) + " = " + expression(0);
+    case 4: {
+      static const std::vector<std::string> signs = {"+=", "-=", "*=", "+=", "%="};
+      return place(1) + " " + signs[random_.below(signs.size())] + " " + expression(1);
+    }
+    case 5:
+    case 6: return print();
+    case 7: return "RGB " + small() + ", " + small() + ", " + small();
+    case 8: return "goroll " + small() + ", " + small() + ", " + std::to_string(upto(3));
+    case 9: return chance(0.5) ? "delay pause" : "delay " + small();
+    case 10: return "read " + place(2);
+    case 11: return chance(0.5) ? "rstr" : "RGB orange";
+    case 12:
+      if (subs_ > 0) {
+        const int callee = 1 + upto(subs_);
+        if (callee > routine_)
+          return name_of(callee) + arguments(callee, 1);
+      }
+      return "backLED " + small();
+    default:
+      return chance(0.2) ? "heading " + small() : "input " + place(2) + ", 5ms, " + expression(1);
+    }
+  }
+
+  std::string print() {
+    std::string text = "print \"it is \" ";
+    const int items = upto(5);
+    for (int n = 0; n < items; ++n) {
+      const int kind = upto(5);
+      text += kind == 0   ? "\"some more text\" "
+              : kind == 1 ? ", "
+              : kind == 2 ? "$(65 + abs(" + variable() + ") % 20) "
+                          : "(" + expression(1) + ") ";
+    }
+    if (text.back() == ' ' && text[text.size() - 2] == ',')
+      text += "\"\"";
+    return text + (chance(0.3) ? ";" : "");
+  }
+
+  std::string counter() { return "i" + std::to_string(loops_) + "_" + std::to_string(routine_); }
+
+  void statement(int depth) {
+    const int kind = depth > 4 ? 20 : upto(20);
+    switch (kind) {
+    case 0:
+    case 1:
+      line(depth,
+           "if " + condition(0) + " then " + simple() + (chance(0.4) ? " else " + simple() : ""));
+      return;
+    case 2:
+    case 3:
+      line(depth, "if " + condition(0) + " then");
+      block(depth + 1, upto(3));
+      if (chance(0.3)) {
+        line(depth, "elseif " + condition(1) + " then");
+        block(depth + 1, 1 + upto(2));
+      }
+      if (chance(0.5)) {
+        line(depth, "else");
+        block(depth + 1, 1 + upto(2));
+      }
+      line(depth, "end if");
+      return;
+    case 4:
+    case 5: for_loop(depth); return;
+    case 6: {
+      const auto times = chance(0.6) ? std::to_string(upto(4)) : small() + " % 4";
+      line(depth, "repeat " + times);
+      loop_body(depth);
+      line(depth, "end repeat");
+      return;
+    }
+    case 7: bounded_loop(depth); return;
+    case 8: selection(depth); return;
+    default:
+      if (routine_ > 0 && chance(0.04))
+        line(depth, is_function(routine_) ? "return " + expression(1) : "return");
+      else if (chance(0.01))
+        line(depth, "end");
+      else
+        line(depth, simple());
+    }
+  }
+
+  void loop_body(int depth) {
+    ++loops_;
+    block(depth + 1, 1 + upto(2));
+    if (chance(0.2))
+      line(depth + 1, "if " + condition(1) + " then " + (chance(0.5) ? "exit" : "continue"));
+    if (chance(0.5))
+      block(depth + 1, 1);
+    --loops_;
+  }
+
+  void for_loop(int depth) {
+    const auto name = counter();
+    static const std::vector<std::string> steps = {"", "", "", " step 2", " step -1", " step -3"};
+    const auto step = steps[random_.below(steps.size())];
+    const bool down = step.find('-') != std::string::npos;
+    const auto low = chance(0.7) ? std::to_string(upto(5)) : variable() + " % 5";
+    const auto high = chance(0.7) ? std::to_string(upto(7)) : variable() + " % 7";
+    line(depth, "for " + name + " = " + (down ? high : low) + " to " + (down ? low : high) + step);
+    if (chance(0.5))
+      line(depth + 1, arrays_ > 0 && chance(0.6) ? "list0[" + name + "] = " + expression(1)
+                                                 : "alpha += " + name);
+    loop_body(depth);
+    line(depth, "next" + (chance(0.5) ? " " + name : ""));
+    if (chance(0.3))
+      line(depth, "print \"after \" " + name);
+  }
+
+  /// `while` and `repeat … until` that count.
+  void bounded_loop(int depth) {
+    const auto name = "w" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    line(depth, name + " = " + std::to_string(upto(4)));
+    const auto test = name + (chance(0.5) ? " < " : " <= ") + std::to_string(1 + upto(4));
+    if (chance(0.5)) {
+      line(depth, "while " + test + (chance(0.3) ? " and " + condition(1) : ""));
+      line(depth + 1, name + " += 1");
+      loop_body(depth);
+      line(depth, "end while");
+    } else {
+      line(depth, "repeat");
+      line(depth + 1, name + " += 1");
+      loop_body(depth);
+      line(depth, "until not (" + test + ")" + (chance(0.3) ? " or " + condition(1) : ""));
+    }
+  }
+
+  void selection(int depth) {
+    line(depth, "select " + (chance(0.5) ? "abs(" + expression(2) + ") % 6" : expression(1)));
+    int value = 0;
+    const int cases = 1 + upto(4);
+    for (int n = 0; n < cases; ++n) {
+      const int first = value + upto(2);
+      const int last = first + (chance(0.3) ? 1 + upto(3) : 0);
+      value = last + 1;
+      auto text = "case " + std::to_string(first);
+      if (last > first)
+        text += " to " + std::to_string(last);
+      if (chance(0.2))
+        text += ", " + std::to_string(++value + 20);
+      line(depth + 1, text);
+      block(depth + 2, upto(2));
+    }
+    if (chance(0.5)) {
+      line(depth + 1, chance(0.5) ? "else" : "case else");
+      block(depth + 2, 1);
+    }
+    line(depth, "end select");
+  }
+
+  Random random_;
+  std::string out_;
+  int arrays_ = 0;
+  int subs_ = 0;
+  int functions_ = 0;
+  int routine_ = 0; ///< 0 in the main program
+  int loops_ = 0;
+};
+
+} // namespace orb::testing
