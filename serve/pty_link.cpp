@@ -86,8 +86,9 @@ tl::expected<void, IoError> PtyLink::open() {
 }
 
 tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
-  if (leads_to_gone_pty(path))
-    ::unlink(path.c_str()); // left over from a ball that was killed
+  // Left over from a ball that was killed; its number may be the one that this pty was given.
+  if (leads_to_gone_pty(path) || target_of(path) == slave_)
+    ::unlink(path.c_str());
   if (const auto target = target_of(path); !target.empty())
     return tl::unexpected(IoError{
         fmt::format("`{}` leads to {} already; remove it or give another name", path, target)});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/files.h"
+#include "base/io_error.h"
 #include "serve/link.h"
 
 #include <asio/steady_timer.hpp>

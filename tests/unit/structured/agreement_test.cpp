@@ -39,7 +39,8 @@ bool may_remain(const Diagnostic& found) {
   namespace robot = compiler::rules;
   for (const auto* rule : {&robot::BusyLoop, &robot::ClearedByReading, &robot::DataReplaced,
                            &robot::DataExpression, &robot::LargerThanOldRam, &robot::UnusedVariable,
-                           &robot::MissingGo, &robot::ProgramTooLarge})
+                           &robot::MissingGo, &robot::ProgramTooLarge, &robot::MissingDelay,
+                           &robot::DrivesOn, &robot::LoopLeavesRange, &robot::HeadingGrows})
     if (found.rule == rule)
       return true;
   return found.severity == Severity::Info;
