@@ -1,7 +1,9 @@
-// The machine against `luajit -joff` on the same algorithms: tests/bench/kernels/NAME.bas and .lua.
+// The machine against LuaJIT, interpreted and compiled, and gcc -O2 on the same algorithms:
+// tests/bench/kernels/NAME.bas, .lua and .c.
 // Prints the table of docs/performance.md. Run it through ./dev bench.
 
 #include "compiler/load.h"
+#include "tests/bench/realistic.h"
 #include "vm/ball.h"
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
@@ -59,13 +62,12 @@ struct Measured {
 };
 
 /// Runs a whole ball, as `orb run` does, and times it from the start of the program to its end.
-Measured run_basic(const std::string& text, std::uint32_t lines_per_second, vm::Dispatch dispatch) {
+Measured run_basic(const std::string& text, vm::Native native) {
   Printed printed;
   vm::BallOptions options;
   options.loader = compiler::load;
   options.observer = &printed;
-  options.lines_per_second = lines_per_second;
-  options.dispatch = dispatch;
+  options.native = native;
   vm::Ball ball(options);
   ball.connect();
   ball.append_basic(vm::Area::Ram, as_bytes(text));
@@ -76,63 +78,104 @@ Measured run_basic(const std::string& text, std::uint32_t lines_per_second, vm::
   return {since(start), ball.machine().lines(), printed.text};
 }
 
-/// Runs a script, which is asked to time itself, in the interpreter of LuaJIT.
-Measured run_lua(const std::string& path) {
-  const auto command =
-      fmt::format("luajit -joff -e \"local t = os.clock(); dofile('{}'); "
-                  "print(string.format('%.9f', os.clock() - t))\"",
-                  path);
+/// Runs a program that prints its result and then the seconds that it took.
+Measured run_command(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   if (!pipe)
-    throw std::runtime_error("cannot run luajit");
+    throw std::runtime_error("cannot run " + command);
   std::string out;
   std::array<char, 256> buffer{};
   while (std::fgets(buffer.data(), buffer.size(), pipe.get()))
     out += buffer.data();
   const auto split = out.find('\n');
   if (split == std::string::npos)
-    throw std::runtime_error("luajit said: " + out);
+    throw std::runtime_error(command + " said: " + out);
   return {std::strtod(out.c_str() + split, nullptr), 0, out.substr(0, split + 1)};
 }
 
-void against_lua(const std::string& folder) {
-  struct Kernel {
-    const char* name;
-    const char* what;
+/// With the compiler of LuaJIT or, by `-joff`, in its interpreter.
+Measured run_lua(const std::string& option, const std::string& path) {
+  return run_command(fmt::format("luajit {} -e \"local t = os.clock(); dofile('{}.lua'); "
+                                 "print(string.format('%.9f', os.clock() - t))\"",
+                                 option, path));
+}
+
+/// As gcc -O2 has it: built once, where `program` says.
+void build_c(const std::string& folder, const std::string& name, const std::string& program) {
+  const auto command =
+      fmt::format("gcc -O2 -fwrapv -o '{2}' -include {0}/{1}.c {0}/timed.c", folder, name, program);
+  if (std::system(command.c_str()) != 0)
+    throw std::runtime_error("cannot build: " + command);
+}
+
+struct Kernel {
+  const char* name;
+  const char* what;
+};
+
+/// Times by contestant, the best of so many rounds, in which all take turns.
+struct Times {
+  double lua = 1e9;
+  double lua_compiled = 1e9;
+  double gcc = 1e9;
+  double loop = 1e9;
+  double machine_code = 1e9;
+  std::uint64_t lines = 0;
+};
+
+Times time(const std::string& folder, const Kernel& kernel) {
+  const auto path = folder + "/" + kernel.name;
+  const auto text = read_all(path + ".bas");
+  const auto program =
+      (std::filesystem::temp_directory_path() / fmt::format("orb-bench-{}", kernel.name)).string();
+  build_c(folder, kernel.name, program);
+  Times best;
+  std::string printed;
+  const auto note = [&](double& least, const Measured& measured) {
+    if (!printed.empty() && measured.printed != printed)
+      throw std::runtime_error(
+          fmt::format("{}: one prints {}, another {}", kernel.name, printed, measured.printed));
+    printed = measured.printed;
+    least = std::min(least, measured.seconds);
   };
-  constexpr std::array kernels{
-      Kernel{"nested", "nested loops, arithmetic"}, Kernel{"collatz", "branches, division"},
-      Kernel{"calls", "subroutines"}, Kernel{"sort", "a sort through Z"}};
-  constexpr std::array<std::uint32_t, 2> speeds{3'000'000, 3000};
-  fmt::print("{:<26}{:>10}{:>14}{:>10}{:>12}{:>9}{:>9}\n", "kernel", "lines", "luajit -joff",
-             "orb 3M/s", "orb 3000/s", "3M/s", "3000/s");
-  std::array<double, 2> product{1, 1};
-  for (const auto& kernel : kernels) {
-    const auto path = folder + "/" + kernel.name;
-    const auto text = read_all(path + ".bas");
-    double lua = 1e9;
-    std::array<double, 2> orb{1e9, 1e9};
-    std::uint64_t lines = 0;
-    for (int round = 0; round < rounds; ++round) {
-      const auto theirs = run_lua(path + ".lua");
-      lua = std::min(lua, theirs.seconds);
-      for (std::size_t i = 0; i < speeds.size(); ++i) {
-        const auto ours = run_basic(text, speeds[i], vm::Dispatch::Threaded);
-        if (ours.printed != theirs.printed)
-          throw std::runtime_error(fmt::format("{}: orb prints {}, luajit {}", kernel.name,
-                                               ours.printed, theirs.printed));
-        orb[i] = std::min(orb[i], ours.seconds);
-        lines = ours.lines;
-      }
-    }
-    fmt::print("{:<26}{:>10}{:>9.1f} ms{:>9.1f} ms{:>9.1f} ms{:>8.2f}x{:>8.2f}x\n", kernel.what,
-               lines, lua * 1e3, orb[0] * 1e3, orb[1] * 1e3, lua / orb[0], lua / orb[1]);
-    product[0] *= lua / orb[0];
-    product[1] *= lua / orb[1];
+  for (int round = 0; round < rounds; ++round) {
+    note(best.lua, run_lua("-joff", path));
+    note(best.lua_compiled, run_lua("", path));
+    note(best.gcc, run_command(program));
+    note(best.loop, run_basic(text, vm::Native::Off));
+    const auto last = run_basic(text, vm::Native::Auto);
+    note(best.machine_code, last);
+    best.lines = last.lines;
   }
-  fmt::print("{:<26}{:>10}{:>12}{:>12}{:>12}{:>8.2f}x{:>8.2f}x\n\n", "geometric mean", "", "", "",
-             "", std::pow(product[0], 1.0 / kernels.size()),
-             std::pow(product[1], 1.0 / kernels.size()));
+  std::filesystem::remove(program);
+  return best;
+}
+
+void against_others(const std::string& folder) {
+  constexpr std::array kernels{Kernel{"nested", "nested loops, arithmetic"},
+                               Kernel{"collatz", "branches, division"},
+                               Kernel{"calls", "subroutines"}, Kernel{"sort", "a sort through Z"}};
+  fmt::print("{:<25}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8} |{:>8}{:>8}{:>8}{:>8}\n", "", "lines", "-joff",
+             "luajit", "gcc", "loop", "native", "loop", "native", "native", "native");
+  fmt::print("{:<25}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8} |{:>8}{:>8}{:>8}{:>8}\n", "milliseconds, ratios",
+             "", "", "", "", "", "", "/-joff", "/-joff", "/luajit", "/gcc");
+  std::array<double, 4> product{1, 1, 1, 1};
+  for (const auto& kernel : kernels) {
+    const auto t = time(folder, kernel);
+    const std::array ratios{t.lua / t.loop, t.lua / t.machine_code, t.lua_compiled / t.machine_code,
+                            t.gcc / t.machine_code};
+    fmt::print("{:<25}{:>9}{:>9.1f}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.2f} |", kernel.what, t.lines,
+               t.lua * 1e3, t.lua_compiled * 1e3, t.gcc * 1e3, t.loop * 1e3, t.machine_code * 1e3);
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      fmt::print("{:>7.2f}x", ratios[i]);
+      product[i] *= ratios[i];
+    }
+    fmt::print("\n");
+  }
+  fmt::print("{:<76}|", "geometric mean");
+  for (const double all : product)
+    fmt::print("{:>7.2f}x", std::pow(all, 1.0 / kernels.size()));
+  fmt::print("\n\n");
 }
 
 void one_hour() {
@@ -177,6 +220,27 @@ std::string full_program() {
   }
 }
 
+/// What a program costs once before it is machine code.
+void compile_times() {
+  const auto measure = [](const char* what, const bytecode::Chunk& chunk) {
+    double best = 1e9;
+    for (int round = 0; round < 20; ++round) {
+      const double start = processor_time();
+      for (int i = 0; i < 10; ++i)
+        vm::NativeCode::compile(chunk);
+      best = std::min(best, since(start) / 10);
+    }
+    fmt::print("machine code of {}: {:.0f} us, {} instructions\n", what, best * 1e6,
+               chunk.code.size());
+  };
+  measure("a typical program of 4 KB", compiler::load(bench::basic_program(4000)));
+  measure("an area full of arithmetic", compiler::load(full_program()));
+  std::string jumps;
+  for (int line = 1; jumps.size() < 4080; ++line)
+    jumps += fmt::format("{} goto {}\n", line, 1 + line * 7 % 300);
+  measure("an area full of jumps", compiler::load(jumps));
+}
+
 void many_balls() {
   constexpr int count = 10'000;
   const auto before = heap_bytes();
@@ -219,7 +283,8 @@ void many_balls() {
 
 int main(int argc, char** argv) {
   try {
-    against_lua(argc > 1 ? argv[1] : "tests/bench/kernels");
+    against_others(argc > 1 ? argv[1] : "tests/bench/kernels");
+    compile_times();
     one_hour();
     many_balls();
   } catch (const std::exception& error) {
