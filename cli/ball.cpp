@@ -57,7 +57,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
     options.tcp = parse_address(arguments.tcp);
     if (!options.tcp)
       return fail(context,
-                  {ExitCode::Usage, fmt::format("`{}` is no address; write HOST:PORT such as "
+                  {ExitCode::Usage, fmt::format("`{}` is not an address; write HOST:PORT such as "
                                                 "127.0.0.1:4242",
                                                 arguments.tcp)});
   }

@@ -48,7 +48,7 @@ ExitCode run(const Context& context, const Options& options) {
   if (ending == ".hex") {
     auto read = from_hex(*content);
     if (!read) {
-      print_error(context, fmt::format("{}: this is no hex; expected pairs of digits", name));
+      print_error(context, fmt::format("{}: this is not hex; expected pairs of hex digits", name));
       return ExitCode::BadInput;
     }
     bytes = std::move(*read);

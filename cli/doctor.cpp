@@ -172,7 +172,7 @@ void run(Context& context, const PortOptions& options) {
 } // namespace
 
 void add_doctor(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "doctor", "find out why a connection fails, and what mends it",
+  auto* command = add_command(app, "doctor", "find out why a connection fails, and how to fix it",
                               "orb doctor --port /dev/rfcomm0\n"
                               "orb doctor --port rfcomm://68:86:E7:00:11:22");
   auto options = std::make_shared<PortOptions>();

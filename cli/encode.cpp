@@ -63,7 +63,7 @@ void encode_v1(Context& context, const EncodeArguments& arguments) {
       names.push_back(command.name);
     const auto meant = closest(arguments.name, names);
     return fail(context,
-                fmt::format("`{}` is no command; {}", arguments.name,
+                fmt::format("`{}` is not a command; {}", arguments.name,
                             meant ? fmt::format("did you mean `{}`?", *meant)
                                   : "`orb spec api-commands` lists them"),
                 ExitCode::Usage);

@@ -69,7 +69,7 @@ std::string describe(const CLI::App& app, const std::string& word) {
                        meant_instead(name, option_names(app)));
   }
   if (command != nullptr)
-    return fmt::format("`{}` is one word too many for {}", word, whom);
+    return fmt::format("`{}` is an extra word for {}", word, whom);
   if (orb::run::form_of(word, ""))
     return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
   return fmt::format("`{}` is not a command of orb{}", word,

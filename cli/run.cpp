@@ -133,15 +133,16 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
   auto options = given.run;
   const auto time = parse_duration(given.time, 1s);
   if (!time)
-    return refuse(ExitCode::Usage, fmt::format("`--for {}` is no time; write it like 90s, 500ms "
+    return refuse(ExitCode::Usage, fmt::format("`--for {}` is not a time; write it like 90s, 500ms "
                                                "or 2min",
                                                given.time));
   options.bound = *time;
   if (!given.input.empty() && given.input != from_stdin) {
     auto numbers = read_numbers(given.input);
     if (!numbers)
-      return refuse(ExitCode::Usage,
-                    fmt::format("`--input {}` is no list of numbers such as 1,2,3", given.input));
+      return refuse(
+          ExitCode::Usage,
+          fmt::format("`--input {}` is not a list of numbers such as 1,2,3", given.input));
     options.numbers = *std::move(numbers);
   }
   options.firmware = spec::find_firmware(given.firmware)->firmware; // the option is checked

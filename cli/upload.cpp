@@ -52,7 +52,7 @@ tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
     errors = print_findings(context, *input.source, input.findings) || errors;
   if (errors)
     return tl::unexpected(Failure{ExitCode::BadInput,
-                                  "nothing was sent: mend the errors above, or send it as it is "
+                                  "nothing was sent: correct the errors above, or send it as it is "
                                   "with `--no-check`"});
   return inputs;
 }
@@ -243,7 +243,7 @@ void add_upload(CLI::App& app, Context& context) {
         const auto good = error == std::errc() && end == text.data() + text.size() && line > 0;
         return text.empty() || good
                    ? std::string()
-                   : "`" + text + "` is no line number, which goes from 1 to 65535";
+                   : "`" + text + "` is not a line number; write one from 1 to 65535";
       });
   command->add_option("--as", options->as, "how macros are kept")
       ->check(one_of({"temp", "user", "stream"}));

@@ -336,7 +336,7 @@ Answer LanguageServer::State::initialize(const Json& params) {
   if (const auto version = spec::find_version(target))
     options.target = *version;
   else if (!target.empty())
-    log(fmt::format("`{}` is no version of orbBasic; checking for {}", to_valid_utf8(target),
+    log(fmt::format("`{}` is not a version of orbBasic; checking for {}", to_valid_utf8(target),
                     spec::info(options.target).text));
   constexpr int incremental = 2;
   return Json{{"capabilities",

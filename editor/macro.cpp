@@ -158,7 +158,7 @@ tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::u
   const auto names = names_in(source, program);
   const auto* here = name_at(names, offset);
   if (here == nullptr)
-    return tl::unexpected(std::string("here is no name of a macro or a constant"));
+    return tl::unexpected(std::string("there is no name of a macro or constant here"));
   if (!is_name(name))
     return tl::unexpected(
         std::string("a name is letters, digits and `_`, and begins with no digit"));
@@ -273,7 +273,7 @@ void suggest_attributes(Suggestions& out) {
                        fmt::format("{} to {} for a user macro", spec::macro_id_user_first,
                                    spec::macro_id_user_last),
                        ""});
-  out.items.push_back({"flags=", SuggestionKind::Value, "parted by commas", ""});
+  out.items.push_back({"flags=", SuggestionKind::Value, "separated by commas", ""});
   out.items.push_back({"ext=", SuggestionKind::Value, "extended flags, 0 to 255", ""});
 }
 

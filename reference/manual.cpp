@@ -260,13 +260,13 @@ ManualPage main_page(const CommandLine& line) {
     pages.push_back("orb-" + command.name + ".1");
     text += fmt::format(".It {}\n{}", reference(pages.back()), prose(sentence(command.summary)));
   }
-  text += ".El\n.Pp\nThe options that stand before or behind any command are as follows:\n" +
+  text += ".El\n.Pp\nThe options that stand before or after any command are as follows:\n" +
           options_list(line.orb);
   text += ".Sh ENVIRONMENT\n.Bl -tag -width Ds\n"
           ".It Ev ORB_PORT\n.It Ev ORB_TARGET\n"
           "Stand for\n.Fl Fl port\nand\n.Fl Fl target\nwhere these are not given.\n"
           ".It Ev NO_COLOR\n.It Ev CLICOLOR_FORCE\n"
-          "Switch colour off, or on even when the output is no terminal.\n.El\n";
+          "Switch colour off, or on even when the output is not a terminal.\n.El\n";
   text += ".Sh FILES\n.Bl -tag -width Ds\n"
           ".It Pa orb.toml\n"
           "Configuration of a project, found in the working folder or one above it.\n"
@@ -327,7 +327,8 @@ constexpr std::string_view basic_example = "10 for H = 0 to 270 step 90\n"
 constexpr std::string_view macro_intro =
     "A macro is a short list of commands that runs inside a Sphero robot with a clock of one "
     "millisecond, without arithmetic or conditions. This page lists the commands and flags as the "
-    "assembler of orb writes them: one command in a line, its operands parted by commas or given "
+    "assembler of orb writes them: one command in a line, its operands separated by commas or "
+    "given "
     "by name, `delay=` last; `#` begins a remark. `.macro` names a macro and gives its id and "
     "flags, `.const` names a "
     "number, `.raw` holds bytes as they are; an End is added where none is written.";

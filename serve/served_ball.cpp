@@ -58,8 +58,9 @@ tl::expected<void, IoError> ServedBall::load() {
   if (!text)
     return tl::unexpected(text.error());
   if (const auto loaded = vm::load_state(*text, ball_); !loaded)
-    return tl::unexpected(IoError{fmt::format(
-        "{} is no state of a ball: {}; remove it to begin with a new ball", path, loaded.error())});
+    return tl::unexpected(
+        IoError{fmt::format("{} is not the state of a ball: {}; remove it to start with a new ball",
+                            path, loaded.error())});
   saved_revision_ = ball_.dispatcher().revision();
   return {};
 }

@@ -116,7 +116,7 @@ TEST(LspMacro, RenameChangesANameEverywhere) {
   EXPECT_EQ(session.renamed(4, 9, "fast"), "`fast` is in use already");
   EXPECT_EQ(session.renamed(4, 9, "4th"),
             "a name is letters, digits and `_`, and begins with no digit");
-  EXPECT_EQ(session.renamed(5, 8, "spin"), "here is no name of a macro or a constant");
+  EXPECT_EQ(session.renamed(5, 8, "spin"), "there is no name of a macro or constant here");
 }
 
 TEST(LspMacro, OutlineListsTheMacros) {
