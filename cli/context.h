@@ -24,7 +24,8 @@ struct Context {
   Style err_style() const;
 };
 
-/// Writes to stdout. A reader that went away (a closed pipe) ends output silently.
+/// Writes to stdout. Where that fails the command ends (OutputError): silently when the reader went
+/// away (a closed pipe).
 void print_out(std::string_view text);
 
 /// Writes to stderr.

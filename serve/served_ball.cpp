@@ -1,6 +1,7 @@
 #include "serve/served_ball.h"
 
 #include "disk/disk.h"
+#include "protocol/recording.h"
 #include "serve/pty_link.h"
 #include "serve/tcp_link.h"
 #include "vm/state.h"
@@ -204,7 +205,7 @@ void ServedBall::on_input() {
   if (size <= 0) // the end, or EIO when the slave of a pty was closed
     return leave();
   const auto bytes = ByteView(buffer).first(static_cast<std::size_t>(size));
-  log('>', bytes);
+  log(protocol::Direction::ToBall, bytes);
   ball_.advance_to(now());
   if (pipe_)
     pipe_->push(protocol::Direction::ToBall, bytes, now());
@@ -278,7 +279,7 @@ void ServedBall::send_faulty() {
 void ServedBall::write(ByteView bytes) {
   if (client_ == nullptr)
     return;
-  log('<', bytes);
+  log(protocol::Direction::FromBall, bytes);
   if (backlog_.empty()) {
     const auto sent = client_->write(bytes);
     if (sent < 0 && !only_later(sent))
@@ -343,8 +344,8 @@ void ServedBall::arm() {
   });
 }
 
-void ServedBall::log(char direction, ByteView bytes) {
-  if (log_.is_open() && !(log_ << direction << ' ' << to_hex(bytes) << std::endl)) {
+void ServedBall::log(protocol::Direction direction, ByteView bytes) {
+  if (log_.is_open() && !(log_ << protocol::recording_line(direction, bytes) << std::flush)) {
     fail({fmt::format("cannot write {}: {}", numbered(options_.log_file), std::strerror(errno))});
     log_.close();
   }

@@ -56,7 +56,7 @@ private:
   void on_writable();
   void lose_client();
   void arm();
-  void log(char direction, ByteView bytes);
+  void log(protocol::Direction direction, ByteView bytes);
   void fail(const IoError& error);
 
   asio::io_context& io_;
