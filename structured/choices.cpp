@@ -85,6 +85,19 @@ private:
                                      code_.terms[condition.first.right].effects);
   }
 
+  /// Whether the second test may be safe only because the first one narrows a variable that both
+  /// read.
+  bool leans_on(const Relation& first, const Relation& second) const {
+    bool shared = false;
+    for (const auto compared : {first.left, first.right})
+      if (code_.terms[compared].kind == TermKind::Variable)
+        for (const auto term : {second.left, second.right})
+          each_read(code_, term, [&](std::uint32_t v) {
+            shared = shared || v == code_.terms[compared].left;
+          });
+    return shared && (can_fault(code_, second.left) || can_fault(code_, second.right));
+  }
+
   /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
   /// must do nothing but give a value.
   bool join_tests() {
@@ -99,7 +112,8 @@ private:
       const auto& first = code_.conditions[line.condition];
       const auto& second = code_.conditions[next.condition];
       if (first.glue != Glue::None || second.glue != Glue::None ||
-          (effects_of(second) & (effect::faults | effect::clears)) != 0)
+          (effects_of(second) & (effect::faults | effect::clears)) != 0 ||
+          leans_on(first.first, second.first))
         continue;
       Condition joined;
       joined.second = second.first;

@@ -33,6 +33,12 @@ bool may_fault(Operator op, const Term& right) {
                  : right.value < 0 || right.value > spec::value_of(spec::Limit::GreatestShift);
 }
 
+bool may_fault(spec::Function function, const Term& operand) {
+  const bool certain =
+      operand.kind == TermKind::Number && operand.value >= spec::info(function).least;
+  return function != spec::Function::Abs && !certain;
+}
+
 std::int32_t fold(Operator op, std::int32_t a, std::int32_t b) {
   switch (op) {
   case Operator::Multiply: return bytecode::multiply(a, b);
@@ -141,15 +147,30 @@ std::uint32_t Code::call(spec::Function function, std::uint32_t operand) {
   term.what = static_cast<std::uint8_t>(function);
   term.left = operand;
   term.effects = inner.effects;
-  const auto& row = spec::info(function);
-  const bool certain = inner.kind == TermKind::Number && inner.value >= row.least;
-  if (function != spec::Function::Abs && !certain)
+  if (may_fault(function, inner))
     term.effects |= effect::faults;
   if (function == spec::Function::Rnd)
     term.effects |= effect::clears;
   term.size = static_cast<std::uint16_t>(std::min<int>(inner.size + 1, 0xFFFF));
   term.levels = saturated(inner.levels + (function_needs_parentheses(*this, operand) ? 2 : 1));
   return add(term);
+}
+
+bool can_fault(const Code& code, std::uint32_t term) {
+  const auto& node = code.terms[term];
+  switch (node.kind) {
+  case TermKind::Number:
+  case TermKind::Variable:
+  case TermKind::System: return false;
+  case TermKind::Element: return true;
+  case TermKind::Binary:
+    return may_fault(static_cast<Operator>(node.what), code.terms[node.right]) ||
+           can_fault(code, node.left) || can_fault(code, node.right);
+  case TermKind::Call:
+    return may_fault(static_cast<spec::Function>(node.what), code.terms[node.left]) ||
+           can_fault(code, node.left);
+  }
+  return false;
 }
 
 bool needs_parentheses(const Term& operand, Operator op, Side side) {

@@ -165,6 +165,9 @@ constexpr bool ordered(std::uint8_t first, std::uint8_t second) {
   return (first & second & (effect::faults | effect::clears)) != 0;
 }
 
+/// Whether a term stops the program for some values of what it reads, whatever is known of them.
+bool can_fault(const Code& code, std::uint32_t term);
+
 /// The levels of a binary term over these operands.
 std::uint8_t levels_of(const Code& code, spec::Operator op, std::uint32_t left,
                        std::uint32_t right);

@@ -415,8 +415,10 @@ private:
       auto result = term;
       if (left != node.left || right != node.right) {
         result = code_.binary(op, left, right);
-        if (code_.terms[result].levels > spec::value_of(spec::Limit::ExpressionLevels))
+        if (is_too_deep(result))
           result = unfolded(node, left, right);
+        if (is_too_deep(result))
+          result = term;
       }
       improve(result, state);
       return result;
@@ -426,7 +428,7 @@ private:
       auto result = term;
       if (operand != node.left)
         result = code_.call(static_cast<spec::Function>(node.what), operand);
-      if (code_.terms[result].levels > spec::value_of(spec::Limit::ExpressionLevels))
+      if (is_too_deep(result))
         result = term;
       improve(result, state);
       return result;
@@ -435,10 +437,17 @@ private:
     return term;
   }
 
+  /// Numbers can be deeper than the variables in whose place they stand: negative ones are printed
+  /// in parentheses.
+  bool is_too_deep(std::uint32_t term) const {
+    return code_.terms[term].levels > spec::value_of(spec::Limit::ExpressionLevels);
+  }
+
   /// The same term over other operands, as it stands: folding can turn it into a deeper one.
   std::uint32_t unfolded(Term node, std::uint32_t left, std::uint32_t right) {
     node.left = left;
     node.right = right;
+    node.levels = levels_of(code_, static_cast<Operator>(node.what), left, right);
     return code_.add(node);
   }
 

@@ -109,6 +109,19 @@ TEST(Lines, ClearingSensorsAreReadAsOftenAsTheProgramSays) {
             "1 if yaw < 4 then goto 3\n2 if dshake ! 0 then print 1\n3 end\n");
 }
 
+TEST(Lines, ATestThatIsSafeOnlyBehindAnotherIsNotJoinedToIt) {
+  // The robot always computes both sides of its `and` and `or`.
+  EXPECT_EQ(lines("input x\nif x > 0 and 100 / x > 3 then LEDC 1\n"),
+            "1 input X\n2 if X < 1 then goto 4\n3 if 100 / X > 3 then LEDC 1\n4 end\n");
+  EXPECT_EQ(lines("input x\nif x < 0 or x > 31 or 1 { x > 9 then LEDC 1 else LEDC 2\n")
+                .find("X > 31 or 1"),
+            std::string::npos);
+  EXPECT_EQ(lines("input x\nif x >= 0 and sqrt(x) > 9 then LEDC 1\n").find("and"),
+            std::string::npos);
+  EXPECT_EQ(lines("input x\ninput y\nif y > 0 and 100 / (x & 7 + 1) > 20 then LEDC 1\n"),
+            "1 input X\n2 input Y\n3 if Y > 0 and 100 / (X & 7 + 1) > 20 then LEDC 1\n");
+}
+
 TEST(Lines, NegativeNumbersAreDifferences) {
   EXPECT_EQ(lines("locate -5, xpos + -3\n"), "1 locate 0-5,xpos - 3\n");
   EXPECT_EQ(lines("print xpos * -4\n"), "1 print xpos * (0-4)\n");
@@ -120,6 +133,12 @@ TEST(Lines, NegativeNumbersAreDifferences) {
 TEST(Limits, DeepParenthesesGetTemporaries) {
   const auto text = lines("x = ((((((yaw + 1) * 2) + 1) * 2 + 1) * 2 + 1) * 2 + 1) * 2\nprint x\n");
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
+TEST(Limits, AConstantThatIsDeeperThanItsVariableStaysAVariable) {
+  // A negative number is printed in parentheses.
+  EXPECT_EQ(lines("x = -8\nprint (abs(speed & x) - 26) * 3\n"),
+            "1 X = 0-8\n2 print ((abs (speed & X)) - 26) * 3\n");
 }
 
 TEST(Limits, PrintsOf32And33Bytes) {
