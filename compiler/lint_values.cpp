@@ -155,6 +155,7 @@ private:
       for (const auto& jump : flow_.jumps_of(code))
         if (jump.call)
           falls = false; // the subroutine may change everything
+      in_order_ = in_order_ && falls;
     }
   }
 
@@ -373,7 +374,7 @@ private:
       if (index.first_set == nullptr)
         d.help = "`Z` is the list element that `Y` names; use another letter";
     } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ &&
-               !before_y_) {
+               in_order_ && !before_y_) {
       before_y_ = true;
       findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",
                     "set `Y` to 1 … 25 first");
@@ -573,6 +574,7 @@ private:
   bool conditional_ = false; ///< in a branch
 
   bool indexed_used_ = false;
+  bool in_order_ = true; ///< nothing above leads away and back, or past lines
   bool before_y_ = false;
   std::optional<bool> has_data_;
 };

@@ -391,13 +391,26 @@ private:
            reads.digits <= reads.all + assignment * reads.sets;
   }
 
+  /// Which known numbers take the place of their variables. Negative ones are printed in
+  /// parentheses, and so can be deeper than a variable.
+  enum class Known : std::uint8_t { All, Positive };
+
+  /// A term with numbers in place of variables that are known.
   std::uint32_t replaced(std::uint32_t term, const State& state) {
+    for (const auto known : {Known::All, Known::Positive})
+      if (const auto result = replaced(term, state, known); !is_too_deep(result))
+        return result;
+    return term;
+  }
+
+  std::uint32_t replaced(std::uint32_t term, const State& state, Known known) {
     const auto node = code_.terms[term];
     switch (node.kind) {
     case TermKind::Number:
     case TermKind::System: return term;
     case TermKind::Variable:
       if (node.left != index_variable && state[node.left].constant() &&
+          (known == Known::All || state[node.left].lo >= 0) &&
           (vanishes(node.left) || (state[node.left].lo >= 0 && state[node.left].lo < 10)))
         return code_.number(state[node.left].lo);
       return term;
@@ -410,26 +423,22 @@ private:
     }
     case TermKind::Binary: {
       const auto op = static_cast<Operator>(node.what);
-      const auto left = replaced(node.left, state);
-      const auto right = replaced(node.right, state);
+      const auto left = replaced(node.left, state, known);
+      const auto right = replaced(node.right, state, known);
       auto result = term;
       if (left != node.left || right != node.right) {
         result = code_.binary(op, left, right);
         if (is_too_deep(result))
           result = unfolded(node, left, right);
-        if (is_too_deep(result))
-          result = term;
       }
       improve(result, state);
       return result;
     }
     case TermKind::Call: {
-      const auto operand = replaced(node.left, state);
+      const auto operand = replaced(node.left, state, known);
       auto result = term;
       if (operand != node.left)
         result = code_.call(static_cast<spec::Function>(node.what), operand);
-      if (is_too_deep(result))
-        result = term;
       improve(result, state);
       return result;
     }
@@ -437,8 +446,6 @@ private:
     return term;
   }
 
-  /// Numbers can be deeper than the variables in whose place they stand: negative ones are printed
-  /// in parentheses.
   bool is_too_deep(std::uint32_t term) const {
     return code_.terms[term].levels > spec::value_of(spec::Limit::ExpressionLevels);
   }

@@ -139,6 +139,8 @@ TEST(Limits, AConstantThatIsDeeperThanItsVariableStaysAVariable) {
   // A negative number is printed in parentheses.
   EXPECT_EQ(lines("x = -8\nprint (abs(speed & x) - 26) * 3\n"),
             "1 X = 0-8\n2 print ((abs (speed & X)) - 26) * 3\n");
+  EXPECT_EQ(lines("x = -8\nnull = 0\nprint (abs(speed & x + null) - 26) * 3\n"),
+            "1 X = 0-8\n2 print ((abs (speed & X)) - 26) * 3\n");
 }
 
 TEST(Limits, PrintsOf32And33Bytes) {

@@ -22,12 +22,18 @@ public:
     for (int n = 0; n < arrays_; ++n)
       out_ += "array list" + std::to_string(n) + "[" + std::to_string(sizes[n]) + "]\n";
     out_ += "data 4, 1, -3, k1 * 2, 300\n";
+    crowd_ = chance(0.1) ? 17 + upto(3) : 0;
     for (const char* name : names)
       out_ += std::string(name) + " = " + number() + "\n";
+    // Values that nobody knows when compiling need letters of their own: about all there are.
+    for (int n = 0; n < crowd_; ++n)
+      out_ += "input c" + std::to_string(n) + ", 5ms, " + number() + "\n";
     block(1, 3 + upto(5));
     out_ += "print";
     for (const char* name : names)
       out_ += std::string(" ") + name + ",";
+    for (int n = 0; n < crowd_; ++n)
+      out_ += " c" + std::to_string(n);
     out_ += " 0\n";
     for (routine_ = 1; routine_ <= subs_ + functions_; ++routine_)
       routine();
@@ -66,6 +72,8 @@ private:
       const int which = upto(parameters + 1);
       return which == 0 ? "v" : which == 1 ? "p" : "q";
     }
+    if (crowd_ > 0 && chance(0.4))
+      return "c" + std::to_string(upto(crowd_));
     return names[upto(6)];
   }
 
@@ -120,8 +128,24 @@ private:
     return "list" + std::to_string(array) + "[" + index + "]";
   }
 
+  /// An operand in more parentheses than the robot follows.
+  std::string nest() {
+    auto text = variable();
+    for (int levels = 3 + upto(6); levels > 0; --levels) {
+      const int kind = upto(6);
+      const auto other = chance(0.5) ? number() : variable();
+      text = kind == 0   ? "(" + other + " - " + text + ")"
+             : kind == 1 ? "abs(" + text + " - " + other + ")"
+             : kind == 2 ? "(" + text + " + " + other + ") * 2"
+             : kind == 3 ? "(" + other + " & (" + text + "))"
+             : kind == 4 ? "max(" + text + ", " + other + ")"
+                         : "(" + text + " % 7 + " + other + ")";
+    }
+    return text;
+  }
+
   std::string expression(int depth) {
-    auto text = operand(depth);
+    auto text = chance(0.03) ? nest() : operand(depth);
     while (chance(0.4)) {
       static const std::string often = "+-*&|+-";
       const auto& row = spec::operators[random_.below(spec::operators.size())];
@@ -198,7 +222,8 @@ private:
     const int items = upto(5);
     for (int n = 0; n < items; ++n) {
       const int kind = upto(5);
-      text += kind == 0   ? "\"some more text\" "
+      text += kind == 0 ? (chance(0.8) ? "\"some more text\" "
+                                       : "\"a text that is longer than the robot prints\" ")
               : kind == 1 ? ", "
               : kind == 2 ? "$(65 + abs(" + variable() + ") % 20) "
                           : "(" + expression(1) + ") ";
@@ -211,8 +236,11 @@ private:
   std::string counter() { return "i" + std::to_string(loops_) + "_" + std::to_string(routine_); }
 
   void statement(int depth) {
-    const int kind = depth > 4 ? 20 : upto(20);
+    const int kind = depth > 4 ? 24 : upto(24);
     switch (kind) {
+    case 9: tower(depth); return;
+    case 10: jumps(depth); return;
+    case 11: endless(depth); return;
     case 0:
     case 1:
       line(depth,
@@ -257,10 +285,74 @@ private:
     ++loops_;
     block(depth + 1, 1 + upto(2));
     if (chance(0.2))
-      line(depth + 1, "if " + condition(1) + " then " + (chance(0.5) ? "exit" : "continue"));
+      line(depth + 1, "if " + condition(1) + " then " + leaving());
     if (chance(0.5))
       block(depth + 1, 1);
     --loops_;
+  }
+
+  /// Loops inside each other, more than the robot keeps.
+  void tower(int depth) {
+    if (tower_ || !chance(0.4))
+      return line(depth, simple());
+    tower_ = true;
+    const int levels = 2 + upto(4);
+    for (int n = 0; n < levels; ++n) {
+      const auto name = "t" + std::to_string(n) + "_" + std::to_string(routine_);
+      if (chance(0.7))
+        line(depth + n, "for " + name + " = 1 to " + (chance(0.8) ? "2" : variable() + " & 1"));
+      else
+        line(depth + n, "repeat 2");
+      towers_.push_back(out_.rfind("for ") > out_.rfind("repeat ") ? "next" : "end repeat");
+    }
+    line(depth + levels, simple());
+    if (chance(0.3))
+      line(depth + levels, "if " + condition(1) + " then " + leaving());
+    for (int n = levels; n-- > 0;) {
+      line(depth + n, towers_.back());
+      towers_.pop_back();
+      if (chance(0.3))
+        line(depth + n, simple());
+    }
+    tower_ = false;
+  }
+
+  /// What leaves a loop or its round.
+  std::string leaving() {
+    if (routine_ > 0 && chance(0.3))
+      return is_function(routine_) ? "return " + expression(1) : "return";
+    return chance(0.5) ? "exit" : "continue";
+  }
+
+  /// Labels: a jump back that is taken a few times, a jump out of a block.
+  void jumps(int depth) {
+    const auto name = "l" + std::to_string(labels_++);
+    if (chance(0.5)) {
+      line(depth, name + "n = 0");
+      line(depth, name + ":");
+      line(depth, name + "n += 1");
+      block(depth + 1, 1 + upto(2));
+      line(depth, "if " + name + "n < " + std::to_string(1 + upto(3)) + " then goto " + name);
+      return;
+    }
+    const bool loop = chance(0.5);
+    line(depth, loop ? "for " + name + "i = 1 to 3" : "if " + condition(1) + " then");
+    line(depth + 1, simple());
+    line(depth + 1, "if " + condition(1) + " then goto " + name);
+    block(depth + 1, 1);
+    line(depth, loop ? "next" : "end if");
+    line(depth, simple());
+    line(depth, name + ":");
+  }
+
+  void endless(int depth) {
+    const auto name = "n" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    line(depth, name + " = 0");
+    line(depth, "loop");
+    line(depth + 1, name + " += 1");
+    line(depth + 1, "if " + name + " > " + std::to_string(upto(4)) + " then exit");
+    loop_body(depth);
+    line(depth, "end loop");
   }
 
   void for_loop(int depth) {
@@ -328,6 +420,10 @@ private:
   int functions_ = 0;
   int routine_ = 0; ///< 0 in the main program
   int loops_ = 0;
+  int labels_ = 0;
+  int crowd_ = 0;                   ///< variables beside the named ones
+  bool tower_ = false;              ///< inside of loops that are already many
+  std::vector<std::string> towers_; ///< the ends of its loops
 };
 
 } // namespace orb::testing

@@ -50,7 +50,7 @@ public:
 
 private:
   struct Stopped {};
-  enum class Way : std::uint8_t { On, Exit, Again, Return };
+  enum class Way : std::uint8_t { On, Exit, Again, Return, Goto };
   using Error = spec::BasicError;
 
   static std::uint64_t mix(std::uint64_t value) {
@@ -211,7 +211,9 @@ private:
   Way block(std::uint32_t from, std::uint32_t to) {
     for (auto i = from; i < to;) {
       const auto way = execute(i);
-      if (way != Way::On)
+      if (way == Way::Goto && from <= target_ && target_ < to)
+        i = target_;
+      else if (way != Way::On)
         return way;
     }
     return Way::On;
@@ -245,6 +247,10 @@ private:
       return Way::Exit;
     if (node.kind == Kind::Continue)
       return Way::Again;
+    if (node.kind == Kind::Goto) {
+      target_ = label(here);
+      return Way::Goto;
+    }
     if (node.kind == Kind::Sub || node.kind == Kind::Function)
       i = node.next + 1;
     if (node.kind == Kind::If)
@@ -256,6 +262,15 @@ private:
       return loop(here);
     }
     return Way::On;
+  }
+
+  /// The label that a `goto` names: in its own routine, and never in a block that it is not in.
+  std::uint32_t label(std::uint32_t jump) const {
+    for (std::uint32_t i = 0; i < program_.statements.size(); ++i)
+      if (at(i).kind == Kind::Label && at(i).name == at(jump).name &&
+          names_.routine_of[i] == names_.routine_of[jump])
+        return i;
+    return none;
   }
 
   Way conditional(std::uint32_t& i, std::uint32_t here) {
@@ -323,7 +338,7 @@ private:
       if (node.kind == Kind::For && (step > 0 ? values_[counter] > last : values_[counter] < last))
         return Way::On;
       const auto way = block(here + 1, last_part);
-      if (way == Way::Return)
+      if (way == Way::Return || way == Way::Goto)
         return way;
       if (way == Way::Exit)
         return Way::On;
@@ -466,6 +481,7 @@ private:
   std::vector<std::int32_t> data_;
   std::size_t data_next_ = 0;
   std::int32_t result_ = 0;
+  std::uint32_t target_ = none; ///< of the `goto` that is being followed
   bool seconds_ = false;
   std::uint64_t most_ = 0;
 };
