@@ -550,8 +550,6 @@ constexpr Reason reason<g::array_begin> = Reason::ExpectedBracket;
 template <>
 constexpr Reason reason<g::equals> = Reason::ExpectedEquals;
 template <>
-constexpr Reason reason<g::comma> = Reason::ExpectedComma;
-template <>
 constexpr Reason reason<g::place> = Reason::ExpectedPlace;
 template <>
 constexpr Reason reason<g::new_name> = Reason::ExpectedName;
