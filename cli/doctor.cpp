@@ -118,6 +118,8 @@ void check_ball(Context& context, Findings& findings, const PortOptions& options
   const InterruptGuard guard;
   auto link = open_link(context, options);
   if (!link) {
+    if (link.error().code == ExitCode::Interrupted)
+      return fail(context, link.error());
     findings.bad("the link does not open", link.error().message);
     return;
   }
@@ -125,6 +127,9 @@ void check_ball(Context& context, Findings& findings, const PortOptions& options
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto greeting = uploader::greet(session);
   if (!greeting) {
+    const auto code = exit_code(greeting.error().kind);
+    if (code == ExitCode::Interrupted)
+      return fail(context, {code, greeting.error().message});
     findings.bad("no ball answers", greeting.error().message);
     return;
   }

@@ -1,5 +1,7 @@
 #include "cli/interrupt.h"
 
+#include "uploader/budgets.h"
+
 #include <algorithm>
 #include <csignal>
 
@@ -8,9 +10,6 @@ namespace {
 
 /// How often the user asked to stop. A signal handler may touch nothing but this.
 volatile std::sig_atomic_t requests = 0;
-
-/// How long a stop may go unnoticed while a real link is waited for.
-constexpr Duration notice = 50ms;
 
 extern "C" void count_request(int) {
   requests = requests + 1;
@@ -55,7 +54,7 @@ tl::expected<Bytes, protocol::LinkError> InterruptibleTransport::read(Instant de
     if (stop())
       return tl::unexpected(
           protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
-    const auto slice = std::min(deadline, now() + notice);
+    const auto slice = std::min(deadline, now() + uploader::stop_notice);
     auto read = inner_->read(slice);
     if (!read || !read->empty() || now() >= deadline)
       return read;

@@ -119,9 +119,12 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
     link.ball = std::make_unique<vm::Ball>(ball);
     link.transport = std::make_unique<vm::BallTransport>(*link.ball);
   } else {
-    auto opened = uploader::open(*endpoint, link.budgets);
+    auto opened = uploader::open(*endpoint, link.budgets, InterruptGuard::asked);
     if (!opened)
-      return failure(ExitCode::NoBall, opened.error().message);
+      return failure(opened.error().kind == protocol::LinkError::Kind::Interrupted
+                         ? ExitCode::Interrupted
+                         : ExitCode::NoBall,
+                     opened.error().message);
     link.transport = std::move(*opened);
   }
   link.record_file = options.record;

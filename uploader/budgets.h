@@ -6,6 +6,9 @@
 
 namespace orb::uploader {
 
+/// How long a request to stop may go unnoticed while a link is waited for.
+constexpr Duration stop_notice = 50ms;
+
 /// Every wait and every repetition of an upload. Nothing waits without one of these, so their sum
 /// is the deadline that a plan states. Source: UPLOAD where no reason is given.
 struct Budgets {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -37,10 +38,14 @@ struct Endpoint {
 /// Reads a URL; the error is a sentence that says which forms there are.
 tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url);
 
+/// Whether a wait is no longer wanted, as after Ctrl-C.
+using Stop = std::function<bool()>;
+
 /// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
-/// try can help. Not for Sim. The error says what helps.
+/// try can help. Not for Sim. The error says what helps; it is Interrupted within stop_notice of
+/// `stop`.
 tl::expected<std::unique_ptr<protocol::Transport>, protocol::LinkError>
-open(const Endpoint& endpoint, const Budgets& budgets);
+open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop);
 
 /// The bytes of a `sockaddr_rc` for connect(2): family, the address with its last byte first,
 /// channel. Written by hand because the kernel's header comes with the GPL.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <future>
 #include <optional>
 #include <sys/file.h>
 #include <sys/ioctl.h>
@@ -158,15 +159,31 @@ Opened open_serial(const Endpoint& endpoint) {
   return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port));
 }
 
+/// Nothing has been sent while a link is being opened.
+tl::unexpected<LinkError> interrupted() {
+  return failed(LinkError::Kind::Interrupted, "interrupted; the ball is unchanged");
+}
+
+/// Lets `wait` wait for short times until it is true, or until nobody waits any more.
+template <class Wait>
+bool wait_unless(const Stop& stop, Instant deadline, const Wait& wait) {
+  while (!stop() && steady_now() < deadline)
+    if (wait(std::min(stop_notice, deadline - steady_now())))
+      return true;
+  return false;
+}
+
 /// Connects within the budget; the error is 0 for success.
 template <class Socket, class Connect>
-int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets,
+int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets, const Stop& stop,
                     const Connect& connect) {
   asio::error_code result = asio::error::timed_out;
   connect([&](const asio::error_code& error) { result = error; });
   io.restart();
-  io.run_for(std::chrono::duration_cast<std::chrono::steady_clock::duration>(budgets.connect));
-  if (!io.stopped()) {
+  if (!wait_unless(stop, steady_now() + budgets.connect, [&](Duration time) {
+        io.run_for(time);
+        return io.stopped();
+      })) {
     asio::error_code ignored;
     socket.close(ignored);
     io.run();
@@ -175,28 +192,48 @@ int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets
   return result.value();
 }
 
-Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets) {
+using Addresses = asio::ip::tcp::resolver::results_type;
+
+/// The addresses of a host: none where its name is unknown, nothing where nobody waits any more. A
+/// look-up can take half a minute and cannot be cancelled; then its thread is left to itself.
+std::optional<Addresses> look_up(const Endpoint& endpoint, const Stop& stop) {
+  std::packaged_task<Addresses()> task([host = endpoint.host, port = endpoint.port] {
+    asio::io_context io(1);
+    asio::error_code ignored;
+    return asio::ip::tcp::resolver(io).resolve(host, std::to_string(port), ignored);
+  });
+  auto found = task.get_future();
+  std::thread(std::move(task)).detach();
+  if (!wait_unless(stop, never, [&](Duration time) {
+        return found.wait_for(time) == std::future_status::ready;
+      }))
+    return std::nullopt;
+  return found.get();
+}
+
+Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   using asio::ip::tcp;
-  auto io = std::make_unique<asio::io_context>(1);
-  asio::error_code error;
-  const auto addresses =
-      tcp::resolver(*io).resolve(endpoint.host, std::to_string(endpoint.port), error);
-  if (error)
+  const auto addresses = look_up(endpoint, stop);
+  if (!addresses)
+    return interrupted();
+  if (addresses->empty())
     return failed(LinkError::Kind::CannotOpen,
                   fmt::format("cannot open {}: no host is called `{}`; check the name",
                               endpoint.text, endpoint.host));
+  auto io = std::make_unique<asio::io_context>(1);
   tcp::socket socket(*io);
-  const auto result = connect_in_time(*io, socket, budgets, [&](const auto& done) {
-    asio::async_connect(socket, addresses,
+  const auto result = connect_in_time(*io, socket, budgets, stop, [&](const auto& done) {
+    asio::async_connect(socket, *addresses,
                         [done](const asio::error_code& e, const tcp::endpoint&) { done(e); });
   });
   if (result != 0)
     return tl::unexpected(describe_open_error(endpoint, result));
-  socket.set_option(tcp::no_delay(true), error);
+  asio::error_code ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
   return std::make_unique<AsioTransport<tcp::socket>>(std::move(io), std::move(socket));
 }
 
-Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets) {
+Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   using Protocol = asio::generic::stream_protocol;
   auto io = std::make_unique<asio::io_context>(1);
   Protocol::socket socket(*io);
@@ -206,7 +243,7 @@ Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets) {
     return tl::unexpected(describe_open_error(endpoint, error.value()));
   const auto address = rfcomm_socket_address(endpoint.address, endpoint.channel);
   const Protocol::endpoint target(address.data(), address.size(), rfcomm_protocol);
-  const auto result = connect_in_time(*io, socket, budgets, [&](const auto& done) {
+  const auto result = connect_in_time(*io, socket, budgets, stop, [&](const auto& done) {
     socket.async_connect(target, [done](const asio::error_code& e) { done(e); });
   });
   if (result != 0)
@@ -214,12 +251,12 @@ Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets) {
   return std::make_unique<AsioTransport<Protocol::socket>>(std::move(io), std::move(socket));
 }
 
-Opened open_once(const Endpoint& endpoint, const Budgets& budgets) {
+Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   switch (endpoint.scheme) {
   case Scheme::Serial:
   case Scheme::Pty: return open_serial(endpoint);
-  case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets);
-  case Scheme::Tcp: return open_tcp(endpoint, budgets);
+  case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets, stop);
+  case Scheme::Tcp: return open_tcp(endpoint, budgets, stop);
   case Scheme::Replay: return open_replay(endpoint.path);
   case Scheme::Sim: break;
   }
@@ -228,14 +265,19 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets) {
 
 } // namespace
 
-Opened open(const Endpoint& endpoint, const Budgets& budgets) {
+Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   // Only a radio link fails now and works a moment later: the ball may be waking up.
   const auto times = endpoint.scheme == Scheme::Rfcomm ? budgets.opens : 1;
-  auto opened = open_once(endpoint, budgets);
-  for (int time = 1; !opened && time < times; ++time) {
-    std::this_thread::sleep_for(budgets.backoff(time));
-    opened = open_once(endpoint, budgets);
+  auto opened = open_once(endpoint, budgets, stop);
+  for (int time = 1; !opened && !stop() && time < times; ++time) {
+    wait_unless(stop, steady_now() + budgets.backoff(time), [](Duration pause) {
+      std::this_thread::sleep_for(pause);
+      return false;
+    });
+    opened = open_once(endpoint, budgets, stop);
   }
+  if (!opened && stop())
+    return interrupted();
   return opened;
 }
 

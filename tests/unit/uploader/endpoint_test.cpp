@@ -55,6 +55,10 @@ protected:
   }
 };
 
+bool on_and_on() {
+  return false;
+}
+
 Endpoint endpoint_of(std::string_view url) {
   const auto endpoint = parse_endpoint(url);
   EXPECT_TRUE(endpoint.has_value()) << url;
@@ -62,7 +66,7 @@ Endpoint endpoint_of(std::string_view url) {
 }
 
 std::string open_error(std::string_view url) {
-  const auto opened = open(endpoint_of(url), Budgets{});
+  const auto opened = open(endpoint_of(url), Budgets{}, on_and_on);
   EXPECT_FALSE(opened.has_value()) << url;
   return opened ? std::string() : opened.error().message;
 }
@@ -130,7 +134,7 @@ TEST(Open, NamesWhatIsNoDevice) {
 
 TEST_F(PtyTest, CarriesBytesThroughAPtyUnchanged) {
   Pty pty;
-  auto link = open(endpoint_of("pty://" + pty.path), Budgets{});
+  auto link = open(endpoint_of("pty://" + pty.path), Budgets{}, on_and_on);
   ASSERT_TRUE(link.has_value()) << link.error().message;
   Bytes all(256);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -157,7 +161,7 @@ TEST_F(PtyTest, CarriesBytesThroughAPtyUnchanged) {
 
 TEST_F(PtyTest, WaitsNoLongerThanTheDeadline) {
   Pty pty;
-  auto link = open(endpoint_of(pty.path), Budgets{});
+  auto link = open(endpoint_of(pty.path), Budgets{}, on_and_on);
   ASSERT_TRUE(link.has_value());
   const auto start = steady_time();
   const auto read = (*link)->read((*link)->now() + 30ms);
@@ -169,7 +173,7 @@ TEST_F(PtyTest, WaitsNoLongerThanTheDeadline) {
 
 TEST_F(PtyTest, NoticesThatTheOtherEndHungUp) {
   Pty pty;
-  auto link = open(endpoint_of(pty.path), Budgets{});
+  auto link = open(endpoint_of(pty.path), Budgets{}, on_and_on);
   ASSERT_TRUE(link.has_value());
   pty.master.close_now();
   const auto start = steady_time();
@@ -181,7 +185,7 @@ TEST_F(PtyTest, NoticesThatTheOtherEndHungUp) {
 
 TEST_F(PtyTest, RefusesAPortInUse) {
   Pty pty;
-  const auto first = open(endpoint_of(pty.path), Budgets{});
+  const auto first = open(endpoint_of(pty.path), Budgets{}, on_and_on);
   ASSERT_TRUE(first.has_value());
   EXPECT_NE(open_error(pty.path).find("another program has it open"), std::string::npos);
 }
@@ -196,7 +200,7 @@ TEST_F(PtyTest, LetsAnOrdinaryUserInAgain) {
     const Pty pty;
     const auto endpoint = *parse_endpoint(pty.path);
     for (int visit = 0; visit < 3; ++visit)
-      if (!open(endpoint, Budgets{}))
+      if (!open(endpoint, Budgets{}, on_and_on))
         ::_exit(1);
     ::_exit(0);
   }
@@ -205,19 +209,28 @@ TEST_F(PtyTest, LetsAnOrdinaryUserInAgain) {
   EXPECT_EQ(status, 0);
 }
 
-TEST(Open, ConnectsOverTcp) {
-  const Handle listener(::socket(AF_INET, SOCK_STREAM, 0));
+/// A port of this machine where somebody listens.
+struct Listener {
+  explicit Listener(int queue) : socket(::socket(AF_INET, SOCK_STREAM, 0)) {
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    EXPECT_EQ(::bind(socket.fd, reinterpret_cast<sockaddr*>(&address), size), 0);
+    EXPECT_EQ(::listen(socket.fd, queue), 0);
+    ::getsockname(socket.fd, reinterpret_cast<sockaddr*>(&address), &size);
+  }
+  Endpoint endpoint() const {
+    return endpoint_of("tcp://127.0.0.1:" + std::to_string(ntohs(address.sin_port)));
+  }
+  Handle socket;
   sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(::bind(listener.fd, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-  ASSERT_EQ(::listen(listener.fd, 1), 0);
-  socklen_t size = sizeof(address);
-  ::getsockname(listener.fd, reinterpret_cast<sockaddr*>(&address), &size);
-  auto link =
-      open(endpoint_of("tcp://127.0.0.1:" + std::to_string(ntohs(address.sin_port))), Budgets{});
+};
+
+TEST(Open, ConnectsOverTcp) {
+  const Listener listener(1);
+  auto link = open(listener.endpoint(), Budgets{}, on_and_on);
   ASSERT_TRUE(link.has_value()) << link.error().message;
-  Handle peer(::accept(listener.fd, nullptr, nullptr));
+  Handle peer(::accept(listener.socket.fd, nullptr, nullptr));
   ASSERT_TRUE((*link)->write(Bytes{1, 2, 3}).has_value());
   std::array<std::uint8_t, 8> buffer{};
   EXPECT_EQ(::read(peer.fd, buffer.data(), buffer.size()), 3);
@@ -227,6 +240,25 @@ TEST(Open, ConnectsOverTcp) {
   const auto read = (*link)->read((*link)->now() + 10s);
   ASSERT_FALSE(read.has_value());
   EXPECT_EQ(read.error().kind, protocol::LinkError::Kind::Closed);
+}
+
+TEST(Open, StopsConnectingWhenAsked) {
+  const Listener listener(0);
+  const Handle first(::socket(AF_INET, SOCK_STREAM, 0)); // fills the queue: whoever follows waits
+  ASSERT_EQ(::connect(first.fd, reinterpret_cast<const sockaddr*>(&listener.address),
+                      sizeof(listener.address)),
+            0);
+  int asked = 0;
+  const auto link = open(listener.endpoint(), Budgets{}, [&] { return ++asked > 5; });
+  ASSERT_FALSE(link.has_value());
+  EXPECT_EQ(link.error().kind, protocol::LinkError::Kind::Interrupted);
+  EXPECT_EQ(link.error().message, "interrupted; the ball is unchanged");
+}
+
+TEST(Open, DoesNotWaitForANameOnceStopped) {
+  const auto link = open(endpoint_of("tcp://ball.invalid:1"), Budgets{}, [] { return true; });
+  ASSERT_FALSE(link.has_value());
+  EXPECT_EQ(link.error().kind, protocol::LinkError::Kind::Interrupted);
 }
 
 /// Short enough for a test in real time.
@@ -242,7 +274,7 @@ Budgets hurried() {
 /// Greets what a talker on the master of a pty plays, which gets what the client sent.
 Report greet_talker(const std::function<Bytes(ByteView)>& talker) {
   Pty pty;
-  auto link = open(endpoint_of(pty.path), hurried());
+  auto link = open(endpoint_of(pty.path), hurried(), on_and_on);
   EXPECT_TRUE(link.has_value());
   ::fcntl(pty.master.fd, F_SETFL, O_NONBLOCK);
   std::atomic<bool> over = false;
