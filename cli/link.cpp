@@ -30,18 +30,6 @@ std::uint8_t draw_first_seq() {
   return static_cast<std::uint8_t>(std::random_device{}());
 }
 
-/// A replay must begin with the sequence number that was recorded.
-std::uint8_t first_seq_of(const Endpoint& endpoint) {
-  if (endpoint.scheme == Scheme::Sim)
-    return sim_first_seq;
-  if (endpoint.scheme != Scheme::Replay)
-    return draw_first_seq();
-  const auto text = disk::read(endpoint.path);
-  const auto pieces = text ? protocol::parse_recording(*text)
-                           : tl::expected<std::vector<protocol::RecordedPiece>, std::string>();
-  return pieces ? protocol::first_recorded_seq(*pieces).value_or(0) : std::uint8_t{0};
-}
-
 } // namespace
 
 void add_port_options(CLI::App& command, PortOptions& options) {
@@ -100,6 +88,43 @@ tl::expected<void, Failure> check_port(const Context& context, const PortOptions
   return {};
 }
 
+namespace {
+
+void open_sim(Link& link) {
+  vm::BallOptions ball;
+  ball.loader = compiler::load;
+  link.first_seq = sim_first_seq;
+  link.ball = std::make_unique<vm::Ball>(ball);
+  link.transport = std::make_unique<vm::BallTransport>(*link.ball);
+}
+
+/// Plays a recording; the session must begin with the sequence number that was recorded.
+tl::expected<void, Failure> open_replay(Link& link, const std::string& path) {
+  const auto text = disk::read(path);
+  if (!text)
+    return failure(ExitCode::NoBall, text.error().message);
+  auto pieces = protocol::parse_recording(*text);
+  if (!pieces)
+    return failure(ExitCode::NoBall, fmt::format("{}: {}", path, pieces.error()));
+  link.first_seq = protocol::first_recorded_seq(*pieces).value_or(0);
+  link.transport = std::make_unique<protocol::ReplayTransport>(std::move(*pieces));
+  return {};
+}
+
+tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint) {
+  auto opened = uploader::open(endpoint, link.budgets, InterruptGuard::asked);
+  if (!opened)
+    return failure(opened.error().kind == protocol::LinkError::Kind::Interrupted
+                       ? ExitCode::Interrupted
+                       : ExitCode::NoBall,
+                   opened.error().message);
+  link.first_seq = draw_first_seq();
+  link.transport = std::move(*opened);
+  return {};
+}
+
+} // namespace
+
 tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options) {
   const auto endpoint = find_endpoint(context, options);
   if (!endpoint)
@@ -111,22 +136,16 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   Link link;
   link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
-  link.first_seq = first_seq_of(*endpoint);
   link.budgets.answer = parse_duration(options.answer, 1s).value_or(link.budgets.answer);
-  if (link.is_sim) {
-    vm::BallOptions ball;
-    ball.loader = compiler::load;
-    link.ball = std::make_unique<vm::Ball>(ball);
-    link.transport = std::make_unique<vm::BallTransport>(*link.ball);
-  } else {
-    auto opened = uploader::open(*endpoint, link.budgets, InterruptGuard::asked);
-    if (!opened)
-      return failure(opened.error().kind == protocol::LinkError::Kind::Interrupted
-                         ? ExitCode::Interrupted
-                         : ExitCode::NoBall,
-                     opened.error().message);
-    link.transport = std::move(*opened);
-  }
+  tl::expected<void, Failure> opened;
+  if (link.is_sim)
+    open_sim(link);
+  else if (endpoint->scheme == Scheme::Replay)
+    opened = open_replay(link, endpoint->path);
+  else
+    opened = open_real(link, *endpoint);
+  if (!opened)
+    return tl::unexpected(opened.error());
   link.record_file = options.record;
   if (!options.record.empty() || context.verbosity >= 2) {
     link.log = std::make_unique<WireLog>(context.verbosity);

@@ -19,7 +19,7 @@ enum class Scheme : std::uint8_t {
   Tcp,    ///< `tcp://host:port`
   Pty,    ///< `pty:///path`
   Sim,    ///< `sim:`, a ball in this process: whoever holds one makes the link
-  Replay  ///< `replay://file`
+  Replay  ///< `replay://file`: whoever reads the file makes the link
 };
 
 using BluetoothAddress = std::array<std::uint8_t, 6>; ///< in the order in which it is written
@@ -42,8 +42,8 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url);
 using Stop = std::function<bool()>;
 
 /// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
-/// try can help. Not for Sim. The error says what helps; it is Interrupted within stop_notice of
-/// `stop`.
+/// try can help. Not for Sim and Replay. The error says what helps; it is Interrupted within
+/// stop_notice of `stop`.
 tl::expected<std::unique_ptr<protocol::Transport>, protocol::LinkError>
 open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop);
 

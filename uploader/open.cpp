@@ -1,7 +1,6 @@
 // The links that the operating system gives: each is an Asio stream behind the Transport interface.
 
 #include "uploader/endpoint.h"
-#include "uploader/replay.h"
 
 #include <array>
 #include <asio.hpp>
@@ -257,10 +256,10 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
   case Scheme::Pty: return open_serial(endpoint);
   case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets, stop);
   case Scheme::Tcp: return open_tcp(endpoint, budgets, stop);
-  case Scheme::Replay: return open_replay(endpoint.path);
+  case Scheme::Replay:
   case Scheme::Sim: break;
   }
-  return failed(LinkError::Kind::CannotOpen, "a ball in this process is not opened by its URL");
+  return failed(LinkError::Kind::CannotOpen, "the operating system has no such link");
 }
 
 } // namespace
