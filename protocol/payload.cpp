@@ -222,9 +222,12 @@ tl::expected<Bytes, EncodeError> encode_rest(const Field& field,
     data.insert(data.end(), bytes->begin(), bytes->end());
   }
   const auto size = static_cast<std::int64_t>(data.size());
-  if (size < field.least || size > field.most)
-    return tl::unexpected(EncodeError{fmt::format("`{}` is {} to {} bytes, found {}", field.name,
-                                                  field.least, field.most, size)});
+  if (size < field.least || size > field.most) {
+    const auto range = field.least == field.most ? fmt::format("{}", field.most)
+                                                 : fmt::format("{} to {}", field.least, field.most);
+    return tl::unexpected(
+        EncodeError{fmt::format("`{}` is {} bytes, found {}", field.name, range, size)});
+  }
   return data;
 }
 

@@ -47,7 +47,10 @@ std::string_view type_name(spec::FieldType type) {
 
 /// A field in a few words: `u16 heading 0 to 359 deg`, ranges only where the table has one.
 std::string describe(const spec::Field& field) {
-  auto out = fmt::format("{} {}", type_name(field.type), field.name);
+  const bool exact =
+      field.type == spec::FieldType::Data && field.least == field.most && field.most > 0;
+  auto out = fmt::format("{}{} {}", exact ? fmt::format("{} ", field.most) : "",
+                         type_name(field.type), field.name);
   if (field.least < field.most)
     out += fmt::format(" {} to {}{}", field.least, field.most,
                        spec::is_number(field.type) ? "" : " bytes");

@@ -177,7 +177,18 @@ std::string contents(const Section& section, const Links& links) {
   return out;
 }
 
-std::string chapter(const Entry& entry, const Links& links) {
+/// What a fence holds (tests/docs/page.h). A mistake, or a line out of a program, is only text.
+std::string_view fence(std::string_view section, std::string_view caption) {
+  if (caption == "bad" || section == "statements" || section == "functions")
+    return "text";
+  if (section.starts_with("api-"))
+    return "sh";
+  if (section.starts_with("macro-"))
+    return "macro";
+  return section.starts_with("stimulus-") ? "stimulus" : "basic";
+}
+
+std::string chapter(std::string_view section, const Entry& entry, const Links& links) {
   auto out = fmt::format("## `{}`\n\n{}\n\n", entry.name, links.text(entry.summary, entry.name));
   for (const auto& fact : entry.facts)
     out += fmt::format("- {}: {}\n", fact.first, fact_text(links, entry.name, fact));
@@ -186,7 +197,7 @@ std::string chapter(const Entry& entry, const Links& links) {
   if (!entry.explanation.empty())
     out += fmt::format("{}\n\n", links.text(entry.explanation, entry.name));
   for (const auto& [caption, source] : entry.code)
-    out += fmt::format("{}:\n\n```\n{}\n```\n\n", caption,
+    out += fmt::format("{}:\n\n```{}\n{}\n```\n\n", caption, fence(section, caption),
                        source.ends_with("\n") ? source.substr(0, source.size() - 1) : source);
   return out;
 }
@@ -204,7 +215,7 @@ std::string print_markdown(const std::vector<Section>& sections, const Section& 
     out += section.overview + "\n";
   out += contents(section, links);
   for (const auto& entry : section.entries)
-    out += chapter(entry, links);
+    out += chapter(section.id, entry, links);
   out.pop_back(); // one line end at the end of the file
   return out;
 }

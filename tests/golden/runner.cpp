@@ -14,8 +14,12 @@
 // where it is not 0. Output that does not end in a line end is followed by a line `[no newline]`.
 // Input files follow at the end: `=== NAME`, or `=== NAME hex` for bytes, or `=== NAME bare` for a
 // text without its last line end. `--update` rewrites the expectations: read the diff.
+//
+// A file that ends in `.md` is a page of the documentation: tests/docs/page.h.
 
 #include "base/bytes.h"
+#include "tests/docs/page.h"
+#include "tests/golden/files.h"
 
 #include <algorithm>
 #include <array>
@@ -56,19 +60,6 @@ struct Transcript {
   std::vector<Input> inputs;
 };
 
-std::string read_all(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<std::string> split_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    lines.push_back(line);
-  return lines;
-}
-
 /// A line of output that looks like the runner's own marks is written with a backslash before it.
 bool needs_escape(const std::string& line) {
   return line.starts_with("$ ") || line.starts_with("[stderr]") || line.starts_with("[exit ") ||
@@ -77,7 +68,7 @@ bool needs_escape(const std::string& line) {
 
 std::string escape(const std::string& output) {
   std::string text;
-  for (const auto& line : split_lines(output))
+  for (const auto& line : files::lines(output))
     text += (needs_escape(line) ? "\\" : "") + line + "\n";
   if (!output.empty() && output.back() != '\n')
     text += "[no newline]\n";
@@ -87,7 +78,7 @@ std::string escape(const std::string& output) {
 Transcript parse(const std::string& text) {
   Transcript transcript;
   std::string* sink = &transcript.head;
-  for (const auto& line : split_lines(text)) {
+  for (const auto& line : files::lines(text)) {
     const bool in_input = !transcript.inputs.empty();
     if (line.starts_with("=== ")) {
       std::istringstream words(line.substr(4));
@@ -137,27 +128,6 @@ std::string content_of(const Input& input) {
   return input.text;
 }
 
-/// A folder of its own for one transcript, removed at the end.
-class Scratch {
-public:
-  Scratch() {
-    std::string pattern = (fs::temp_directory_path() / "orb-golden.XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~Scratch() { fs::remove_all(path_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-};
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
-
 Step run(const std::string& command, const fs::path& folder, const fs::path& logs) {
   const auto out = logs / "stdout";
   const auto err = logs / "stderr";
@@ -165,9 +135,9 @@ Step run(const std::string& command, const fs::path& folder, const fs::path& log
                                 out.string(), err.string(), command);
   const int status = std::system(line.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  Step step{command, read_all(out), read_all(err), code};
+  Step step{command, files::read(out), files::read(err), code};
   for (auto* text : {&step.out, &step.err})
-    replace_all(*text, folder.string(), "$PWD");
+    files::replace_all(*text, folder.string(), "$PWD");
   return step;
 }
 
@@ -178,40 +148,70 @@ struct Options {
   std::vector<fs::path> paths;
 };
 
-/// True when every step came back as written (or was rewritten).
-bool check(const fs::path& path, const Options& options) {
-  const auto before = read_all(path);
-  const auto expected = parse(before);
-  const Scratch scratch;
-  const Scratch logs;
-  for (const auto& input : expected.inputs) {
-    const auto target = scratch.path() / input.name;
-    fs::create_directories(target.parent_path());
-    std::ofstream(target, std::ios::binary) << content_of(input);
-  }
-  auto actual = expected;
-  for (auto& step : actual.steps)
-    step = run(step.command, scratch.path(), logs.path());
-  if (expected.steps.empty()) {
-    fmt::print("{}: holds no step; write a line `$ orb …`\n", path.string());
-    return false;
-  }
-  if (actual.steps == expected.steps)
+/// True when a file came back as written (or was rewritten).
+bool compare(const fs::path& path, const std::string& before, const std::string& after,
+             const Options& options) {
+  if (before == after)
     return true;
   if (options.update) {
-    std::ofstream(path, std::ios::binary) << print(actual);
+    files::write(path, after);
     fmt::print("updated {}\n", path.string());
     return true;
   }
-  std::ofstream(logs.path() / "expected", std::ios::binary) << print(expected);
-  std::ofstream(logs.path() / "actual", std::ios::binary) << print(actual);
+  const files::Scratch folder;
+  files::write(folder.path() / "expected", before);
+  files::write(folder.path() / "actual", after);
   fmt::print("FAILED {}\n", path.string());
   std::fflush(stdout);
-  const auto diff = fmt::format("cd '{}' && diff -u expected actual", logs.path().string());
+  const auto diff = fmt::format("cd '{}' && diff -u expected actual", folder.path().string());
   [[maybe_unused]] const int ignored = std::system(diff.c_str());
   return false;
 }
 
+bool check_transcript(const fs::path& path, const Options& options) {
+  const auto expected = parse(files::read(path));
+  const files::Scratch scratch;
+  const files::Scratch logs;
+  for (const auto& input : expected.inputs)
+    files::write(scratch.path() / input.name, content_of(input));
+  if (expected.steps.empty()) {
+    fmt::print("{}: holds no step; write a line `$ orb …`\n", path.string());
+    return false;
+  }
+  auto actual = expected;
+  for (auto& step : actual.steps)
+    step = run(step.command, scratch.path(), logs.path());
+  return actual.steps == expected.steps || compare(path, print(expected), print(actual), options);
+}
+
+/// A page of the documentation: its commands succeed, what it shows is what they print.
+bool check_page(const fs::path& path, const Options& options) {
+  const auto text = files::read(path);
+  const auto page = docs::read(text);
+  const files::Scratch scratch;
+  const files::Scratch logs;
+  for (const auto& file : page.files)
+    files::write(scratch.path() / file.name, file.text);
+  auto ran = docs::run(page, scratch.path().string(), logs.path().string());
+  bool good = page.problems.empty();
+  for (const auto& problem : page.problems)
+    fmt::print("{}:{}: {}\n", path.string(), problem.line, problem.text);
+  for (auto& command : ran) {
+    files::replace_all(command.output, scratch.path().string(), "$PWD");
+    if (command.shown || command.exit == 0)
+      continue;
+    fmt::print("{}:{}: `{}` exits with {}:\n{}", path.string(), command.line, command.text,
+               command.exit, command.output);
+    good = false;
+  }
+  return compare(path, text, docs::with_outputs(text, ran), options) && good;
+}
+
+bool check(const fs::path& path, const Options& options) {
+  return path.extension() == ".md" ? check_page(path, options) : check_transcript(path, options);
+}
+
+/// The transcripts and pages among `paths` and in the folders among them.
 std::vector<fs::path> transcripts(const std::vector<fs::path>& paths) {
   std::vector<fs::path> files;
   for (const auto& path : paths) {
@@ -220,7 +220,7 @@ std::vector<fs::path> transcripts(const std::vector<fs::path>& paths) {
       continue;
     }
     for (const auto& entry : fs::recursive_directory_iterator(path))
-      if (entry.path().extension() == ".txt")
+      if (entry.path().extension() == ".txt" || entry.path().extension() == ".md")
         files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
