@@ -410,6 +410,10 @@ std::optional<Failure> objection(const Load& load) {
                                  input->source->name())};
   if (load.programs.empty() && load.macros.empty())
     return Failure{ExitCode::BadInput, "there is no macro to run"};
+  if (load.programs.empty() && load.macros.front()->image.body.empty())
+    return Failure{ExitCode::BadInput,
+                   fmt::format("macro `{}` holds no command, not even the final 00",
+                               load.macros.front()->name)};
   for (const auto* macro : load.macros)
     if (const auto size = encode(macro->image).size();
         job_of(*macro).kind == uploader::MacroKind::User && size > spec::macro_max_packet)
