@@ -11,8 +11,10 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sstream>
+#include <unistd.h>
 
 namespace {
 
@@ -172,9 +174,18 @@ int end_without_output(int error) {
   return static_cast<int>(ExitCode::File);
 }
 
+/// Keeps a closed stdin, stdout or stderr from being the next file or socket that is opened, where
+/// what is printed would then go. Reading and writing it stay errors.
+void keep_standard_streams_apart() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(fd, F_GETFD) < 0)
+      static_cast<void>(::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams_apart();
   try {
     return run(argc, argv);
   } catch (const orb::cli::OutputError& failure) {

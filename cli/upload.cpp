@@ -180,6 +180,7 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
 
 ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
               const run::LineMap& lines) {
+  const InterruptGuard guard; // from here on the last word is what is on the ball
   auto link = open_link(context, options.port);
   if (!link)
     return fail(context, link.error().code, link.error().message);
@@ -199,7 +200,6 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
 }
 
 void upload(Context& context, const Options& options) {
-  const InterruptGuard guard; // from here on the last word is what is on the ball
   if (const auto port = check_port(context, options.port); !port)
     return cli::fail(context, port.error());
   const auto inputs = load_all(context, options);
