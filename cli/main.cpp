@@ -14,6 +14,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sstream>
+#include <system_error>
 #include <unistd.h>
 
 namespace {
@@ -132,7 +133,9 @@ void answer_completion(const CLI::App& app, std::vector<std::string> words) {
 }
 
 int run(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN); // a closed pipe or socket is an error to handle, not a death
+  // A closed pipe or socket, or a file as large as it may be, is an error to handle, not a death.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app(
       "orb writes, checks, runs and flashes orbBasic programs and macros for Sphero robots.",
       "orb");
@@ -190,6 +193,9 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const orb::cli::OutputError& failure) {
     return end_without_output(failure.error);
+  } catch (const std::system_error& error) { // no descriptor left, say
+    orb::cli::print_err(fmt::format("orb: error: {}\n", error.what()));
+    return static_cast<int>(ExitCode::File);
   } catch (const std::exception& error) {
     orb::cli::print_err(fmt::format(
         "orb: internal error: {}\nthis is a bug in orb; please report it with the command line\n",

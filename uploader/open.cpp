@@ -14,6 +14,7 @@
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
+#include <system_error>
 #include <termios.h>
 #include <thread>
 #include <utility>
@@ -193,32 +194,37 @@ int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets
 
 using Addresses = asio::ip::tcp::resolver::results_type;
 
-/// The addresses of a host: none where its name is unknown, nothing where nobody waits any more. A
-/// look-up can take half a minute and cannot be cancelled; then its thread is left to itself.
-std::optional<Addresses> look_up(const Endpoint& endpoint, const Stop& stop) {
+/// The addresses of a host. A look-up can take half a minute and cannot be cancelled: where nobody
+/// waits any more its thread is left to itself.
+tl::expected<Addresses, LinkError> look_up(const Endpoint& endpoint, const Stop& stop) {
   std::packaged_task<Addresses()> task([host = endpoint.host, port = endpoint.port] {
     asio::io_context io(1);
     asio::error_code ignored;
     return asio::ip::tcp::resolver(io).resolve(host, std::to_string(port), ignored);
   });
   auto found = task.get_future();
-  std::thread(std::move(task)).detach();
+  try {
+    std::thread(std::move(task)).detach();
+  } catch (const std::system_error& error) {
+    return failed(LinkError::Kind::CannotOpen,
+                  fmt::format("cannot open {}: {}", endpoint.text, error.code().message()));
+  }
   if (!wait_unless(stop, never, [&](Duration time) {
         return found.wait_for(time) == std::future_status::ready;
       }))
-    return std::nullopt;
-  return found.get();
+    return interrupted();
+  if (auto addresses = found.get(); !addresses.empty())
+    return addresses;
+  return failed(LinkError::Kind::CannotOpen,
+                fmt::format("cannot open {}: no host is called `{}`; check the name", endpoint.text,
+                            endpoint.host));
 }
 
 Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   using asio::ip::tcp;
   const auto addresses = look_up(endpoint, stop);
   if (!addresses)
-    return interrupted();
-  if (addresses->empty())
-    return failed(LinkError::Kind::CannotOpen,
-                  fmt::format("cannot open {}: no host is called `{}`; check the name",
-                              endpoint.text, endpoint.host));
+    return tl::unexpected(addresses.error());
   auto io = std::make_unique<asio::io_context>(1);
   tcp::socket socket(*io);
   const auto result = connect_in_time(*io, socket, budgets, stop, [&](const auto& done) {
