@@ -170,6 +170,9 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
     errno = EISDIR;
     return failure("write", path);
   }
+  // Renaming would pass by what keeps others, or the user himself, from writing to the file.
+  if (exists ? ::access(place.c_str(), W_OK) != 0 : errno != ENOENT)
+    return failure("write", path);
   // A device or a pipe (/dev/stdout) cannot be replaced, and a file of several names would lose
   // the others.
   if (exists && (!S_ISREG(status.st_mode) || status.st_nlink > 1))
