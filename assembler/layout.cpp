@@ -1,5 +1,6 @@
 #include "assembler/layout.h"
 
+#include "base/text.h"
 #include "spec/macro.h"
 
 #include <algorithm>
@@ -8,18 +9,6 @@ namespace orb::assembler {
 namespace {
 
 constexpr std::size_t step = 2; // blanks that a macro or a loop indents
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_blank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
 
 /// The first line of `text`, taken off with its end: LF, CR or CRLF.
 std::string_view take_line(std::string_view& text) {

@@ -1,5 +1,7 @@
 #include "base/duration.h"
 
+#include "base/text.h"
+
 #include <array>
 
 namespace orb {
@@ -13,10 +15,6 @@ struct Unit {
 // Longer words first where one ends in another.
 constexpr auto units = std::to_array<Unit>({{"ms", 1ms}, {"min", 1min}, {"s", 1s}, {"h", 1h}});
 constexpr Duration longest = 8784h;
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 /// Takes the unit off the end of `text`; zero where there is none.
 Duration take_unit(std::string_view& text) {

@@ -1,19 +1,12 @@
 #include "base/suggest.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <vector>
 
 namespace orb {
 namespace {
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-bool equal_but_for_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
-}
 
 /// Optimal string alignment distance, without regard to case.
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -25,10 +18,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      const bool same = to_lower(a[i - 1]) == to_lower(b[j - 1]);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0U : 1U)});
-      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
-                           lower(a[i - 2]) == lower(b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && to_lower(a[i - 1]) == to_lower(b[j - 2]) &&
+                           to_lower(a[i - 2]) == to_lower(b[j - 1]);
       if (swapped)
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
@@ -38,7 +31,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
-constexpr std::size_t longest_word = 64; // longer ones are no misspelling, and the table is square
+constexpr std::size_t longest_word =
+    64; // longer ones are not misspellings, and the table is square
 
 } // namespace
 
@@ -47,7 +41,7 @@ std::optional<std::string> closest(std::string_view word,
   if (word.empty() || word.size() > longest_word)
     return std::nullopt;
   for (const auto candidate : candidates)
-    if (equal_but_for_case(word, candidate))
+    if (equal_words(word, candidate))
       return std::string(candidate);
   std::optional<std::string> best;
   // A word of which nothing would be left is not misspelt: `x` never becomes `y`.

@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/options.h"
@@ -6,7 +7,6 @@
 #include "compiler/load.h"
 #include "spec/firmware.h"
 
-#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 
@@ -36,13 +36,12 @@ std::optional<serve::ServeOptions::Tcp> parse_address(std::string_view text) {
     return std::nullopt;
   auto host = text.substr(0, colon);
   const auto digits = text.substr(colon + 1);
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-  if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size())
+  const auto port = parse_number<std::uint16_t>(digits);
+  if (!port)
     return std::nullopt;
   if (host.starts_with('[') && host.ends_with(']'))
     host = host.substr(1, host.size() - 2);
-  return serve::ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), port};
+  return serve::ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), *port};
 }
 
 void run_ball(Context& context, const BallArguments& arguments) {
@@ -100,7 +99,7 @@ void add_ball(CLI::App& app, Context& context) {
                               "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
                               "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7");
   auto arguments = std::make_shared<BallArguments>();
-  // A flag, because flags take a value only behind `=`.
+  // A flag, because flags take a value only after `=`.
   command
       ->add_flag("--pty", arguments->pty,
                  "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")

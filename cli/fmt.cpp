@@ -3,6 +3,7 @@
 #include "assembler/rules.h"
 #include "base/render.h"
 #include "base/source.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/diff.h"
 #include "cli/inputs.h"
@@ -12,7 +13,6 @@
 #include "compiler/renumber.h"
 #include "disk/disk.h"
 
-#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -31,12 +31,8 @@ struct Options {
 };
 
 std::optional<std::uint32_t> read_number(std::string_view text) {
-  std::uint32_t value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || value == 0 ||
-      value > 65535)
-    return std::nullopt;
-  return value;
+  const auto value = parse_number<std::uint16_t>(text);
+  return value && *value > 0 ? std::optional<std::uint32_t>(*value) : std::nullopt;
 }
 
 /// `START:STEP`, or `START` alone.

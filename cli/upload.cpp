@@ -1,4 +1,5 @@
 #include "base/duration.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
@@ -9,7 +10,6 @@
 #include "cli/target.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 #include <set>
@@ -238,10 +238,7 @@ void add_upload(CLI::App& app, Context& context) {
       ->expected(0, 1)
       ->type_name("LINE")
       ->check([](const std::string& text) {
-        std::uint16_t line = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line);
-        const auto good = error == std::errc() && end == text.data() + text.size() && line > 0;
-        return text.empty() || good
+        return text.empty() || parse_number<std::uint16_t>(text).value_or(0) > 0
                    ? std::string()
                    : "`" + text + "` is not a line number; write one from 1 to 65535";
       });

@@ -1,5 +1,7 @@
 #include "compiler/foreign.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <array>
 
@@ -15,13 +17,8 @@ constexpr auto table = std::to_array<Foreign>({
 } // namespace
 
 const Foreign* find_foreign(std::string_view spelling, Foreign::Place place) {
-  const auto same = [](char a, char b) {
-    return a == b || (a >= 'A' && a <= 'Z' && a - 'A' + 'a' == b);
-  };
   const auto row = std::find_if(table.begin(), table.end(), [&](const Foreign& foreign) {
-    return foreign.place == place &&
-           std::equal(spelling.begin(), spelling.end(), foreign.spelling.begin(),
-                      foreign.spelling.end(), same);
+    return foreign.place == place && equal_words(spelling, foreign.spelling);
   });
   return row == table.end() ? nullptr : &*row;
 }

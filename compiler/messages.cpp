@@ -1,6 +1,7 @@
 #include "compiler/messages.h"
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "compiler/fault_text.h"
 #include "compiler/rules.h"
 #include "compiler/slips.h"
@@ -8,21 +9,12 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <string>
 #include <vector>
 
 namespace orb::compiler {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (auto& c : out)
-    if (c >= 'A' && c <= 'Z')
-      c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
 
 bool is_relation(char c) {
   return spec::find_relation(c).has_value();
@@ -126,7 +118,7 @@ private:
       return unknown_variable(name);
     const auto words = statement_words();
     const auto best = closest(name, words);
-    if (best && lower(*best) == lower(name)) {
+    if (best && equal_words(*best, name)) {
       auto d = make(rules::UnknownStatement,
                     fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
                     fmt::format("write `{}`", *best));
@@ -159,7 +151,7 @@ private:
     auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a variable", name),
                   "variables are named A to Z");
     if (const auto best = closest(name, names)) {
-      const bool same = lower(*best) == lower(name);
+      const bool same = equal_words(*best, name);
       d.help = same ? fmt::format("write `{}`; orbBasic is case-sensitive", *best)
                     : fmt::format("did you mean `{}`? variables are named A to Z", *best);
       set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best,
@@ -217,7 +209,7 @@ private:
         make(rules::SyntaxError, fmt::format("`{}` is neither a variable nor a function", name),
              "variables are named A to Z");
     if (const auto best = closest(name, names)) {
-      const bool same = lower(*best) == lower(name);
+      const bool same = equal_words(*best, name);
       d.help = same ? fmt::format("write `{}`; orbBasic is case-sensitive", *best)
                     : fmt::format("did you mean `{}`?", *best);
       set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best,
@@ -256,18 +248,17 @@ private:
       ++end;
     d.help = fmt::format("values are whole numbers: write `A {} B {} 1` for `A {}= B`", sign,
                          step > 0 ? '+' : '-', sign);
-    std::int32_t value = 0;
-    const auto read = std::from_chars(text_.data() + begin, text_.data() + end, value);
+    const auto value = parse_number<std::int32_t>(text_.substr(begin, end - begin));
     const char next = after(end);
     const bool whole = next == '\0' || next == '\'' || is_letter(next);
-    const bool fits = step > 0 ? value < spec::value_of(spec::Limit::GreatestInteger) : value > 0;
-    if (end == begin || read.ec != std::errc{} || !whole || !fits)
+    const auto limit = step > 0 ? spec::value_of(spec::Limit::GreatestInteger) : 0;
+    if (!value || *value == limit || !whole)
       return;
-    d.help = fmt::format("values are whole numbers: write `{} {}`", sign, value + step);
-    d.fix =
-        Fix{fmt::format("write `{} {}`", sign, value + step),
-            {Edit{span, std::string(1, sign)}, Edit{{begin, end}, std::to_string(value + step)}},
-            Safety::Safe};
+    const auto other = std::to_string(*value + step);
+    d.help = fmt::format("values are whole numbers: write `{} {}`", sign, other);
+    d.fix = Fix{fmt::format("write `{} {}`", sign, other),
+                {Edit{span, std::string(1, sign)}, Edit{{begin, end}, other}},
+                Safety::Safe};
   }
 
   Diagnostic expected_target() const {

@@ -1,23 +1,18 @@
 #include "compiler/slips.h"
 
+#include "base/text.h"
 #include "compiler/fault_text.h"
 #include "compiler/foreign.h"
 #include "compiler/rules.h"
 #include "spec/limits.h"
 
 #include <array>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace orb::compiler {
 namespace {
 
 using spec::Statement;
-
-bool same_but_for_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return (x | 0x20) == (y | 0x20); });
-}
 
 class Slip : public FaultText {
 public:
@@ -202,7 +197,7 @@ private:
     if ((!set && !counts) || find_word(token()).kind != WordKind::Unknown)
       return std::nullopt;
     for (const auto& row : spec::variables)
-      if (row.access == spec::Access::ReadWrite && same_but_for_case(row.word, token()))
+      if (row.access == spec::Access::ReadWrite && equal_words(row.word, token()))
         return std::nullopt;
     auto d = finding(set ? rules::UnknownStatement : rules::SyntaxError, fault_.span,
                      fmt::format("`{}` is not a variable", token()), "variables are named A to Z");
@@ -259,7 +254,7 @@ private:
         auto word_end = i;
         while (word_end < stop && is_letter(text_[word_end]))
           ++word_end;
-        if (same_but_for_case(text_.substr(i, word_end - i), token()))
+        if (equal_words(text_.substr(i, word_end - i), token()))
           edits.push_back({{i, word_end}, std::string(letter)});
       }
     }
@@ -273,7 +268,7 @@ private:
         (!in(Statement::Rgb) && !in(Statement::Ledc)))
       return std::nullopt;
     for (const auto& row : spec::led_colours) {
-      if (!same_but_for_case(row.name, token()))
+      if (!equal_words(row.name, token()))
         continue;
       const auto values = in(Statement::Ledc)
                               ? std::to_string(row.code)
@@ -294,10 +289,10 @@ private:
         find_word(token()).kind != WordKind::Unknown)
       return std::nullopt;
     for (const auto& row : spec::variables)
-      if (same_but_for_case(row.word, token()))
+      if (equal_words(row.word, token()))
         return std::nullopt;
     for (const auto& row : spec::functions)
-      if (same_but_for_case(row.word, token()))
+      if (equal_words(row.word, token()))
         return std::nullopt;
     auto stop = end();
     while (stop < code_end() &&
@@ -403,7 +398,7 @@ private:
   /// `RND(1)*6`, a fraction times a number.
   std::optional<Diagnostic> fraction_random() const {
     const auto open = end();
-    if (!is(Reason::ExpectedExpression) || !same_but_for_case(token(), "rnd") || after(open) != '(')
+    if (!is(Reason::ExpectedExpression) || !equal_words(token(), "rnd") || after(open) != '(')
       return std::nullopt;
     const auto digit = digits_at(skip_blanks(open) + 1);
     const auto close = skip_blanks(digit.end);
@@ -428,10 +423,7 @@ private:
     return {offset, stop};
   }
   std::optional<std::int32_t> number_in(Span span) const {
-    std::int32_t value = 0;
-    const auto* const first = text_.data() + span.begin;
-    const auto [stop, error] = std::from_chars(first, text_.data() + span.end, value);
-    return error == std::errc() && span.size() > 0 ? std::optional(value) : std::nullopt;
+    return parse_number<std::int32_t>(text_.substr(span.begin, span.size()));
   }
 
   /// `0xff` and `1.5`.
@@ -444,15 +436,13 @@ private:
       ++to;
     const auto text = text_.substr(from, to - from);
     if (text.starts_with("0x") || text.starts_with("0X")) {
-      std::int32_t value = 0;
-      const auto [stop, error] =
-          std::from_chars(text.data() + 2, text.data() + text.size(), value, 16);
-      if (error != std::errc() || stop != text.data() + text.size())
+      const auto value = parse_number<std::int32_t>(text.substr(2), 16);
+      if (!value)
         return std::nullopt;
       auto d = finding(rules::UnsupportedNumber, {from, to},
                        fmt::format("`{}` is not a whole decimal number", text),
-                       fmt::format("write `{}`", value));
-      offer(d, d.help, {{{from, to}, std::to_string(value)}});
+                       fmt::format("write `{}`", *value));
+      offer(d, d.help, {{{from, to}, std::to_string(*value)}});
       return d;
     }
     if (token() != "." || !in(Statement::Delay))
@@ -548,7 +538,7 @@ private:
 
   /// `if A = 5 then` with its statement on the next line, and the `end if` that closes it.
   std::optional<Diagnostic> empty_branch() const {
-    if (is(Reason::Trailing) && in(Statement::End) && same_but_for_case(token(), "if"))
+    if (is(Reason::Trailing) && in(Statement::End) && equal_words(token(), "if"))
       return finding(rules::SyntaxError, fault_.span, "an `if` ends with its line",
                      "leave this line out");
     if (!is(Reason::ExpectedStatement) || !in(Statement::If) || !token().empty())

@@ -3,6 +3,7 @@
 // The words of orbBasic, found by one multiplication: each fits into 64 bits, and the multiplier is
 // searched at compile time so that no two words share a slot.
 
+#include "base/text.h"
 #include "spec/basic.h"
 
 #include <array>
@@ -25,16 +26,6 @@ struct Word {
   WordKind kind = WordKind::Unknown;
   std::uint8_t index = 0;
 };
-
-constexpr bool is_letter(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-constexpr bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-constexpr bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
 
 namespace words {
 

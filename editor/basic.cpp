@@ -1,5 +1,6 @@
 // What an editor may ask about an orbBasic program.
 
+#include "base/text.h"
 #include "compiler/check.h"
 #include "compiler/parse.h"
 #include "compiler/print.h"
@@ -12,7 +13,6 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -39,7 +39,7 @@ struct Token {
 };
 
 bool is_word_part(char c) {
-  return compiler::is_letter(c) || c == '_';
+  return is_letter(c) || c == '_';
 }
 
 /// The tokens of the line that holds `offset`.
@@ -53,13 +53,13 @@ std::vector<Token> tokens_at(const Source& source, std::uint32_t offset) {
     const char c = line[at];
     const auto begin = at;
     auto kind = TokenKind::Symbol;
-    if (compiler::is_blank(c)) {
+    if (is_blank(c)) {
       ++at;
       continue;
     }
-    if (compiler::is_digit(c)) {
+    if (is_digit(c)) {
       kind = TokenKind::Number;
-      while (at < line.size() && compiler::is_digit(line[at]))
+      while (at < line.size() && is_digit(line[at]))
         ++at;
     } else if (is_word_part(c)) {
       kind = TokenKind::Word;
@@ -85,7 +85,7 @@ const Token* token_at(const std::vector<Token>& tokens, std::uint32_t offset) {
   for (const auto& token : tokens)
     if (token.span.begin <= offset && offset < token.span.end)
       return &token;
-  for (const auto& token : tokens) // right behind a word is still on it
+  for (const auto& token : tokens) // right after a word is still on it
     if (token.span.end == offset)
       return &token;
   return nullptr;
@@ -158,7 +158,7 @@ bool touches(Span span, std::uint32_t offset) {
   return span.begin <= offset && offset <= span.end;
 }
 
-/// The name that stands at `offset`; of two that touch it the one behind wins.
+/// The name that stands at `offset`; of two that touch it the one after wins.
 template <typename Name>
 const Name* name_at(const std::vector<Name>& names, std::uint32_t offset) {
   const Name* found = nullptr;
@@ -289,19 +289,20 @@ std::string line_markdown(const Program& program, std::uint32_t number) {
                      spec::code(error), spec::info(error).text);
 }
 
+bool is_rule_part(char c) {
+  return is_letter(c) || is_digit(c) || c == '-';
+}
+
 /// The rule that a comment `' orb: allow RULE` names at `offset`.
 std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_t offset) {
   const auto text = source.text(comment);
   if (text.find(allow_mark) == std::string_view::npos)
     return std::nullopt;
-  const auto part = [](char c) {
-    return compiler::is_letter(c) || compiler::is_digit(c) || c == '-';
-  };
   auto begin = offset - comment.begin;
   auto end = begin;
-  while (begin > 0 && part(text[begin - 1]))
+  while (begin > 0 && is_rule_part(text[begin - 1]))
     --begin;
-  while (end < text.size() && part(text[end]))
+  while (end < text.size() && is_rule_part(text[end]))
     ++end;
   const auto* rule = compiler::rules::find(text.substr(begin, end - begin));
   if (rule == nullptr)
@@ -458,10 +459,6 @@ void suggest_rules(Suggestions& out) {
                          std::string(rule.explanation)});
 }
 
-bool is_rule_part(char c) {
-  return compiler::is_letter(c) || compiler::is_digit(c) || c == '-';
-}
-
 Suggestions suggest(const Source& source, std::uint32_t offset) {
   const auto text = source.text();
   offset = std::min(offset, static_cast<std::uint32_t>(text.size()));
@@ -515,7 +512,7 @@ std::string_view title_above(const Program& program, std::size_t index) {
   if (above.has_number() || above.has_statement() || above.comment.size() == 0)
     return {};
   auto text = program.text_of(above.comment);
-  while (!text.empty() && (text.front() == '\'' || compiler::is_blank(text.front())))
+  while (!text.empty() && (text.front() == '\'' || is_blank(text.front())))
     text.remove_prefix(1);
   return text.starts_with("orb:") ? std::string_view() : text;
 }
@@ -568,7 +565,7 @@ rename_letter(const std::vector<LetterName>& names, std::uint8_t letter, std::st
   if (letter == indexed_letter)
     return tl::unexpected(
         std::string("`Z` names an element of the indexed set; it has no other name"));
-  if (name.size() != 1 || !compiler::is_letter(name.front()) || (name.front() & ~0x20) == 'Z')
+  if (name.size() != 1 || !is_letter(name.front()) || (name.front() & ~0x20) == 'Z')
     return tl::unexpected(std::string("a variable is one letter from `A` to `Y`"));
   const auto wanted = compiler::find_word(name).index;
   std::vector<Edit> edits;
@@ -585,10 +582,8 @@ tl::expected<std::vector<Edit>, std::string> rename_line(const Program& program,
                                                          const std::vector<LineName>& names,
                                                          const LineName& here,
                                                          std::string_view name) {
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size() || number < 1 ||
-      number > most_line_number)
+  const auto number = parse_number<std::uint32_t>(name).value_or(0);
+  if (number < 1 || number > most_line_number)
     return tl::unexpected(fmt::format("a line number is 1 to {}", most_line_number));
   if (number != here.number && find_line(program, number) != nullptr)
     return tl::unexpected(fmt::format("there is a line {} already", number));

@@ -5,6 +5,7 @@
 #include "assembler/layout.h"
 #include "assembler/lint.h"
 #include "assembler/parse.h"
+#include "base/text.h"
 #include "editor/directives.h"
 #include "editor/language.h"
 #include "editor/markdown.h"
@@ -23,7 +24,7 @@ using assembler::Value;
 constexpr std::string_view language_id = "orbmacro";
 
 bool is_word_part(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  return is_letter(c) || is_digit(c) || c == '_';
 }
 
 bool touches(Span span, std::uint32_t offset) {
@@ -148,7 +149,7 @@ Occurrences occurrences(const Source& source, std::uint32_t offset) {
 }
 
 bool is_name(std::string_view text) {
-  return !text.empty() && !(text.front() >= '0' && text.front() <= '9') &&
+  return !text.empty() && !is_digit(text.front()) &&
          std::all_of(text.begin(), text.end(), is_word_part);
 }
 
@@ -331,7 +332,7 @@ Before cut(std::string_view line) {
   return before;
 }
 
-/// The attribute that the next word of a `.macro` line belongs to: `flags` behind `flags=a,`.
+/// The attribute that the next word of a `.macro` line belongs to: `flags` after `flags=a,`.
 std::string_view attribute_before(const std::vector<std::string_view>& words) {
   if (words.back() != "=" && words.back() != ",")
     return {};

@@ -1,49 +1,24 @@
 #include "editor/wire.h"
 
+#include "base/text.h"
+
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace orb::editor {
 namespace {
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_blank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
-
-bool equal_but_for_case(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
-}
-
-/// The number behind `Content-Length:` in a header block; nothing when it is missing or none.
+/// The number after `Content-Length:` in a header block; nothing without one.
 std::optional<std::size_t> content_length(std::string_view header) {
   while (!header.empty()) {
-    const auto end = std::min(header.find('\n'), header.size());
+    const auto end = std::min(header.find_first_of("\r\n"), header.size());
     const auto line = header.substr(0, end);
     header.remove_prefix(std::min(end + 1, header.size()));
     const auto colon = line.find(':');
     if (colon == std::string_view::npos ||
-        !equal_but_for_case(trim(line.substr(0, colon)), "Content-Length"))
+        !equal_words(trim(line.substr(0, colon)), "Content-Length"))
       continue;
-    const auto digits = trim(line.substr(colon + 1));
-    std::size_t length = 0;
-    const auto [last, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), length);
-    if (error == std::errc() && last == digits.data() + digits.size())
-      return length;
-    return std::nullopt;
+    return parse_number<std::size_t>(trim(line.substr(colon + 1)));
   }
   return std::nullopt;
 }

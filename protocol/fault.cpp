@@ -2,10 +2,10 @@
 
 #include "base/duration.h"
 #include "base/suggest.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fmt/format.h>
 #include <vector>
 
@@ -32,27 +32,11 @@ tl::unexpected<std::string> wrong(std::string_view item, std::string_view what) 
   return tl::unexpected(fmt::format("`{}` in the fault plan: {}", item, what));
 }
 
-std::optional<double> read_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    return std::nullopt;
-  return value;
-}
-
-std::optional<std::uint64_t> read_count(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    return std::nullopt;
-  return value;
-}
-
 std::optional<double> read_rate(std::string_view text) {
   if (!text.ends_with("%"))
     return std::nullopt;
   text.remove_suffix(1);
-  const auto percent = read_number(text);
+  const auto percent = parse_number<double>(text);
   if (!percent || *percent < 0 || *percent > 100)
     return std::nullopt;
   return *percent / 100;
@@ -111,7 +95,7 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
     return {};
   }
   if (auto* place = place_of(plan, name)) {
-    *place = read_count(value);
+    *place = parse_number<std::uint64_t>(value);
     if (!*place)
       return wrong(item, "a place is a whole number, such as `cut@1234`");
     return {};
@@ -123,7 +107,7 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
   }
   if (name == "seed=" || name == "stale=") {
     constexpr std::uint64_t most_stale = 1000;
-    const auto count = read_count(value);
+    const auto count = parse_number<std::uint64_t>(value);
     if (!count || (name == "stale=" && *count > most_stale))
       return wrong(item, name == "seed=" ? "a seed is a whole number" : "a number from 0 to 1000");
     if (name == "seed=")

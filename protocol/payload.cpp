@@ -1,8 +1,9 @@
 #include "protocol/payload.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -52,19 +53,15 @@ std::optional<std::int64_t> named_value(const Field& field, std::string_view wor
       return 0;
     return std::nullopt;
   }
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) ==
-           std::tolower(static_cast<unsigned char>(b));
-  };
   for (auto value = field.least; value <= std::min<std::int64_t>(field.most, 255); ++value) {
     const auto name = spec::value_name(field.unit, static_cast<std::uint32_t>(value));
-    if (!name.empty() && std::ranges::equal(name, word, same))
+    if (!name.empty() && equal_words(name, word))
       return value;
   }
   return std::nullopt;
 }
 
-std::optional<std::int64_t> parse_number(std::string_view word) {
+std::optional<std::int64_t> parse_value(std::string_view word) {
   const auto negative = word.starts_with('-');
   if (negative)
     word.remove_prefix(1);
@@ -73,12 +70,10 @@ std::optional<std::int64_t> parse_number(std::string_view word) {
     word.remove_prefix(2);
     base = 16;
   }
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
-  if (word.empty() || error != std::errc{} || end != word.data() + word.size() ||
-      value > std::uint64_t{1} << 40)
+  const auto value = parse_number<std::uint64_t>(word, base);
+  if (!value || *value > std::uint64_t{1} << 40)
     return std::nullopt;
-  const auto magnitude = static_cast<std::int64_t>(value);
+  const auto magnitude = static_cast<std::int64_t>(*value);
   return negative ? -magnitude : magnitude;
 }
 
@@ -232,7 +227,7 @@ tl::expected<Bytes, EncodeError> encode_rest(const Field& field,
 }
 
 tl::expected<std::int64_t, EncodeError> encode_number(const Field& field, const std::string& word) {
-  auto value = parse_number(word);
+  auto value = parse_value(word);
   if (!value)
     value = named_value(field, word);
   if (!value)

@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "reference/knowledge.h"
 
 #include <algorithm>
@@ -41,18 +42,12 @@ bool fits_table(const Section& section) {
 std::string anchor(std::string_view heading) {
   std::string out;
   for (const char c : heading) {
-    if (c >= 'A' && c <= 'Z')
-      out += static_cast<char>(c - 'A' + 'a');
-    else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_')
-      out += c;
+    if (is_letter(c) || is_digit(c) || c == '-' || c == '_')
+      out += to_lower(c);
     else if (c == ' ')
       out += '-';
   }
   return out;
-}
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 /// Where the pages explain what; made once for a page.

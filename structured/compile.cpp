@@ -39,7 +39,7 @@ std::vector<std::uint8_t> wishes_of(const Program& program, const Names& names, 
     const auto symbol = code.variables[v].symbol;
     if (symbol == none)
       continue;
-    const char first = lower(program.name(names.symbols[symbol].name).front());
+    const char first = to_lower(program.name(names.symbols[symbol].name).front());
     if (is_letter(first) && first < 'z')
       wishes[v] = static_cast<std::uint8_t>(first - 'a');
   }

@@ -194,7 +194,7 @@ private:
   std::size_t slot_of(std::string_view name) const {
     std::uint64_t hash = 0xCBF29CE484222325U;
     for (const char c : name)
-      hash = (hash ^ static_cast<unsigned char>(lower(c))) * 0x100000001B3U;
+      hash = (hash ^ static_cast<unsigned char>(to_lower(c))) * 0x100000001B3U;
     return static_cast<std::size_t>(hash ^ hash >> 32) % slots_.size();
   }
   void place(std::uint32_t index) {
@@ -256,7 +256,7 @@ Numeral read_numeral(std::string_view text) {
   constexpr std::int64_t most = 2147483648; // with a minus sign before it the least number
   Numeral numeral;
   std::int64_t whole = 0;
-  if (text.size() > 2 && text[0] == '0' && lower(text[1]) == 'x') {
+  if (text.size() > 2 && text[0] == '0' && to_lower(text[1]) == 'x') {
     const auto read = std::from_chars(text.data() + 2, text.data() + text.size(), whole, 16);
     if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || whole >= most)
       return {Numeral::State::Bad, false, 0};

@@ -10,7 +10,7 @@ constexpr std::size_t slots = 512;
 constexpr std::uint64_t pack(std::string_view word) {
   std::uint64_t packed = 0;
   for (std::size_t i = 0; i < word.size(); ++i)
-    packed |= static_cast<std::uint64_t>(static_cast<unsigned char>(lower(word[i]))) << (8 * i);
+    packed |= static_cast<std::uint64_t>(static_cast<unsigned char>(to_lower(word[i]))) << (8 * i);
   return packed;
 }
 

@@ -2,6 +2,7 @@
 
 // The words of structured orbBasic: those of the robot's tables and its own. Case does not count.
 
+#include "base/text.h"
 #include "spec/basic.h"
 
 #include <array>
@@ -63,18 +64,6 @@ struct Word {
   }
 };
 
-constexpr char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
-}
-constexpr bool is_letter(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-constexpr bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-constexpr bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
 constexpr bool is_line_end(char c) {
   return c == '\n' || c == '\r';
 }
@@ -83,14 +72,6 @@ constexpr bool begins_name(char c) {
 }
 constexpr bool is_name_char(char c) {
   return begins_name(c) || is_digit(c);
-}
-constexpr bool equal_words(std::string_view a, std::string_view b) {
-  if (a.size() != b.size())
-    return false;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (lower(a[i]) != lower(b[i]))
-      return false;
-  return true;
 }
 
 /// What a word means; `let` is none of the language's (the robot's own is undocumented).

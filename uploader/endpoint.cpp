@@ -1,11 +1,11 @@
 #include "uploader/endpoint.h"
 
 #include "base/suggest.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fmt/format.h>
 #include <optional>
@@ -28,11 +28,8 @@ tl::unexpected<std::string> wrong(std::string_view url, std::string_view what) {
 }
 
 std::optional<unsigned> read_number(std::string_view text, int base, unsigned most) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-  if (error != std::errc() || end != text.data() + text.size() || value > most)
-    return std::nullopt;
-  return value;
+  const auto value = parse_number<unsigned>(text, base);
+  return value && *value <= most ? value : std::nullopt;
 }
 
 tl::expected<Endpoint, std::string> read_rfcomm(Endpoint endpoint, std::string_view rest) {
@@ -159,8 +156,8 @@ protocol::LinkError describe_open_error(const Endpoint& endpoint, int error) {
     help = "`orb doctor` looks for the reason";
   const auto* what = error == EWOULDBLOCK ? "in use" : std::strerror(error);
   std::string seen = what;
-  if (!seen.empty() && seen.size() > 1 && seen[1] >= 'a')
-    seen[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(seen[0])));
+  if (seen.size() > 1 && seen[1] >= 'a')
+    seen[0] = to_lower(seen[0]);
   return {protocol::LinkError::Kind::CannotOpen,
           fmt::format("cannot open {}: {}; {}", name, seen, help)};
 }

@@ -2,10 +2,11 @@
 
 #include "base/duration.h"
 #include "base/suggest.h"
+#include "base/text.h"
+#include "vm/rules.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -15,26 +16,6 @@
 namespace orb::vm {
 
 namespace {
-
-constexpr std::array rules{
-    Rule{"stimulus-syntax", Severity::Error, "a line of a stimulus script cannot be read",
-         "A line is `at TIME EVENT ARGUMENTS`, or an event alone, which then happens at the start. "
-         "`#` begins a comment.",
-         "5s shake\n", "at 5s shake\n", 0},
-    Rule{
-        "stimulus-event", Severity::Error, "a stimulus script names an event that does not exist",
-        "The events are wall, shake, toss, push, roll, rgb, connect, disconnect, battery, charger, "
-        "input, tilt, spin and noise.",
-        "at 5s jump\n", "at 5s toss 300ms\n", 0},
-    Rule{"stimulus-argument", Severity::Error,
-         "an event of a stimulus script has the wrong arguments",
-         "Speeds and strengths are 0 to 255, headings 0 to 359, walls in centimetres, times with "
-         "their unit (ms, s, min).",
-         "at 5s push 400 90\n", "at 5s push 40 90\n", 0},
-};
-constexpr const Rule& syntax_rule = rules[0];
-constexpr const Rule& event_rule = rules[1];
-constexpr const Rule& argument_rule = rules[2];
 
 struct Word {
   std::string_view text;
@@ -63,21 +44,13 @@ std::vector<Word> words_of(const Source& source, std::uint32_t line) {
 /// A decimal number that is the whole word. Limited to what a script can mean, so that no
 /// arithmetic on it overflows.
 std::optional<double> number(std::string_view text, double least, double greatest) {
-  double value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) ||
-      value < least || value > greatest)
-    return std::nullopt;
-  return value;
+  const auto value = parse_number<double>(text, std::chars_format::fixed);
+  return value && *value >= least && *value <= greatest ? value : std::nullopt;
 }
 
 std::optional<int> integer(std::string_view text, int least, int greatest) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < least || value > greatest)
-    return std::nullopt;
-  return value;
+  const auto value = parse_number<int>(text);
+  return value && *value >= least && *value <= greatest ? value : std::nullopt;
 }
 
 /// Reads the arguments of one event, remembering the first that is wrong.
@@ -96,7 +69,9 @@ public:
         .value_or(0);
   }
   Duration time(std::string_view what) {
-    return take(what, "a time such as 800ms or 2.5s", [](std::string_view text) { return parse_duration(text); }).value_or(Duration{});
+    return take(what, "a time such as 800ms or 2.5s",
+                [](std::string_view text) { return parse_duration(text); })
+        .value_or(Duration{});
   }
   Switch on_off(std::string_view what) {
     return take(what, "on or off",
@@ -212,9 +187,9 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
   if (rest[0].text == "at") {
     const auto time = rest.size() > 1 ? parse_duration(rest[1].text) : std::nullopt;
     if (!time || rest.size() < 3) {
-      script.diagnostics.push_back(finding(syntax_rule, rest[rest.size() > 1 ? 1 : 0].span,
-                                           "`at` takes a time and an event",
-                                           "write it like `at 2.5s shake`"));
+      script.diagnostics.push_back(
+          finding(rules::StimulusSyntax, rest[rest.size() > 1 ? 1 : 0].span,
+                  "`at` takes a time and an event", "write it like `at 2.5s shake`"));
       return;
     }
     at = *time;
@@ -226,23 +201,24 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
     const bool early_time = parse_duration(rest[0].text).has_value();
     script.diagnostics.push_back(
         early_time
-            ? finding(syntax_rule, rest[0].span,
+            ? finding(rules::StimulusSyntax, rest[0].span,
                       fmt::format("a time without `at`: `{}`", rest[0].text),
                       fmt::format("write `at {}`", rest[0].text))
-            : finding(event_rule, rest[0].span, fmt::format("`{}` is not an event", rest[0].text),
-                      event_help(rest[0].text)));
+            : finding(rules::StimulusEvent, rest[0].span,
+                      fmt::format("`{}` is not an event", rest[0].text), event_help(rest[0].text)));
     return;
   }
   Arguments arguments{rest.subspan(1)};
   const auto stimulus = row->read(arguments);
   if (!arguments.problem().empty()) {
-    script.diagnostics.push_back(finding(argument_rule, arguments.where().value_or(rest[0].span),
+    script.diagnostics.push_back(finding(rules::StimulusArgument,
+                                         arguments.where().value_or(rest[0].span),
                                          fmt::format("`{}`: {}", row->word, arguments.problem())));
     return;
   }
   if (arguments.taken() + 1 < rest.size()) {
     script.diagnostics.push_back(
-        finding(argument_rule, rest[arguments.taken() + 1].span,
+        finding(rules::StimulusArgument, rest[arguments.taken() + 1].span,
                 fmt::format("`{}` takes {} values", row->word, arguments.taken())));
     return;
   }
@@ -258,10 +234,6 @@ StimulusScript parse_stimulus(const Source& source) {
   std::stable_sort(script.events.begin(), script.events.end(),
                    [](const auto& a, const auto& b) { return a.at < b.at; });
   return script;
-}
-
-std::span<const Rule> stimulus_rules() {
-  return rules;
 }
 
 } // namespace orb::vm

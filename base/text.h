@@ -1,0 +1,51 @@
+#pragma once
+
+// Characters and words of ASCII, the same in every locale.
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace orb {
+
+constexpr bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+constexpr bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+constexpr char to_lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+/// Whether two words have the same letters, in capitals or not.
+constexpr bool equal_words(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return to_lower(x) == to_lower(y); });
+}
+
+/// `text` without the blanks at its ends.
+constexpr std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back()))
+    text.remove_suffix(1);
+  return text;
+}
+
+/// The number that all of `text` is, in the form of std::from_chars: no sign `+`, no blanks.
+/// `form` is the base of a whole number, or a std::chars_format. Nothing where it does not fit.
+template <typename Number, typename... Form>
+std::optional<Number> parse_number(std::string_view text, Form... form) {
+  Number number{};
+  const auto* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number, form...);
+  return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+} // namespace orb
