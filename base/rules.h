@@ -1,9 +1,11 @@
 #pragma once
 
-// What every table of rules needs: the linters' tables include this, nobody else has to.
+// What every table of rules needs (base/rules.inc makes one); nobody else has to include this.
 
 #include "base/diagnostic.h"
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
 

@@ -4,15 +4,16 @@
 #include "compiler/rules.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
-#include "vm/stimulus.h"
+#include "vm/rules.h"
 
 #include <fmt/format.h>
+#include <span>
 
 namespace orb::reference {
 
 namespace {
 
-void add(Section& section, const Rule& rule) {
+Entry entry_of(const Rule& rule) {
   Entry entry;
   entry.name = rule.id;
   entry.summary = rule.summary;
@@ -25,30 +26,28 @@ void add(Section& section, const Rule& rule) {
     entry.code.emplace_back("bad", rule.bad);
   if (!rule.good.empty())
     entry.code.emplace_back("good", rule.good);
-  section.entries.push_back(std::move(entry));
+  return entry;
+}
+
+Section with_rules(Section section, std::span<const Rule> rules) {
+  for (const auto& rule : rules)
+    section.entries.push_back(entry_of(rule));
+  return section;
 }
 
 } // namespace
 
 Section rules_section() {
-  Section section{"rules", "Rules for orbBasic", "rule", {}};
-  for (const auto& rule : compiler::rules::all())
-    add(section, rule);
-  return section;
+  return with_rules({"rules", "Rules for orbBasic", "rule", {}}, compiler::rules::all());
 }
 
 Section macro_rules_section() {
-  Section section{"macro-rules", "Rules for macros", "macro rule", {}};
-  for (const auto& rule : assembler::rules::all())
-    add(section, rule);
-  return section;
+  return with_rules({"macro-rules", "Rules for macros", "macro rule", {}}, assembler::rules::all());
 }
 
 Section stimulus_rules_section() {
-  Section section{"stimulus-rules", "Rules for stimulus scripts", "stimulus rule", {}};
-  for (const auto& rule : vm::stimulus_rules())
-    add(section, rule);
-  return section;
+  return with_rules({"stimulus-rules", "Rules for stimulus scripts", "stimulus rule", {}},
+                    vm::rules::all());
 }
 
 } // namespace orb::reference

@@ -1,22 +1,12 @@
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/rules.h"
 
-#include <span>
-#include <string_view>
-
+/// The rules about structured programs: `rules::UnknownName`. What the compiled program gives cause
+/// for is said by the rules of compiler/.
 namespace orb::structured::rules {
 
-// One constant per row of structured/rules.def: `rules::UnknownName`.
-#define ORB_RULE(name, ...) extern const Rule& name;
-#include "structured/rules.def"
-#undef ORB_RULE
-
-/// Every rule about structured programs, in the order of the table. What the compiled program gives
-/// cause for is said by the rules of compiler/.
-std::span<const Rule> all();
-
-/// The rule of that id, or null.
-const Rule* find(std::string_view id);
+#define ORB_RULES "structured/rules.def"
+#include "base/rules.inc"
 
 } // namespace orb::structured::rules

@@ -6,7 +6,6 @@
 #include "vm/body.h"
 
 #include <cstdint>
-#include <span>
 #include <variant>
 #include <vector>
 
@@ -73,8 +72,5 @@ struct StimulusScript {
 };
 
 StimulusScript parse_stimulus(const Source& source);
-
-/// The rules that parse_stimulus raises.
-std::span<const Rule> stimulus_rules();
 
 } // namespace orb::vm

@@ -1,6 +1,7 @@
 #include "compiler/load.h"
 #include "protocol/decoder.h"
 #include "vm/ball.h"
+#include "vm/rules.h"
 
 #include <gtest/gtest.h>
 
@@ -262,7 +263,7 @@ TEST(Stimulus, ScriptsAreReadLineByLine) {
 }
 
 TEST(Stimulus, EveryRuleHasAnExampleThatRaisesIt) {
-  for (const auto& rule : stimulus_rules()) {
+  for (const auto& rule : rules::all()) {
     const auto bad = parse_stimulus(Source("bad", std::string(rule.bad)));
     ASSERT_EQ(bad.diagnostics.size(), 1u) << rule.id;
     EXPECT_EQ(bad.diagnostics[0].rule->id, rule.id);
