@@ -25,7 +25,7 @@ struct PlacedCommand {
     Broken,   ///< written, but with an error: its values mean nothing
     Supplied, ///< the End that the assembler adds
   };
-  const spec::MacroCommandInfo* info = nullptr; ///< null: raw bytes that are no whole commands
+  const spec::MacroCommandInfo* info = nullptr; ///< null: raw bytes that are not whole commands
   Origin origin = Origin::Written;
   Span span;                ///< the statement
   Span operand;             ///< its first operand; empty where there is none
@@ -62,7 +62,7 @@ struct Assembly {
 };
 
 /// Whether a `delay` becomes the post command delay of the command before it where that is exact:
-/// the same times, fewer bytes. Commands behind it get lower numbers in markers.
+/// the same times, fewer bytes. Commands after it get lower numbers in markers.
 enum class Folding : std::uint8_t { Keep, Fold };
 
 /// Assembles a source file: all its findings in one run, at most one syntax error a line. Any bytes

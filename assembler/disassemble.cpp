@@ -100,7 +100,7 @@ tl::expected<std::string, std::string> disassemble(ByteView bytes, Reading readi
       return tl::unexpected(protocol::to_string(header.error()));
     if (header->id == spec::macro_id_none)
       return tl::unexpected(
-          fmt::format("offset 0 (00h): {} is the id of no macro; expected an id from {} to {}",
+          fmt::format("offset 0 (00h): id {} means no macro; expected an id from {} to {}",
                       spec::macro_id_none, spec::macro_id_system_first, spec::macro_id_temporary));
     out = header_line(*header);
     header_size = header->size;

@@ -8,7 +8,7 @@
 
 namespace orb::assembler {
 
-/// What stands behind a number.
+/// What stands after a number.
 enum class Unit : std::uint8_t { None, Milliseconds, Seconds, Degrees, Unknown };
 
 /// An operand as it is written.

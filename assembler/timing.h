@@ -9,7 +9,7 @@
 
 namespace orb::assembler {
 
-/// What stands behind a total that is no plain number of milliseconds.
+/// What stands after a total that is not a plain number of milliseconds.
 enum class TimingNote : std::uint8_t {
   Exact,
   UntilStopped, ///< a wait_until_stopped makes it a range
@@ -18,7 +18,7 @@ enum class TimingNote : std::uint8_t {
   Calls,        ///< it calls a macro that is not in the file: its time is missing
   SystemLoops,  ///< the API sets how often a loop runs: counted once
   Sleeps,       ///< until it puts the ball to sleep
-  Broken,       ///< until bytes that are no command
+  Broken,       ///< until bytes that are not a command
   TooLong       ///< beyond what is worth following
 };
 

@@ -32,7 +32,7 @@ enum class WalkEnd : std::uint8_t {
   Endless, ///< it came back to a state in which it had been
   Leaves,  ///< at a goto to a macro that is not in the file
   Sleeps,
-  Aborts, ///< at bytes that are no command
+  Aborts, ///< at bytes that are not a command
   TooLong ///< after very many commands
 };
 

@@ -23,7 +23,7 @@ struct Rule {
   std::string_view summary;     ///< one sentence
   std::string_view explanation; ///< why it matters and what to do instead
   std::string_view bad;         ///< a smallest source that raises the rule
-  std::string_view good;        ///< the same, mended
+  std::string_view good;        ///< the same, corrected
   std::uint8_t robot_error = 0; ///< the error number that the robot would report, 0 for none
 };
 

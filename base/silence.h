@@ -18,7 +18,7 @@ struct AllowComment {
 };
 
 /// Leaves out the findings that a comment of `text` allows, and adds one of rule `unknown` for each
-/// name in them that is no rule of `table`.
+/// name in them that is not a rule of `table`.
 void silence(std::string_view text, std::span<const AllowComment> comments,
              std::span<const Rule> table, const Rule& unknown, std::vector<Diagnostic>& findings);
 

@@ -54,7 +54,7 @@ constexpr std::int64_t reciprocal(std::int32_t divisor) {
          1;
 }
 /// divide() by the divisor of `reciprocal`: the error of the product is less than 1 / divisor, so
-/// only the rounding of negative quotients remains to be mended.
+/// only the rounding of negative quotients remains to be corrected.
 constexpr std::int32_t divide_by(std::int32_t x, std::int64_t reciprocal) {
   return static_cast<std::int32_t>(Wide{x} * reciprocal >> 63) + (x < 0 ? 1 : 0);
 }

@@ -52,7 +52,7 @@ std::optional<std::string> verify_meaning(const Chunk& chunk, std::size_t at) {
       return "there is no such error";
   } else if (instruction.op == Op::Perform) {
     if (instruction.a >= spec::statements.size() || !registers_from(instruction.b, instruction.c))
-      return "there is no such statement, or its arguments are no registers";
+      return "there is no such statement, or its arguments are not registers";
   } else if (instruction.op == Op::SetData) {
     if (!registers_from(instruction.a, instruction.b) ||
         instruction.b > spec::value_of(spec::Limit::DataValues))

@@ -63,7 +63,7 @@ struct Chunk {
 /// a target outside the code, lines out of order. Nothing for every chunk that the compiler makes.
 std::optional<std::string> verify(const Chunk& chunk);
 
-/// The chunk as text, a line per instruction; behind each line of the program, in their order, the
+/// The chunk as text, a line per instruction; after each line of the program, in their order, the
 /// text of `behind` that belongs to it.
 std::string listing(const Chunk& chunk, std::span<const std::string> behind = {});
 

@@ -13,7 +13,7 @@ enum class Op : std::uint16_t {
 #include "bytecode/op.def"
 };
 
-/// Whether the line goes on behind an instruction, or ends with it.
+/// Whether the line goes on after an instruction, or ends with it.
 enum class Ends : std::uint8_t { Value, Either, Line };
 
 /// How much of what an instruction does machine code can do.

@@ -42,7 +42,7 @@ private:
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples) {
   auto* command = app.add_subcommand(std::move(name), std::move(summary));
   command->formatter(std::make_shared<HelpFormatter>(examples + "\n"));
-  command->fallthrough(); // -q, -v and --color may stand behind the command
+  command->fallthrough(); // -q, -v and --color may stand after the command
   return command;
 }
 
@@ -56,7 +56,7 @@ void add_commands(CLI::App& app, Context& context) {
   app.formatter(
       std::make_shared<HelpFormatter>("orb new robot\norb check program.bas\norb run program.bas\n"
                                       "orb upload program.bas --port /dev/rfcomm0 --run\n"));
-  app.require_subcommand(0, 1); // a word behind a command is never a second one: `orb man run`
+  app.require_subcommand(0, 1); // a word after a command is never a second one: `orb man run`
   app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION),
                        "print the version and end");
   app.set_help_flag("-h,--help", "print this help and end");

@@ -31,7 +31,7 @@ struct ConfigError {
   std::string message;
 };
 
-/// Reads the configuration files; missing ones are no error.
+/// Reads the configuration files; missing ones are fine.
 tl::expected<Config, ConfigError> load_config();
 
 /// Makes the settings the defaults of the options they name, so that flags and environment stay

@@ -83,7 +83,7 @@ private:
   }
 
   /// Prints the change at step `i` and those so close that their contexts touch; returns the step
-  /// behind them.
+  /// after them.
   std::size_t print_hunk(std::string& out, std::size_t i) {
     auto last = i;
     while (last + 2 < steps_.size() &&

@@ -23,7 +23,7 @@ using orb::ExitCode;
 using orb::cli::Context;
 
 /// The first word of a command line by which the completion scripts ask: `orb __complete -- WORDS`.
-/// It is no command of the option model, because the words after it are data, not options.
+/// It is not a command of the option model, because the words after it are data, not options.
 constexpr std::string_view completion_request = "__complete";
 
 /// The word that CLI11 could not place, when it looks like a command or an option.
@@ -98,7 +98,7 @@ tl::expected<void, orb::cli::ConfigError> configure(CLI::App& app, Context& cont
 }
 
 /// The words of the command line, last first as CLI11 takes them. An option whose value is optional
-/// takes it only as `--option=value`: a bare one is moved behind all others, where there is no file
+/// takes it only as `--option=value`: a bare one is moved after all others, where there is no file
 /// that it could take for its value.
 std::vector<std::string> words_for(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);

@@ -105,7 +105,7 @@ private:
   std::string text_; ///< of a trace that goes to a file, which appears whole at the end
 };
 
-/// `1,2,-3`; nothing where that is no list of 32-bit numbers.
+/// `1,2,-3`; nothing where that is not a list of 32-bit numbers.
 std::optional<std::vector<std::int32_t>> read_numbers(std::string_view text) {
   std::vector<std::int32_t> numbers;
   const char* at = text.data();

@@ -68,7 +68,7 @@ Checked check(std::string_view text, const Target& target) {
 
 Fixed fix(std::string text, const Target& target) {
   // One mistake can hide the next one on its line, so a few rounds are normal; the bound only keeps
-  // a fix that would undo another from running for ever.
+  // a fix that would undo another from running forever.
   constexpr int most_rounds = 64;
   Fixed all{std::move(text), 0};
   for (int round = 0; round < most_rounds; ++round) {

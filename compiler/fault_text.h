@@ -22,7 +22,7 @@ public:
 
   std::string_view token() const { return program_.text_of(fault_.span); }
 
-  /// The first place from `offset` on, within the line, that is no blank.
+  /// The first place from `offset` on, within the line, that is not a blank.
   std::uint32_t skip_blanks(std::uint32_t offset) const {
     while (offset < line_.span.end && is_blank(text_[offset]))
       ++offset;
@@ -34,12 +34,12 @@ public:
       --offset;
     return offset;
   }
-  /// The last character before `offset` that is no blank; NUL at the start of the line.
+  /// The last character before `offset` that is not a blank; NUL at the start of the line.
   char before(std::uint32_t offset) const {
     offset = skip_back(offset);
     return offset > line_.span.begin ? text_[offset - 1] : '\0';
   }
-  /// The first character from `offset` on that is no blank; NUL at the end of the line.
+  /// The first character from `offset` on that is not a blank; NUL at the end of the line.
   char after(std::uint32_t offset) const {
     offset = skip_blanks(offset);
     return offset < line_.span.end ? text_[offset] : '\0';
@@ -62,7 +62,7 @@ public:
     return fmt::format("write it like `{}`", example.substr(example.find(' ') + 1));
   }
 
-  /// Sets a safe fix, if the line has no fault with it or its first one stands behind the last
+  /// Sets a safe fix, if the line has no fault with it or its first one stands after the last
   /// edit.
   void offer(Diagnostic& d, std::string title, std::vector<Edit> edits) const {
     std::string line(program_.text_of(line_.span));

@@ -444,7 +444,7 @@ private:
     return static_cast<Relation>(comparison.relation.value);
   }
 
-  /// The line number behind `goto` or `gosub`.
+  /// The line number after `goto` or `gosub`.
   std::uint32_t target_of(const StatementNode& node) const {
     return program_.as<BranchView>(node).target.value;
   }

@@ -3,7 +3,7 @@
 // The grammar of orbBasic as the robot reads it. Private to compiler/: only parse.cpp and the tests
 // of the grammar include it.
 //
-// Every rule eats the blanks behind it. The first token decides which rule applies, so nothing is
+// Every rule eats the blanks after it. The first token decides which rule applies, so nothing is
 // ever parsed twice; what must follow is said with must<>, and compiler/parse.cpp says what is
 // reported where it does not. Three rules look a word up in the tables of spec/ and go on by what
 // it is (word_statement, named_factor, arguments): a new statement of the usual form is a new row
@@ -85,7 +85,7 @@ struct character_sign : one<'$'> {};
 struct character      : seq<character_sign, _, must<sum>> {};
 struct print_item     : sor<seq<sor<text, print_comma, semicolon>, _>, character, expression> {};
 
-// what stands behind the word of a statement, by its spec::Form
+// what stands after the word of a statement, by its spec::Form
 
 struct assignment     : seq<must<equals>, must<expression>> {};
 struct branch_line    : seq<must<target>, _> {};
@@ -118,7 +118,7 @@ struct question_mark  : one<'?'> {};
 struct short_print    : seq<question_mark, _, output> {};
 ORB_BY_HAND(word_statement) // a word and what its form asks for
 struct statement      : sor<word_statement, short_print> {};
-struct line_rest      : sor<line_end, seq<must<statement>, must<line_end>>> {}; // behind its number
+struct line_rest      : sor<line_end, seq<must<statement>, must<line_end>>> {}; // after its number
 
 #undef ORB_BY_HAND
 

@@ -8,7 +8,7 @@
 namespace orb::compiler {
 namespace {
 
-/// The part of a statement that building leaves out: `let` and the blanks behind it.
+/// The part of a statement that building leaves out: `let` and the blanks after it.
 Span let_span(const Program& program, const StatementNode& statement) {
   if (statement.error || statement.spelling != Spelling::Let)
     return {};

@@ -270,7 +270,7 @@ private:
       if (jump.to > i || i - jump.to > longest_loop || leaves_or_waits(jump.to, i))
         continue;
       findings_.add(rules::BusyLoop, node.span,
-                    fmt::format("lines {} to {} run for ever and never wait", number_of(jump.to),
+                    fmt::format("lines {} to {} run forever and never wait", number_of(jump.to),
                                 number_of(i)),
                     "add a `delay`");
     }

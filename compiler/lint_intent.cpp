@@ -117,7 +117,7 @@ private:
     return is_on(items[1]) && (items.size() < 3 || is_on(items[2]));
   }
 
-  /// A branch may or may not run: what it touches is unknown behind it, and a jump shows what was
+  /// A branch may or may not run: what it touches is unknown after it, and a jump shows what was
   /// set before to whatever it leads to.
   void check_branches(const StatementNode& statement) {
     for (const auto& branch : program_.whole(statement).subspan(1)) {
@@ -240,7 +240,7 @@ private:
     const auto text = program_.text_of(sum.span);
     const auto turn = spec::info(Statement::Goroll).parameters()[0].greatest + 1;
     auto& d = findings_.add(rules::HeadingGrows, sum.span,
-                            fmt::format("`{}` is a heading and grows for ever; headings end at {}",
+                            fmt::format("`{}` is a heading and grows forever; headings end at {}",
                                         static_cast<char>('A' + letter), turn - 1),
                             fmt::format("write `({}) % {}`", text, turn));
     d.fix = Fix{d.help,
@@ -252,7 +252,7 @@ private:
   void add_driving(Span span) {
     auto& d = findings_.add(rules::DrivesOn, span, "the program ends while the ball drives",
                             "stop it first: `goroll 0,0,0`");
-    add_note(d, driving_->span, "it drives since here");
+    add_note(d, driving_->span, "it has been driving since here");
     driving_ = nullptr;
   }
 

@@ -233,7 +233,7 @@ private:
       reach(states_[state].call, states_[state].code + 1, *returned);
   }
 
-  /// The loops behind line `i`; nothing where the line ends the program for certain.
+  /// The loops after line `i`; nothing where the line ends the program for certain.
   std::optional<Loops> step(std::uint32_t i, Loops loops) const {
     const auto& node = statement(i);
     if (node.then_branch != none) {
@@ -250,7 +250,7 @@ private:
     }
     const auto variable = static_cast<std::uint8_t>(counter_of(node));
     if (loops.count > 0 && loops.variables[loops.count - 1U] == variable)
-      return loops; // the innermost loop is begun anew
+      return loops; // the innermost loop begins again
     if (loops.count == loops.variables.size())
       return std::nullopt;
     loops.variables[loops.count++] = variable;
@@ -316,8 +316,8 @@ private:
                   fmt::format("end it first: `next {}`", innermost));
   }
 
-  /// Beyond these, calls of the same subroutine are no longer told apart: no program that fits into
-  /// a robot has as many, and a linter must not take minutes over one.
+  /// Beyond these, calls of the same subroutine are not told apart any more: no program that fits
+  /// into a robot has as many, and a linter must not take minutes over one.
   static constexpr std::size_t most_calls = 64;
 
   const Program& program_;

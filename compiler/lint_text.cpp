@@ -513,7 +513,7 @@ private:
   }
 
   /// the operand is the whole expression that follows, which reads otherwise where a weak
-  /// operator follows, or anything behind a parenthesis.
+  /// operator follows, or anything after a parenthesis.
   void check_operand(const Node& node, const Node& operand) {
     const auto& row = spec::functions[node.what];
     if (operand.kind != NodeKind::Binary)

@@ -44,7 +44,7 @@ private:
     if (!out_.empty()) {
       const char last = out_.back();
       const bool would_join = is_word_char(last) && is_word_char(token.front());
-      // `Z(` is no index but an error, so `Z` and a parenthesis stay apart.
+      // `Z(` is an error, not an index, so `Z` and a parenthesis stay apart.
       const bool indexed = (last == 'Z' || last == 'z') && token.front() == '(';
       if (would_join || indexed || (blank_wanted_ && !packed()))
         out_ += ' ';

@@ -221,7 +221,7 @@ enum class Reason : std::uint8_t {
   ExpectedComma,
   TooManyArguments,
   TooDeep, ///< more open parentheses than the parser follows
-  Trailing ///< something stands behind a complete statement
+  Trailing ///< something stands after a complete statement
 };
 
 struct Fault {
@@ -249,7 +249,7 @@ struct Program {
     assert(!statement.error && spec::info(statement.kind).form == View::form);
     return View(items_of(statement));
   }
-  /// The statement of a line and those in its branches, which stand right behind it.
+  /// The statement of a line and those in its branches, which stand right after it.
   std::span<const StatementNode> whole(const StatementNode& statement) const {
     const bool has_then = statement.then_branch != none;
     const bool has_else = statement.else_branch != none;

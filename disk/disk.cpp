@@ -60,7 +60,7 @@ tl::unexpected<IoError> failure(std::string_view action, const std::string& path
       IoError{fmt::format("cannot {} {}: {}{}", action, path, std::strerror(reason), help)});
 }
 
-/// More than any input of ours is; without it a device such as /dev/zero would be read for ever.
+/// More than any input of ours is; without it a device such as /dev/zero would be read forever.
 constexpr std::size_t read_most = 64 * 1024 * 1024;
 
 tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& name) {

@@ -38,7 +38,7 @@ tl::unexpected<Refusal> refuse(RpcError error, std::string message) {
   return tl::unexpected(Refusal{error, std::move(message)});
 }
 
-/// The member `name` of `json`, or null where there is none or `json` is no object.
+/// The member `name` of `json`, or null where there is none or `json` is not an object.
 const Json& member(const Json& json, const char* name) {
   static const Json null;
   if (!json.is_object())

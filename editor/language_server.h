@@ -21,7 +21,7 @@ public:
   /// Takes one message; returns the answer and the notifications that it causes.
   std::vector<std::string> receive(std::string_view message);
 
-  /// What to answer to something that is no message at all.
+  /// What to answer to something that is not a message at all.
   std::vector<std::string> receive_garbage(std::string_view what);
 
   /// Set once `exit` arrived: whether `shutdown` came before it, as it should.

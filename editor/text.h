@@ -17,11 +17,11 @@ struct TextPosition {
   friend constexpr bool operator==(TextPosition, TextPosition) = default;
 };
 
-/// The byte at `position`. A place behind the end of a line is its end, one behind the last line
+/// The byte at `position`. A place after the end of a line is its end, one after the last line
 /// the end of the text; one inside a code point is its beginning.
 std::uint32_t offset_of(const Source& source, TextPosition position, PositionEncoding encoding);
 
-/// The place of byte `offset`; behind the end of the text it is the end.
+/// The place of byte `offset`; after the end of the text it is the end.
 TextPosition position_of(const Source& source, std::uint32_t offset, PositionEncoding encoding);
 
 } // namespace orb::editor

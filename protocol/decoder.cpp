@@ -118,7 +118,7 @@ bool Decoder::is_stray(ByteView bytes) const {
   if (run < spec::sop_size)
     return false;
   Item behind;
-  // The packet's SOP1 and SOP2 are the last two of the run, or SOP2 is another byte behind it.
+  // The packet's SOP1 and SOP2 are the last two of the run, or SOP2 is another byte after it.
   for (const auto start : {run - 2, run - 1})
     if (start > 0 && match_command(bytes.subspan(start), behind) == Match::Whole)
       return true;

@@ -58,7 +58,7 @@ public:
   /// Whether an incomplete packet is waiting for its rest.
   bool pending() const { return at_ < window_.size(); }
 
-  /// Forgets everything, as when a link is opened anew.
+  /// Forgets everything, as when a link is opened again.
   void reset();
 
 private:
@@ -76,7 +76,7 @@ private:
   Expiry expiry_ = Expiry::No;
   ByteView window_;    ///< what is being scanned: the caller's bytes, or kept_
   std::size_t at_ = 0; ///< how far window_ has been consumed
-  Bytes kept_;         ///< an incomplete packet, and behind it what was fed since
+  Bytes kept_;         ///< an incomplete packet, and after it what was fed since
 };
 
 } // namespace orb::protocol

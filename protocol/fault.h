@@ -39,7 +39,7 @@ tl::expected<FaultPlan, std::string> parse_fault_plan(std::string_view text);
 /// The plan in the words that parse_fault_plan reads; `none` for a plan that does nothing.
 std::string to_string(const FaultPlan& plan);
 
-/// Does to two streams of bytes what a plan says. It is no link itself: whoever moves the bytes
+/// Does to two streams of bytes what a plan says. It is not a link itself: whoever moves the bytes
 /// pushes them in where they are sent and takes them out when they are due.
 class FaultPipe {
 public:
@@ -57,7 +57,7 @@ public:
   /// Whether the plan has cut the link: nothing passes any more.
   bool cut() const { return cut_; }
 
-  /// The link is opened anew: what was under way is lost, a cut has happened and does not again.
+  /// The link is opened again: what was under way is lost, a cut has happened and does not again.
   void reconnect(Instant now);
 
 private:

@@ -40,14 +40,14 @@ struct MacroStep {
   std::uint32_t text = 0; ///< where the text of a comment begins
 };
 
-/// Why bytes are no macro, and where.
+/// Why bytes are not a macro, and where.
 struct MacroError {
   enum class Kind : std::uint8_t {
     NoHeader,    ///< `offset` is where id or flags are missing
-    UnknownCode, ///< `byte` is no command
+    UnknownCode, ///< `byte` is not a command
     CutOperand,  ///< the bytes end where `operand` of `command` should stand
     CutText,     ///< the text of a comment runs past the end
-    AfterEnd     ///< there are bytes behind End
+    AfterEnd     ///< there are bytes after End
   };
   Kind kind = Kind::NoHeader;
   std::uint32_t offset = 0;
@@ -58,7 +58,7 @@ struct MacroError {
   std::uint32_t present = 0; ///< bytes that there are
 };
 
-/// What was seen and what was expected: ``offset 12 (0Ch): 16h is no macro command; …``.
+/// What was seen and what was expected: ``offset 12 (0Ch): 16h is not a macro command; …``.
 std::string to_string(const MacroError& error);
 
 /// All commands of a macro, or those before the first fault and the fault.
@@ -85,7 +85,8 @@ tl::expected<MacroStep, MacroError> read_macro_command(ByteView bytes, std::uint
 /// (`has_end` says so): the robot runs it to its last byte.
 MacroListing decode_macro_body(ByteView body);
 
-/// Appends a command. `values` has one value per operand that is no text; each must fit its width.
+/// Appends a command. `values` has one value per operand that is not a text; each must fit its
+/// width.
 void append_macro_command(Bytes& out, spec::MacroCommand command,
                           std::span<const std::int32_t> values, std::string_view text = {});
 

@@ -18,7 +18,7 @@ Bytes encoded(const Packet& packet) {
   return out;
 }
 
-/// Appends the checksum over everything behind the two start bytes at `start`.
+/// Appends the checksum over everything after the two start bytes at `start`.
 void close_packet(Bytes& out, std::size_t start) {
   out.push_back(checksum(ByteView(out).subspan(start + spec::sop_size)));
 }

@@ -27,7 +27,7 @@ struct PayloadFault {
 };
 
 /// The fields of `data` by their rows. Fields that the data is too short for are left out; bytes
-/// behind the last field are ignored: records grow with the firmware.
+/// after the last field are ignored: records grow with the firmware.
 std::vector<FieldValue> read_fields(std::span<const spec::Field> fields, ByteView data);
 
 /// What a field is filled with: a number, or bytes where the field is not a number.

@@ -40,7 +40,7 @@ const Command* find_command(const CommandLine& line, const std::string& name) {
   return nullptr;
 }
 
-/// Where the cursor is: behind which command, after which option, at which argument.
+/// Where the cursor is: after which command, after which option, at which argument.
 struct Place {
   const Command* command = nullptr;
   const Option* wants_value = nullptr; ///< the word before is this option

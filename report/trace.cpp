@@ -9,7 +9,7 @@ namespace orb::report {
 
 namespace {
 
-/// The columns behind `t` and `event`: every key in the order in which the events name them.
+/// The columns after `t` and `event`: every key in the order in which the events name them.
 constexpr std::array<std::string_view, 23> columns{
     "r",      "g",     "b",       "heading", "speed", "go",      "x",      "y",
     "marker", "macro", "command", "line",    "code",  "message", "reason", "lines",

@@ -37,7 +37,7 @@ std::string stem(std::string_view name) {
 
 void read_program(Input& input, const compiler::Target& target, Findings findings) {
   auto checked = compiler::check(input.source->text(), target);
-  // What is no program at all (empty, binary, huge) is of no use, linted or not.
+  // A file that is not a program at all (empty, binary, huge) is of no use, linted or not.
   if (findings == Findings::Lint || !checked.image_bytes)
     input.findings = std::move(checked.diagnostics);
   auto image = compiler::build_image(checked.program, compiler::Packing::Plain);

@@ -71,7 +71,7 @@ struct Input {
 /// What is said about a source besides that it can be used at all.
 enum class Findings : std::uint8_t { Lint, None };
 
-/// Reads the content of the file `name`. Bytes that are no macro are a failure; mistakes of a
+/// Reads the content of the file `name`. Bytes that are not a macro are a failure; mistakes of a
 /// source are findings. A name that says nothing will do where the text is a built image.
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,

@@ -308,7 +308,7 @@ std::string_view why(const vm::event::MacroEnd& end) {
   case vm::event::MacroEnd::Reason::Aborted:
   case vm::event::MacroEnd::Reason::Slept: return {};
   case vm::event::MacroEnd::Reason::NoSuchMacro:
-    return "it leads to an id that no macro of the ball has; hand over that macro, too";
+    return "it jumps to an id that no macro of the ball has; add that macro to the command line";
   case vm::event::MacroEnd::Reason::BadCommand:
     return "what follows is not a whole command; see `orb asm --listing`";
   case vm::event::MacroEnd::Reason::StreamEnd: return "`stream_end` ends only streams; write `end`";

@@ -11,7 +11,7 @@ namespace {
 constexpr Duration message_gap = std::chrono::milliseconds{2};
 /// … and more from an answer, which a client may take its time to look at …
 constexpr Duration answer_gap = std::chrono::milliseconds{8};
-/// … but does not wait for ever.
+/// … but does not wait forever.
 constexpr Duration message_patience = std::chrono::milliseconds{20};
 /// Answers leave one by one, unless a pipelining client is owed more than this at once.
 constexpr std::size_t answers_apart = 16;

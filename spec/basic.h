@@ -35,7 +35,7 @@ enum class Statement : std::uint8_t {
 #include "spec/basic.def"
 };
 
-/// What stands behind a statement's word.
+/// What stands after a statement's word.
 enum class Form : std::uint8_t {
   Assignment,    ///< `v = e`, the word itself may be missing
   Conditional,   ///< `if`
@@ -47,10 +47,10 @@ enum class Form : std::uint8_t {
   Entry,         ///< `input`
   Values,        ///< one or more expressions, without an upper bound
   Variables,     ///< one or more variables
-  Arguments,     ///< as many expressions, parted by commas, as there are parameters
+  Arguments,     ///< as many expressions, separated by commas, as there are parameters
 };
 
-/// Whether a statement may stand behind `then` and `else`.
+/// Whether a statement may stand after `then` and `else`.
 enum class InThen : std::uint8_t {
   Listed,   ///< documented
   Unlisted, ///< works, but is not in the documented list (A-44)
@@ -294,7 +294,7 @@ constexpr const BasicErrorInfo& info(BasicError error) {
   return basic_errors[static_cast<std::size_t>(error) - 1]; // numbered from 1
 }
 
-/// The row of that very word, or nothing. Case counts: `rgb` is no statement.
+/// The row of that very word, or nothing. Case counts: `rgb` is not a statement.
 constexpr std::optional<BasicVersion> find_version(std::string_view text) {
   for (const auto& row : basic_versions)
     if (row.text == text)

@@ -368,7 +368,7 @@ constexpr const MacroParameterInfo& info(MacroParameter parameter) {
   return macro_parameters[static_cast<std::size_t>(parameter)];
 }
 
-/// The row of a command byte; null where the byte is no command.
+/// The row of a command byte; null where the byte is not a command.
 constexpr const MacroCommandInfo* find_macro_command(std::uint8_t code) {
   const auto row = macro_detail::row_of_code[code];
   return row == macro_detail::no_row ? nullptr : &macro_commands[row];

@@ -9,7 +9,7 @@
 namespace orb::structured {
 
 /// Turns tests and the lines they lead to into the robot's `if … then … else`: tests joined by its
-/// one `and` or `or`, single statements behind `then` and `else`, comparisons that it has. Copies
+/// one `and` or `or`, single statements after `then` and `else`, comparisons that it has. Copies
 /// between variables that share a letter go. Afterwards there are no If lines. `source_lines` holds
 /// the line of each statement: a robot's line has one place where it can stop the program.
 void write_choices(Code& code, const Letters& letters,

@@ -70,7 +70,7 @@ enum class LineKind : std::uint8_t {
   SetSystem,  ///< spec::Variable `variable` = `term`
   Goto,       ///< `label`
   If,         ///< to `label` where `condition` holds
-  For,        ///< `variable` from `term` to `end` by `step`; `label` stands behind it
+  For,        ///< `variable` from `term` to `end` by `step`; `label` stands after it
   Next,       ///< `variable`; to `label` while it is within the end
   Gosub,      ///< `label` of routine `variable`
   Return,
@@ -147,7 +147,7 @@ struct Code {
   std::uint32_t read(std::uint32_t variable);
   std::uint32_t system(spec::Variable variable);
   std::uint32_t element();
-  /// With constants folded, and written as the robot can: no negative numbers behind operators.
+  /// With constants folded, and written as the robot can: no negative numbers after operators.
   std::uint32_t binary(spec::Operator op, std::uint32_t left, std::uint32_t right);
   std::uint32_t call(spec::Function function, std::uint32_t operand);
   bool is_number(std::uint32_t term) const { return terms[term].kind == TermKind::Number; }

@@ -8,7 +8,7 @@
 
 namespace orb::structured {
 
-/// Sets of variables, one behind the other, as bits.
+/// Sets of variables, one after the other, as bits.
 class VariableSets {
 public:
   VariableSets() = default;
@@ -99,12 +99,12 @@ struct Liveness {
   VariableSets in;        ///< of each block, at its begin
   VariableSets out;       ///< at its end
   VariableSets across;    ///< of each routine: what lives on through a call of it, untouched
-  VariableSets at_return; ///< of each routine: what is read behind its calls
+  VariableSets at_return; ///< of each routine: what is read after its calls
 };
 
 Liveness read_liveness(const Code& code, const Flow& flow);
 
-/// Takes `line` out of `live`, the variables that are live behind it: afterwards those before it.
+/// Takes `line` out of `live`, the variables that are live after it: afterwards those before it.
 void step_back(const Code& code, const Flow& flow, const Liveness& liveness, const CodeLine& line,
                std::span<std::uint64_t> live);
 

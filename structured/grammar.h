@@ -3,8 +3,8 @@
 // The grammar of structured orbBasic. Private to structured/: only parse.cpp and the tests of the
 // grammar include it.
 //
-// Every rule eats the gap behind it. A gap is blanks, inside brackets also line ends and comments;
-// behind a comma or an operator the line always goes on (`join`). The first token decides which
+// Every rule eats the gap after it. A gap is blanks, inside brackets also line ends and comments;
+// after a comma or an operator the line always goes on (`join`). The first token decides which
 // rule applies; what must follow is said with must<>. Rules that look a word up, or that a table
 // row decides, are matched by hand in parse.cpp.
 
@@ -99,7 +99,7 @@ struct character_sign : one<'$'> {};
 struct character      : seq<character_sign, gap, must<expression>> {};
 struct print_item     : sor<seq<print_comma, join>, seq<sor<text, semicolon>, gap>, character, expression> {};
 
-// what stands behind the word of a statement
+// what stands after the word of a statement
 
 struct output         : star<print_item> {};
 struct one_value      : must<expression> {};

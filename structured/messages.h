@@ -9,7 +9,7 @@ namespace orb::structured {
 
 /// Why a line does not parse: at most one for each line.
 enum class Reason : std::uint8_t {
-  Trailing, ///< something stands behind a complete statement
+  Trailing, ///< something stands after a complete statement
   ExpectedStatement,
   ExpectedExpression,
   ExpectedPlace,

@@ -35,7 +35,7 @@ struct Symbol {
 struct Routine {
   std::uint32_t symbol = none; ///< none for the main program
   std::uint32_t statement = none;
-  std::uint32_t first_parameter = 0; ///< its parameters are symbols one behind the other
+  std::uint32_t first_parameter = 0; ///< its parameters are symbols one after the other
   std::uint32_t parameters = 0;
   std::vector<std::uint32_t> locals; ///< symbols
 };

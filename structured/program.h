@@ -84,7 +84,7 @@ enum class Kind : std::uint8_t {
   If,      ///< [Expression]
   ElseIf,  ///< [Expression]
   Else,    ///< of `if` and of `select`
-  EndIf,   ///< has an empty span behind an `if` of one line
+  EndIf,   ///< has an empty span after an `if` of one line
   While,   ///< [Expression]
   EndWhile,
   Repeat,      ///< closed by Until
@@ -153,7 +153,7 @@ struct MacroFile {
 };
 
 struct Program {
-  std::string text;        ///< of all files, one behind the other
+  std::string text;        ///< of all files, one after the other
   std::vector<File> files; ///< the main file first
   std::vector<Statement> statements;
   std::vector<Item> items;

@@ -57,7 +57,7 @@ private:
     return random_.chance(0.5) ? least : usual + (random_.chance(0.2) ? "\t" : "  ");
   }
 
-  /// A word with the blanks behind it that keep it apart from letters.
+  /// A word with the blanks after it that keep it apart from letters.
   std::string word(const std::string& text) { return text + " " + blanks(""); }
 
   std::string comma() { return blanks("") + "," + blanks(""); }

@@ -30,7 +30,7 @@ struct Budgets {
   /// Between repetitions, doubling from the first to the most.
   Duration backoff_first = 100ms;
   Duration backoff_most = 2s;
-  /// For the last messages of what was stopped; the ball's may be 20 ms behind its answers.
+  /// For the last messages of what was stopped; the ball's may be 20 ms after its answers.
   Duration settle = 50ms;
   /// For a sign of life of a program whose start was not answered.
   Duration start_sign = 1s;

@@ -156,7 +156,7 @@ std::optional<PlanError> misfit(Route route, const MacroImage& image, std::size_
   return std::nullopt;
 }
 
-/// A macro in pieces of whole commands with id and flags in front of each, and Stream End behind
+/// A macro in pieces of whole commands with id and flags in front of each, and Stream End after
 /// the last where the macro has none. An error where a comment is longer than a piece.
 tl::expected<Step, PlanError> stream_step(MacroImage image) {
   const auto listing = protocol::decode_macro_body(image.body);

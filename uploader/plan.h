@@ -61,7 +61,7 @@ enum class StepKind : std::uint8_t {
   Erase,   ///< what was stored is gone
   Count,   ///< how many packets the ball has received, where it says so
   Append,  ///< the content in pieces, each of which must arrive exactly once
-  Barrier, ///< behind the content: all answers have come, and the count fits
+  Barrier, ///< after the content: all answers have come, and the count fits
   Store,   ///< makes it last: commit, save
   Start    ///< runs it
 };
@@ -74,7 +74,7 @@ struct Step {
   std::vector<std::size_t> cuts{}; ///< the sizes of its pieces; none: as much as a packet carries
 };
 
-/// What is done behind the greeting when nothing goes wrong, and the time by which an upload has
+/// What is done after the greeting when nothing goes wrong, and the time by which an upload has
 /// ended whatever goes wrong.
 struct Plan {
   Route route = Route::Ram;

@@ -502,8 +502,8 @@ std::string no_ball(const Session& session, const NoAnswer& failure) {
     return tried + "; answers came, but to other sequence numbers: another program is talking to "
                    "this ball, or it is not a ball";
   if (counts.bytes_in > 0)
-    return fmt::format("{}; {} bytes came that are no answer: the other end is not a ball", tried,
-                       counts.bytes_in);
+    return fmt::format("{}; {} bytes came that are not an answer: the other end is not a ball",
+                       tried, counts.bytes_in);
   return tried + "; is the ball awake (shake it), charged and not connected to a phone?";
 }
 

@@ -12,7 +12,7 @@
 
 namespace orb::vm {
 
-/// How packets leave. Paced: one behind the other at the speed of the wire. Unpaced: at once, for a
+/// How packets leave. Paced: one after the other at the speed of the wire. Unpaced: at once, for a
 /// server whose link is real; programs that print are slowed down by the wire all the same.
 enum class Wire : std::uint8_t { Paced, Unpaced };
 

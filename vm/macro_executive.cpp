@@ -265,7 +265,7 @@ void MacroExecutive::tick() {
 void MacroExecutive::run_command() {
   if (next_ >= code_.size()) {
     if (id_ == spec::macro_id_stream)
-      wake_ = never; // the pause behind the last chunk
+      wake_ = never; // the pause after the last chunk
     else
       reach_end();
     return;

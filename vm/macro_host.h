@@ -21,7 +21,7 @@ public:
   virtual void emit_marker(int marker, int macro, int command) = 0;
   /// Tells the observer which command begins.
   virtual void trace_command(int macro, int command) = 0;
-  /// The ball falls asleep when the executive returns, for `time_ms`: 0 for ever,
+  /// The ball falls asleep when the executive returns, for `time_ms`: 0 forever,
   /// spec::macro_sleep_inherit as long as the last sleep.
   virtual void sleep_ms(int time_ms) = 0;
 

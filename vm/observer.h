@@ -67,8 +67,8 @@ struct MacroEnd {
     Ended,       ///< End, the last byte, or Stream End in a stream
     Aborted,     ///< by the client, by orbBasic, or because its buffer is being rewritten
     NoSuchMacro, ///< goto, gosub or a collision led to an id that is not there
-    BadCommand,  ///< a byte that is no command, or a command that runs past the macro
-    StreamEnd,   ///< Stream End in a macro that is no stream
+    BadCommand,  ///< a byte that is not a command, or a command that runs past the macro
+    StreamEnd,   ///< Stream End in a macro that is not a stream
     Inhibited,   ///< goto or a collision led to a macro that does not run while connected
     Slept        ///< a sleep command, or the ball fell asleep
   };

@@ -64,7 +64,7 @@ public:
   bool connected() const override { return false; }
 };
 
-/// A macro that goes round for ever: rolls, colours, markers and a delay of `delay` ms.
+/// A macro that goes round forever: rolls, colours, markers and a delay of `delay` ms.
 void execute(benchmark::State& state) {
   const auto source =
       Source("bench.macro", ".macro bench id=40\nloop_start 255\nrgb 1, 2, 3\nroll 128, 90\n"

@@ -132,7 +132,7 @@ async function drive(ball, pushed) {
   assert.strictEqual((await marker).content[0], 0xaa);
 }
 
-// An independent library: tokenizes the stream, waits for ever.
+// An independent library: tokenizes the stream, waits forever.
 async function spheroPwn(address) {
   const { Robot, SerialChannel } = client("sphero-pwn");
   const robot = new Robot(new SerialChannel(address));

@@ -82,7 +82,7 @@ Plant unnumbered_file() {
   };
 }
 
-/// Two lines on one, parted by a colon.
+/// Two lines on one, separated by a colon.
 Plant colon() {
   return [](Lines& lines, std::size_t i) {
     static const std::regex plain("^\\d+ (?!if)[^']*[^;' ]$");

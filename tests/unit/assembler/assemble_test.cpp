@@ -175,7 +175,7 @@ RC_GTEST_PROP(Fold, FoldingKeepsTheTimesAndNeverGrows, ()) {
   const auto folded = assembled(text, Folding::Fold);
   RC_ASSERT(folded.macros[0].body.size() <= kept.macros[0].body.size());
   RC_ASSERT(time_macro(folded, 0).most_ms == time_macro(kept, 0).most_ms);
-  // Whatever is no delay begins when it did before.
+  // Whatever is not a delay begins when it did before.
   std::vector<std::pair<std::uint8_t, std::int64_t>> times[2];
   for (const auto* assembly : {&kept, &folded}) {
     const auto timing = time_macro(*assembly, 0);

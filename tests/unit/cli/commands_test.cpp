@@ -52,7 +52,7 @@ TEST(Commands, EveryHelpShowsTwoExamplesThatCanBePasted) {
     EXPECT_GE(examples.size(), 2U) << command->get_name();
     for (const auto& example : examples) {
       EXPECT_NE(example.find("orb " + command->get_name()), std::string::npos) << example;
-      // Every option in it exists; what stands behind a pipe belongs to another program.
+      // Every option in it exists; what stands after a pipe belongs to another program.
       std::istringstream words(example.substr(0, example.find('|')));
       for (std::string word; words >> word && word != "--";)
         if (word.starts_with("--")) {

@@ -184,7 +184,7 @@ TEST_F(MacroOnBall, TheEndOfAStealthyMacroIsNoActivity) {
 
 TEST_F(MacroOnBall, StealthDoesNotKeepTheBallAwake) {
   tell(ApiCommand::SetInactivityTimeout, {0, 60});
-  run("FF 00 0B FF FF 0C FF"); // for ever
+  run("FF 00 0B FF FF 0C FF"); // forever
   advance(200s);
   EXPECT_FALSE(ball->asleep());
   tell(ApiCommand::AbortMacro);
