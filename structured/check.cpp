@@ -330,7 +330,7 @@ private:
         auto& d = report(rules::LoopVariable, item(statement, 0).span,
                          fmt::format("the loop around this one counts in `{}` already",
                                      program_.text_of(item(statement, 0).span)));
-        d.notes.push_back({at(opener).span, "the loop around it"});
+        d.notes.emplace_back(Note{at(opener).span, "the loop around it"});
       }
     if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
       report(rules::WrongUse, item(statement, 0).span, "a loop counts in a variable");
