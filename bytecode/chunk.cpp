@@ -121,38 +121,41 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
+void write(std::string& out, const Chunk& chunk, std::size_t at) {
+  const auto& instruction = chunk.code[at];
+  const auto& row = info(instruction.op);
+  fmt::format_to(std::back_inserter(out), "{:5} {}", at, row.name);
+  const auto values = operands(instruction);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    switch (row.operands[i]) {
+    case 'r':
+    case 'p':
+    case 'w': out += ' ' + register_name(chunk, values[i]); break;
+    case 'n': fmt::format_to(std::back_inserter(out), " #{}", values[i]); break;
+    case 'x':
+      out += ' ' + (values[i] < chunk.texts.size() ? quoted(chunk.texts[values[i]]) : "?");
+      break;
+    }
+  }
+  if (row.has_target())
+    fmt::format_to(std::back_inserter(out), " -> {}", instruction.target);
+  out += instruction.ends_line ? " .\n" : "\n";
+}
+
 } // namespace
 
-std::string listing(const Chunk& chunk, std::span<const std::string> behind) {
+std::string listing(const Chunk& chunk, std::size_t line) {
   std::string out;
-  std::size_t line = 0;
-  for (std::size_t at = 0; at < chunk.code.size(); ++at) {
-    const bool begins = line < chunk.lines.size() && chunk.lines[line].begin == at;
-    if (line > 0 && line <= behind.size() && (begins || at + 1 == chunk.code.size()))
-      out += behind[line - 1];
-    if (begins)
-      fmt::format_to(std::back_inserter(out), "{}\n", chunk.lines[line++].number);
-    const auto& instruction = chunk.code[at];
-    const auto& row = info(instruction.op);
-    fmt::format_to(std::back_inserter(out), "{:5} {}", at, row.name);
-    const auto values = operands(instruction);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      switch (row.operands[i]) {
-      case 'r':
-      case 'p':
-      case 'w': out += ' ' + register_name(chunk, values[i]); break;
-      case 'n': fmt::format_to(std::back_inserter(out), " #{}", values[i]); break;
-      case 'x':
-        out += ' ' + (values[i] < chunk.texts.size() ? quoted(chunk.texts[values[i]]) : "?");
-        break;
-      }
-    }
-    if (row.has_target())
-      fmt::format_to(std::back_inserter(out), " -> {}", instruction.target);
-    if (instruction.ends_line)
-      out += " .";
-    out += '\n';
-  }
+  for (auto at = chunk.begin(line); at < chunk.begin(line + 1); ++at)
+    write(out, chunk, at);
+  return out;
+}
+
+std::string listing(const Chunk& chunk) {
+  std::string out;
+  for (std::size_t line = 0; line < chunk.lines.size(); ++line)
+    out += fmt::format("{}\n", chunk.lines[line].number) + listing(chunk, line);
+  write(out, chunk, chunk.code.size() - 1);
   return out;
 }
 

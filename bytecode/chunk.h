@@ -55,6 +55,13 @@ struct Chunk {
   std::uint16_t register_count() const {
     return static_cast<std::uint16_t>(first_constant() + constants.size());
   }
+  /// Where the instructions of a line (an index) begin; after the last line, EndOfProgram.
+  std::uint32_t begin(std::size_t line) const {
+    return line < lines.size() ? lines[line].begin : static_cast<std::uint32_t>(code.size() - 1);
+  }
+  std::span<const Instruction> instructions(std::size_t line) const {
+    return std::span(code).subspan(begin(line), begin(line + 1) - begin(line));
+  }
 
   friend bool operator==(const Chunk&, const Chunk&) = default;
 };
@@ -63,8 +70,10 @@ struct Chunk {
 /// a target outside the code, lines out of order. Nothing for every chunk that the compiler makes.
 std::optional<std::string> verify(const Chunk& chunk);
 
-/// The chunk as text, a line per instruction; after each line of the program, in their order, the
-/// text of `behind` that belongs to it.
-std::string listing(const Chunk& chunk, std::span<const std::string> behind = {});
+/// The instructions of a line (an index) as text, a line each.
+std::string listing(const Chunk& chunk, std::size_t line);
+
+/// The whole chunk as text: the number of each line, then its instructions.
+std::string listing(const Chunk& chunk);
 
 } // namespace orb::bytecode

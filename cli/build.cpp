@@ -8,6 +8,7 @@
 #include "compiler/rules.h"
 #include "disk/disk.h"
 #include "run/line_map.h"
+#include "run/listing.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,6 +25,8 @@ struct Options {
   TargetOptions target;
   bool pack = false;
   bool no_check = false;
+  bool listing = false;
+  bool native = false;
 };
 
 /// Prints the errors; the size is left to the image that is really built.
@@ -71,7 +74,8 @@ void build_basic(Context& context, const Options& options, const Source& source)
   if (!options.map.empty() &&
       !write(context, options.map, run::print_line_map(source.name(), image)))
     return;
-  if (write(context, options.out, image.bytes))
+  const auto listed = options.native ? run::Listed::MachineCode : run::Listed::Instructions;
+  if (write(context, options.out, options.listing ? run::listing(image, listed) : image.bytes))
     print_note(context,
                fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
 }
@@ -85,6 +89,10 @@ void build(Context& context, const Options& options) {
   AsmOptions macros;
   macros.file = options.file;
   macros.out = options.out;
+  macros.listing = options.listing;
+  if (options.native)
+    return fail(context, {ExitCode::Usage, "`--native` is for orbBasic; macros never become "
+                                           "machine code"});
   context.exit = run_asm(context, macros);
 }
 
@@ -93,7 +101,8 @@ void build(Context& context, const Options& options) {
 void add_build(CLI::App& app, Context& context) {
   auto* command = add_command(app, "build", "make the exact bytes to upload",
                               "orb build square.bas -o square.img\n"
-                              "orb build --pack square.bas --map square.json -o square.img");
+                              "orb build --pack square.bas --map square.json -o square.img\n"
+                              "orb build --listing --native square.bas");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "a source; `-` is standard input")->required();
   add_language_option(*command, options->lang);
@@ -103,6 +112,10 @@ void add_build(CLI::App& app, Context& context) {
   command->add_option("--map", options->map, "write which source line became which robot line");
   add_target_options(*command, options->target);
   command->add_flag("--no-check", options->no_check, "build although the program has errors");
+  auto* listing = command->add_flag("--listing", options->listing,
+                                    "in place of the bytes: each line and the instructions that "
+                                    "the virtual ball makes of it");
+  command->add_flag("--native", options->native, "list their machine code, too")->needs(listing);
   command->callback([&context, options] { build(context, *options); });
 }
 

@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 
 #include "cli/options.h"
+#include "vm/native.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -37,6 +38,14 @@ private:
   std::string examples_;
 };
 
+std::string version(const CLI::App& app) {
+  auto text = fmt::format("orb {}", ORB_VERSION);
+  if (app.count("--verbose") > 0) // its variable is set only after the version is asked for
+    text += vm::has_native_code() ? "\nmachine code for orbBasic: x86-64"
+                                  : "\nmachine code for orbBasic: none, programs are interpreted";
+  return text;
+}
+
 } // namespace
 
 CLI::App* add_command(CLI::App& app, std::string name, std::string summary, std::string examples) {
@@ -57,8 +66,9 @@ void add_commands(CLI::App& app, Context& context) {
       std::make_shared<HelpFormatter>("orb new robot\norb check program.bas\norb run program.bas\n"
                                       "orb upload program.bas --port /dev/rfcomm0 --run\n"));
   app.require_subcommand(0, 1); // a word after a command is never a second one: `orb man run`
-  app.set_version_flag("--version", fmt::format("orb {}", ORB_VERSION),
-                       "print the version and end");
+  app.set_version_flag(
+      "--version", [&app] { return version(app); },
+      "print the version and end; with -v, also what it was built with");
   app.set_help_flag("-h,--help", "print this help and end");
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");

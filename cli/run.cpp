@@ -14,11 +14,14 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <thread>
+#include <unistd.h>
 
 namespace orb::cli {
 
@@ -29,6 +32,7 @@ struct RunOptions {
   std::string language;
   std::string time = "60s";
   std::string input;
+  std::string native = "auto";
   std::string firmware = std::string(spec::info(spec::default_firmware).name);
   std::string stimulus;
   std::string trace;
@@ -146,6 +150,9 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
     options.numbers = *std::move(numbers);
   }
   options.firmware = spec::find_firmware(given.firmware)->firmware; // the option is checked
+  options.native = given.native == "on"    ? vm::Native::On
+                   : given.native == "off" ? vm::Native::Off
+                                           : vm::Native::Auto;
   options.client = given.disconnected ? run::Client::Absent : run::Client::Connected;
   options.target = given.target.target();
   if (given.target.ram != 0)
@@ -195,6 +202,21 @@ tl::expected<void, Failure> judge(const RunOptions& options, const run::Ending& 
   return {};
 }
 
+/// Tells `perf report` which lines the machine code of this process belongs to, in the form that it
+/// looks for: /tmp/perf-PID.map, lines of `START SIZE NAME` with hexadecimal numbers.
+void write_perf_map(const Context& context, std::span<const vm::NativeCode::Piece> pieces) {
+  if (std::getenv("ORB_PERF_MAP") == nullptr || pieces.empty())
+    return;
+  std::string text;
+  for (const auto& piece : pieces)
+    text += fmt::format("{:x} {:x} orbBasic {}\n", reinterpret_cast<std::uintptr_t>(piece.address),
+                        piece.size,
+                        piece.line == 0 ? "entry and exit" : fmt::format("line {}", piece.line));
+  const auto path = fmt::format("/tmp/perf-{}.map", getpid());
+  if (const auto written = disk::write(path, as_bytes(text)); !written)
+    print_note(context, written.error().message); // perf shows addresses then; the run is good
+}
+
 tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
   auto options = read_options(context, given);
   if (!options)
@@ -226,6 +248,9 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     if (const auto hint = run::hint(*ending, *inputs); !hint.empty())
       print_note(context, "hint: " + hint);
   print_note(context, run::to_string(*ending));
+  if (!ending->only_interpreted.empty() && context.verbosity > 0)
+    print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
+  write_perf_map(context, ending->machine_code);
   if (auto good = judge(given, *ending); !good)
     return good;
   if (!ending->aborted.empty())
@@ -274,6 +299,12 @@ void add_run(CLI::App& app, Context& context) {
       ->add_option("--lines-per-second", options->run.lines_per_second,
                    "how fast the robot's interpreter is, 1 to 1000000000")
       ->check(CLI::Range(1u, 1'000'000'000u))
+      ->capture_default_str();
+  command
+      ->add_option("--native", options->native,
+                   "when programs become machine code: auto (once they have run for long), on (at "
+                   "once) or off")
+      ->check(one_of({"auto", "on", "off"}))
       ->capture_default_str();
   command->add_option("--trace", options->trace, "every event as a line, in place of the output")
       ->check(one_of({"json", "csv"}));

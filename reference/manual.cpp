@@ -266,7 +266,10 @@ ManualPage main_page(const CommandLine& line) {
           ".It Ev ORB_PORT\n.It Ev ORB_TARGET\n"
           "Stand for\n.Fl Fl port\nand\n.Fl Fl target\nwhere these are not given.\n"
           ".It Ev NO_COLOR\n.It Ev CLICOLOR_FORCE\n"
-          "Switch colour off, or on even when the output is not a terminal.\n.El\n";
+          "Switch colour off, or on even when the output is not a terminal.\n"
+          ".It Ev ORB_PERF_MAP\n"
+          "Lets\n.Nm orb Cm run\nleave\n.Pa /tmp/perf-PID.map ,\n"
+          "which tells\n.Ql perf report\nthe lines that machine code belongs to.\n.El\n";
   text += ".Sh FILES\n.Bl -tag -width Ds\n"
           ".It Pa orb.toml\n"
           "Configuration of a project, found in the working folder or one above it.\n"

@@ -165,6 +165,7 @@ vm::BallOptions ball_options(const Options& options, Watcher& watcher,
   ball.firmware = options.firmware;
   ball.ram_bytes = options.ram_bytes.value_or(spec::info(options.firmware).ram_bytes());
   ball.loader = compiler::load;
+  ball.native = options.native;
   ball.observer = &watcher;
   ball.trace_lines = options.trace_lines || journey != nullptr;
   return ball;
@@ -199,9 +200,7 @@ tl::expected<void, Failure> upload(const Load& load, spec::Area area, uploader::
       const auto& [input, program] = load.programs[i];
       const auto bytes = as_bytes(program->image.bytes);
       delivery.program_name = input->source->name();
-      delivery.program = uploader::ProgramJob{{bytes.begin(), bytes.end()},
-                                              there,
-                                              std::nullopt};
+      delivery.program = uploader::ProgramJob{{bytes.begin(), bytes.end()}, there, std::nullopt};
       if (auto done = deliver(session, delivery); !done)
         return done;
       delivery = {};
@@ -257,7 +256,7 @@ Started start_program(const Program& program, const Options& options, vm::Ball& 
   const auto line = options.line.value_or(program.first_line().value_or(0));
   if (options.client == Client::Absent)
     return ball.execute_basic(options.target.area, line) == vm::Outcome::Done ? Started::Yes
-                                                                       : Started::Refused;
+                                                                              : Started::Refused;
   Bytes data{static_cast<std::uint8_t>(options.target.area)};
   append_u16(data, line);
   send_now(ball, spec::ApiCommand::ExecuteOrbbasicProgram, std::move(data));
@@ -466,6 +465,9 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
   ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
   ending.seen = watcher.seen();
+  ending.only_interpreted = ball.machine().only_interpreted();
+  if (const auto* code = ball.machine().machine_code())
+    ending.machine_code = code->pieces();
   ending.aborted = how_aborted(watcher.macro_end());
   for (const auto& fault : watcher.faults()) {
     const bool first = fault.area == options.target.area || load.programs.size() < 2;

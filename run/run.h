@@ -36,8 +36,9 @@ struct Options {
   std::optional<std::size_t> ram_bytes; ///< else what the firmware has
   std::uint32_t lines_per_second =
       static_cast<std::uint32_t>(spec::value_of(spec::Limit::LinesPerSecond));
-  bool trace_lines = false; ///< the listener hears every line
-  Duration slice = 1s;      ///< how often the listener hears of the time
+  vm::Native native = vm::Native::Auto; ///< when programs become machine code
+  bool trace_lines = false;             ///< the listener hears every line
+  Duration slice = 1s;                  ///< how often the listener hears of the time
   std::vector<vm::TimedStimulus> stimuli;
   std::string expect;    ///< printed: the run stops well; empty for none
   std::string fail_text; ///< printed: the run stops as a failure; empty for none
@@ -78,6 +79,8 @@ struct Ending {
   std::vector<Fault> faults;
   std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
+  std::string_view only_interpreted; ///< why there was no machine code though it was wanted
+  std::vector<vm::NativeCode::Piece> machine_code; ///< where it was, for profilers
 };
 
 /// The sentence about an ending: `ended after 1.234 s of robot time, 3702 lines`.

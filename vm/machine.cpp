@@ -300,6 +300,7 @@ void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
   lines_ = 0;
   machine_code_ = nullptr;
   own_code_.reset();
+  only_interpreted_ = {};
   gain_ = 0;
   compile_at_ = lines_before_compiling();
   running_ = true;
@@ -428,7 +429,7 @@ bool Machine::announce(Host& host) {
 
 /// The lines after which a program becomes machine code: what may be long to compile has run long.
 std::uint64_t Machine::lines_before_compiling() const {
-  if (native_ == Native::Off || !has_native_code())
+  if (native_ == Native::Off || (native_ == Native::Auto && !has_native_code()))
     return never_compile;
   return native_ == Native::On ? 0 : runs_before_compiling * core_.code.size();
 }
@@ -438,7 +439,11 @@ void Machine::compile() {
   machine_code_ = shared_ ? shared_->find(core_.chunk) : nullptr;
   if (machine_code_)
     return;
-  own_code_ = NativeCode::compile(core_.chunk);
+  auto made = NativeCode::compile(core_.chunk);
+  if (made)
+    own_code_ = *std::move(made);
+  else
+    only_interpreted_ = made.error();
   machine_code_ = own_code_.get();
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace orb::vm {
 
@@ -75,6 +76,8 @@ public:
   const Core& core() const { return core_; }
   /// The machine code of the program; null where it is interpreted.
   const NativeCode* machine_code() const { return machine_code_; }
+  /// Why there is none although it was wanted; empty otherwise.
+  std::string_view only_interpreted() const { return only_interpreted_; }
   /// From now on the host is told every line.
   void trace_lines() { tracing_ = true; }
 
@@ -97,6 +100,7 @@ private:
   NativePrograms* shared_;
   std::unique_ptr<NativeCode> own_code_;
   const NativeCode* machine_code_ = nullptr;
+  std::string_view only_interpreted_;
   std::uint64_t compile_at_ = 0; ///< lines
   std::int64_t gain_ = 0;        ///< lines; below 0 where changes to machine code did not pay
   Instant now_{};

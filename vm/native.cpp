@@ -35,7 +35,8 @@ const NativeCode* NativePrograms::find(const Chunk& chunk) {
       return kept.code.get();
   if (kept_.size() == most_kept)
     return nullptr;
-  kept_.push_back({chunk, NativeCode::compile(chunk)});
+  auto made = NativeCode::compile(chunk);
+  kept_.push_back({chunk, made ? *std::move(made) : nullptr});
   return kept_.back().code.get();
 }
 
@@ -65,6 +66,7 @@ using Entry = std::uint32_t (*)(std::int32_t* registers, Frames* frames, std::in
                                 const void* line);
 
 constexpr std::size_t most_instructions = 65536;
+constexpr std::string_view too_large = "the program is too large for machine code";
 constexpr std::uint32_t none = 0xFFFFFFFF;
 
 /// What is decided about a program before its code is written.
@@ -81,14 +83,6 @@ public:
     std::uint32_t body = none; ///< the first line behind it
   };
 
-  /// Where a line begins; behind the last one, EndOfProgram.
-  std::uint32_t begin(std::size_t line) const {
-    return line < chunk_.lines.size() ? chunk_.lines[line].begin
-                                      : static_cast<std::uint32_t>(chunk_.code.size() - 1);
-  }
-  std::span<const Instruction> line(std::size_t line) const {
-    return std::span(chunk_.code).subspan(begin(line), begin(line + 1) - begin(line));
-  }
   /// How many lines of its block are left, with this one: they are counted together. 0 where the
   /// line is left to the loop.
   int rest(std::size_t line) const { return rest_[line]; }
@@ -104,14 +98,14 @@ private:
   void match_loops() {
     std::array<KnownLoop, bytecode::first_temporary> last;
     for (std::size_t i = 0; i < chunk_.lines.size(); ++i) {
-      const auto begun = std::count_if(line(i).begin(), line(i).end(), [](const auto& instruction) {
+      const auto begun = std::ranges::count_if(chunk_.instructions(i), [](const auto& instruction) {
         return instruction.op == Op::For || instruction.op == Op::ForElement;
       });
-      for (std::uint32_t at = begin(i); at < begin(i + 1); ++at) {
+      for (std::uint32_t at = chunk_.begin(i); at < chunk_.begin(i + 1); ++at) {
         const auto& instruction = chunk_.code[at];
         if (instruction.op == Op::For)
           last[instruction.a] = begun == 1 && instruction.d >= chunk_.first_constant()
-                                    ? KnownLoop{at, begin(i + 1)}
+                                    ? KnownLoop{at, chunk_.begin(i + 1)}
                                     : KnownLoop{};
         else if (instruction.op == Op::Next)
           loops_[at] = last[instruction.a];
@@ -123,7 +117,7 @@ private:
   /// happened.
   bool can_be_machine_code(std::size_t index) const {
     bool changed = false;
-    for (std::uint32_t at = begin(index); at < begin(index + 1); ++at) {
+    for (std::uint32_t at = chunk_.begin(index); at < chunk_.begin(index + 1); ++at) {
       const auto& instruction = chunk_.code[at];
       const auto& row = bytecode::info(instruction.op);
       if (row.compiled == Compiled::Never || (row.compiled == Compiled::Mostly && changed) ||
@@ -142,8 +136,8 @@ private:
     std::vector<bool> entered(chunk_.code.size());
     std::vector<bool> leads_away(chunk_.lines.size());
     for (std::size_t i = 0; i < chunk_.lines.size(); ++i)
-      for (const auto& instruction : line(i)) {
-        const bool jumps = (instruction.ends_line && instruction.target != begin(i + 1)) ||
+      for (const auto& instruction : chunk_.instructions(i)) {
+        const bool jumps = (instruction.ends_line && instruction.target != chunk_.begin(i + 1)) ||
                            instruction.op == Op::Target || instruction.op == Op::Gosub;
         if (jumps && bytecode::info(instruction.op).has_target())
           entered[instruction.target] = leads_away[i] = true;
@@ -152,8 +146,8 @@ private:
       }
     rest_.assign(chunk_.lines.size() + 1, 0);
     for (std::size_t i = chunk_.lines.size(); i-- > 0;) {
-      const bool last =
-          leads_away[i] || entered[begin(i + 1)] || rest_[i + 1] == NativeCode::longest_block;
+      const bool last = leads_away[i] || entered[chunk_.begin(i + 1)] ||
+                        rest_[i + 1] == NativeCode::longest_block;
       if (can_be_machine_code(i))
         rest_[i] = last ? 1 : rest_[i + 1] + 1;
     }
@@ -232,27 +226,30 @@ public:
     table_ = a_.newLabel();
   }
 
-  /// Where a line begins: in the code, and in what has been logged.
+  /// A place in the code, and in what has been logged of it.
   struct Place {
     std::size_t code = 0;
     std::size_t log = 0;
   };
 
-  /// Returns the places of the lines and of what stands behind them.
+  /// Returns where the way in begins, then each line, then the way out, then where that ends.
   std::vector<Place> program(const asmjit::StringLogger& log) {
     std::vector<Place> places;
+    const auto mark = [&] { places.push_back({a_.offset(), log.dataSize()}); };
+    mark();
     enter();
     for (std::size_t line = 0; line < chunk_.lines.size(); ++line) {
-      places.push_back({a_.offset(), log.dataSize()});
+      mark();
       write_line(line);
     }
-    places.push_back({a_.offset(), log.dataSize()});
+    mark();
     a_.bind(labels_.back());
     a_.mov(x86::eax, labels_.size() - 1);
     a_.jmp(exit_);
     for (const auto& door : doors_)
       write_door(door);
     leave();
+    mark();
     write_table();
     return places;
   }
@@ -317,7 +314,7 @@ private:
   };
 
   void write_line(std::size_t line) {
-    const auto begin = plan_.begin(line);
+    const auto begin = chunk_.begin(line);
     const int rest = plan_.rest(line);
     if (rest == 0) {
       a_.bind(labels_[begin]);
@@ -327,7 +324,7 @@ private:
     }
     const auto from_above = next_;
     leave_ = a_.newLabel();
-    following_ = plan_.begin(line + 1);
+    following_ = chunk_.begin(line + 1);
     next_ = plan_.begins_block(line + 1) ? labels_[following_] : a_.newLabel();
     masked_.reset();
     doors_.push_back({begin, rest, leave_, {}});
@@ -798,26 +795,32 @@ bool has_native_code() {
   return true;
 }
 
-std::unique_ptr<NativeCode> NativeCode::compile(const Chunk& chunk) {
+tl::expected<std::unique_ptr<NativeCode>, std::string_view>
+NativeCode::compile(const Chunk& chunk) {
   namespace memory = asmjit::VirtMem;
+  constexpr std::string_view denied = "this system does not let memory become executable";
   if (chunk.code.size() > most_instructions)
-    return nullptr;
+    return tl::unexpected(too_large);
   Draft draft(chunk);
+  if (draft.failed)
+    return tl::unexpected(too_large);
   std::unique_ptr<NativeCode> made(new NativeCode);
   made->size_ = draft.code.codeSize();
-  if (draft.failed ||
-      memory::alloc(&made->memory_, made->size_, memory::MemoryFlags::kAccessRW) != 0)
-    return nullptr;
+  if (memory::alloc(&made->memory_, made->size_, memory::MemoryFlags::kAccessRW) != 0)
+    return tl::unexpected(denied);
   draft.code.relocateToBase(reinterpret_cast<std::uintptr_t>(made->memory_));
   draft.code.copyFlattenedData(made->memory_, made->size_);
-  if (draft.failed ||
-      memory::protect(made->memory_, made->size_, memory::MemoryFlags::kAccessRX) != 0)
-    return nullptr;
+  if (draft.failed)
+    return tl::unexpected(too_large);
+  if (memory::protect(made->memory_, made->size_, memory::MemoryFlags::kAccessRX) != 0)
+    return tl::unexpected(denied);
   char* const base = static_cast<char*>(made->memory_);
   made->table_ = reinterpret_cast<const std::int32_t*>(base + draft.table);
-  for (std::size_t i = 0; i < chunk.lines.size(); ++i)
-    made->pieces_.push_back({chunk.lines[i].number, base + draft.places[i].code,
+  for (std::size_t i = 0; i + 1 < draft.places.size(); ++i) {
+    const bool is_line = i > 0 && i <= chunk.lines.size();
+    made->pieces_.push_back({is_line ? chunk.lines[i - 1].number : 0, base + draft.places[i].code,
                              draft.places[i + 1].code - draft.places[i].code});
+  }
   return made;
 }
 
@@ -832,14 +835,16 @@ void NativeCode::run(Core& core) const {
   core.pc = core.code.data() + enter(core.registers.data(), &core.frames, &core.budget, line);
 }
 
-std::string native_listing(const Chunk& chunk) {
+NativeListing native_listing(const Chunk& chunk) {
   asmjit::StringLogger log;
+  log.setIndentation(asmjit::FormatIndentationGroup::kCode, 10);
+  log.setIndentation(asmjit::FormatIndentationGroup::kLabel, 8);
   const Draft draft(chunk, &log);
-  std::vector<std::string> behind;
-  for (std::size_t i = 0; i < chunk.lines.size(); ++i)
-    behind.emplace_back(log.data() + draft.places[i].log,
+  std::vector<std::string> pieces;
+  for (std::size_t i = 0; i + 1 < draft.places.size(); ++i)
+    pieces.emplace_back(log.data() + draft.places[i].log,
                         draft.places[i + 1].log - draft.places[i].log);
-  return bytecode::listing(chunk, behind);
+  return {pieces.front(), {pieces.begin() + 1, pieces.end() - 1}, pieces.back()};
 }
 
 #else
@@ -847,13 +852,13 @@ std::string native_listing(const Chunk& chunk) {
 bool has_native_code() {
   return false;
 }
-std::unique_ptr<NativeCode> NativeCode::compile(const Chunk&) {
-  return nullptr;
+tl::expected<std::unique_ptr<NativeCode>, std::string_view> NativeCode::compile(const Chunk&) {
+  return tl::unexpected(std::string_view("this build knows no machine code"));
 }
 NativeCode::~NativeCode() = default;
 void NativeCode::run(Core&) const {}
-std::string native_listing(const Chunk& chunk) {
-  return bytecode::listing(chunk);
+NativeListing native_listing(const Chunk&) {
+  return {};
 }
 
 #endif

@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
+#include <tl/expected.hpp>
 #include <vector>
 
 namespace orb::vm {
@@ -24,16 +26,17 @@ bool has_native_code();
 /// may stop before every line and begin with every line.
 class NativeCode {
 public:
-  /// What a line became, for profilers.
+  /// What a line became, for profilers; line 0 is the way in, or out.
   struct Piece {
     int line = 0;
     const void* address = nullptr;
     std::size_t size = 0;
   };
 
-  /// Nothing where there is no back end, where memory must not become executable, or where the
-  /// program is beyond what a ball can hold. The chunk passes bytecode::verify().
-  static std::unique_ptr<NativeCode> compile(const bytecode::Chunk& chunk);
+  /// The chunk passes bytecode::verify(). Where it can only be interpreted, the reason in words:
+  /// no back end, memory that must not become executable, a program that no ball can hold.
+  static tl::expected<std::unique_ptr<NativeCode>, std::string_view>
+  compile(const bytecode::Chunk& chunk);
   NativeCode(const NativeCode&) = delete;
   NativeCode& operator=(const NativeCode&) = delete;
   ~NativeCode();
@@ -73,7 +76,14 @@ private:
   std::vector<Kept> kept_;
 };
 
-/// bytecode::listing() with the machine code of each line behind its instructions.
-std::string native_listing(const bytecode::Chunk& chunk);
+/// Machine code as text.
+struct NativeListing {
+  std::string entry;              ///< the way into it
+  std::vector<std::string> lines; ///< in the order of the chunk's
+  std::string exits;              ///< the way out, of each line and of all
+};
+
+/// Empty where this build has no back end.
+NativeListing native_listing(const bytecode::Chunk& chunk);
 
 } // namespace orb::vm

@@ -20,12 +20,11 @@ public:
                  std::uint64_t seed)
       : program_(compiler::parse(text)), host_(host), rate_(lines_per_second), seeds_(mix(seed)) {
     clear();
+    line_ = first_ = following(0);
   }
 
-  /// Runs from the first line that has a statement, at most so many lines.
+  /// Goes on until so many lines have run, or fewer where the program ends.
   void run(std::uint64_t most_lines) {
-    line_ = following(0);
-    first_ = line_;
     while (end.empty() && lines < most_lines) {
       if (line_ >= program_.lines.size()) {
         end = "end";

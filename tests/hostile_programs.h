@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <fmt/format.h>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace orb::testing {
+
+/// A program that was written to be hard on whatever makes machine code of it.
+struct HostileProgram {
+  std::string_view what;
+  std::string text;
+};
+
+/// Lines that all look the same, as many as fit into `size` bytes; {0} is the line's number, {1}
+/// another line, far away, {2} some constant.
+inline std::string filled_with(std::string_view line, std::size_t size) {
+  std::string text;
+  for (std::size_t number = 1;; ++number) {
+    const auto next = fmt::format(fmt::runtime(line), number, 1 + number * 37 % 100,
+                                  3 + number * 7919 % 100'000) +
+                      '\n';
+    if (text.size() + next.size() > size)
+      return text;
+    text += next;
+  }
+}
+
+/// Each is as long as a program may be.
+inline auto hostile_programs(std::size_t size) {
+  std::string sum = "1 A=B";
+  while (sum.size() + 8 < size)
+    sum += fmt::format("+B%{}", 3 + sum.size());
+  return std::array{
+      HostileProgram{"divisions", filled_with("{0} A=A*{2}+B/{2}", size)},
+      HostileProgram{"divisions by variables", filled_with("{0} A=B/C+B%C", size)},
+      HostileProgram{"jumps", filled_with("{0} goto {1}", size)},
+      HostileProgram{"tests that jump", filled_with("{0} if A%2<B%3 then goto {1}", size)},
+      HostileProgram{"calls", filled_with("{0} gosub {1}", size)},
+      HostileProgram{"returns", filled_with("{0} return", size)},
+      HostileProgram{"loops", filled_with("{0} for A=B to C step D", size)},
+      HostileProgram{"the shortest lines", filled_with("{0} A=Z", size)},
+      HostileProgram{"one endless line", sum + '\n'},
+  };
+}
+
+} // namespace orb::testing
