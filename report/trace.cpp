@@ -170,6 +170,7 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
           },
           [&](const e::End&) { return std::string(); },
           [&](const e::MacroEnd&) { return std::string(); },
+          [&](const e::Bump&) { return std::string(); },
       },
       event);
 }

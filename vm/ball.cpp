@@ -151,8 +151,11 @@ bool Ball::idle() const {
 void Ball::run_events(Instant others) {
   // Motion goes on until something else happens, or until it causes something to happen.
   now_ = std::max(now_, body_.advance_to(std::max(now_, others)));
-  if (const auto impact = body_.take_impact())
+  if (const auto impact = body_.take_impact()) {
+    if (impact->wall)
+      trace(event::Bump{*impact->wall, impact->speed});
     detect_collision(*impact);
+  }
   watch_motion();
   keep_house();
   run_script();

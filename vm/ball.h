@@ -101,6 +101,8 @@ public:
   // What can be seen.
   const Body& body() const { return body_; }
   Color led() const { return lamps_.shown(); }
+  /// Nobody is connected and nobody has set a colour: it shows who it is.
+  bool blinks() const { return lamps_.next_blink(lamp_situation()) != never; }
   bool asleep() const { return power_.asleep(); }
   const Settings& settings() const { return settings_; }
   /// The counters of its life are as of now.

@@ -236,8 +236,10 @@ void Body::hit_walls(double& x, double& y, double vx, double vy) {
     place = nearest;
     if (speed * side >= 0)
       continue;
-    if (std::abs(speed) >= least_blow)
+    if (std::abs(speed) >= least_blow) {
       strike(across_x ? speed : 0, across_x ? 0 : speed);
+      impact_->wall = wall;
+    }
     // What the wall leaves: the way along it, and a share of the way back.
     drift_x_ = across_x ? -restitution * vx : vx;
     drift_y_ = across_x ? vy : -restitution * vy;

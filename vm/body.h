@@ -100,20 +100,23 @@ struct Pose {
   double speed_cm_s = 0;
 };
 
-/// A blow as the accelerometer sees it: positive y is a blow on the front, positive x one on the
-/// right (Source: LL §Collision Detection).
-struct Impact {
-  double x_power = 0; ///< compared with the thresholds of the X axis
-  double y_power = 0;
-  int speed = 0; ///< 0..255 at the moment of the blow
-};
-
 /// A straight wall of the stimulus script, in centimetres of the world in which the ball woke up at
 /// 0,0 facing +Y.
 struct Wall {
   enum class Axis : std::uint8_t { X, Y };
   Axis axis = Axis::X;
   double at_cm = 0;
+
+  friend constexpr bool operator==(const Wall&, const Wall&) = default;
+};
+
+/// A blow as the accelerometer sees it: positive y is a blow on the front, positive x one on the
+/// right (Source: LL §Collision Detection).
+struct Impact {
+  double x_power = 0; ///< compared with the thresholds of the X axis
+  double y_power = 0;
+  int speed = 0;            ///< 0..255 at the moment of the blow
+  std::optional<Wall> wall; ///< what it ran into; nothing for a push
 };
 
 /// The ball as matter: set-points in, sensor values out. It knows no program, no packet and no

@@ -343,12 +343,15 @@ void Machine::stop(event::End::Reason reason) {
     finish(reason);
 }
 
+int Machine::line() const {
+  const bool waits = core_.wait != Core::Wait::Nothing;
+  return missing_line_ ? *missing_line_ : line_of(waits ? core_.at : core_.pc);
+}
+
 void Machine::abort() {
   if (!running_)
     return;
-  const bool waits = core_.wait != Core::Wait::Nothing;
-  finish(BasicError::UserAbort,
-         missing_line_ ? *missing_line_ : line_of(waits ? core_.at : core_.pc));
+  finish(BasicError::UserAbort, line());
   stop_->reason = event::End::Reason::Abort;
 }
 

@@ -69,6 +69,8 @@ public:
   Instant now() const { return now_; }
   /// Lines executed since the start of the program.
   std::uint64_t lines() const { return lines_; }
+  /// The number of the line that waits, or of the one that runs next.
+  int line() const;
   /// The value of A to Y (0 to 24) or of an element of Z (from bytecode::first_element); 0 before
   /// the first program.
   std::int32_t variable(std::size_t index) const;

@@ -61,6 +61,11 @@ struct Collision {
   int y_magnitude = 0;
   int speed = 0;
 };
+/// The ball ran into a wall, whether or not anybody asked it to detect collisions.
+struct Bump {
+  Wall wall;
+  int speed = 0; ///< 0..255 at the moment of the blow
+};
 /// A macro came to its end, by itself or not.
 struct MacroEnd {
   enum class Reason : std::uint8_t {
@@ -90,9 +95,10 @@ struct End {
 
 } // namespace event
 
-using Event = std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
-                           event::Position, event::Marker, event::Macro, event::Line,
-                           event::Collision, event::Sleep, event::End, event::MacroEnd>;
+using Event =
+    std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
+                 event::Position, event::Marker, event::Macro, event::Line, event::Collision,
+                 event::Sleep, event::End, event::MacroEnd, event::Bump>;
 
 /// Sees what happens to a ball, in the order in which it happens.
 class Observer {

@@ -116,6 +116,19 @@ TEST_F(TheBall, AWallStopsItAndIsACollision) {
   EXPECT_TRUE(told);
 }
 
+TEST_F(TheBall, TellsThatItRanIntoAWallEvenUnasked) {
+  const Wall wall{Wall::Axis::Y, 50};
+  ball.apply(wall);
+  ball.apply(stimulus::Push{0, 200});
+  EXPECT_TRUE(notebook.all<event::Bump>().empty()) << "a push is not a wall";
+  ball.advance_to(ball.now() + 1s);
+  const auto bumps = notebook.all<event::Bump>();
+  ASSERT_EQ(bumps.size(), 1u);
+  EXPECT_EQ(bumps[0].wall, wall);
+  EXPECT_GT(bumps[0].speed, 0);
+  EXPECT_TRUE(notebook.all<event::Collision>().empty()) << "nobody asked for collisions";
+}
+
 TEST_F(TheBall, ReportsErrorsOnBothChannels) {
   run("10 A = 1\n20 print 1/0\n", 1s);
   const auto found = messages();
