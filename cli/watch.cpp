@@ -95,7 +95,7 @@ private:
 } // namespace
 
 void watch(Context& context, const std::vector<std::string>& files,
-           const std::function<void()>& once) {
+           const std::function<void()>& once, const std::function<void()>& ended) {
   context.exit = ExitCode::Done;
   Held held;
   auto seen = stamps(files);
@@ -105,6 +105,7 @@ void watch(Context& context, const std::vector<std::string>& files,
     if (const auto status = run->ended()) {
       if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGPIPE)
         return; // nobody reads any more
+      ended();
       print_note(context, "waiting for a change; Ctrl-C ends");
     }
     const auto now = stamps(files);
