@@ -24,7 +24,7 @@ struct BallArguments {
   std::uint64_t seed = 1;
   std::string firmware{spec::info(spec::default_firmware).name};
   std::string fault;
-  std::string stimulus;
+  std::vector<std::string> stimuli;
   std::string state;
   std::string log;
 };
@@ -71,7 +71,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
       return fail(context, {ExitCode::Usage, plan.error()});
     options.fault = *plan;
   }
-  auto stimulus = read_stimulus(context, arguments.stimulus);
+  auto stimulus = read_stimuli(context, arguments.stimuli);
   if (!stimulus)
     return fail(context, stimulus.error());
   options.stimulus = *std::move(stimulus);
@@ -124,8 +124,7 @@ void add_ball(CLI::App& app, Context& context) {
       ->add_option("--fault", arguments->fault,
                    "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
       ->type_name("PLAN");
-  command->add_option("--stimulus", arguments->stimulus, "a script of what the world does to it")
-      ->type_name("FILE");
+  add_stimulus_option(*command, arguments->stimuli);
   command->add_option("--state", arguments->state, "keeps flash and settings across runs")
       ->type_name("FILE");
   command->add_option("--log", arguments->log, "records every byte, as `replay://` reads it")

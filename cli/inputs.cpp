@@ -5,6 +5,8 @@
 #include "disk/disk.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 
 namespace orb::cli {
 
@@ -48,19 +50,38 @@ tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std
   return inputs;
 }
 
-tl::expected<std::vector<vm::TimedStimulus>, Failure> read_stimulus(const Context& context,
-                                                                    const std::string& path) {
-  if (path.empty())
-    return {};
-  auto text = read_text(path);
-  if (!text)
-    return tl::unexpected(text.error());
-  const Source source(disk::display_name(path), *std::move(text));
-  auto script = vm::parse_stimulus(source);
-  if (script.diagnostics.empty())
-    return std::move(script.events);
-  print_findings(context, source, script.diagnostics);
-  return tl::unexpected(Failure{ExitCode::BadInput, "the stimulus script has mistakes"});
+void add_stimulus_option(CLI::App& command, std::vector<std::string>& stimuli) {
+  command
+      .add_option("--stimulus", stimuli,
+                  "what happens to the ball: a script, or one line such as `at 2s shake`")
+      ->allow_extra_args(false)
+      ->type_name("FILE|LINE");
+}
+
+bool is_stimulus_line(const std::string& given) {
+  return (given.starts_with("at ") || given.starts_with("wall ")) &&
+         !std::filesystem::exists(given);
+}
+
+tl::expected<std::vector<vm::TimedStimulus>, Failure>
+read_stimuli(const Context& context, const std::vector<std::string>& given) {
+  std::vector<vm::TimedStimulus> events;
+  for (const auto& one : given) {
+    const bool is_line = is_stimulus_line(one);
+    auto text = is_line ? tl::expected<std::string, Failure>(one) : read_text(one);
+    if (!text)
+      return tl::unexpected(text.error());
+    const Source source(is_line ? "--stimulus" : disk::display_name(one), *std::move(text));
+    const auto script = vm::parse_stimulus(source);
+    if (!script.diagnostics.empty()) {
+      print_findings(context, source, script.diagnostics);
+      return tl::unexpected(Failure{ExitCode::BadInput, "the stimulus script has mistakes"});
+    }
+    events.insert(events.end(), script.events.begin(), script.events.end());
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  return events;
 }
 
 bool print_findings(const Context& context, const Source& source,

@@ -35,9 +35,15 @@ tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std
                                                            const compiler::Target& target,
                                                            run::Findings findings);
 
-/// Reads a stimulus script, or nothing for an empty path. Its mistakes go to stderr.
-tl::expected<std::vector<vm::TimedStimulus>, Failure> read_stimulus(const Context& context,
-                                                                    const std::string& path);
+/// Adds `--stimulus`, a script or a line of one, which may be given several times.
+void add_stimulus_option(CLI::App& command, std::vector<std::string>& stimuli);
+
+/// Whether what `--stimulus` was given is a line (`at 2s shake`, `wall x=50`) and not a file.
+bool is_stimulus_line(const std::string& given);
+
+/// Reads what `--stimulus` was given. Its mistakes go to stderr.
+tl::expected<std::vector<vm::TimedStimulus>, Failure>
+read_stimuli(const Context& context, const std::vector<std::string>& given);
 
 /// Prints findings to stderr: errors always, warnings unless -q, the rest with -v. True when there
 /// is an error among them.

@@ -1,5 +1,6 @@
 #include "run/run.h"
 #include "base/duration.h"
+#include "cli/browser.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/options.h"
@@ -7,14 +8,17 @@
 #include "cli/watch.h"
 #include "disk/disk.h"
 #include "report/page.h"
+#include "report/reload.h"
 #include "report/svg.h"
 #include "report/trace.h"
+#include "run/want.h"
 #include "spec/firmware.h"
 
 #include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -34,7 +38,7 @@ struct RunOptions {
   std::string input;
   std::string native = "auto";
   std::string firmware = std::string(spec::info(spec::default_firmware).name);
-  std::string stimulus;
+  std::vector<std::string> stimuli;
   std::string trace;
   std::string trace_out;
   std::string report;
@@ -43,6 +47,7 @@ struct RunOptions {
   bool disconnected = false;
   bool realtime = false;
   bool watch = false;
+  bool open = false;
   run::Options run;
 
   /// The trace's format; nothing where there is no trace.
@@ -160,7 +165,8 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
   constexpr Duration frame = 20ms;
   if (given.realtime)
     options.slice = frame;
-  auto stimuli = read_stimulus(context, given.stimulus);
+  options.asks = given.input == from_stdin ? run::Asks::Yes : run::Asks::No;
+  auto stimuli = read_stimuli(context, given.stimuli);
   if (!stimuli)
     return tl::unexpected(stimuli.error());
   options.stimuli = *std::move(stimuli);
@@ -181,14 +187,29 @@ void print_fault(const run::Fault& fault) {
 
 tl::expected<void, IoError> write_pictures(const RunOptions& options,
                                            const report::Journey& journey) {
-  if (!options.report.empty())
-    if (auto done = disk::write(
-            options.report,
-            as_bytes(report::report_page(journey, disk::display_name(options.files.front()))));
-        !done)
+  if (!options.report.empty()) {
+    auto page = report::report_page(journey, disk::display_name(options.files.front()));
+    if (options.watch)
+      page = report::reloading(std::move(page));
+    if (auto done = disk::write(options.report, as_bytes(page)); !done)
       return done;
+  }
   return options.svg.empty() ? tl::expected<void, IoError>()
                              : disk::write(options.svg, as_bytes(report::path_svg(journey)));
+}
+
+/// Where the run can be seen, or how it could be; empty where there is nothing to see.
+std::string where_to_look(const RunOptions& options, const run::Sight& sight) {
+  if (options.open || (sight.way_cm == 0 && !sight.turned && !sight.color))
+    return "";
+  return fmt::format("; {} shows it", options.report.empty() ? "--open" : options.report);
+}
+
+void tell(const Context& context, const RunOptions& options, const run::Ending& ending) {
+  const auto story = run::story(ending);
+  if (!story.empty())
+    print_note(context, story + where_to_look(options, ending.sight));
+  print_note(context, run::to_string(ending));
 }
 
 /// How the run ended by what it printed, where the user looked for something.
@@ -217,6 +238,25 @@ void write_perf_map(const Context& context, std::span<const vm::NativeCode::Piec
     print_note(context, written.error().message); // perf shows addresses then; the run is good
 }
 
+/// Opens the report. That this failed does not change how the run ended.
+void show(const Context& context, const RunOptions& options) {
+  if (const auto shown = show_in_browser(options.report); !shown)
+    print_error(context, shown.error());
+}
+
+/// A name for a report that was given none: in a folder of its own, which stays for the browser.
+tl::expected<std::string, Failure> temporary_report(const std::string& program) {
+  std::error_code problem;
+  const auto folder = std::filesystem::temp_directory_path(problem);
+  auto own = (folder / "orb-XXXXXX").string();
+  if (problem || ::mkdtemp(own.data()) == nullptr)
+    return refuse(ExitCode::File, fmt::format("cannot make a folder for the report in {}; name a "
+                                              "file with `--report`",
+                                              folder.empty() ? "/tmp" : folder.string()));
+  const auto name = program == "-" ? "run" : std::filesystem::path(program).stem().string();
+  return fmt::format("{}/{}.html", own, name);
+}
+
 tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
   auto options = read_options(context, given);
   if (!options)
@@ -230,6 +270,8 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
       print_findings(context, *input.source, input.findings);
       return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name()));
     }
+  if (const auto want = run::want(*inputs, *options))
+    print_note(context, "hint: " + want->advice);
   Console console(given);
   std::optional<report::Journey> journey;
   if (!given.report.empty() || !given.svg.empty())
@@ -244,13 +286,12 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     written = write_pictures(given, *journey);
   if (!written)
     return refuse(ExitCode::File, written.error().message);
-  if (given.stimulus.empty())
-    if (const auto hint = run::hint(*ending, *inputs); !hint.empty())
-      print_note(context, "hint: " + hint);
-  print_note(context, run::to_string(*ending));
+  tell(context, given, *ending);
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
     print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
   write_perf_map(context, ending->machine_code);
+  if (given.open && !given.watch)
+    show(context, given);
   if (auto good = judge(given, *ending); !good)
     return good;
   if (!ending->aborted.empty())
@@ -265,13 +306,35 @@ void run_and_report(Context& context, const RunOptions& options) {
     fail(context, done.error());
 }
 
+void run_and_watch(Context& context, const RunOptions& options) {
+  auto files = options.files;
+  for (const auto& stimulus : options.stimuli)
+    if (!is_stimulus_line(stimulus))
+      files.push_back(stimulus);
+  const auto written = [&] {
+    std::error_code absent;
+    return std::filesystem::last_write_time(options.report, absent);
+  };
+  const auto before = written();
+  bool shown = !options.open;
+  watch(
+      context, files, [&] { run_and_report(context, options); },
+      [&] {
+        if (shown || written() == before)
+          return; // the page reloads itself, or there is none yet
+        shown = true;
+        show(context, options);
+      });
+}
+
 } // namespace
 
 void add_run(CLI::App& app, Context& context) {
   auto* command =
       add_command(app, "run", "run programs and macros on a virtual ball, in virtual time",
                   "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
-                  "--input 50,25,37 --for 2min\norb run maze.bas --stimulus maze.stimulus --svg "
+                  "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
+                  "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
                   "maze.svg\norb run dance.bas waltz.sphero --expect done");
   auto options = std::make_shared<RunOptions>();
   command->add_option("FILE", options->files, "orbBasic programs and macros; the first one runs")
@@ -294,7 +357,7 @@ void add_run(CLI::App& app, Context& context) {
   command->add_option("--firmware", options->firmware, "the firmware that is simulated")
       ->check(one_of(std::move(names)))
       ->capture_default_str();
-  command->add_option("--stimulus", options->stimulus, "a script of what happens to the ball");
+  add_stimulus_option(*command, options->stimuli);
   command
       ->add_option("--lines-per-second", options->run.lines_per_second,
                    "how fast the robot's interpreter is, 1 to 1000000000")
@@ -312,6 +375,8 @@ void add_run(CLI::App& app, Context& context) {
                     "the trace has every executed line, too");
   command->add_option("--trace-out", options->trace_out, "the file for the trace");
   command->add_option("--report", options->report, "writes a page that plays the run back");
+  command->add_flag("--open", options->open,
+                    "opens that page in a browser; without --report, a temporary one");
   command->add_option("--svg", options->svg, "draws the path");
   command->add_option("--expect", options->run.expect,
                       "text that must be printed; ends the run, exit 0; never printed: exit 1");
@@ -320,14 +385,20 @@ void add_run(CLI::App& app, Context& context) {
   command->add_flag("--realtime", options->realtime, "takes as long as the robot would");
   command->add_flag("--watch", options->watch, "runs again whenever a file changes");
   command->callback([&context, options] {
-    if (!options->watch) {
-      run_and_report(context, *options);
-      return;
+    if (options->open && options->report == "-")
+      return fail(context,
+                  {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` "
+                                    "out"});
+    const bool temporary = options->open && options->report.empty();
+    if (temporary) {
+      auto report = temporary_report(options->files.front());
+      if (!report)
+        return fail(context, report.error());
+      options->report = *std::move(report);
     }
-    auto files = options->files;
-    if (!options->stimulus.empty())
-      files.push_back(options->stimulus);
-    watch(context, files, [&] { run_and_report(context, *options); });
+    (options->watch ? run_and_watch : run_and_report)(context, *options);
+    if (std::error_code not_empty; temporary)
+      std::filesystem::remove(std::filesystem::path(options->report).parent_path(), not_empty);
   });
 }
 

@@ -1,34 +1,64 @@
 #include "run/run.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace orb::run {
 namespace {
 
-/// A sensor that only the world or a client changes, and the line of a stimulus script that does.
-struct Cause {
-  spec::Variable variable;
-  std::string_view line;
-};
+/// The name of the colour of LEDC that is nearest, whatever its brightness.
+std::string name_of(vm::Color color) {
+  constexpr int brightest = 255;
+  constexpr int dim_below = 64;
+  const int most = std::max({color.red, color.green, color.blue});
+  if (most == 0)
+    return "LED off";
+  const auto far = [&](const spec::LedColour& row) {
+    const auto square = [&](int part, int of_row) {
+      const int difference = part * brightest / most - of_row;
+      return difference * difference;
+    };
+    return square(color.red, row.red) + square(color.green, row.green) +
+           square(color.blue, row.blue);
+  };
+  const auto nearest =
+      std::min_element(spec::led_colours.begin(), spec::led_colours.end(),
+                       [&](const auto& a, const auto& b) { return far(a) < far(b); });
+  return fmt::format("{}{}", most < dim_below ? "dim " : "", nearest->name);
+}
 
-constexpr auto causes = std::to_array<Cause>({
-    {spec::Variable::Dshake, "at 2s shake"},
-    {spec::Variable::Cmdroll, "at 2s roll 90 128"},
-    {spec::Variable::Cmdrgb, "at 2s rgb 255 0 0"},
-    {spec::Variable::Accelone, "at 2s toss 500ms"},
-    {spec::Variable::Pitch, "at 2s tilt 20 0"},
-    {spec::Variable::Roll, "at 2s tilt 0 20"},
-    {spec::Variable::Sbatt, "at 2s battery 6.9"},
-});
+std::string length(std::uint64_t cm) {
+  return cm < 100 ? fmt::format("{} cm", cm)
+                  : fmt::format("{:.1f} m", static_cast<double>(cm) / 100);
+}
 
-bool reads(const compiler::Program& program, spec::Variable variable) {
-  return std::any_of(program.nodes.begin(), program.nodes.end(), [&](const auto& node) {
-    return node.kind == compiler::NodeKind::System &&
-           node.what == static_cast<std::uint8_t>(variable);
-  });
+/// Where it came to; empty where nothing moved it or tried to.
+std::string way(const Sight& sight) {
+  if (sight.way_cm == 0) {
+    if (sight.motion == Sight::Motion::Driven)
+      return "only setting off";
+    return sight.turned ? "turned on the spot" : sight.told_to_move ? "did not move" : "";
+  }
+  const auto verb = [&] {
+    switch (sight.motion) {
+    case Sight::Motion::Still: return "stopped";
+    case Sight::Motion::Rolling: return "still rolling";
+    case Sight::Motion::Driven: return "still driving";
+    }
+    return "";
+  };
+  return fmt::format("{} at {},{} cm after {}", verb(), std::lround(sight.pose.x_cm),
+                     std::lround(sight.pose.y_cm), length(sight.way_cm));
+}
+
+std::string blows(const Sight& sight) {
+  if (sight.bumps == 0)
+    return "";
+  const auto walls =
+      fmt::format("hit {} wall{}", sight.walls.size(), sight.walls.size() == 1 ? "" : "s");
+  return sight.bumps == sight.walls.size() ? walls : fmt::format("{} {} times", walls, sight.bumps);
 }
 
 /// How a sentence about the ending begins.
@@ -64,23 +94,18 @@ std::string to_string(const Ending& ending) {
                      ms % 1000, ending.lines);
 }
 
-std::string hint(const Ending& ending, std::span<const Input> inputs) {
-  const auto program = std::find_if(inputs.begin(), inputs.end(),
-                                    [](const Input& input) { return input.program.has_value(); });
-  if (program == inputs.end())
-    return "";
-  if (ending.reason == Reason::Input)
-    return "give it numbers with `--input 20,22`, or from a script with `--stimulus`";
-  if (ending.reason != Reason::TimeLimit)
-    return "";
-  const auto cause = std::find_if(causes.begin(), causes.end(), [&](const auto& candidate) {
-    return reads(program->program->parsed, candidate.variable);
-  });
-  if (cause == causes.end())
-    return "";
-  return fmt::format("it reads `{}`, and nothing happened to the ball; a file with the line `{}`, "
-                     "given as `--stimulus FILE`, changes that",
-                     spec::info(cause->variable).word, cause->line);
+std::string story(const Ending& ending) {
+  const auto& sight = ending.sight;
+  std::string told;
+  const auto tell = [&](const std::string& clause) {
+    if (!clause.empty())
+      (told += told.empty() ? "" : ", ") += clause;
+  };
+  tell(way(sight));
+  tell(sight.color ? name_of(*sight.color) : "");
+  tell(blows(sight));
+  tell(ending.waits_for.empty() ? "" : "waits for " + ending.waits_for);
+  return told;
 }
 
 } // namespace orb::run

@@ -2,6 +2,7 @@
 
 #include "compiler/check.h"
 #include "compiler/load.h"
+#include "run/want.h"
 #include "uploader/upload.h"
 #include "vm/ball_transport.h"
 
@@ -100,6 +101,7 @@ public:
     if (std::holds_alternative<vm::event::End>(event) && was_idle)
       over_ = at;
     const Duration t = at - start_;
+    look(event);
     listener_.on_event(t, event);
     if (journey_ != nullptr) {
       journey_->add(t, event);
@@ -118,6 +120,17 @@ public:
   std::optional<vm::event::End::Reason> end() const { return end_; }
   const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
   std::uint64_t lines() const { return lines_; }
+  /// What there was to see, up to now.
+  Sight sight() const {
+    Sight seen = sight_;
+    const auto& body = ball_->body();
+    seen.pose = body.pose();
+    seen.way_cm = body.rolled_cm();
+    seen.motion = body.speed_setpoint() != 0 ? Sight::Motion::Driven
+                  : body.stopped()           ? Sight::Motion::Still
+                                             : Sight::Motion::Rolling;
+    return seen;
+  }
 
 private:
   /// Notes what the ending is made of; whether the event is part of it even after the program.
@@ -143,6 +156,21 @@ private:
     return false;
   }
 
+  void look(const vm::Event& event) {
+    if (const auto* drive = std::get_if<vm::event::Drive>(&event))
+      sight_.told_to_move |= drive->roll.speed != 0;
+    else if (const auto* place = std::get_if<vm::event::Position>(&event))
+      sight_.turned |= place->pose.heading_deg != 0;
+    else if (const auto* led = std::get_if<vm::event::Led>(&event);
+             led != nullptr && !ball_->blinks())
+      sight_.color = led->color;
+    else if (const auto* bump = std::get_if<vm::event::Bump>(&event)) {
+      ++sight_.bumps;
+      if (std::find(sight_.walls.begin(), sight_.walls.end(), bump->wall) == sight_.walls.end())
+        sight_.walls.push_back(bump->wall);
+    }
+  }
+
   vm::Ball* ball_ = nullptr;
   From from_ = From::Now;
   Instant start_{};
@@ -155,6 +183,7 @@ private:
   std::optional<vm::event::MacroEnd> macro_end_;
   std::uint64_t lines_ = 0;
   std::optional<Instant> over_;
+  Sight sight_;
 };
 
 vm::BallOptions ball_options(const Options& options, Watcher& watcher,
@@ -346,6 +375,15 @@ Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
   return Reason::End;
 }
 
+/// What a run that came to no end by itself waits for.
+std::string waits_for(Reason reason, std::span<const Input> inputs, const Options& options,
+                      const vm::Ball& ball) {
+  if (reason == Reason::Input)
+    return fmt::format("a number in line {}", ball.machine().line());
+  const auto found = reason == Reason::TimeLimit ? want(inputs, options) : std::nullopt;
+  return found ? std::string(found->what) : std::string();
+}
+
 /// Where a fault is in the user's file, and what the linter knows about that line.
 Fault explain(const Watcher::RobotFault& fault, const Load::ProgramOf& of,
               const compiler::Target& target) {
@@ -469,6 +507,8 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   if (const auto* code = ball.machine().machine_code())
     ending.machine_code = code->pieces();
   ending.aborted = how_aborted(watcher.macro_end());
+  ending.sight = watcher.sight();
+  ending.waits_for = waits_for(ending.reason, inputs, options, ball);
   for (const auto& fault : watcher.faults()) {
     const bool first = fault.area == options.target.area || load.programs.size() < 2;
     ending.faults.push_back(explain(fault, load.programs[first ? 0 : 1], options.target));

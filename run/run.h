@@ -25,11 +25,15 @@ namespace orb::run {
 /// Whether a client is connected while the program runs.
 enum class Client : std::uint8_t { Connected, Absent };
 
+/// Whether the listener has numbers for `input`.
+enum class Asks : std::uint8_t { No, Yes };
+
 struct Options {
   Duration bound = 60s;              ///< of robot time; zero: none
   std::optional<std::uint16_t> line; ///< where the program starts; else at its first line
   std::uint64_t seed = 1;
   std::vector<std::int32_t> numbers; ///< for `input`, in order
+  Asks asks = Asks::No;              ///< where these are used up
   Client client = Client::Connected;
   compiler::Target target; ///< its area is where the program lies
   spec::Firmware firmware = spec::default_firmware;
@@ -72,6 +76,19 @@ struct Fault {
 /// What was looked for in the output.
 enum class Sought : std::uint8_t { Nothing, Expected, Forbidden };
 
+/// What somebody who watched the ball has seen of it.
+struct Sight {
+  enum class Motion : std::uint8_t { Still, Rolling, Driven };
+  Motion motion = Motion::Still; ///< at the end; driven: its speed is set
+  vm::Pose pose;                 ///< at the end
+  std::uint64_t way_cm = 0;
+  bool told_to_move = false;
+  bool turned = false;
+  std::optional<vm::Color> color; ///< of the LED, where it changed
+  std::vector<vm::Wall> walls;    ///< that it ran into, each once
+  std::uint64_t bumps = 0;        ///< how often
+};
+
 struct Ending {
   Reason reason = Reason::End;
   Duration lasted{};
@@ -79,16 +96,18 @@ struct Ending {
   std::vector<Fault> faults;
   std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
+  Sight sight;
+  std::string waits_for; ///< `a number in line 20`; empty where it waits for nothing
   std::string_view only_interpreted; ///< why there was no machine code though it was wanted
   std::vector<vm::NativeCode::Piece> machine_code; ///< where it was, for profilers
 };
 
-/// The sentence about an ending: `ended after 1.234 s of robot time, 3702 lines`.
+/// The figures of an ending: `ended after 1.234 s of robot time, 3702 lines`.
 std::string to_string(const Ending& ending);
 
-/// What a newcomer may be missing when a run ended so without a stimulus script: a sentence, or
-/// nothing where there is nothing to say.
-std::string hint(const Ending& ending, std::span<const Input> inputs);
+/// What became of the ball: `stopped at 7,3 cm after 1.9 m, green, hit 1 wall, waits for a shake`;
+/// empty where a program only computes and prints.
+std::string story(const Ending& ending);
 
 /// Runs the first program, or where there is none the first macro; the others are loaded beside it.
 /// A second program lies in the other area. `journey` may be null. Fails where the ball does not

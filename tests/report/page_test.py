@@ -265,6 +265,22 @@ class Report(unittest.TestCase):
         page.evaluate("(file => { file.value = 1; file.dispatchEvent(new Event('change')); })(document.getElementById('file'))")
         self.assertIn("rgb 255 160 0", page.evaluate("document.querySelector('#source .current').textContent"))
 
+    def test_a_watched_page_loads_itself_again(self):
+        program = self.file("watched.bas", "10 print \"before\"\n")
+        page_path = os.path.join(self.folder.name, "watched.html")
+        watching = subprocess.Popen([orb, "run", "--watch", "--open", "--report", page_path, program],
+                                    env={**os.environ, "BROWSER": "true"},
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (watching.terminate(), watching.communicate()))
+        while "waiting" not in watching.stderr.readline():
+            pass
+        page = self.browser.page()
+        page.open(page_path)
+        page.wait("document.body.textContent.includes('before')")
+        self.file("watched.bas", "10 print \"after\"\n")
+        page.wait("document.body.textContent.includes('after')")
+        self.assertEqual(page.complaints, [])
+
 
 if __name__ == "__main__":
     if chromium.find() is None:

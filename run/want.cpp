@@ -1,0 +1,104 @@
+#include "run/want.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace orb::run {
+namespace {
+
+namespace stimulus = vm::stimulus;
+
+template <class... Kinds>
+bool is_one_of(const vm::Stimulus& event) {
+  return (std::holds_alternative<Kinds>(event) || ...);
+}
+
+/// A sensor that only the world or a client changes, and the line of a stimulus script that does.
+struct Cause {
+  spec::Variable variable;
+  std::string_view what;
+  std::string_view lack;
+  std::string_view line;
+  bool (*brings)(const vm::Stimulus&);
+};
+
+constexpr auto feels =
+    is_one_of<vm::Wall, stimulus::Push, stimulus::Shake, stimulus::Toss, stimulus::Tilt>;
+
+constexpr auto causes = std::to_array<Cause>({
+    {spec::Variable::Dshake, "a shake", "nobody shakes this ball", "at 2s shake",
+     is_one_of<stimulus::Shake>},
+    {spec::Variable::Cmdroll, "a roll of the client", "no client drives this ball",
+     "at 2s roll 90 128", is_one_of<stimulus::ClientRoll>},
+    {spec::Variable::Cmdrgb, "a colour of the client", "no client colours this ball",
+     "at 2s rgb 255 0 0", is_one_of<stimulus::ClientColor>},
+    {spec::Variable::Accelone, "a blow or a fall", "nothing shakes or throws this ball",
+     "at 2s toss 500ms", feels},
+    {spec::Variable::AccelX, "a blow", "nothing pushes this ball", "at 2s push 90 200", feels},
+    {spec::Variable::AccelY, "a blow", "nothing pushes this ball", "at 2s push 0 200", feels},
+    {spec::Variable::Pitch, "somebody who tilts it", "nobody tilts this ball", "at 2s tilt 20 0",
+     is_one_of<stimulus::Tilt>},
+    {spec::Variable::Roll, "somebody who tilts it", "nobody tilts this ball", "at 2s tilt 0 20",
+     is_one_of<stimulus::Tilt>},
+    {spec::Variable::Sbatt, "another state of the battery", "its battery stays full",
+     "at 2s battery 6.9", is_one_of<stimulus::Battery, stimulus::Charger>},
+});
+
+bool comes(const Options& options, bool (*brings)(const vm::Stimulus&)) {
+  return std::any_of(options.stimuli.begin(), options.stimuli.end(),
+                     [&](const auto& event) { return brings(event.stimulus); });
+}
+
+/// The robot's number of the line that holds the byte `offset`.
+std::uint32_t line_at(const compiler::Program& program, std::uint32_t offset) {
+  const auto line = std::find_if(program.lines.begin(), program.lines.end(),
+                                 [&](const auto& one) { return offset < one.span.end; });
+  return line == program.lines.end() ? 0 : line->number;
+}
+
+std::optional<Want> number(const compiler::Program& program, const Options& options) {
+  if (!options.numbers.empty() || options.asks == Asks::Yes ||
+      comes(options, is_one_of<stimulus::Number>))
+    return std::nullopt;
+  for (const auto& statement : program.statements) {
+    if (statement.kind != spec::Statement::Input || statement.error ||
+        program.as<compiler::InputView>(statement).milliseconds != nullptr)
+      continue;
+    const auto line = line_at(program, statement.span.begin);
+    return Want{line, "a number",
+                fmt::format("line {} waits for a number; add `--input 20`", line)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Want> sensor(const compiler::Program& program, const Options& options) {
+  for (const auto& node : program.nodes) {
+    if (node.kind != compiler::NodeKind::System)
+      continue;
+    const auto cause = std::find_if(causes.begin(), causes.end(), [&](const auto& candidate) {
+      return node.what == static_cast<std::uint8_t>(candidate.variable);
+    });
+    if (cause == causes.end() || comes(options, cause->brings))
+      continue;
+    const auto line = line_at(program, node.span.begin);
+    return Want{line, cause->what,
+                fmt::format("line {} reads `{}`, and {}; add `--stimulus '{}'`", line,
+                            program.text_of(node.span), cause->lack, cause->line)};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Want> want(std::span<const Input> inputs, const Options& options) {
+  const auto input = std::find_if(inputs.begin(), inputs.end(),
+                                  [](const Input& one) { return one.program.has_value(); });
+  if (input == inputs.end())
+    return std::nullopt;
+  const auto& program = input->program->parsed;
+  auto found = number(program, options);
+  return found ? found : sensor(program, options);
+}
+
+} // namespace orb::run
