@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/io_error.h"
-#include "protocol/fault.h"
+#include "protocol/link_faults.h"
 #include "vm/ball.h"
 #include "vm/stimulus.h"
 

@@ -7,7 +7,7 @@
 // --document the result is written as docs/reliability.md.
 
 #include "compiler/load.h"
-#include "protocol/fault.h"
+#include "protocol/link_faults.h"
 #include "uploader/upload.h"
 #include "vm/ball.h"
 #include "vm/ball_transport.h"

@@ -1,4 +1,4 @@
-#include "protocol/fault.h"
+#include "protocol/link_faults.h"
 
 #include "base/duration.h"
 #include "base/suggest.h"
@@ -22,6 +22,7 @@ constexpr Duration merge_raster = 20ms;
 constexpr auto storm_message = static_cast<std::uint8_t>(spec::AsyncId::SensorData);
 constexpr std::uint64_t storm_most_messages = 8;
 constexpr std::uint64_t storm_most_payload = 80; // bytes; a full sensor frame has up to 64
+constexpr double percents = 100; // are the whole
 constexpr std::uint64_t stray_most_bytes = 3;    // real balls were seen to send one or two
 
 constexpr std::array<std::string_view, 14> words = {
@@ -37,9 +38,9 @@ std::optional<double> read_rate(std::string_view text) {
     return std::nullopt;
   text.remove_suffix(1);
   const auto percent = parse_number<double>(text);
-  if (!percent || *percent < 0 || *percent > 100)
+  if (!percent || *percent < 0 || *percent > percents)
     return std::nullopt;
-  return *percent / 100;
+  return *percent / percents;
 }
 
 /// `300ms`, `0.2s`, or a bare number of milliseconds.
@@ -106,7 +107,7 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
     return {};
   }
   if (name == "seed=" || name == "stale=") {
-    constexpr std::uint64_t most_stale = 1000;
+    constexpr std::uint64_t most_stale = 1000; // more than any link was seen to keep
     const auto count = parse_number<std::uint64_t>(value);
     if (!count || (name == "stale=" && *count > most_stale))
       return wrong(item, name == "seed=" ? "a seed is a whole number" : "a number from 0 to 1000");
@@ -128,7 +129,7 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
 
 void add_rate(std::string& out, std::string_view name, double rate) {
   if (rate > 0)
-    out += fmt::format("{}{:g}%,", name, rate * 100);
+    out += fmt::format("{}{:g}%,", name, rate * percents);
 }
 
 } // namespace

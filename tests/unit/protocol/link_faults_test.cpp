@@ -1,4 +1,4 @@
-#include "protocol/fault.h"
+#include "protocol/link_faults.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
