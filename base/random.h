@@ -7,14 +7,19 @@ namespace orb {
 /// A small seeded generator (SplitMix64): the same numbers from every compiler, which the standard
 /// distributions do not promise. Not for secrets.
 struct Random {
+  static constexpr std::uint64_t stride = 0x9E3779B97F4A7C15ULL;
+
   std::uint64_t state = 1;
 
+  static constexpr std::uint64_t mix(std::uint64_t value) {
+    value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    value = (value ^ (value >> 27)) * 0x94D049BB133111EBULL;
+    return value ^ (value >> 31);
+  }
+
   constexpr std::uint64_t next() {
-    state += 0x9E3779B97F4A7C15ULL;
-    auto mixed = state;
-    mixed = (mixed ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBULL;
-    return mixed ^ (mixed >> 31);
+    state += stride;
+    return mix(state);
   }
 
   /// A number from 0 to `bound` - 1; `bound` is not 0. The bias is below bound / 2^64.

@@ -18,6 +18,8 @@ std::int64_t read_number(FieldType type, ByteView data) {
   case FieldType::U8: return data[0];
   case FieldType::U16: return read_u16(data, 0);
   case FieldType::U32: return read_u32(data, 0);
+  case FieldType::U64:
+    return static_cast<std::int64_t>(std::uint64_t{read_u32(data, 0)} << 32 | read_u32(data, 4));
   case FieldType::S16: return static_cast<std::int16_t>(read_u16(data, 0));
   case FieldType::S32: return static_cast<std::int32_t>(read_u32(data, 0));
   case FieldType::Data:
@@ -31,6 +33,10 @@ std::int64_t read_number(FieldType type, ByteView data) {
 void append_number(Bytes& out, FieldType type, std::int64_t value) {
   const auto bits = static_cast<std::uint32_t>(value);
   switch (spec::field_size(type)) {
+  case 8:
+    append_u32(out, static_cast<std::uint32_t>(value >> 32));
+    append_u32(out, bits);
+    return;
   case 1: out.push_back(static_cast<std::uint8_t>(bits)); return;
   case 2: append_u16(out, bits); return;
   default: append_u32(out, bits);
@@ -53,7 +59,7 @@ std::optional<std::int64_t> named_value(const Field& field, std::string_view wor
       return 0;
     return std::nullopt;
   }
-  for (auto value = field.least; value <= std::min<std::int64_t>(field.most, 255); ++value) {
+  for (auto value = field.least; value <= std::min<std::int64_t>(field.most, UINT8_MAX); ++value) {
     const auto name = spec::value_name(field.unit, static_cast<std::uint32_t>(value));
     if (!name.empty() && equal_words(name, word))
       return value;

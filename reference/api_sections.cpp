@@ -35,6 +35,7 @@ std::string_view type_name(spec::FieldType type) {
   case spec::FieldType::U8: return "u8";
   case spec::FieldType::U16: return "u16";
   case spec::FieldType::U32: return "u32";
+  case spec::FieldType::U64: return "u64";
   case spec::FieldType::S16: return "s16";
   case spec::FieldType::S32: return "s32";
   case spec::FieldType::Data: return "bytes";

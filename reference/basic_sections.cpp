@@ -2,7 +2,6 @@
 
 #include "reference/sections.h"
 #include "spec/basic.h"
-#include "spec/limits.h"
 
 #include <fmt/format.h>
 
@@ -117,20 +116,6 @@ Section basic_errors_section() {
     entry.name = fmt::format("{:02X}h", code);
     entry.aliases = {std::string(row.text), fmt::format("{}", code), fmt::format("0x{:02X}", code)};
     entry.summary = fmt::format("{}: {}", row.text, row.summary);
-    section.entries.push_back(std::move(entry));
-  }
-  return section;
-}
-
-Section limits_section() {
-  Section section{"limits", "Limits", "limit", {}};
-  for (const auto& row : spec::limits) {
-    Entry entry;
-    entry.name = row.name;
-    entry.summary = row.summary;
-    entry.facts.emplace_back(
-        "value", fmt::format("{}{}{}", row.value, row.unit.empty() ? "" : " ", row.unit));
-    entry.facts.emplace_back("source", row.source);
     section.entries.push_back(std::move(entry));
   }
   return section;

@@ -23,12 +23,25 @@ std::string indented(std::string_view text) {
 } // namespace
 
 std::vector<Section> knowledge() {
-  return {statements_section(),   functions_section(),    variables_section(),
-          operators_section(),    basic_errors_section(), limits_section(),
-          basic_flags_section(),  rules_section(),        macro_commands_section(),
-          macro_flags_section(),  macro_rules_section(),  stimulus_rules_section(),
-          api_commands_section(), api_messages_section(), responses_section(),
-          streams_section(),      firmwares_section()};
+  return {statements_section(),
+          functions_section(),
+          variables_section(),
+          operators_section(),
+          basic_errors_section(),
+          limits_section(),
+          basic_flags_section(),
+          rules_section(),
+          macro_commands_section(),
+          macro_flags_section(),
+          macro_limits_section(),
+          macro_rules_section(),
+          stimulus_rules_section(),
+          api_commands_section(),
+          api_messages_section(),
+          responses_section(),
+          streams_section(),
+          firmwares_section(),
+          ball_section()};
 }
 
 std::string print_entry(const Section& section, const Entry& entry) {

@@ -17,6 +17,7 @@ Section rules_section();
 Section basic_flags_section();
 Section macro_commands_section();
 Section macro_flags_section();
+Section macro_limits_section();
 Section macro_rules_section();
 Section stimulus_rules_section();
 Section api_commands_section();
@@ -24,5 +25,6 @@ Section api_messages_section();
 Section responses_section();
 Section streams_section();
 Section firmwares_section();
+Section ball_section();
 
 } // namespace orb::reference

@@ -34,11 +34,20 @@ constexpr auto async_rows = std::to_array<Field>({
 #include "spec/async.def"
 });
 
+#define RECORD_ROW(type, name, unit) {0, FieldType::type, name, 0, 0, Presence::Required, unit},
 constexpr auto config_rows = std::to_array<Field>({
-#define CONFIG_FIELD(enumerator, type, name, unit)                                                 \
-  {0, FieldType::type, name, 0, 0, Presence::Required, unit},
-#include "spec/config_block.def"
+#define CONFIG_FIELD(enumerator, type, name, unit) RECORD_ROW(type, name, unit)
+#include "spec/records.def"
 });
+constexpr auto soul_rows = std::to_array<Field>({
+#define SOUL_FIELD(enumerator, type, name, unit) RECORD_ROW(type, name, unit)
+#include "spec/records.def"
+});
+constexpr auto life_rows = std::to_array<Field>({
+#define LIFE_FIELD(enumerator, type, name, unit) RECORD_ROW(type, name, unit)
+#include "spec/records.def"
+});
+#undef RECORD_ROW
 
 constexpr auto value_rows = std::to_array<Named>({
 #define NAMED_VALUE(subject, name, value, text) {#subject, value, text},
@@ -133,6 +142,14 @@ std::span<const Field> fields(AsyncId id) {
 
 std::span<const Field> config_fields() {
   return config_rows;
+}
+
+std::span<const Field> soul_fields() {
+  return soul_rows;
+}
+
+std::span<const Field> life_fields() {
+  return life_rows;
 }
 
 const AsyncInfo* find_async(std::uint8_t id) {

@@ -123,6 +123,7 @@ enum class FieldType : std::uint8_t {
   U8,
   U16,
   U32,
+  U64,
   S16,
   S32,
   Data,   ///< all bytes that are left
@@ -139,6 +140,7 @@ constexpr std::size_t field_size(FieldType type) {
   case FieldType::S16: return 2;
   case FieldType::U32:
   case FieldType::S32: return 4;
+  case FieldType::U64: return 8;
   case FieldType::Text12: return 12;
   case FieldType::Text16: return 16;
   case FieldType::Data32: return 32;
@@ -263,14 +265,28 @@ inline constexpr auto asyncs = std::to_array<AsyncInfo>({
 
 std::span<const Field> fields(AsyncId id);
 
-/// The places of the fields of a configuration block in config_fields().
+/// The records of spec/records.def, and the places of their fields.
+std::span<const Field> config_fields();
 namespace config_at {
 enum : std::size_t {
 #define CONFIG_FIELD(enumerator, type, name, unit) enumerator,
-#include "spec/config_block.def"
+#include "spec/records.def"
 };
 } // namespace config_at
-std::span<const Field> config_fields();
+std::span<const Field> soul_fields();
+namespace soul_at {
+enum : std::size_t {
+#define SOUL_FIELD(enumerator, type, name, unit) enumerator,
+#include "spec/records.def"
+};
+} // namespace soul_at
+std::span<const Field> life_fields();
+namespace life_at {
+enum : std::size_t {
+#define LIFE_FIELD(enumerator, type, name, unit) enumerator,
+#include "spec/records.def"
+};
+} // namespace life_at
 
 /// The row of a message id; null when there is none.
 const AsyncInfo* find_async(std::uint8_t id);
@@ -329,9 +345,6 @@ inline constexpr auto streams = std::to_array<StreamInfo>({
 #include "spec/streams.def"
 #undef STREAM
 });
-
-/// The rate of the control system, of which streaming takes every N-th sample.
-inline constexpr std::uint32_t stream_hz = 400;
 
 /// The fixed payload that DLEN FFh stands for with this command; 0 where FFh is an ordinary length.
 constexpr std::size_t long_payload(std::uint8_t did, std::uint8_t cid) {

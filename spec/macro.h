@@ -117,7 +117,7 @@ struct MacroParameterInfo {
 };
 
 // Identifiers. Source: low-level API §Macro IDs.
-#define MACRO_NUMBER(type, name, value, source, summary) inline constexpr type name = value;
+#define MACRO_NUMBER(type, name, value, unit, source, summary) inline constexpr type name = value;
 #include "spec/macro.def"
 #undef MACRO_NUMBER
 
@@ -125,12 +125,14 @@ struct MacroParameterInfo {
 struct MacroNumber {
   std::string_view name;
   std::uint32_t value = 0;
+  std::string_view unit; ///< may be empty
   std::string_view source;
   std::string_view summary;
 };
 
 inline constexpr MacroNumber macro_numbers[] = {
-#define MACRO_NUMBER(type, name, value, source, summary) {#name, value, source, summary},
+#define MACRO_NUMBER(type, name, value, unit, source, summary)                                     \
+  {#name, value, unit, source, summary},
 #include "spec/macro.def"
 #undef MACRO_NUMBER
 };

@@ -14,7 +14,6 @@ using spec::BasicFlag;
 using spec::MacroFlag;
 
 constexpr Duration pose_interval = std::chrono::milliseconds{50};
-constexpr double impact_per_power = 28; // LL §Interpreting the Reported values: 6100 / 215
 
 std::int32_t rounded_s16(double value) {
   return static_cast<std::int32_t>(std::lround(std::clamp<double>(value, INT16_MIN, INT16_MAX)));
@@ -303,7 +302,8 @@ void Ball::detect_collision(const Impact& impact) {
   if (asleep() || settings.method == 0 || now_ < deaf_until_)
     return;
   const auto exceeds = [&](double power, int threshold, int by_speed) {
-    return threshold != 0 && std::abs(power) > threshold + by_speed * impact.speed / 255.0;
+    return threshold != 0 &&
+           std::abs(power) > threshold + by_speed * impact.speed / double{spec::ball::greatest};
   };
   event::Collision collision;
   collision.axis = (exceeds(impact.x_power, settings.x_threshold, settings.x_speed) ? 1 : 0) |
@@ -311,8 +311,8 @@ void Ball::detect_collision(const Impact& impact) {
   if (collision.axis == 0)
     return;
   deaf_until_ = now_ + std::chrono::milliseconds{10} * settings.dead_time_10ms;
-  collision.x = rounded_s16(impact.x_power * impact_per_power);
-  collision.y = rounded_s16(impact.y_power * impact_per_power);
+  collision.x = rounded_s16(impact.x_power * spec::ball::impact_per_power);
+  collision.y = rounded_s16(impact.y_power * spec::ball::impact_per_power);
   collision.x_magnitude = rounded_s16(std::abs(impact.x_power));
   collision.y_magnitude = rounded_s16(std::abs(impact.y_power));
   collision.speed = impact.speed;

@@ -1,9 +1,12 @@
 #include "vm/ball_asks.h"
 
 #include "protocol/payload.h"
+#include "spec/ball.h"
 #include "spec/macro.h"
+#include "spec/unit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace orb::vm {
@@ -17,9 +20,13 @@ std::int32_t rounded(double value) {
   return static_cast<std::int32_t>(std::lround(value));
 }
 
-std::int32_t rounded_s16(double value) {
-  return static_cast<std::int32_t>(std::lround(std::clamp<double>(value, INT16_MIN, INT16_MAX)));
-}
+/// By variable.
+constexpr auto scales = [] {
+  std::array<spec::Scale, spec::variables.size()> table;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = spec::scale_of(spec::variables[i].unit);
+  return table;
+}();
 
 } // namespace
 
@@ -29,23 +36,27 @@ std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   const auto& body = ball_.body_;
   auto& lamps = ball_.lamps_;
   auto& drive = ball_.drive_;
-  constexpr double g = 4096; // 8 g are full scale of 16 bits; other units: spec/basic.def
+  const auto steps = [&](double value) {
+    const auto& row = spec::info(variable);
+    value = scales[static_cast<std::size_t>(variable)].of(value);
+    return rounded(std::clamp<double>(value, row.least, row.greatest));
+  };
   switch (variable) {
   case Variable::TimerA:
   case Variable::TimerB:
   case Variable::TimerC: break; // the machine's own
   case Variable::Ctrl: return body.stabilized() ? 1 : 0;
   case Variable::Speed: return body.speed();
-  case Variable::Yaw: return rounded(body.yaw_deg()) % 360;
-  case Variable::Pitch: return rounded(body.pitch_deg());
-  case Variable::Roll: return rounded(body.roll_deg());
-  case Variable::AccelX: return rounded_s16(body.acceleration_g().x * g);
-  case Variable::AccelY: return rounded_s16(body.acceleration_g().y * g);
-  case Variable::AccelZ: return rounded_s16(body.acceleration_g().z * g);
-  case Variable::GyroX: return rounded(body.rotation_deg_s().x * 10);
-  case Variable::GyroY: return rounded(body.rotation_deg_s().y * 10);
-  case Variable::GyroZ: return rounded(body.rotation_deg_s().z * 10);
-  case Variable::Vbatt: return rounded(body.battery_v() * 100);
+  case Variable::Yaw: return rounded(body.yaw_deg()) % spec::ball::full_circle;
+  case Variable::Pitch: return steps(body.pitch_deg());
+  case Variable::Roll: return steps(body.roll_deg());
+  case Variable::AccelX: return steps(body.acceleration_g().x);
+  case Variable::AccelY: return steps(body.acceleration_g().y);
+  case Variable::AccelZ: return steps(body.acceleration_g().z);
+  case Variable::GyroX: return steps(body.rotation_deg_s().x);
+  case Variable::GyroY: return steps(body.rotation_deg_s().y);
+  case Variable::GyroZ: return steps(body.rotation_deg_s().z);
+  case Variable::Vbatt: return steps(body.battery_v());
   case Variable::Sbatt: return ball_.power_.battery_state();
   case Variable::Cmdroll: return drive.take_new_roll() ? 1 : 0;
   case Variable::Spdval: return drive.client_roll().speed;
@@ -56,13 +67,13 @@ std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   case Variable::Bluval: return lamps.client_color().blue;
   case Variable::Isconn: return ball_.connected() ? 1 : 0;
   case Variable::Dshake: return std::exchange(ball_.double_shake_, false) ? 1 : 0;
-  case Variable::Accelone: return rounded(body.acceleration_total_g() * 1000);
-  case Variable::Xpos: return rounded_s16(body.pose().x_cm);
-  case Variable::Ypos: return rounded_s16(body.pose().y_cm);
-  case Variable::Qzero: return rounded(body.attitude().w * 10000);
-  case Variable::Qone: return rounded(body.attitude().x * 10000);
-  case Variable::Qtwo: return rounded(body.attitude().y * 10000);
-  case Variable::Qthree: return rounded(body.attitude().z * 10000);
+  case Variable::Accelone: return steps(body.acceleration_total_g());
+  case Variable::Xpos: return steps(body.pose().x_cm);
+  case Variable::Ypos: return steps(body.pose().y_cm);
+  case Variable::Qzero: return steps(body.attitude().w);
+  case Variable::Qone: return steps(body.attitude().x);
+  case Variable::Qtwo: return steps(body.attitude().y);
+  case Variable::Qthree: return steps(body.attitude().z);
   case Variable::Macstat: return static_cast<std::int32_t>(ball_.macros_.macstat());
   }
   return 0;
@@ -162,7 +173,7 @@ void Ball::Asks::OfMacro::emit_marker(int marker, int macro, int command) {
 }
 
 void Ball::Asks::OfMacro::sleep_ms(int time_ms) {
-  constexpr int second_ms = 1000;
+  constexpr int second_ms = std::chrono::milliseconds{1s}.count();
   const auto& last = ball_.power_.last_sleep();
   ball_.power_.ask_to_sleep(time_ms == spec::macro_sleep_inherit
                                 ? Sleep{last.seconds, 0, 0, last.milliseconds}

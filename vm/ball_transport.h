@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocol/transport.h"
+#include "spec/ball.h"
 #include "vm/ball.h"
 
 #include <deque>
@@ -9,8 +10,9 @@ namespace orb::vm {
 
 /// The wire between a client and a ball in the same process.
 struct WireModel {
-  Duration round_trip{};                  ///< half of it each way
-  std::uint32_t bytes_per_second = 11520; ///< to the ball; the ball paces its own output
+  Duration round_trip{}; ///< half of it each way
+  std::uint32_t bytes_per_second =
+      spec::ball::wire_bytes_per_second; ///< to the ball; it paces its own output
 };
 
 /// The link `sim:`: a client's end of a wire to a ball in this process. Time is virtual: waiting

@@ -1,5 +1,7 @@
 #include "vm/body.h"
 
+#include "base/random.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,49 +10,24 @@ namespace orb::vm {
 
 namespace {
 
-// The model. Marked [S] where a document gives the figure, [?] where it is a choice.
-constexpr double dt = 0.0025;                   // s, control system at 400 Hz [S]
-constexpr double greatest = 255;                // of speeds, powers and strengths [S]
-constexpr double full_speed = 200;              // cm/s at the greatest speed [?]
-constexpr double acceleration = 150;            // cm/s2 [?]
-constexpr double braking = 300;                 // cm/s2, go 0 [?]
-constexpr double coasting = 50;                 // cm/s2, motors off [?]
-constexpr double drift_friction = 150;          // cm/s2, after a push or a bounce [?]
-constexpr double default_rotation_rate = 156.8; // deg/s: C8h at 0.784 deg/s [S]
-constexpr double fast_rotation_rate = 1000;     // deg/s [S]
-constexpr double stopped_below = 2;             // cm/s: "very small" speed [?]
-constexpr double track = 6;                     // cm between the wheels [?]
-constexpr double greatest_yaw_rate = 2000;      // deg/s, what the gyro can show [S]
-constexpr double radius = 3.65;                 // cm [?]
-constexpr double restitution = 0.3;             // share of the speed that a wall gives back [?]
-constexpr double least_blow = 5;                // cm/s that count as a blow [?]
-constexpr double power_per_speed = 2;           // collision power per unit of speed 0..255 [S]
-constexpr double gravity = 981;                 // cm/s2
-constexpr double shake_g = 4;                   // [?]
-constexpr double blow_g = 6;                    // [?]
-constexpr Duration shake_time = std::chrono::milliseconds{400};       // [?]
-constexpr Duration shake_half_period = std::chrono::milliseconds{50}; // [?]
-constexpr Duration blow_time = std::chrono::milliseconds{20};         // [?]
-constexpr double full_battery = 7.8;                                  // V at power-on [?]
-constexpr double charged_battery = 8.2;                               // V, where charging ends [?]
-constexpr double empty_battery = 6.0;                                 // V, the lowest shown [?]
-constexpr double idle_drain = 0.15 / 3600;                            // V/s [?]
-constexpr double motion_drain = 0.65 / 3600; // V/s at full speed, on top [?]
-constexpr double charge_rate = 0.6 / 3600;   // V/s [?]
+using namespace spec::ball; // the numbers of the model
 
-constexpr double to_radians = std::numbers::pi / 180;
+constexpr double hour_s = std::chrono::seconds{1h}.count();
+constexpr double dt = 1.0 / control_rate; // s
+constexpr double half_circle = full_circle / 2.0;
+constexpr double to_radians = std::numbers::pi / half_circle;
 
 double wrap_360(double degrees) {
-  if (0 <= degrees && degrees < 360)
+  if (0 <= degrees && degrees < full_circle)
     return degrees; // nearly always: std::fmod costs ten times as much
-  const double wrapped = std::fmod(degrees, 360.0);
-  return wrapped < 0 ? wrapped + 360.0 : wrapped;
+  const double wrapped = std::fmod(degrees, full_circle);
+  return wrapped < 0 ? wrapped + full_circle : wrapped;
 }
 
 /// The shortest way, -180 < way <= 180.
 double shortest_turn(double from_deg, double to_deg) {
   const double way = wrap_360(to_deg - from_deg);
-  return way > 180 ? way - 360 : way;
+  return way > half_circle ? way - full_circle : way;
 }
 
 double toward(double value, double target, double most) {
@@ -221,7 +198,7 @@ void Body::travel() {
     locator_x_ += dx * cosine + dy * sine;
     locator_y_ += dy * cosine - dx * sine;
   }
-  battery_v_ -= motion_drain * dt * std::min(1.0, going.speed / full_speed);
+  battery_v_ -= motion_drain / hour_s * dt * std::min(1.0, going.speed / full_speed);
 }
 
 void Body::hit_walls(double& x, double& y, double vx, double vy) {
@@ -312,7 +289,7 @@ Outcome Body::obey_one(const SetSpeed& change) {
 }
 
 Roll Body::roll_at(int speed) const {
-  const auto heading = static_cast<int>(std::lround(target_deg_)) % 360;
+  const auto heading = static_cast<int>(std::lround(target_deg_)) % full_circle;
   return {heading, speed, speed == 0 ? Go::Brake : Go::Drive};
 }
 
@@ -490,11 +467,12 @@ double Body::yaw_deg() const {
 
 double Body::pitch_deg() const {
   const double lifted = std::atan2(forward_acceleration_, gravity) / to_radians;
-  return std::clamp(tilt_pitch_deg_ + lifted + noise(0), -90.0, 90.0);
+  return std::clamp(tilt_pitch_deg_ + lifted + noise(0) * noise_deg, -half_circle / 2,
+                    half_circle / 2);
 }
 
 double Body::roll_deg() const {
-  return std::clamp(tilt_roll_deg_ + noise(1), -180.0, 180.0);
+  return std::clamp(tilt_roll_deg_ + noise(1) * noise_deg, -half_circle, half_circle);
 }
 
 Vector3 Body::acceleration_g() const {
@@ -508,9 +486,9 @@ Vector3 Body::acceleration_g() const {
     felt.x += (shaken_until_ - now_) / shake_half_period % 2 == 0 ? shake_g : -shake_g;
   if (now_ < struck_until_)
     felt.y += blow_g;
-  felt.x += noise(2) / 100;
-  felt.y += noise(3) / 100;
-  felt.z += noise(4) / 100;
+  felt.x += noise(2) * noise_g;
+  felt.y += noise(3) * noise_g;
+  felt.z += noise(4) * noise_g;
   return felt;
 }
 
@@ -520,7 +498,7 @@ double Body::acceleration_total_g() const {
 }
 
 Vector3 Body::rotation_deg_s() const {
-  return {noise(5), noise(6), yaw_rate_ + noise(7)};
+  return {noise(5) * noise_deg, noise(6) * noise_deg, yaw_rate_ + noise(7) * noise_deg};
 }
 
 Quaternion Body::attitude() const {
@@ -538,27 +516,25 @@ Quaternion Body::attitude() const {
 double Body::battery_v() const {
   const double elapsed = seconds(now_ - battery_at_);
   if (charger_ == Switch::On)
-    return std::max(battery_v_, std::min(charged_battery, battery_v_ + charge_rate * elapsed));
-  return std::max(std::min(battery_v_, empty_battery), battery_v_ - idle_drain * elapsed);
+    return std::max(battery_v_,
+                    std::min(charged_battery, battery_v_ + charge_rate / hour_s * elapsed));
+  return std::max(std::min(battery_v_, empty_battery), battery_v_ - idle_drain / hour_s * elapsed);
 }
 
 Instant Body::battery_reaches(double volts) const {
   const double above = battery_v() - volts;
   if (charging() || above <= 0)
     return never;
-  return now_ + Duration{static_cast<Duration::rep>(above / idle_drain * 1e9) + 1};
+  return now_ + Duration{static_cast<Duration::rep>(above / (idle_drain / hour_s) * 1e9) + 1};
 }
 
 double Body::noise(std::uint32_t channel) const {
   if (noise_ == Switch::Off)
     return 0;
-  // A value of its own for each channel in each step of the control system: splitmix64.
-  std::uint64_t mixed = seed_ + 0x9E3779B97F4A7C15u * (channel + 1u) +
-                        static_cast<std::uint64_t>(now_.time_since_epoch() / step);
-  mixed = (mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9u;
-  mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EBu;
-  mixed ^= mixed >> 31;
-  return static_cast<double>(mixed >> 11) * 0x1p-53 * 2 - 1;
+  // A value of its own for each channel in each step of the control system.
+  Random random{seed_ + Random::stride * channel +
+                static_cast<std::uint64_t>(now_.time_since_epoch() / step)};
+  return static_cast<double>(random.next() >> 11) * 0x1p-53 * 2 - 1; // -1 to 1 from 53 bits
 }
 
 } // namespace orb::vm

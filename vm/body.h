@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "spec/ball.h"
 #include "vm/ask.h"
 
 #include <cstdint>
@@ -125,8 +126,7 @@ struct Impact {
 /// every figure of it is a constant at the top of body.cpp.
 class Body {
 public:
-  static constexpr int default_vector_drive_limit = 50; // API §Set Vector Drive Limit
-  static constexpr Duration step = std::chrono::microseconds{2500};
+  static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 
   explicit Body(std::uint64_t seed);
 
@@ -236,7 +236,7 @@ private:
   bool stabilized_ = true;
   bool raw_ = false; ///< the motors are driven by set_motors
   Switch vector_drive_ = Switch::Off;
-  int vector_drive_limit_ = default_vector_drive_limit;
+  int vector_drive_limit_ = spec::ball::default_vector_drive_limit;
   Go go_ = Go::Brake;
   int target_speed_ = 0;
   double target_deg_ = 0;

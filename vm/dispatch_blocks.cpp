@@ -1,5 +1,7 @@
 // Device 02h: option flags, modes, configuration and soul block.
 
+#include "base/random.h"
+#include "spec/ball.h"
 #include "vm/dispatch.h"
 
 #include <utility>
@@ -9,13 +11,12 @@ namespace {
 
 using spec::ResponseCode;
 
-constexpr std::uint32_t chassis_base = 0x1000;                // [?]: ids 1000h to 1FFFh
-constexpr std::uint8_t factory_block = 0;                     // API §Get Configuration Block
-constexpr Duration consumable_time = std::chrono::seconds{3}; // how long its macro runs [?]
+using namespace spec::ball;
+
 constexpr std::uint32_t assigned_temporary_flags = spec::temporary_option_flags::stop_on_disconnect;
 
 std::uint16_t chassis_id(std::uint64_t seed) {
-  return static_cast<std::uint16_t>(chassis_base + (seed & 0xFFF));
+  return static_cast<std::uint16_t>(chassis_base + seed % chassis_range);
 }
 
 } // namespace
@@ -123,7 +124,7 @@ HANDLE(UseConsumable) {
 }
 
 HANDLE(GetPasswordSeed) {
-  return call.answer({seed_ * 0x9E3779B97F4A7C15u >> 32});
+  return call.answer({seed_ * Random::stride >> 32});
 }
 
 HANDLE(EnableSsbAsync) {

@@ -1,5 +1,6 @@
 // Device 00h: what every robot of the vendor has.
 
+#include "spec/unit.h"
 #include "vm/dispatch.h"
 
 #include <algorithm>
@@ -10,17 +11,11 @@ namespace orb::vm {
 namespace {
 
 using spec::ResponseCode;
+using namespace spec::ball;
 
 constexpr std::string_view default_name = "Sphero-RGB";
 constexpr std::uint8_t id_colors[] = {1, 2, 3};       // red, green, blue as LEDC counts them [P]
 constexpr std::string_view address_prefix = "6886E7"; // the vendor's block of Bluetooth addresses
-constexpr std::size_t reported_name_size = 16;        // API §Get Bluetooth Info
-constexpr std::uint16_t deep_sleep = 0xFFFF;          // API §Sleep: not supported by this hardware
-constexpr std::uint8_t power_record_version = 1;      // API §Get Power State
-constexpr std::uint16_t level_2_record_version = 1;   // API §Perform Level 2 Diagnostics
-constexpr std::uint8_t boot_reason_cold = 0;          // [?]
-constexpr std::size_t boot_counters = 16;             // API §Perform Level 2 Diagnostics
-constexpr std::size_t wake_up_counter = 2;            // [?]: after cold and warm
 constexpr auto version_hardware_at =
     spec::answer_offset(spec::ApiCommand::GetVersioning, "hardware");
 constexpr auto version_bootloader_at =
@@ -37,11 +32,11 @@ std::string_view own_name(const Profile& profile) {
 /// A ball's address follows from its seed, so that the balls of one server differ: 24 bits of its
 /// own.
 std::string own_address(std::uint64_t seed) {
-  return fmt::format("{}{:06X}", address_prefix, seed & 0xFFFFFF);
+  return fmt::format("{}{:06X}", address_prefix, seed % (1U << 24));
 }
 
 std::int64_t centivolts(const Body& body) {
-  return std::lround(body.battery_v() * 100);
+  return std::lround(spec::scale_of("0.01 V").of(body.battery_v()));
 }
 
 } // namespace
@@ -102,8 +97,6 @@ HANDLE(GetVoltageTripPoints) {
 }
 
 HANDLE(SetVoltageTripPoints) {
-  if (call.operands.number(0) - call.operands.number(1) < trip_point_distance_cv)
-    return {ResponseCode::BadParameter, {}};
   auto settings = host_.settings();
   settings.low_battery_cv = static_cast<int>(call.operands.number(0));
   settings.critical_battery_cv = static_cast<int>(call.operands.number(1));

@@ -10,13 +10,10 @@ namespace {
 
 using spec::ResponseCode;
 
-constexpr double rotation_unit_deg_s = 0.784;   // API §Set Rotation Rate
-constexpr double rotation_greatest_deg_s = 400; // API §Set Rotation Rate
-constexpr std::uint8_t rotation_rate_most = 255;
-constexpr int boost_speed = 255; // [?]
+using namespace spec::ball;
 
 int wrap_degrees(std::int64_t degrees) {
-  return static_cast<int>((degrees % 360 + 360) % 360);
+  return static_cast<int>((degrees % full_circle + full_circle) % full_circle);
 }
 
 std::int64_t s16(double value) {
@@ -38,8 +35,7 @@ HANDLE(SetStabilization) {
 
 HANDLE(SetRotationRate) {
   const auto rate = std::max<std::uint8_t>(1, call.operands.u8(0));
-  host_.drive(RotationRate{rate == rotation_rate_most ? rotation_greatest_deg_s
-                                                      : rate * rotation_unit_deg_s});
+  host_.drive(RotationRate{rate == greatest ? rotation_greatest : rate * rotation_unit});
   return {};
 }
 
@@ -68,8 +64,9 @@ void Dispatcher::finish_levelling(std::uint8_t result) {
   using namespace spec::self_level_result;
   self_level_.stop();
   if (result == success && self_level_.wants(option::final_angle))
-    host_.body().obey(Roll{static_cast<int>(std::lround(self_level_.first_heading_deg())) % 360, 0,
-                           Go::FastTurn});
+    host_.body().obey(
+        Roll{static_cast<int>(std::lround(self_level_.first_heading_deg())) % full_circle, 0,
+             Go::FastTurn});
   if (result == success || result == timed_out)
     host_.drive(self_level_.wants(option::control_system) ? Stabilization::On : Stabilization::Off);
   host_.send(protocol::make_async(spec::AsyncId::SelfLevelResult, {result}));
@@ -171,7 +168,7 @@ void Dispatcher::boost(Switch state) {
   if (state == Switch::On) {
     speed_before_boost_ = host_.body().speed_setpoint();
     host_.drive(Roll{heading, boost_speed, Go::Drive});
-    soul_tick_at_ = std::min(soul_tick_at_, host_.now() + Soul::tick_time);
+    soul_tick_at_ = std::min(soul_tick_at_, host_.now() + soul_tick);
     return;
   }
   profile_.soul.stop_boost();

@@ -10,8 +10,7 @@ using protocol::Item;
 using spec::ApiCommand;
 using spec::ResponseCode;
 
-constexpr Duration gyro_check_interval = std::chrono::milliseconds{10};
-constexpr double gyro_limit_deg_s = 500; // [?]
+using namespace spec::ball;
 
 /// How the ball refuses a command that it knows and does not do (UPLOAD quirk).
 ResponseCode refusal(spec::Status status) {
@@ -177,11 +176,11 @@ void Dispatcher::on_collision() {
     return;
   if (soul_messages_)
     host_.send(protocol::make_async(spec::AsyncId::ShieldDamage, {profile_.soul.shield()}));
-  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + Soul::tick_time);
+  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + soul_tick);
 }
 
 void Dispatcher::on_motion() {
-  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + Soul::tick_time);
+  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + soul_tick);
   watch_gyro();
 }
 
@@ -232,7 +231,7 @@ void Dispatcher::tick_soul() {
   const auto changes = soul.tick(moving);
   if (was_boosting && !soul.boosting())
     boost(Switch::Off);
-  soul_tick_at_ = moving || soul.changing() ? host_.now() + Soul::tick_time : never;
+  soul_tick_at_ = moving || soul.changing() ? host_.now() + soul_tick : never;
   if (!soul_messages_)
     return;
   if (changes.level)
@@ -259,7 +258,7 @@ void Dispatcher::check_gyro() {
       {rate.z, spec::gyro_axis_flags::z_positive}, {-rate.z, spec::gyro_axis_flags::z_negative}};
   std::uint8_t exceeded = 0;
   for (const auto& [value, bit] : axes)
-    if (value > gyro_limit_deg_s)
+    if (value > gyro_limit)
       exceeded = static_cast<std::uint8_t>(exceeded | bit);
   exceeded = static_cast<std::uint8_t>(exceeded & ~gyro_exceeded_);
   if (exceeded != 0) {

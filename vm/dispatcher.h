@@ -108,7 +108,6 @@ private:
   bool in_bootloader_ = false;
   std::uint8_t device_mode_ = spec::device_mode::normal;
   std::uint8_t accelerometer_range_ = spec::accelerometer_range::g8;
-  static constexpr Duration power_notice_interval = std::chrono::seconds{10}; // API
   Instant power_notice_at_ = never;
   bool soul_messages_ = false;
   Instant soul_tick_at_ = never;

@@ -5,10 +5,10 @@
 namespace orb::vm {
 namespace {
 
-constexpr Color battery_warning{255, 0, 0};                                           // [?]
-constexpr Duration id_blink = std::chrono::milliseconds{500};                         // [?]
+constexpr Color battery_warning{255, 0, 0}; // [?]
+using spec::ball::id_blink;
 constexpr std::array id_colors{Color{255, 0, 0}, Color{0, 255, 0}, Color{0, 0, 255}}; // [?]
-constexpr int brightest = 255;
+constexpr int brightest = spec::ball::greatest;
 
 } // namespace
 

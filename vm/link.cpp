@@ -1,6 +1,7 @@
 #include "vm/link.h"
 
 #include "protocol/payload.h"
+#include "spec/ball.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -10,12 +11,10 @@ namespace orb::vm {
 
 namespace {
 
-constexpr auto bytes_per_second =
-    static_cast<std::int64_t>(spec::value_of(spec::Limit::PrintQueueBytesPerSecond));
+constexpr std::int64_t bytes_per_second = spec::ball::wire_bytes_per_second;
 constexpr auto print_queue_bytes =
     static_cast<std::size_t>(spec::value_of(spec::Limit::PrintQueueBytes));
-/// Async messages other than prints and errors are dropped while more than this waits [?].
-constexpr std::size_t congested_bytes = 4096;
+constexpr std::size_t congested_bytes = spec::ball::congested_bytes;
 constexpr std::int64_t second = Duration{1s}.count();
 
 constexpr Duration time_of(std::size_t bytes) {

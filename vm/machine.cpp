@@ -20,10 +20,10 @@ using spec::Limit;
 using spec::Statement;
 using spec::Variable;
 
-constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t second = Duration{1s}.count();
 /// No product of a run's lines or time leaves 63 bits.
 constexpr std::int64_t most_lines = 8'000'000'000;
-constexpr std::int64_t greatest_product = 8'000'000'000'000'000'000;
+constexpr std::int64_t greatest_product = 1'000'000'000 * most_lines; // below 2^63
 
 /// A program becomes machine code when it has run so many lines for each of its instructions.
 constexpr std::uint64_t runs_before_compiling = 200;
@@ -36,15 +36,9 @@ constexpr std::int64_t lines_to_pay_a_change = 8;
 constexpr std::int64_t greatest_loss = -10'000;
 
 constexpr auto print_bytes = static_cast<std::size_t>(spec::value_of(Limit::PrintBytes));
-constexpr std::int32_t timer_values = 65536;
+constexpr std::int32_t timer_values = spec::info(Variable::TimerA).greatest + 1;
 /// What is printed in place of a text that is too long; no document has the robot's words [?].
 constexpr std::string_view too_long = "(print exceeds 32 bytes)\n";
-
-std::uint64_t mix(std::uint64_t value) {
-  value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9u;
-  value = (value ^ value >> 27) * 0x94D049BB133111EBu;
-  return value ^ value >> 31;
-}
 
 constexpr bool within(const spec::Parameter& parameter, std::int32_t value) {
   return parameter.least <= value && value <= parameter.greatest;
@@ -112,8 +106,7 @@ Flow Core::random_number(const Code& instruction) {
   const std::int32_t most = registers[instruction.b];
   if (most < 1)
     return fail(BasicError::BadNumericParameter);
-  random += 0x9E3779B97F4A7C15u;
-  const std::uint64_t drawn = mix(random) >> 32;
+  const std::uint64_t drawn = random.next() >> 32;
   registers[instruction.a] =
       1 + static_cast<std::int32_t>(drawn * static_cast<std::uint64_t>(most) >> 32);
   return Flow::Next;
@@ -208,8 +201,7 @@ Flow Core::perform(const Code& instruction) {
 }
 
 void Core::reseed() {
-  seeds += 0x9E3779B97F4A7C15u;
-  random = mix(seeds);
+  random.state = seeds.next();
 }
 
 void Core::clear() {
@@ -246,7 +238,7 @@ Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch di
       native_(native), shared_(shared) {
   core_.lines_per_second =
       std::clamp<std::int64_t>(static_cast<std::int64_t>(lines_per_second), 1, second);
-  core_.seeds = mix(seed);
+  core_.seeds.state = Random::mix(seed);
   core_.registers.resize(bytecode::first_temporary);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/random.h"
 #include "base/time.h"
 #include "bytecode/chunk.h"
 #include "spec/basic.h"
@@ -104,8 +105,8 @@ struct Core {
   std::size_t data_next = 0;
   std::string text; ///< what `print` has put together
   bool tron = false;
-  std::uint64_t seeds = 0;  ///< the stream that `random` draws from
-  std::uint64_t random = 0; ///< the generator that `rnd` draws from
+  Random seeds{0};  ///< the stream that `random` draws from
+  Random random{0}; ///< the generator that `rnd` draws from
 
   // What a line waits for.
   enum class Wait : std::uint8_t { Nothing, Time, Queue, Input };
@@ -121,7 +122,7 @@ struct Core {
     return static_cast<std::uint32_t>(place - code.data());
   }
   Instant time_of(std::int64_t line) const {
-    return base + Duration{line * 1'000'000'000 / lines_per_second};
+    return base + Duration{line * Duration{std::chrono::seconds{1}}.count() / lines_per_second};
   }
   /// The end of the line that is being executed.
   Instant line_end() const { return time_of(done + allowed - budget); }

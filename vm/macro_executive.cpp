@@ -10,7 +10,6 @@ using protocol::MacroStep;
 using spec::MacroCommand;
 using spec::MacroFlag;
 
-constexpr int full_circle_deg = 360;
 constexpr auto motor_ignore = static_cast<std::int32_t>(MotorMode::Ignore);
 
 std::uint8_t byte(std::int32_t value) {
@@ -175,7 +174,7 @@ MacroStatus MacroExecutive::abort(Instant now) {
     return {};
   }
   if (has(MacroFlag::Unkillable) && spec::macro_id_kind(id_) == spec::MacroIdKind::System)
-    return {id_, macro_number_unkillable};
+    return {id_, spec::macro_unkillable};
   const auto aborted = status();
   finish(MacroEnding::Aborted);
   store_.close_temporary();
@@ -295,7 +294,7 @@ void MacroExecutive::perform(const MacroStep& step) {
                     : static_cast<Stabilization>(value[0]));
     return wait_ms(value[1]);
   case MacroCommand::SetHeading:
-    host_.drive(SetHeading{value[0] % full_circle_deg});
+    host_.drive(SetHeading{value[0] % spec::ball::full_circle});
     return wait_ms(value[1]);
   case MacroCommand::Roll:
   case MacroCommand::Roll2: roll(value[0], value[1]); return wait_ms(value[2]);
@@ -352,7 +351,8 @@ void MacroExecutive::wait_ms(std::int32_t time_ms) {
 
 void MacroExecutive::roll(int speed, std::int32_t heading_deg) {
   if (now_ >= rotating_until_)
-    host_.drive(Roll{heading_deg % full_circle_deg, speed, speed == 0 ? Go::Brake : Go::Drive});
+    host_.drive(
+        Roll{heading_deg % spec::ball::full_circle, speed, speed == 0 ? Go::Brake : Go::Drive});
 }
 
 void MacroExecutive::rotate(std::int32_t angle_deg, std::int32_t time_ms) {

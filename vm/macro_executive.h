@@ -37,7 +37,6 @@ struct MacroStatus {
   friend bool operator==(MacroStatus, MacroStatus) = default;
 };
 
-inline constexpr std::uint16_t macro_number_unkillable = 0xFFFF;
 /// A macro command takes effect on a tick of this length. Source: low-level API §Commands.
 inline constexpr Duration macro_tick = 1ms;
 /// Commands without delay that share a tick; a macro that jumps to itself lets time pass all the

@@ -65,9 +65,9 @@ constexpr int stack_bytes = 24;
 using Entry = std::uint32_t (*)(std::int32_t* registers, Frames* frames, std::int64_t* budget,
                                 const void* line);
 
-constexpr std::size_t most_instructions = 65536;
+constexpr std::size_t most_instructions = 65536; // no area of the robot makes as many
 constexpr std::string_view too_large = "the program is too large for machine code";
-constexpr std::uint32_t none = 0xFFFFFFFF;
+constexpr std::uint32_t none = UINT32_MAX;
 
 /// What is decided about a program before its code is written.
 class Plan {
@@ -505,7 +505,7 @@ private:
     const auto divisor = static_cast<std::uint32_t>(constant(i.c));
     const auto [factor, bits] = factor_of(divisor);
     a_.movsxd(to.r64(), x);
-    if (factor <= 0x7FFFFFFF) {
+    if (factor <= INT32_MAX) {
       a_.imul(to.r64(), to.r64(), factor);
     } else {
       a_.mov(x86::edx, factor);

@@ -1,5 +1,7 @@
 #include "vm/power.h"
 
+#include "spec/unit.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,8 +11,9 @@ namespace {
 
 namespace state = spec::power_state;
 
-constexpr Duration sleep_warning = std::chrono::seconds{10}; // API §Async messages
-constexpr double volt_cv = 100;
+using spec::ball::sleep_warning;
+
+constexpr auto centivolt = spec::scale_of("0.01 V");
 
 } // namespace
 
@@ -24,7 +27,7 @@ bool Power::battery_warns() const {
 
 Power::Change Power::check_battery(const Body& body, const Settings& settings) {
   // Hundredths, rounded up but for the dust of the arithmetic.
-  const int centivolts = static_cast<int>(std::ceil(body.battery_v() * volt_cv - 1e-6));
+  const int centivolts = static_cast<int>(std::ceil(centivolt.of(body.battery_v()) - 1e-6));
   const auto now = body.charging()                              ? state::charging
                    : centivolts <= settings.critical_battery_cv ? state::critical
                    : centivolts <= settings.low_battery_cv      ? state::low
@@ -57,7 +60,9 @@ Instant Power::next_event(const Body& body, const Settings& settings) const {
   if (asleep_)
     return wake_at_;
   const Instant tired = warned_ ? inactive_at_ : inactive_at_ - sleep_warning;
-  const auto trips = [&](int centivolts) { return body.battery_reaches(centivolts / volt_cv); };
+  const auto trips = [&](int centivolts) {
+    return body.battery_reaches(centivolts / centivolt.steps);
+  };
   const Instant lower = battery_state_ == state::ok    ? trips(settings.low_battery_cv)
                         : battery_state_ == state::low ? trips(settings.critical_battery_cv)
                                                        : never;

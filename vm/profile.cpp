@@ -60,7 +60,8 @@ bool load_config_block(ByteView block, Settings& settings, Profile& profile) {
       !in_range(ApiCommand::SetVoltageTripPoints, 1, number(at::CriticalBattery)) ||
       !in_range(ApiCommand::SetInactivityTimeout, 0, number(at::InactivityTimeout)) ||
       !in_range(ApiCommand::SetAutoReconnect, 0, number(at::AutoReconnect)) ||
-      number(at::LowBattery) - number(at::CriticalBattery) < trip_point_distance_cv)
+      number(at::LowBattery) - number(at::CriticalBattery) <
+          spec::distance(ApiCommand::SetVoltageTripPoints)->least)
     return false;
   settings.user_color = {byte(at::Red), byte(at::Green), byte(at::Blue)};
   settings.permanent_flags = static_cast<std::uint32_t>(number(at::PermanentFlags));
@@ -69,8 +70,8 @@ bool load_config_block(ByteView block, Settings& settings, Profile& profile) {
   settings.inactivity_timeout = std::chrono::seconds{number(at::InactivityTimeout)};
   profile.auto_reconnect = byte(at::AutoReconnect) != 0;
   profile.auto_reconnect_s = byte(at::AutoReconnectTime);
-  const auto name = as_text(fields[at::Name].bytes.first(name_size));
-  profile.name = clip_utf8(name.substr(0, name.find('\0')), name_size);
+  const auto name = as_text(fields[at::Name].bytes.first(spec::ball::name_size));
+  profile.name = clip_utf8(name.substr(0, name.find('\0')), spec::ball::name_size);
   return true;
 }
 

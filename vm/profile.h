@@ -13,7 +13,8 @@ namespace orb::vm {
 /// What a ball remembers across power cycles besides its Settings: names, counters of its life, the
 /// soul block.
 struct Profile {
-  std::string name; ///< at most name_size bytes, whole UTF-8 characters; empty: the default
+  std::string
+      name; ///< at most spec::ball::name_size bytes, whole UTF-8 characters; empty: the default
   bool auto_reconnect = true;
   std::uint8_t auto_reconnect_s = 0;
   Soul soul;
@@ -26,11 +27,6 @@ struct Profile {
   std::uint16_t cold_boots = 0;
   std::uint16_t wake_ups = 0;
 };
-
-/// How far apart the trip points of the battery stay. Source: API §Set Voltage Trip Points.
-inline constexpr int trip_point_distance_cv = 25;
-
-inline constexpr std::size_t name_size = 48; ///< bytes that are kept. Source: API §Set Device Name
 
 /// The front of `text` of at most `most` bytes that ends with a whole UTF-8 character.
 std::string_view clip_utf8(std::string_view text, std::size_t most);

@@ -5,22 +5,19 @@
 namespace orb::vm {
 namespace {
 
-constexpr std::uint8_t default_angle_limit_deg = 3; // API §Self Level
-constexpr std::uint8_t default_timeout_s = 15;      // API §Self Level
-constexpr std::uint8_t default_true_time_10ms = 30; // API §Self Level
-constexpr Duration poll_time = std::chrono::milliseconds{10};
+using namespace spec::ball;
 
-std::uint8_t or_default(std::uint8_t value, std::uint8_t fallback) {
-  return value == 0 ? fallback : value;
+std::uint8_t or_default(std::uint8_t value, int fallback) {
+  return value == 0 ? static_cast<std::uint8_t>(fallback) : value;
 }
 
 } // namespace
 
 void SelfLevel::start(const Request& request, const Body& body, Instant now) {
   request_ = request;
-  request_.angle_limit_deg = or_default(request.angle_limit_deg, default_angle_limit_deg);
-  request_.timeout_s = or_default(request.timeout_s, default_timeout_s);
-  request_.true_time_10ms = or_default(request.true_time_10ms, default_true_time_10ms);
+  request_.angle_limit_deg = or_default(request.angle_limit_deg, default_angle_limit);
+  request_.timeout_s = or_default(request.timeout_s, default_level_timeout);
+  request_.true_time_10ms = or_default(request.true_time_10ms, default_true_time);
   first_heading_deg_ = body.yaw_deg();
   level_since_.reset();
   deadline_ = now + std::chrono::seconds{request_.timeout_s};
@@ -42,7 +39,7 @@ std::optional<std::uint8_t> SelfLevel::run(Instant now, const Body& body) {
     return spec::self_level_result::success;
   if (now >= deadline_)
     return spec::self_level_result::timed_out;
-  next_ = now + poll_time;
+  next_ = now + level_check_interval;
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/time.h"
 #include "spec/api.h"
+#include "spec/ball.h"
 #include "vm/body.h"
 
 #include <cstdint>
@@ -35,13 +36,13 @@ struct Settings {
   // Kept across power cycles.
   Color user_color;
   std::uint32_t permanent_flags = 0;
-  int low_battery_cv = 700;      ///< hundredths of a volt
-  int critical_battery_cv = 650; ///< hundredths of a volt
-  Duration inactivity_timeout = std::chrono::seconds{600};
+  int low_battery_cv = spec::ball::default_low_battery;           ///< hundredths of a volt
+  int critical_battery_cv = spec::ball::default_critical_battery; ///< hundredths of a volt
+  Duration inactivity_timeout = spec::ball::default_inactivity_timeout;
 
   // Lost in sleep.
   std::uint32_t temporary_flags = 0;
-  Duration motion_timeout = std::chrono::milliseconds{2000};
+  Duration motion_timeout = spec::ball::default_motion_timeout;
   CollisionSettings collisions;
 };
 

@@ -1,19 +1,15 @@
 #include "vm/soul.h"
 
+#include "protocol/payload.h"
+
 #include <algorithm>
+#include <vector>
 
 namespace orb::vm {
 namespace {
 
-// No document gives these figures: each is a choice [?].
-constexpr std::uint32_t refill_cost = 10;     // cores
-constexpr std::uint32_t consumable_cost = 25; // cores apiece
-constexpr std::uint32_t level_time_s = 60;    // drive time from level 1 to 2; n times that from n
-constexpr std::uint16_t points_per_level = 1;
-constexpr int boost_drain = 51;  // of 255, each tick of boosting: five seconds
-constexpr int boost_growth = 17; // fifteen seconds to full
-constexpr int shield_growth = 5;
-constexpr int shield_damage = 32; // each collision
+using namespace spec::ball;
+
 constexpr std::uint8_t block_version = 1;
 
 } // namespace
@@ -27,7 +23,7 @@ std::optional<std::uint32_t> Soul::refill(std::uint8_t bank) {
 }
 
 bool Soul::buy(std::uint8_t consumable, std::uint8_t quantity) {
-  const auto cost = consumable_cost * quantity;
+  const std::uint32_t cost = consumable_cost * quantity;
   auto& count = consumables_[consumable];
   if (cores_ < cost || count + quantity > UINT8_MAX)
     return false;
@@ -68,7 +64,7 @@ Soul::Changes Soul::tick(bool moving) {
   boost_ = std::clamp(boost_ + (boosting_ ? -boost_drain : boost_growth), 0, full);
   boosting_ = boosting_ && boost_ > 0;
   shield_ = std::min(full, shield_ + shield_growth);
-  if (moving && ++drive_s_ >= level_time_s * level_) {
+  if (moving && ++drive_s_ >= level_time * std::uint32_t{level_}) {
     drive_s_ = 0;
     ++level_;
     points_ = static_cast<std::uint16_t>(points_ + points_per_level);
@@ -82,35 +78,39 @@ Soul::Changes Soul::tick(bool moving) {
 
 std::uint8_t Soul::experience() const {
   return static_cast<std::uint8_t>(
-      std::min<std::uint32_t>(full, drive_s_ * full / (level_time_s * level_)));
+      std::min<std::uint32_t>(full, drive_s_ * full / (level_time * std::uint32_t{level_})));
 }
 
 Bytes Soul::block() const {
-  Bytes out{block_version};
-  append_u32(out, cores_);
-  append_u16(out, level_);
-  append_u16(out, points_);
-  append_u32(out, drive_s_);
-  out.push_back(boost());
-  out.push_back(shield());
-  out.insert(out.end(), consumables_.begin(), consumables_.end());
-  out.insert(out.end(), attributes_.begin(), attributes_.end());
+  std::vector<protocol::FieldContent> contents{block_version, cores_,  level_,  points_,
+                                               drive_s_,      boost(), shield()};
+  contents.insert(contents.end(), consumables_.begin(), consumables_.end());
+  contents.insert(contents.end(), attributes_.begin(), attributes_.end());
+  auto out = protocol::write_fields(spec::soul_fields(), contents);
   out.resize(spec::ssb_size);
   return out;
 }
 
 bool Soul::load(ByteView block) {
-  if (block.size() != spec::ssb_size || block[0] != block_version || read_u16(block, 5) == 0)
+  namespace at = spec::soul_at;
+  if (block.size() != spec::ssb_size)
     return false;
-  cores_ = read_u32(block, 1);
-  level_ = read_u16(block, 5);
-  points_ = read_u16(block, 7);
-  drive_s_ = std::min(read_u32(block, 9), level_time_s * level_ - 1);
-  boost_ = block[13];
-  shield_ = block[14];
-  std::copy_n(block.begin() + 15, consumables_.size(), consumables_.begin());
-  std::copy_n(block.begin() + 15 + static_cast<std::ptrdiff_t>(consumables_.size()),
-              attributes_.size(), attributes_.begin());
+  const auto fields = protocol::read_fields(spec::soul_fields(), block);
+  const auto number = [&](std::size_t field) {
+    return static_cast<std::uint32_t>(fields[field].number);
+  };
+  if (number(at::Version) != block_version || number(at::Level) == 0)
+    return false;
+  cores_ = number(at::Cores);
+  level_ = static_cast<std::uint16_t>(number(at::Level));
+  points_ = static_cast<std::uint16_t>(number(at::Points));
+  drive_s_ = std::min(number(at::DriveTime), level_time * std::uint32_t{level_} - 1);
+  boost_ = static_cast<int>(number(at::Boost));
+  shield_ = static_cast<int>(number(at::Shield));
+  for (std::size_t i = 0; i < consumables_.size(); ++i)
+    consumables_[i] = static_cast<std::uint8_t>(number(at::FirstConsumable + i));
+  for (std::size_t i = 0; i < attributes_.size(); ++i)
+    attributes_[i] = static_cast<std::uint8_t>(number(at::FirstAttribute + i));
   boosting_ = false;
   return true;
 }

@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "spec/api.h"
+#include "spec/ball.h"
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,7 @@
 namespace orb::vm {
 
 /// The game values of the soul block: cores, consumables, banks, levels. The documents name them
-/// and give neither starting values nor costs nor growth: all figures are constants of soul.cpp
+/// and give neither starting values nor costs nor growth: all figures are rows of spec/ball.def
 /// [?]. Source: API §Refill Bank to §Level Up Attribute.
 class Soul {
 public:
@@ -22,9 +23,6 @@ public:
     bool boost = false;
     bool shield = false;
   };
-
-  /// How often tick() wants to be called while changing() or while the ball moves.
-  static constexpr Duration tick_time = std::chrono::seconds{1};
 
   /// A bank filled for cores; nothing where there are too few.
   std::optional<std::uint32_t> refill(std::uint8_t bank);
@@ -41,7 +39,8 @@ public:
   /// A blow takes a part of the shield. True where there was something to take.
   bool damage_shield();
 
-  /// One tick: drive time earns experience, banks drain and grow back.
+  /// One tick, due every spec::ball::soul_tick while changing() or while the ball moves: drive time
+  /// earns experience, banks drain and grow back.
   Changes tick(bool moving);
   /// Whether something goes on without the ball moving.
   bool changing() const;
@@ -61,11 +60,13 @@ public:
   bool load(ByteView block);
 
 private:
-  static constexpr int full = 255;
+  static constexpr int full = spec::ball::greatest;
 
-  std::uint32_t cores_ = 500;
-  std::array<std::uint8_t, 8> consumables_{};
-  std::array<std::uint8_t, 4> attributes_{1, 1, 1, 1};
+  std::uint32_t cores_ = spec::ball::first_cores;
+  std::array<std::uint8_t, spec::soul_at::LastConsumable - spec::soul_at::FirstConsumable + 1>
+      consumables_{};
+  std::array<std::uint8_t, spec::soul_at::LastAttribute - spec::soul_at::FirstAttribute + 1>
+      attributes_{1, 1, 1, 1};
   std::uint16_t level_ = 1;
   std::uint16_t points_ = 0;
   std::uint32_t drive_s_ = 0; ///< toward the next level

@@ -1,5 +1,6 @@
 #include "vm/state.h"
 
+#include "protocol/payload.h"
 #include "vm/ball.h"
 
 #include <fmt/format.h>
@@ -10,32 +11,23 @@ namespace {
 
 constexpr std::string_view header = "orb.state/1";
 
-Bytes life(const Profile& profile, const Body& body) {
-  Bytes out;
-  append_u16(out, profile.charges);
-  append_u16(out, profile.cold_boots);
-  append_u16(out, profile.wake_ups);
-  for (const auto value :
-       {profile.since_charge_s, profile.awake_s, profile.rolled_cm + body.rolled_cm()}) {
-    append_u32(out, static_cast<std::uint32_t>(value >> 32));
-    append_u32(out, static_cast<std::uint32_t>(value));
-  }
-  return out;
-}
-
-constexpr std::size_t life_size = 3 * 2 + 3 * 8;
-
-std::uint64_t read_u64(ByteView bytes, std::size_t offset) {
-  return std::uint64_t{read_u32(bytes, offset)} << 32 | read_u32(bytes, offset + 4);
+Bytes life(const Profile& profile, std::uint64_t rolled_cm) {
+  const protocol::FieldContent contents[] = {profile.charges,  profile.cold_boots,
+                                             profile.wake_ups, profile.since_charge_s,
+                                             profile.awake_s,  rolled_cm};
+  return protocol::write_fields(spec::life_fields(), contents);
 }
 
 void load_life(ByteView bytes, Profile& profile) {
-  profile.charges = read_u16(bytes, 0);
-  profile.cold_boots = static_cast<std::uint16_t>(read_u16(bytes, 2) + 1); // this start counts
-  profile.wake_ups = read_u16(bytes, 4);
-  profile.since_charge_s = read_u64(bytes, 6);
-  profile.awake_s = read_u64(bytes, 14);
-  profile.rolled_cm = read_u64(bytes, 22);
+  namespace at = spec::life_at;
+  const auto fields = protocol::read_fields(spec::life_fields(), bytes);
+  const auto number = [&](std::size_t field) { return fields[field].number; };
+  profile.charges = static_cast<std::uint16_t>(number(at::Charges));
+  profile.cold_boots = static_cast<std::uint16_t>(number(at::ColdBoots) + 1); // this start counts
+  profile.wake_ups = static_cast<std::uint16_t>(number(at::WakeUps));
+  profile.since_charge_s = static_cast<std::uint64_t>(number(at::SinceCharge));
+  profile.awake_s = static_cast<std::uint64_t>(number(at::Awake));
+  profile.rolled_cm = static_cast<std::uint64_t>(number(at::Rolled));
 }
 
 } // namespace
@@ -49,7 +41,7 @@ std::string save_state(Ball& ball) {
   };
   line("config", config_block(ball.settings(), profile));
   line("soul", profile.soul.block());
-  line("life", life(profile, ball.body()));
+  line("life", life(profile, profile.rolled_cm + ball.body().rolled_cm()));
   line("flash", as_bytes(ball.basic_text(Area::Flash)));
   out += "end\n";
   return out;
@@ -84,8 +76,8 @@ tl::expected<void, std::string> load_state(std::string_view text, Ball& ball) {
     return tl::unexpected(std::string("`config` is not a configuration block"));
   if (!profile.soul.load(fields["soul"]))
     return tl::unexpected(std::string("`soul` is not a soul block"));
-  if (fields["life"].size() != life_size)
-    return tl::unexpected(fmt::format("`life` is {} bytes", life_size));
+  if (const auto size = life({}, 0).size(); fields["life"].size() != size)
+    return tl::unexpected(fmt::format("`life` is {} bytes", size));
   load_life(fields["life"], profile);
   if (ball.erase_basic(Area::Flash) == Outcome::Refused ||
       ball.append_basic(Area::Flash, fields["flash"]) == Outcome::Refused)

@@ -130,8 +130,10 @@ struct EventRow {
   Stimulus (*read)(Arguments&);
 };
 
-constexpr int heading_most = 359;
-constexpr int byte_most = 255;
+using namespace spec::ball;
+
+constexpr int heading_most = full_circle - 1;
+constexpr int byte_most = greatest;
 
 // clang-format off
 constexpr std::array events{
@@ -161,10 +163,10 @@ constexpr std::array events{
       return stimulus::Number{a.whole("number", INT32_MIN, INT32_MAX)};
     }},
     EventRow{"tilt", [](Arguments& a) -> Stimulus {
-      const double pitch = a.real("pitch", -90, 90);
-      return stimulus::Tilt{pitch, a.real("roll", -180, 180)};
+      const double pitch = a.real("pitch", -full_circle / 4, full_circle / 4);
+      return stimulus::Tilt{pitch, a.real("roll", -full_circle / 2, full_circle / 2)};
     }},
-    EventRow{"spin", [](Arguments& a) -> Stimulus { return stimulus::Spin{a.real("rate", -2000, 2000)}; }},
+    EventRow{"spin", [](Arguments& a) -> Stimulus { return stimulus::Spin{a.real("rate", -greatest_yaw_rate, greatest_yaw_rate)}; }},
     EventRow{"noise", [](Arguments& a) -> Stimulus { return stimulus::Noise{a.on_off("state")}; }},
 };
 // clang-format on
