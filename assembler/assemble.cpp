@@ -40,14 +40,13 @@ std::string_view unit_word(Unit unit) {
 /// together.
 std::int64_t scale(Unit unit, MacroUnit own) {
   if (unit == Unit::None)
-    return 1000;
+    return whole;
+  const std::int64_t ms = unit == Unit::Milliseconds ? 1 : unit == Unit::Seconds ? second_ms : 0;
   switch (own) {
   case MacroUnit::None: return 0;
-  case MacroUnit::Milliseconds:
-    return unit == Unit::Milliseconds ? 1000 : unit == Unit::Seconds ? 1'000'000 : 0;
-  case MacroUnit::Ticks10ms:
-    return unit == Unit::Milliseconds ? 100 : unit == Unit::Seconds ? 100'000 : 0;
-  case MacroUnit::Degrees: return unit == Unit::Degrees ? 1000 : 0;
+  case MacroUnit::Milliseconds: return whole * ms;
+  case MacroUnit::Ticks10ms: return whole * ms / 10;
+  case MacroUnit::Degrees: return unit == Unit::Degrees ? whole : 0;
   }
   return 0;
 }
@@ -180,7 +179,7 @@ private:
     if (attribute == "flags")
       return read_flag(defined, value);
     if (attribute == "ext") {
-      if (const auto byte = header_byte(value, 0, 255, "extended flags are"))
+      if (const auto byte = header_byte(value, 0, "extended flags are"))
         defined.extended_flags = byte;
       return;
     }
@@ -193,24 +192,23 @@ private:
                  : "there are `id=`, `flags=` and `ext=`");
   }
 
-  std::optional<std::uint8_t> header_byte(const Value& value, int minimum, int maximum,
-                                          std::string_view what) {
+  std::optional<std::uint8_t> header_byte(const Value& value, int minimum, std::string_view what) {
     const auto* number = &value;
     if (value.kind == Value::Kind::Word)
       if (const auto* name = find_name(text(value.span));
           name != nullptr && name->kind == Name::Kind::Constant)
         number = &name->value;
     if (number->kind == Value::Kind::Number && number->unit == Unit::None &&
-        number->thousandths % 1000 == 0 && number->thousandths >= minimum * 1000 &&
-        number->thousandths <= maximum * 1000)
-      return static_cast<std::uint8_t>(number->thousandths / 1000);
+        number->thousandths % whole == 0 && number->thousandths >= minimum * whole &&
+        number->thousandths <= UINT8_MAX * whole)
+      return static_cast<std::uint8_t>(number->thousandths / whole);
     report(rules::Header, value.span,
-           fmt::format("{} {} to {}, found `{}`", what, minimum, maximum, text(value.span)));
+           fmt::format("{} {} to {}, found `{}`", what, minimum, UINT8_MAX, text(value.span)));
     return std::nullopt;
   }
 
   void read_id(AssembledMacro& defined, const Value& value) {
-    const auto id = header_byte(value, spec::macro_id_none, spec::macro_id_temporary, "an id is");
+    const auto id = header_byte(value, spec::macro_id_none, "an id is");
     if (!id)
       return;
     const auto kind = spec::macro_id_kind(*id);
@@ -255,7 +253,7 @@ private:
         return;
       }
     }
-    if (const auto byte = header_byte(value, 0, 255, "flags are"))
+    if (const auto byte = header_byte(value, 0, "flags are"))
       set_flags(defined, old | *byte);
   }
 
@@ -345,7 +343,8 @@ private:
     const auto begin = static_cast<std::uint32_t>(out.body.size());
     for (const auto* value = values(statement); value != values(statement) + statement.count;
          ++value) {
-      static constexpr auto byte = spec::macro_detail::number("byte", MacroUnit::None, 1, 0, 255);
+      static constexpr auto byte =
+          spec::macro_detail::number("byte", MacroUnit::None, 1, 0, UINT8_MAX);
       if (value->name.size() != 0)
         report(rules::UnknownOperand, value->name, "`.raw` takes bytes, not names");
       else if (const auto number = resolve(*value, byte, ".raw"))
@@ -490,8 +489,8 @@ private:
     const auto& roll2 = spec::info(MacroCommand::Roll2);
     const auto* number = constant(delay);
     const auto per = number == nullptr ? 0 : scale(number->unit, roll2.operand[2].unit);
-    return per > 0 && number->thousandths / 1000 * per / 1000 > roll.operand[2].maximum ? &roll2
-                                                                                        : &roll;
+    return per > 0 && number->thousandths / whole * per / whole > roll.operand[2].maximum ? &roll2
+                                                                                          : &roll;
   }
 
   /// The number that a value stands for; null where it is none.
@@ -595,7 +594,7 @@ private:
     }
     // Thousandths of a number times thousandths of the own unit: bounded far below 2^63.
     const auto millionths = number.thousandths * per;
-    if (millionths % 1'000'000 != 0) {
+    if (millionths % (whole * whole) != 0) {
       report(
           rules::OutOfRange, span,
           fmt::format("`{}` of `{}` takes whole {}, found `{}`", operand.name, command,
@@ -603,7 +602,7 @@ private:
                       text(span)));
       return std::nullopt;
     }
-    const auto value = millionths / 1'000'000;
+    const auto value = millionths / (whole * whole);
     if (value >= operand.minimum && value <= operand.maximum)
       return static_cast<std::int32_t>(value);
     out_of_range(value, span, operand, command);
@@ -712,10 +711,10 @@ private:
 
 /// By byte: whether it has no place in a text.
 constexpr auto is_binary = [] {
-  std::array<bool, 256> table{};
+  std::array<bool, UINT8_MAX + 1> table{};
   for (std::size_t c = 0; c < ' '; ++c)
     table[c] = c != '\t' && c != '\n' && c != '\r';
-  table[0x7F] = true;
+  table['\x7F'] = true;
   return table;
 }();
 

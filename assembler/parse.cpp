@@ -3,6 +3,7 @@
 #include "assembler/grammar.h"
 #include "assembler/rules.h"
 #include "base/suggest.h"
+#include "base/text.h"
 
 #include <array>
 #include <cstring>
@@ -14,7 +15,7 @@ namespace {
 
 namespace g = grammar;
 
-constexpr std::size_t most_diagnostics = 1000;
+constexpr std::size_t most_diagnostics = 1000; // nobody reads more
 /// Beyond every operand, and far from where 64 bits end.
 constexpr std::int64_t largest_number = 1'000'000'000;
 
@@ -103,12 +104,12 @@ void read_number(Value& value, const char* at, const char* end) {
     ++at;
   if (end - at > 2 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X')) {
     at += 2;
-    value.thousandths = read_digits(at, end, 16) * 1000;
+    value.thousandths = read_digits(at, end, 16) * whole;
   } else {
-    value.thousandths = read_digits(at, end, 10) * 1000;
+    value.thousandths = read_digits(at, end, 10) * whole;
     if (at != end && *at == '.') {
       ++at;
-      for (std::int64_t worth = 100; at != end && *at >= '0' && *at <= '9'; ++at, worth /= 10) {
+      for (std::int64_t worth = whole / 10; at != end && is_digit(*at); ++at, worth /= 10) {
         value.thousandths += worth * (*at - '0');
         if (worth == 0 && *at != '0')
           value.unit = Unit::Unknown; // finer than a thousandth

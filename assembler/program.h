@@ -11,6 +11,10 @@ namespace orb::assembler {
 /// What stands after a number.
 enum class Unit : std::uint8_t { None, Milliseconds, Seconds, Degrees, Unknown };
 
+/// Numbers count in thousandths: 1.5 is 1500.
+inline constexpr std::int64_t whole = 1000;
+inline constexpr std::int64_t second_ms = 1000; ///< a second in milliseconds
+
 /// An operand as it is written.
 struct Value {
   enum class Kind : std::uint8_t { Number, Word, Text };
@@ -18,7 +22,7 @@ struct Value {
   Unit unit = Unit::None;
   Span span;
   Span name;                    ///< before the `=`; empty where the operand has none
-  std::int64_t thousandths = 0; ///< of a number: 1.5 is 1500; clamped to what no operand takes
+  std::int64_t thousandths = 0; ///< of a number, clamped to what no operand takes
 };
 
 /// A line that says something.

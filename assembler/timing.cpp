@@ -1,5 +1,6 @@
 #include "assembler/timing.h"
 
+#include "assembler/program.h"
 #include "assembler/walk.h"
 
 #include <fmt/format.h>
@@ -46,9 +47,9 @@ MacroTiming time_macro(const Assembly& assembly, std::size_t macro) {
 }
 
 std::string print_time(std::int64_t ms) {
-  if (ms < 1000)
+  if (ms < second_ms)
     return fmt::format("{} ms", ms);
-  auto text = fmt::format("{}.{:03}", ms / 1000, ms % 1000);
+  auto text = fmt::format("{}.{:03}", ms / second_ms, ms % second_ms);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.')
     text.pop_back();

@@ -22,6 +22,13 @@ constexpr bool is_blank(char c) {
 constexpr char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
+constexpr char to_upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+/// Whether a byte continues a character of UTF-8.
+constexpr bool is_utf8_tail(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
 
 /// Whether two words have the same letters, in capitals or not.
 constexpr bool equal_words(std::string_view a, std::string_view b) {

@@ -77,7 +77,7 @@ public:
       begins_[i] = here();
       if (!line.has_statement())
         continue;
-      const auto number = line.number <= 0xFFFF ? line.number : 0;
+      const auto number = line.number <= UINT16_MAX ? line.number : 0;
       chunk_.lines.push_back({static_cast<std::uint16_t>(number), here()});
       statement(program_.statements[line.statement]);
       if (overflow_)

@@ -182,7 +182,7 @@ private:
   /// The least number of calls that are open when a line runs. A `gosub` that already has four
   /// above it on every way stops the program.
   void check_depths() {
-    constexpr std::uint32_t far = 0xFF;
+    constexpr std::uint32_t far = UINT8_MAX;
     const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GosubDepth));
     std::vector<std::uint32_t> least(size_, far);
     std::vector<std::vector<std::uint32_t>> levels(most + 2);
@@ -312,7 +312,7 @@ private:
   /// Beyond these the checks that look at pairs of lines are left out: no area of the robot holds
   /// such a program, and a linter must not take minutes over it.
   static constexpr std::size_t most_routines = 256;
-  static constexpr std::uint32_t longest_loop = 1024;
+  static constexpr std::uint32_t longest_loop = 1024; ///< lines
 
   const Program& program_;
   const Flow& flow_;

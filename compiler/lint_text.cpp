@@ -15,8 +15,8 @@ namespace {
 /// The high bit of each byte that is neither printable ASCII nor LF, eight bytes at once: a text is
 /// read faster than it is parsed.
 constexpr std::uint64_t unusual_bytes(std::uint64_t word) {
-  constexpr std::uint64_t ones = 0x0101010101010101;
-  constexpr std::uint64_t high = 0x80 * ones;
+  constexpr std::uint64_t ones = 0x0101010101010101; // 1 in each byte
+  constexpr std::uint64_t high = 0x80 * ones;        // its high bit
   // Each byte keeps its carry to itself, because its own high bit is set or cleared first.
   const auto below_blank = ~((word | high) - ' ' * ones);
   const auto line_feed = word ^ '\n' * ones;
@@ -75,7 +75,7 @@ private:
       if (c == '\t' && !in_string && !tab_seen) {
         tab_seen = true;
         add_tab(index, i, end);
-      } else if ((c < ' ' || c >= 0x7F) && (c != '\t' || in_string) && !byte_seen) {
+      } else if ((c < ' ' || c >= '\x7F') && (c != '\t' || in_string) && !byte_seen) {
         byte_seen = true;
         findings_.add(rules::NonprintingByte, {i, i + 1},
                       fmt::format("byte {:02X} is not printable ASCII", c), "write plain letters");
@@ -201,7 +201,7 @@ private:
         above = program_.lines[i].number;
         break;
       }
-    constexpr std::uint32_t tries = 100;
+    constexpr std::uint32_t tries = 100; // a text as crowded as that is renumbered instead
     const auto middle = above - below > 20 ? below + 10 : below + (above - below) / 2;
     for (std::uint32_t n = middle; n < above && n < middle + tries; ++n)
       if (n > below && flow_.find(n) == nullptr && !is_target(n))

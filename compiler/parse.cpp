@@ -24,8 +24,9 @@ struct Stop {
   std::uint32_t found = 0;
 };
 
-constexpr std::array<std::uint8_t, 128> operator_of = [] {
-  std::array<std::uint8_t, 128> table{};
+/// By character of ASCII.
+constexpr auto operator_of = [] {
+  std::array<std::uint8_t, INT8_MAX + 1> table{};
   for (const auto& row : spec::operators)
     table[static_cast<std::size_t>(row.symbol)] = static_cast<std::uint8_t>(row.op);
   return table;
@@ -254,7 +255,7 @@ private:
     else
       do
         ++p;
-      while (p != end && (static_cast<unsigned char>(*p) & 0xC0) == 0x80);
+      while (p != end && is_utf8_tail(*p));
     return span(at, p);
   }
 

@@ -14,6 +14,8 @@ namespace {
 
 using spec::Statement;
 
+constexpr std::int32_t second_ms = 1000; // `delay` counts in milliseconds
+
 class Slip : public FaultText {
 public:
   using FaultText::FaultText;
@@ -87,12 +89,12 @@ private:
 
   /// A wait of less than a tenth of a second was most likely meant in seconds.
   bool short_time(Diagnostic& d) const {
-    constexpr std::int32_t least_likely = 100;
+    constexpr std::int32_t least_likely = 100; // ms
     const Span digits = digits_at(skip_blanks(end()));
     const auto value = number_in(digits);
     if (!value || *value >= least_likely || skip_blanks(digits.end) != code_end())
       return false;
-    const auto line = fmt::format("delay {}", *value * 1000);
+    const auto line = fmt::format("delay {}", *value * second_ms);
     d.help = fmt::format("write `{}`; it takes milliseconds", line);
     d.fix = Fix{fmt::format("write `{}`", line), {{{begin(), digits.end}, line}}, Safety::Unsafe};
     return true;
@@ -217,9 +219,9 @@ private:
     for (std::uint32_t i = 0; i < text_.size(); ++i)
       if (is_letter(text_[i]) && (i == 0 || !is_letter(text_[i - 1])) &&
           (i + 1 == text_.size() || !is_letter(text_[i + 1])))
-        used |= std::uint32_t{1} << ((text_[i] & 0x1F) - 1);
+        used |= std::uint32_t{1} << (to_lower(text_[i]) - 'a');
     const auto is_free = [&](char c) { return (used >> (c - 'A') & 1) == 0; };
-    const char initial = static_cast<char>(token()[0] & ~0x20);
+    const char initial = to_upper(token()[0]);
     if (initial < 'Y' && is_free(initial))
       return initial;
     for (char c = 'A'; c < 'Y'; ++c)
@@ -460,7 +462,7 @@ private:
     if (!whole || !before_point || *before_point > most || fraction.empty())
       return std::nullopt;
     fraction.resize(3, '0');
-    const auto line = fmt::format("delay {}", *before_point * 1000 + std::stoi(fraction));
+    const auto line = fmt::format("delay {}", *before_point * second_ms + std::stoi(fraction));
     auto d =
         finding(rules::UnsupportedNumber, {from, to},
                 fmt::format("`{}` is not a whole decimal number", text_.substr(from, to - from)),
@@ -484,7 +486,7 @@ private:
     const auto value = number_in({from, stop});
     if (!value)
       return std::nullopt;
-    const auto time = *value * (milliseconds ? 1LL : 1000LL);
+    const auto time = std::int64_t{*value} * (milliseconds ? 1 : second_ms);
     auto d = finding(rules::SyntaxError, fault_.span, "numbers have no units",
                      fmt::format("`delay` takes milliseconds: write `delay {}`", time));
     offer(d, fmt::format("write `delay {}`", time), {{{from, end()}, std::to_string(time)}});
@@ -560,7 +562,7 @@ private:
       --from;
     const auto value = number_in({from, stop});
     constexpr std::int32_t most_seconds = 65;
-    const auto time = value.value_or(1) > most_seconds ? *value : value.value_or(1) * 1000;
+    const auto time = value.value_or(1) > most_seconds ? *value : value.value_or(1) * second_ms;
     return finding(rules::SyntaxError, fault_.span, "`sleep` takes 3 values, found 1",
                    fmt::format("`sleep` switches the ball off; to wait write `delay {}`", time));
   }

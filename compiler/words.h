@@ -104,7 +104,7 @@ inline constexpr std::uint64_t multiplier = [] {
     }
     if (good)
       return candidate;
-    candidate = candidate * 6364136223846793005U + 1442695040888963407U;
+    candidate = candidate * 6364136223846793005U + 1442695040888963407U; // any odd pair will do
   }
 }();
 
@@ -117,7 +117,7 @@ inline constexpr std::array<std::uint8_t, 1 << slot_bits> slots = [] {
     table[slot(entries[i].packed, multiplier)] = static_cast<std::uint8_t>(i);
   return table;
 }();
-static_assert(count < 255);
+static_assert(count < UINT8_MAX);
 
 } // namespace words
 
@@ -125,7 +125,7 @@ static_assert(count < 255);
 constexpr Word find_word(std::uint64_t packed, std::size_t length) {
   if (length == 1) {
     const auto c = static_cast<char>(packed);
-    return {WordKind::Letter, static_cast<std::uint8_t>((c & ~0x20) - 'A')};
+    return {WordKind::Letter, static_cast<std::uint8_t>(to_lower(c) - 'a')};
   }
   if (length > words::longest)
     return {};

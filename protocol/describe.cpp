@@ -20,7 +20,7 @@ std::string quoted(ByteView bytes) {
       out += "\\0";
     else if (byte == '"' || byte == '\\')
       out += {'\\', static_cast<char>(byte)};
-    else if (byte < ' ' || byte >= 0x7F)
+    else if (byte < ' ' || byte >= '\x7F')
       out += fmt::format("\\x{:02X}", byte);
     else
       out += static_cast<char>(byte);
@@ -115,7 +115,7 @@ std::string Describer::describe(const Item& item) {
 
 std::string Describer::command(const Item& item) {
   const auto* row = spec::find_command(item.did, item.cid);
-  asked_[item.seq] = static_cast<std::uint16_t>(spec::api_command(item.did, item.cid));
+  asked_[item.seq] = row;
   if (row != nullptr && row->command == spec::ApiCommand::SetDataStreaming) {
     std::uint64_t mask = 0;
     for (const auto& value : read_fields(spec::operands(row->command), item.data)) {
@@ -137,9 +137,7 @@ std::string Describer::command(const Item& item) {
 
 std::string Describer::response(const Item& item) {
   const auto* code = spec::find_response(item.code);
-  const auto asked = asked_[item.seq];
-  const auto* row =
-      spec::find_command(static_cast<std::uint8_t>(asked >> 8), static_cast<std::uint8_t>(asked));
+  const auto* row = asked_[item.seq];
   const auto ok = item.code == static_cast<std::uint8_t>(spec::ResponseCode::Ok);
   const auto fields =
       row == nullptr || !ok ? std::span<const spec::Field>{} : spec::answer(row->command);

@@ -21,15 +21,9 @@ private:
   std::string response(const Item& item);
   std::string async(const Item& item) const;
 
-  /// By SEQ: the command last seen with it; 0xFFFF where none was.
-  std::array<std::uint16_t, 256> asked_ = no_commands();
+  /// By SEQ: the command last seen with it.
+  std::array<const spec::CommandInfo*, UINT8_MAX + 1> asked_{};
   std::uint64_t stream_mask_ = 0;
-
-  static std::array<std::uint16_t, 256> no_commands() {
-    std::array<std::uint16_t, 256> none;
-    none.fill(0xFFFF);
-    return none;
-  }
 };
 
 } // namespace orb::protocol

@@ -33,8 +33,8 @@ Command make_command(spec::ApiCommand command, Bytes data, std::uint8_t seq) {
 std::uint8_t checksum(ByteView bytes) {
   // Eight bytes at a time: the even and the odd ones are added into four 16-bit lanes each, which
   // cannot overflow within one block.
-  constexpr std::uint64_t lanes = 0x00FF00FF00FF00FF;
-  constexpr std::size_t block = 128 * sizeof(std::uint64_t);
+  constexpr std::uint64_t lanes = 0x00FF00FF00FF00FF;        // the low byte of each
+  constexpr std::size_t block = 128 * sizeof(std::uint64_t); // 2 x 128 x 255 fits into 16 bits
   const auto* at = bytes.data();
   auto left = bytes.size();
   std::uint64_t sum = 0;
@@ -47,8 +47,8 @@ std::uint8_t checksum(ByteView bytes) {
       std::memcpy(&word, at, sizeof word);
       lane_sums += (word & lanes) + (word >> 8 & lanes);
     }
-    sum += (lane_sums & 0xFFFF) + (lane_sums >> 16 & 0xFFFF) + (lane_sums >> 32 & 0xFFFF) +
-           (lane_sums >> 48);
+    for (; lane_sums != 0; lane_sums >>= 16)
+      sum += static_cast<std::uint16_t>(lane_sums);
   }
   for (; left > 0; --left)
     sum += *at++;

@@ -74,7 +74,7 @@ tl::expected<void, IoError> PtyLink::open() {
   if (master < 0)
     return tl::unexpected(failure("open a pty"));
   asio::posix::stream_descriptor stream(stream_.get_executor(), master);
-  std::array<char, 128> name{};
+  std::array<char, 128> name{}; // they are short: /dev/pts/N
   if (::grantpt(master) != 0 || ::unlockpt(master) != 0 ||
       ::ptsname_r(master, name.data(), name.size()) != 0)
     return tl::unexpected(failure("open a pty"));

@@ -20,7 +20,7 @@ namespace {
 
 /// A client that does not read is not read from while this much waits for it.
 constexpr std::size_t backlog_most = 256 * 1024;
-constexpr std::size_t read_size = 64 * 1024;
+constexpr std::size_t read_size = 64 * 1024; // bytes at once
 /// How much a client that has left is still heard when the next one knocks.
 constexpr int farewell_reads = 64;
 

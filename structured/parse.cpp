@@ -182,7 +182,7 @@ public:
     else
       do
         ++p;
-      while (p != end && (static_cast<unsigned char>(*p) & 0xC0) == 0x80);
+      while (p != end && is_utf8_tail(*p));
     return span(at, p);
   }
 

@@ -84,7 +84,7 @@ TEST(Floors, EachRoomIncludesOnlyWhatItMay) {
   const std::regex include(R"(^\s*#\s*include\s+"([a-z_0-9]+)/[^"]+")");
   for (const auto& room : rooms) {
     const auto allowed = reach(room);
-    const auto files = files_below(root / room.name, {".h", ".cpp", ".def"});
+    const auto files = files_below(root / room.name, {".h", ".cpp", ".def", ".inc"});
     EXPECT_FALSE(files.empty()) << room.name;
     for (const auto& file : files) {
       std::ifstream stream(file);
@@ -96,6 +96,42 @@ TEST(Floors, EachRoomIncludesOnlyWhatItMay) {
       }
     }
   }
+}
+
+/// A line of C++ without what stands in quotes and without its comment.
+struct Line {
+  std::string code;
+  bool commented = false;
+};
+
+Line split(const std::string& text) {
+  static const std::regex quoted(R"re("(\\.|[^"\\])*"|'(\\.|[^'\\])')re");
+  auto code = std::regex_replace(text, quoted, "_");
+  const auto comment = code.find("//");
+  return {code.substr(0, comment), comment != std::string::npos};
+}
+
+TEST(Numbers, OfTheRobotAreRowsAndOthersSayWhatTheyAre) {
+  const std::regex number(R"((^|[^\w.'])(0[xX][0-9A-Fa-f']+|\d[\d']{2,})(?![\w.']))");
+  std::size_t seen = 0;
+  for (const auto* room : {"vm", "protocol", "uploader", "compiler", "assembler", "serve"})
+    for (const auto& file : files_below(root / room, {".h", ".cpp"})) {
+      std::ifstream stream(file);
+      bool explained = false; // by a line above that is a comment
+      int at = 0;
+      for (std::string text; std::getline(stream, text);) {
+        ++at;
+        const auto [code, commented] = split(text);
+        const bool blank = code.find_first_not_of(' ') == std::string::npos;
+        const bool has_number = std::regex_search(code, number);
+        seen += has_number ? 1 : 0;
+        EXPECT_TRUE(!has_number || commented || explained)
+            << file << ":" << at << ": " << text
+            << "\n  a fact about the robot is a row of spec/; any other number has a comment";
+        explained = blank && commented;
+      }
+    }
+  EXPECT_GT(seen, 10U);
 }
 
 TEST(Floors, EveryFolderWithCodeIsARoom) {

@@ -36,8 +36,9 @@ tl::expected<Endpoint, std::string> read_rfcomm(Endpoint endpoint, std::string_v
   constexpr std::size_t text_size = 17; // AA:BB:CC:DD:EE:FF
   const auto address = rest.substr(0, text_size);
   for (std::size_t i = 0; i < endpoint.address.size(); ++i) {
-    const auto byte =
-        address.size() == text_size ? read_number(address.substr(i * 3, 2), 16, 255) : std::nullopt;
+    const auto byte = address.size() == text_size
+                          ? read_number(address.substr(i * 3, 2), 16, UINT8_MAX)
+                          : std::nullopt;
     if (!byte || (i > 0 && address[i * 3 - 1] != ':'))
       return wrong(endpoint.text, "a Bluetooth address is written `rfcomm://AA:BB:CC:DD:EE:FF`");
     endpoint.address[i] = static_cast<std::uint8_t>(*byte);
@@ -54,7 +55,7 @@ tl::expected<Endpoint, std::string> read_rfcomm(Endpoint endpoint, std::string_v
 }
 
 tl::expected<Endpoint, std::string> read_tcp(Endpoint endpoint, std::string_view rest) {
-  constexpr unsigned port_most = 65535;
+  constexpr unsigned port_most = UINT16_MAX;
   const auto colon = rest.rfind(':');
   const auto port =
       colon == rest.npos ? std::nullopt : read_number(rest.substr(colon + 1), 10, port_most);

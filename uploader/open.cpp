@@ -24,7 +24,7 @@ namespace {
 
 using protocol::LinkError;
 
-constexpr std::size_t read_most = 4096;
+constexpr std::size_t read_most = 4096; // bytes at once
 /// A link that takes no bytes for this long is broken: the longest packet needs 25 ms.
 constexpr Duration write_time = 5s;
 /// By custom; an RFCOMM port has no baud rate.
@@ -119,7 +119,7 @@ using Opened = tl::expected<std::unique_ptr<protocol::Transport>, LinkError>;
 
 /// Whether a device is the slave of a pty. Source: Linux, admin-guide/devices.txt
 bool is_pty(int handle) {
-  constexpr unsigned first = 136, last = 143;
+  constexpr unsigned first = 136, last = 143; // major numbers
   struct stat status {};
   return ::fstat(handle, &status) == 0 && S_ISCHR(status.st_mode) &&
          major(status.st_rdev) >= first && major(status.st_rdev) <= last;
