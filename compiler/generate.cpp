@@ -567,9 +567,12 @@ private:
   }
 
   void perform(Statement kind, std::span<const Item> items) {
-    if (const auto first = side_by_side(items))
-      emit(Op::Perform, static_cast<std::uint16_t>(kind), *first,
-           static_cast<std::uint16_t>(items.size()));
+    const auto first = side_by_side(items);
+    if (!first)
+      return;
+    // Of no arguments the first is any register that there is.
+    emit(Op::Perform, static_cast<std::uint16_t>(kind), items.empty() ? std::uint16_t{0} : *first,
+         static_cast<std::uint16_t>(items.size()));
   }
 
   struct Jump {

@@ -138,5 +138,9 @@ INSTANTIATE_TEST_SUITE_P(Machine, Programs, testing::ValuesIn(cases), [](const a
   return name;
 });
 
+TEST(Machine, PerformsAStatementWithoutArgumentsWhereNothingIsComputed) {
+  EXPECT_EQ(run_basic("10 mackill\n").notes, std::vector<std::string>{"mackill"});
+}
+
 } // namespace
 } // namespace orb::vm
