@@ -91,6 +91,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_explain(app, context);
   add_fmt(app, context);
   add_info(app, context);
+  add_lift(app, context);
   add_lsp(app, context);
   add_man(app, context);
   add_monitor(app, context);

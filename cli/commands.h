@@ -29,6 +29,7 @@ void add_exec(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_fmt(CLI::App& app, Context& context);
 void add_info(CLI::App& app, Context& context);
+void add_lift(CLI::App& app, Context& context);
 void add_lsp(CLI::App& app, Context& context);
 void add_man(CLI::App& app, Context& context);
 void add_monitor(CLI::App& app, Context& context);

@@ -321,15 +321,19 @@ private:
 
   void leave_switch(const CodeLine& line, const State& state) {
     const auto chosen = state[line.variable];
+    auto others = std::int64_t{chosen.hi} - chosen.lo + 1; // values without a case
     for (auto i = line.parts_begin; i < line.parts_end; ++i) {
       const auto& one = code_.cases[i];
       if (chosen.misses(one.lo, one.hi))
         continue;
       auto narrowed = state;
-      narrowed[line.variable] = {std::max(chosen.lo, one.lo), std::min(chosen.hi, one.hi)};
+      const Range common{std::max(chosen.lo, one.lo), std::min(chosen.hi, one.hi)};
+      others -= std::int64_t{common.hi} - common.lo + 1;
+      narrowed[line.variable] = common;
       enter(flow_.block_of_label[one.label], narrowed);
     }
-    enter(flow_.block_of_label[line.label], state);
+    if (others > 0)
+      enter(flow_.block_of_label[line.label], state);
   }
 
   // ---- rewriting

@@ -46,7 +46,7 @@ const std::vector<Room> rooms = {
     {6, "run", {"report", "compiler", "assembler", "uploader"}},
     {7, "editor", {"reference", "run"}},
     {7, "serve", {"vm", "disk"}},
-    {8, "cli", {"editor", "serve", "reference", "report", "uploader", "disk"}},
+    {8, "cli", {"editor", "serve", "reference", "report", "uploader", "structured", "disk"}},
 };
 
 const Room& room_called(const std::string& name) {

@@ -1,0 +1,65 @@
+#include "structured/lift.h"
+
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "compiler/check.h"
+#include "disk/disk.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string out = "-";
+};
+
+/// What speaks against lifting a program: it has errors, or cannot be lifted. Its other findings
+/// are for `orb check`.
+std::vector<Diagnostic> errors_of(std::vector<Diagnostic> findings) {
+  std::erase_if(findings,
+                [](const Diagnostic& found) { return found.severity != Severity::Error; });
+  return findings;
+}
+
+void lift(Context& context, const Options& options) {
+  const auto file = read_source(options.file, options.file == "-" ? "basic" : "");
+  if (!file)
+    return fail(context, file.error());
+  const auto& source = file->source;
+  if (file->language != run::Language::Basic)
+    return fail(context, {ExitCode::Usage,
+                          fmt::format("{}: a macro; `orb lift` takes numbered programs (.bas)",
+                                      source.name())});
+  const auto checked = compiler::check(source.text(), {});
+  if (print_findings(context, source, errors_of(checked.diagnostics))) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  const auto lifted = structured::lift(checked.program);
+  if (print_findings(context, source, lifted.findings)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  if (const auto written = disk::write(options.out, as_bytes(lifted.text)); !written)
+    fail(context, {ExitCode::File, written.error().message});
+}
+
+} // namespace
+
+void add_lift(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "lift", "turn a numbered program into a structured one",
+                              "orb lift maze.bas -o maze.orb\n"
+                              "orb lift maze.bas | less");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "a numbered program; `-` is standard input")
+      ->required();
+  command->add_option("-o,--output", options->out,
+                      "where the structured program goes; standard output if missing");
+  command->callback([&context, options] { lift(context, *options); });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,29 @@
+// Any text as a numbered program: one without errors is lifted or refused, and what is lifted
+// compiles and is laid out as it will stay.
+
+#include "compiler/check.h"
+#include "structured/compile.h"
+#include "structured/format.h"
+#include "structured/lift.h"
+
+#include <cstdlib>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace orb;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto checked = compiler::check(text, {});
+  for (const auto& found : checked.diagnostics)
+    if (found.severity == Severity::Error)
+      return 0;
+  const auto lifted = structured::lift(checked.program);
+  for (const auto& found : lifted.findings)
+    if (found.span.begin > found.span.end || found.span.end > size)
+      std::abort();
+  if (lifted.text.empty())
+    return lifted.findings.empty() ? (std::abort(), 0) : 0;
+  structured::NoFiles files;
+  if (structured::compile("", "", lifted.text, {}, files).has_errors() ||
+      structured::format(lifted.text) != lifted.text)
+    std::abort();
+  return 0;
+}

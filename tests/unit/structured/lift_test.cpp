@@ -1,0 +1,204 @@
+#include "structured/lift.h"
+
+#include "compiler/check.h"
+#include "compiler/load.h"
+#include "random_structured.h"
+#include "structured/compile.h"
+#include "structured/format.h"
+#include "tests/random_program.h"
+#include "vm/machine.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace orb::structured {
+namespace {
+
+/// How many programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second or two.
+std::uint64_t how_many(std::uint64_t usually) {
+  const char* wanted = std::getenv("ORB_PROGRAMS");
+  return wanted ? std::strtoull(wanted, nullptr, 10) : usually;
+}
+
+/// Writes down what a program prints and does, in order; what it prints in pieces is one entry.
+class Trace final : public vm::Host {
+public:
+  std::int32_t read(spec::Variable variable, Instant) override {
+    const auto value = values_[variable];
+    if (spec::info(variable).access == spec::Access::ReadClears)
+      values_[variable] = 0;
+    return value;
+  }
+  std::optional<spec::BasicError> write(spec::Variable variable, std::int32_t value,
+                                        Instant) override {
+    values_[variable] = value;
+    add(std::string(spec::info(variable).word) + " = " + std::to_string(value));
+    return std::nullopt;
+  }
+  std::optional<spec::BasicError>
+  perform(spec::Statement statement, std::span<const std::int32_t> arguments, Instant) override {
+    std::string event{spec::info(statement).word};
+    const bool sleeps = statement == spec::Statement::Sleep; // the line it wakes into has moved
+    for (const auto argument : arguments.first(sleeps ? 2 : arguments.size()))
+      event += " " + std::to_string(argument);
+    if (sleeps)
+      end = "sleep";
+    add(std::move(event));
+    return std::nullopt;
+  }
+  std::optional<Instant> print(std::string_view text, Instant) override {
+    if (!printing_)
+      add("print ");
+    printing_ = true;
+    events.back() += text;
+    return std::nullopt;
+  }
+  void line_ended(int, Instant) override {}
+
+  std::vector<std::string> events;
+  std::string end = "running";
+
+private:
+  void add(std::string event) {
+    events.push_back(std::move(event));
+    printing_ = false;
+  }
+
+  std::map<spec::Variable, std::int32_t> values_ = {
+      {spec::Variable::Speed, 77},  {spec::Variable::Yaw, 350},  {spec::Variable::Xpos, -12},
+      {spec::Variable::Cmdroll, 1}, {spec::Variable::Dshake, 1}, {spec::Variable::Sbatt, 2}};
+  bool printing_ = false;
+};
+
+/// Runs a numbered program from its first line for at most so many lines. Lines take no time to
+/// speak of, so that programs with fewer or more of them read the same timers.
+Trace run(std::string_view text, std::uint64_t most_lines) {
+  constexpr std::uint32_t lines_per_second = 1'000'000'000;
+  Trace trace;
+  vm::Machine machine(lines_per_second, 1);
+  auto chunk = compiler::load(text);
+  const int first = chunk.lines.empty() ? 0 : chunk.lines.front().number;
+  machine.start(std::move(chunk), first, Instant{});
+  while (machine.running() && machine.next_event() != never && machine.lines() < most_lines &&
+         trace.end == "running")
+    machine.run(std::max(machine.next_event(), machine.now()) + 10us, trace);
+  if (const auto stop = machine.take_stop(); stop && trace.end == "running")
+    trace.end = stop->error ? spec::info(*stop->error).text : "end";
+  return trace;
+}
+
+std::string joined(const std::vector<std::string>& events) {
+  std::string text;
+  for (const auto& event : events)
+    text += event + "\n";
+  return text.substr(0, 1500);
+}
+
+/// A print that is too long for the robot arrives whole from a structured program.
+bool prints_too_much(const Trace& trace) {
+  return std::any_of(trace.events.begin(), trace.events.end(), [](const std::string& event) {
+    return event.find("(print exceeds") != std::string::npos;
+  });
+}
+
+void expect_same(const Trace& numbered, const Trace& lifted) {
+  if (numbered.end != "running" && lifted.end != "running") {
+    ASSERT_EQ(joined(numbered.events), joined(lifted.events));
+    ASSERT_EQ(numbered.end, lifted.end);
+    return;
+  }
+  const auto both = std::min(numbered.events.size(), lifted.events.size());
+  for (std::size_t i = 0; i + 1 < both; ++i) // the last print may go on
+    ASSERT_EQ(numbered.events[i], lifted.events[i]);
+}
+
+/// The errors that keep a program from being lifted.
+std::vector<Diagnostic> errors_of(std::string_view text) {
+  const auto checked = compiler::check(text, {});
+  auto errors = checked.diagnostics;
+  const auto is_small = [](const Diagnostic& found) { return found.severity != Severity::Error; };
+  std::erase_if(errors, is_small);
+  if (!errors.empty())
+    return errors;
+  errors = lift(checked.program).findings;
+  std::erase_if(errors, is_small);
+  return errors;
+}
+
+/// Lifts a program without errors, compiles what came out and compares what both do.
+void compare(std::string_view text) {
+  const auto checked = compiler::check(text, {});
+  const auto lifted = lift(checked.program);
+  SCOPED_TRACE("numbered:\n" + std::string(text) + "\nlifted:\n" + lifted.text);
+  ASSERT_EQ(format(lifted.text), lifted.text);
+  NoFiles files;
+  const auto compiled = compile("lifted.orb", "lifted.orb", lifted.text, {}, files);
+  ASSERT_FALSE(compiled.has_errors());
+  const auto numbered = run(text, 4000);
+  if (!prints_too_much(numbered))
+    expect_same(numbered, run(compiled.robot.text, 16000));
+}
+
+/// A random program in which each line that keeps it from being lifted prints its number instead.
+std::string liftable(std::uint64_t seed) {
+  testing::RandomProgram::Style style;
+  style.lines = 4 + static_cast<int>(seed % 14);
+  style.wild_jump = 0;
+  auto text = testing::RandomProgram(seed, style).write();
+  for (int turn = 0; turn < 3 * style.lines; ++turn) {
+    const auto errors = errors_of(text);
+    if (errors.empty())
+      return text;
+    const Source source("", text);
+    const auto line = source.position(errors.front().span.begin).line;
+    const auto number = std::to_string(10 * line);
+    text.replace(source.line_start(line), source.line(line).size(), number + " print " + number);
+  }
+  return {};
+}
+
+TEST(Lift, RandomProgramsDoTheSame) {
+  const auto programs = how_many(1500);
+  std::uint64_t lifted = 0;
+  for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
+    if (const auto text = liftable(seed); !text.empty()) {
+      ++lifted;
+      compare(text);
+    }
+  EXPECT_GT(lifted, programs * 9 / 10);
+  RecordProperty("lifted", std::to_string(lifted));
+}
+
+TEST(Lift, CompiledProgramsDoTheSame) {
+  std::uint64_t lifted = 0;
+  const auto programs = how_many(600);
+  for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed) {
+    NoFiles files;
+    const auto compiled =
+        compile("random.orb", "random.orb", testing::RandomStructured(seed).write(), {}, files);
+    if (compiled.has_errors() || !compiled.runs || !errors_of(compiled.robot.text).empty())
+      continue;
+    ++lifted;
+    compare(compiled.robot.text);
+  }
+  EXPECT_GT(lifted, programs / 4);
+  RecordProperty("lifted", std::to_string(lifted));
+}
+
+TEST(Lift, AnyProgramIsLiftedOrRefused) {
+  testing::RandomProgram::Style style;
+  style.lines = 60;
+  for (std::uint64_t seed = 1; seed <= how_many(300); ++seed) {
+    const auto text = testing::RandomProgram(seed, style).write();
+    for (const auto& found : errors_of(text)) {
+      EXPECT_LE(found.span.begin, found.span.end);
+      EXPECT_LE(found.span.end, text.size());
+      EXPECT_FALSE(found.message.empty());
+    }
+  }
+}
+
+} // namespace
+} // namespace orb::structured
