@@ -4,7 +4,7 @@
 //   reliability [--uploads N] [--document FILE]
 //
 // N uploads per fault profile (default 1000); all other parts are complete at any N. With
-// --document the result is written as docs/reliability.md.
+// --document the result takes the place of the first sections of docs/reliability.md.
 
 #include "compiler/load.h"
 #include "protocol/link_faults.h"
@@ -21,6 +21,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -504,6 +505,15 @@ void add_speed(Page& page) {
   page.check(ratio <= 1.05, fmt::format("speed: {:.3f} of what is needed", ratio));
 }
 
+/// Writes the text to the document, above what others have measured there.
+void write(const std::string& document, const std::string& text) {
+  std::ostringstream before;
+  before << std::ifstream(document, std::ios::binary).rdbuf();
+  const auto others = before.str().find("\n## Writes that fail");
+  std::ofstream(document, std::ios::binary)
+      << text << (others == std::string::npos ? std::string() : before.str().substr(others + 1));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -517,19 +527,18 @@ int main(int argc, char** argv) {
       document = argv[i + 1];
   }
   Page page;
-  page.add(fmt::format(
-      "# How reliable uploading is\n\n"
-      "Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`, the "
-      "last section by\n`tests/reliability/injected_faults`; do not edit. The ball is the built-in "
-      "one, time is virtual, every\nupload has its own seed, so the numbers repeat exactly. After "
-      "each upload the ball's storage is compared\nwith what was reported: *ok* is a success that "
-      "is "
-      "one, *reported* is a failure whose message describes the\nball truly, *wrong* is everything "
-      "else. The columns of other libraries are from 2000 runs of each against a\nball with the "
-      "same "
-      "faults (a duplicate there is a doubled answer); what they were not measured with is\nmarked "
-      "–.\n\n",
-      uploads));
+  page.add(fmt::format(R"(# How reliable uploading is
+
+Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`, from
+[Writes that fail](#writes-that-fail) on by the commands that are named there; do not edit. The ball is
+the built-in one, time is virtual, every upload has its own seed, so the numbers repeat exactly. After
+each upload the ball's storage is compared with what was reported: *ok* is a success that is one,
+*reported* is a failure whose message describes the ball truly, *wrong* is everything else. The columns
+of other libraries are from 2000 runs of each against a ball with the same faults (a duplicate there is
+a doubled answer); what they were not measured with is marked –.
+
+)",
+                       uploads));
   add_profiles(page, uploads);
   add_doubled_requests(page, uploads);
   add_flips(page);
@@ -537,6 +546,6 @@ int main(int argc, char** argv) {
   add_full_storage(page);
   add_speed(page);
   if (!document.empty())
-    std::ofstream(document, std::ios::binary) << page.text;
+    write(document, page.text);
   return page.failed ? 1 : 0;
 }
