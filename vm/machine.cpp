@@ -64,52 +64,52 @@ bool only_lights(Statement statement) {
 // --- slow operations
 // ------------------------------------------------------------------------------
 
-Flow Core::read_system(const Code& instruction) {
+Then Core::read_system(const Code& instruction) {
   const auto variable = static_cast<Variable>(instruction.b);
   const Instant now = line_end();
   if (!is_timer(variable)) {
     registers[instruction.a] = host->read(variable, now);
-    return Flow::Next;
+    return Then::Next;
   }
   const auto& timer = timers[timer_number(variable)];
   const std::int64_t elapsed = (now - timer.since) / std::chrono::milliseconds{1};
   registers[instruction.a] =
       timer.from == 0 ? static_cast<std::int32_t>(elapsed % timer_values)
                       : static_cast<std::int32_t>(std::max<std::int64_t>(0, timer.from - elapsed));
-  return Flow::Next;
+  return Then::Next;
 }
 
-Flow Core::write_system(const Code& instruction) {
+Then Core::write_system(const Code& instruction) {
   const auto variable = static_cast<Variable>(instruction.a);
   const std::int32_t value = registers[instruction.b];
   if (!is_timer(variable)) {
     const auto problem = host->write(variable, value, line_end());
     // The rest of the line is at most its end.
-    return problem ? fail(*problem) : Flow::Next;
+    return problem ? fail(*problem) : Then::Next;
   }
   if (value < 0 || value >= timer_values)
     return fail(BasicError::BadNumericParameter);
   timers[timer_number(variable)] = {line_end(), value};
-  return Flow::Next;
+  return Then::Next;
 }
 
-Flow Core::square_root(const Code& instruction) {
+Then Core::square_root(const Code& instruction) {
   const std::int32_t value = registers[instruction.b];
   if (value < 0)
     return fail(BasicError::BadNumericParameter);
   // 31 bits are exact in a double, and IEEE rounds the root correctly.
   registers[instruction.a] = static_cast<std::int32_t>(std::sqrt(static_cast<double>(value)));
-  return Flow::Next;
+  return Then::Next;
 }
 
-Flow Core::random_number(const Code& instruction) {
+Then Core::random_number(const Code& instruction) {
   const std::int32_t most = registers[instruction.b];
   if (most < 1)
     return fail(BasicError::BadNumericParameter);
   const std::uint64_t drawn = random.next() >> 32;
   registers[instruction.a] =
       1 + static_cast<std::int32_t>(drawn * static_cast<std::uint64_t>(most) >> 32);
-  return Flow::Next;
+  return Then::Next;
 }
 
 void Core::print_number(std::int32_t value) {
@@ -118,7 +118,7 @@ void Core::print_number(std::int32_t value) {
   text.append(digits, end);
 }
 
-Flow Core::print(PrintEnd end) {
+Then Core::print(PrintEnd end) {
   if (text.size() > print_bytes)
     text = too_long;
   else if (end == PrintEnd::Line)
@@ -127,31 +127,31 @@ Flow Core::print(PrintEnd end) {
   const auto again = host->print(text, now);
   if (!again) {
     text.clear();
-    return Flow::Leave; // whoever watches the output may want to stop here
+    return Then::Leave; // whoever watches the output may want to stop here
   }
   pending = std::move(text);
   text.clear();
   wait = Wait::Queue;
   until = *again;
-  return Flow::Leave;
+  return Then::Leave;
 }
 
-Flow Core::delay(std::int32_t milliseconds) {
+Then Core::delay(std::int32_t milliseconds) {
   if (!within(spec::info(Statement::Delay).parameters()[0], milliseconds))
     return fail(BasicError::BadNumericParameter);
   wait = Wait::Time;
   until = line_end() + std::chrono::milliseconds{milliseconds};
-  return Flow::Leave;
+  return Then::Leave;
 }
 
-Flow Core::input(const Code& instruction) {
+Then Core::input(const Code& instruction) {
   entry = instruction.a;
   wait = Wait::Input;
   until = never;
-  return Flow::Leave;
+  return Then::Leave;
 }
 
-Flow Core::input_timed(const Code& instruction) {
+Then Core::input_timed(const Code& instruction) {
   const std::int32_t milliseconds = registers[instruction.b];
   if (!within(spec::info(Statement::Input).parameters()[0], milliseconds))
     return fail(BasicError::BadNumericParameter);
@@ -159,10 +159,10 @@ Flow Core::input_timed(const Code& instruction) {
   fallback = registers[instruction.c];
   wait = Wait::Input;
   until = line_end() + std::chrono::milliseconds{milliseconds};
-  return Flow::Leave;
+  return Then::Leave;
 }
 
-Flow Core::enter(std::int32_t value) {
+Then Core::enter(std::int32_t value) {
   std::size_t index = entry;
   if (entry == bytecode::element_by_index) {
     const std::int32_t y = registers[bytecode::index_variable];
@@ -171,24 +171,24 @@ Flow Core::enter(std::int32_t value) {
     index = bytecode::first_element + static_cast<std::size_t>(y) - 1;
   }
   registers[index] = value;
-  return Flow::Next;
+  return Then::Next;
 }
 
-Flow Core::set_data(const Code& instruction) {
+Then Core::set_data(const Code& instruction) {
   data_count = instruction.b;
   data_next = 0;
   std::copy_n(registers.begin() + instruction.a, data_count, data.begin());
-  return Flow::Next;
+  return Then::Next;
 }
 
-Flow Core::read_data(const Code& instruction) {
+Then Core::read_data(const Code& instruction) {
   if (data_next == data_count)
     return fail(BasicError::OutOfData);
   registers[instruction.a] = data[data_next++];
-  return Flow::Next;
+  return Then::Next;
 }
 
-Flow Core::perform(const Code& instruction) {
+Then Core::perform(const Code& instruction) {
   const auto statement = static_cast<Statement>(instruction.a);
   const std::span<const std::int32_t> arguments{registers.data() + instruction.b, instruction.c};
   const auto parameters = spec::info(statement).parameters();
@@ -197,7 +197,7 @@ Flow Core::perform(const Code& instruction) {
       return fail(BasicError::BadNumericParameter);
   if (const auto problem = host->perform(statement, arguments, line_end()))
     return fail(*problem);
-  return only_lights(statement) ? Flow::Next : Flow::Leave;
+  return only_lights(statement) ? Then::Next : Then::Leave;
 }
 
 void Core::reseed() {
@@ -216,17 +216,17 @@ void Core::clear() {
   reseed();
 }
 
-Flow Core::trace() {
+Then Core::trace() {
   tron = true;
-  return Flow::Leave;
+  return Then::Leave;
 }
 
-Flow Core::reset() {
+Then Core::reset() {
   const Instant now = line_end();
   clear();
   pc = start;
   host->perform(Statement::Reset, {}, now);
-  return Flow::Leave;
+  return Then::Leave;
 }
 
 // --- the machine
@@ -382,7 +382,7 @@ void Machine::deliver_input(std::int32_t value, Instant now) {
   if (!running_ || core_.wait != Core::Wait::Input)
     return;
   resume(std::max(now, now_));
-  if (core_.enter(value) == Flow::Fault)
+  if (core_.enter(value) == Then::Fault)
     finish(core_.error, line_of(core_.at));
 }
 
@@ -394,7 +394,7 @@ bool Machine::continue_wait(Instant limit, Host& host) {
     return false;
   const auto wait = core_.wait;
   resume(core_.until);
-  if (wait == Core::Wait::Input && core_.enter(core_.fallback) == Flow::Fault) {
+  if (wait == Core::Wait::Input && core_.enter(core_.fallback) == Then::Fault) {
     finish(core_.error, line_of(core_.at));
     return false;
   }

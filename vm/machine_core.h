@@ -57,7 +57,7 @@ struct Frames {
 };
 
 /// What an operation that the loop does not do by itself says about going on.
-enum class Flow : std::uint8_t {
+enum class Then : std::uint8_t {
   Next,  ///< go on
   Fault, ///< the program stops with `error`
   Leave  ///< the line has ended; let the ball look at the world before the next one
@@ -127,30 +127,30 @@ struct Core {
   /// The end of the line that is being executed.
   Instant line_end() const { return time_of(done + allowed - budget); }
 
-  Flow fail(spec::BasicError what) {
+  Then fail(spec::BasicError what) {
     error = what;
-    return Flow::Fault;
+    return Then::Fault;
   }
 
   // The slow operations: each belongs to the instruction of its name.
-  Flow read_system(const Code& code);
-  Flow write_system(const Code& code);
-  Flow square_root(const Code& code);
-  Flow random_number(const Code& code);
+  Then read_system(const Code& code);
+  Then write_system(const Code& code);
+  Then square_root(const Code& code);
+  Then random_number(const Code& code);
   void print_number(std::int32_t value);
-  Flow print(PrintEnd end);
-  Flow delay(std::int32_t milliseconds);
-  Flow input(const Code& code);
-  Flow input_timed(const Code& code);
-  Flow set_data(const Code& code);
-  Flow read_data(const Code& code);
-  Flow perform(const Code& code);
+  Then print(PrintEnd end);
+  Then delay(std::int32_t milliseconds);
+  Then input(const Code& code);
+  Then input_timed(const Code& code);
+  Then set_data(const Code& code);
+  Then read_data(const Code& code);
+  Then perform(const Code& code);
   void reseed();
   void clear();
-  Flow trace();
-  Flow reset();
+  Then trace();
+  Then reset();
   /// Sets what `input` waits for.
-  Flow enter(std::int32_t value);
+  Then enter(std::int32_t value);
 };
 
 /// A way to run code: what to put into Code::handler for each operation, and the loop itself.

@@ -50,8 +50,8 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
 
 #define SLOW(next, call)                                                                           \
   SYNC(next);                                                                                      \
-  if (const Flow flow = call; flow != Flow::Next)                                                  \
-  return flow == Flow::Fault ? Exit::Fault : Exit::Leave
+  if (const Then flow = call; flow != Then::Next)                                                  \
+  return flow == Then::Fault ? Exit::Fault : Exit::Leave
 
 // The element of Z that Y names.
 #define ELEMENT(index)                                                                             \
