@@ -72,7 +72,7 @@ bool is_sign(const Token& token, std::string_view signs) {
          signs.find(token.text) != std::string_view::npos;
 }
 
-/// Whether an operand has just ended, so that a minus sign behind it is an operator.
+/// Whether an operand has just ended, so that a minus sign after it is an operator.
 bool ends_operand(const Token& token) {
   if (token.kind == TokenKind::Word) {
     const auto kind = find_word(token.text).kind;

@@ -32,7 +32,7 @@ public:
 private:
   // ---- facts about lines
 
-  /// Of each line: the variables that it reads and nothing behind it.
+  /// Of each line: the variables that it reads and nothing after it.
   void find_last_reads() {
     last_reads_.assign(code_.lines.size(), {});
     std::vector<std::uint64_t> live;
@@ -129,7 +129,7 @@ private:
     return found || ((code_.terms[term].effects & effect::elements) != 0 && sets_elements(line));
   }
 
-  /// Whether a term can be computed behind a line in place of before it.
+  /// Whether a term can be computed after a line instead of before it.
   bool passes(const CodeLine& line, std::uint32_t term) const {
     const auto effects = code_.terms[term].effects;
     constexpr std::uint8_t noticed = effect::faults | effect::clears;

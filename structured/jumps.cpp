@@ -41,7 +41,7 @@ private:
         at_[code_.lines[i].label] = i;
   }
 
-  /// The first line behind a label that does something; none at the end of the text.
+  /// The first line after a label that does something; none at the end of the text.
   std::uint32_t behind(std::uint32_t line) const {
     while (line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
                                          code_.lines[line].kind == LineKind::Nothing))

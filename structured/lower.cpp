@@ -39,7 +39,7 @@ public:
     const auto& main = program_.files.front();
     block(main.statements_begin, main.statements_end);
     emit(LineKind::Do).robot = spec::Statement::End;
-    // Routines that are called are written behind the main program; they may call others.
+    // Routines that are called are written after the main program; they may call others.
     for (std::size_t n = 0; n < called_.size() && !full(); ++n)
       routine(called_[n]);
     code_.too_large = full();
@@ -214,7 +214,7 @@ private:
     case NodeKind::Relation:
     case NodeKind::Not:
     case NodeKind::And:
-    case NodeKind::Or: push(code_.number(0)); return; // reported: a condition is no value
+    case NodeKind::Or: push(code_.number(0)); return; // reported: a condition is not a value
     }
   }
 
@@ -465,7 +465,7 @@ private:
       push_value(root);
       const auto term = pop();
       const auto index = pop();
-      pending_.push_back(term); // computed behind the index
+      pending_.push_back(term); // computed after the index
       auto below = std::exchange(pending_, {});
       point_at(array, index);
       pending_ = std::move(below);

@@ -654,7 +654,7 @@ private:
     return in.current();
   }
 
-  /// Where parsing goes on behind a line that does not parse: the end of the line on which it
+  /// Where parsing goes on after a line that does not parse: the end of the line on which it
   /// shows, unless that only goes on because a bracket was never closed.
   const char* resume(const char* begin, const char* at) const {
     const char* last = at;
@@ -731,18 +731,53 @@ private:
       throw Stop{Reason::BlockInOneLine, word.data()};
   }
 
-  void keyword(Input& in, Keyword keyword, std::string_view word, Position position) {
-    if (keyword == Keyword::Exit || keyword == Keyword::Continue) {
-      bare(in, keyword == Keyword::Exit ? Kind::Exit : Kind::Continue, word);
-      const auto behind = peek_name(in); // `exit for`, as elsewhere
-      if (is_loop_word(behind)) {
-        builder_.report(habit(program_, span(behind), " "));
-        in.bump(behind.size());
-      }
-      return;
+  /// `exit` and `continue`, which may stand in a branch.
+  void leave_line(Input& in, Kind kind, std::string_view word) {
+    bare(in, kind, word);
+    const auto loop = peek_name(in); // `exit for`, as elsewhere
+    if (is_loop_word(loop)) {
+      builder_.report(habit(program_, span(loop), " "));
+      in.bump(loop.size());
     }
-    only_on_line(position, word);
+  }
+
+  void repeat_line(Input& in, std::string_view word) {
+    begin(in, Kind::Repeat, word);
+    if (!at_end(in)) {
+      builder_.statement().kind = Kind::RepeatTimes;
+      tail<g::one_value>(in);
+    }
+    builder_.finish(in.current());
+  }
+
+  void select_line(Input& in, std::string_view word) {
+    begin(in, Kind::Select, word);
+    if (equal_words(peek_name(in), "case")) {
+      builder_.report(habit(program_, span(peek_name(in)), " "));
+      in.bump(4);
+      skip_blanks(in);
+    }
+    tail<g::one_value>(in);
+    builder_.finish(in.current());
+  }
+
+  void case_line(Input& in, std::string_view word) {
+    begin(in, Kind::Case, word);
+    if (equal_words(peek_name(in), "else")) {
+      builder_.statement().kind = Kind::Else;
+      in.bump(4);
+    } else {
+      tail<g::case_values>(in);
+    }
+    builder_.finish(in.current());
+  }
+
+  void keyword(Input& in, Keyword keyword, std::string_view word, Position position) {
+    if (keyword != Keyword::Exit && keyword != Keyword::Continue)
+      only_on_line(position, word);
     switch (keyword) {
+    case Keyword::Exit: leave_line(in, Kind::Exit, word); return;
+    case Keyword::Continue: leave_line(in, Kind::Continue, word); return;
     case Keyword::Const: simple<g::constant>(in, Kind::Const, word); return;
     case Keyword::Local: simple<g::locals>(in, Kind::Local, word); return;
     case Keyword::Array: simple<g::array>(in, Kind::Array, word); return;
@@ -751,40 +786,13 @@ private:
     case Keyword::ElseIf: conditional(in, Kind::ElseIf, word); return;
     case Keyword::Else: else_line(in, word); return;
     case Keyword::While: simple<g::one_value>(in, Kind::While, word); return;
-    case Keyword::Repeat:
-      begin(in, Kind::Repeat, word);
-      if (!at_end(in)) {
-        builder_.statement().kind = Kind::RepeatTimes;
-        tail<g::one_value>(in);
-      }
-      builder_.finish(in.current());
-      return;
+    case Keyword::Repeat: repeat_line(in, word); return;
     case Keyword::Until: simple<g::one_value>(in, Kind::Until, word); return;
     case Keyword::Loop: loop_line(in, word); return;
-    case Keyword::Select:
-      begin(in, Kind::Select, word);
-      if (equal_words(peek_name(in), "case")) {
-        builder_.report(habit(program_, span(peek_name(in)), " "));
-        in.bump(4);
-        skip_blanks(in);
-      }
-      tail<g::one_value>(in);
-      builder_.finish(in.current());
-      return;
-    case Keyword::Case:
-      begin(in, Kind::Case, word);
-      if (equal_words(peek_name(in), "else")) {
-        builder_.statement().kind = Kind::Else;
-        in.bump(4);
-      } else {
-        tail<g::case_values>(in);
-      }
-      builder_.finish(in.current());
-      return;
+    case Keyword::Select: select_line(in, word); return;
+    case Keyword::Case: case_line(in, word); return;
     case Keyword::Sub: simple<g::routine>(in, Kind::Sub, word); return;
     case Keyword::Function: simple<g::routine>(in, Kind::Function, word); return;
-    case Keyword::Exit:
-    case Keyword::Continue:
     case Keyword::Then:
     case Keyword::To:
     case Keyword::Step:
@@ -1014,6 +1022,39 @@ private:
     builder_.finish(in.current());
   }
 
+  /// `do` alone on its line: a loop without an end.
+  bool do_line(Input& in, std::string_view name) {
+    const char* ahead = name.data() + name.size();
+    while (ahead != end_ && is_blank(*ahead))
+      ++ahead;
+    if (ahead != end_ && !is_line_end(*ahead) && *ahead != '\'')
+      throw Stop{Reason::NotAStatement, name.data()};
+    ++do_lines_;
+    builder_.report(habit(program_, span(name), "loop"));
+    bare(in, Kind::Loop, name);
+    return true;
+  }
+
+  /// `var x = 1`, `let x = 1`, `call sub` and `dim a[3]`.
+  bool declaration(Input& in, std::string_view name, Position position) {
+    const Span word{span(name).begin, builder_.span(name.data(), name.data() + name.size()).end};
+    in.bump(name.size());
+    skip_blanks(in);
+    const auto target = peek_name(in);
+    if (target.empty() || find_word(target).kind != WordKind::Name)
+      throw Stop{Reason::NotAStatement, name.data()};
+    if (!equal_words(name, "dim")) {
+      builder_.report(habit(program_, {word.begin, span(target).begin}, " "));
+      statement(in, position);
+      return true;
+    }
+    builder_.report(habit(program_, word, "array"));
+    builder_.begin(Kind::Array, word);
+    tail<g::array>(in);
+    builder_.finish(in.current());
+    return true;
+  }
+
   /// Statements of other languages; what has one meaning is taken with a finding.
   bool foreign(Input& in, std::string_view name, Position position) {
     struct Ending {
@@ -1045,35 +1086,10 @@ private:
       bare(in, Kind::Exit, name);
       return true;
     }
-    if (is("do")) {
-      const char* ahead = name.data() + name.size();
-      while (ahead != end_ && is_blank(*ahead))
-        ++ahead;
-      if (ahead != end_ && !is_line_end(*ahead) && *ahead != '\'')
-        throw Stop{Reason::NotAStatement, name.data()};
-      ++do_lines_;
-      builder_.report(habit(program_, span(name), "loop"));
-      bare(in, Kind::Loop, name);
-      return true;
-    }
-    if (is("var") || is("let") || is("call") || is("dim")) {
-      const Span word{span(name).begin, builder_.span(name.data(), name.data() + name.size()).end};
-      in.bump(name.size());
-      skip_blanks(in);
-      const auto target = peek_name(in);
-      if (target.empty() || find_word(target).kind != WordKind::Name)
-        throw Stop{Reason::NotAStatement, name.data()};
-      if (is("dim")) {
-        builder_.report(habit(program_, word, "array"));
-        builder_.begin(Kind::Array, word);
-        tail<g::array>(in);
-        builder_.finish(in.current());
-        return true;
-      }
-      builder_.report(habit(program_, {word.begin, span(target).begin}, " "));
-      statement(in, position);
-      return true;
-    }
+    if (is("do"))
+      return do_line(in, name);
+    if (is("var") || is("let") || is("call") || is("dim"))
+      return declaration(in, name, position);
     return false;
   }
 
@@ -1094,7 +1110,7 @@ void parse(Program& program, std::string name, std::string path, std::string_vie
   file.begin = static_cast<std::uint32_t>(program.text.size());
   program.text.append(text.substr(0, text.find('\0')));
   file.end = static_cast<std::uint32_t>(program.text.size());
-  program.text += '\n'; // a place behind the last byte
+  program.text += '\n'; // a place after the last byte
   file.statements_begin = static_cast<std::uint32_t>(program.statements.size());
   program.statements.reserve(program.statements.size() + text.size() / 16);
   program.items.reserve(program.items.size() + text.size() / 12);

@@ -86,7 +86,7 @@ private:
       part.text.begin = code_.lines[first].variable; // the routine
       calls.push_back(part);
     }
-    // The first target stands right behind, so the way on is a jump from there.
+    // The first target comes right after, so the way on is a jump from there.
     const auto index = static_cast<std::uint32_t>(&line - code_.lines.data());
     if (behind(index + 1) >= code_.lines.size() ||
         code_.lines[behind(index + 1)].kind != LineKind::Gosub)
@@ -164,7 +164,7 @@ private:
     }
   }
 
-  /// Puts the labels behind `on … gosub` where the program goes on.
+  /// Puts the labels after `on … gosub` where the program goes on.
   void land() {
     std::sort(landing_.begin(), landing_.end(), std::greater<>());
     for (const auto& [line, label] : landing_) {

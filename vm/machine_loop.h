@@ -6,7 +6,7 @@
 //   DISPATCH()     goes to the block of `pc`
 //
 // A line ends with NEXT_LINE: one count down, one compare. Everything that can happen besides
-// (other parts of the ball, the end of `--for`, tracing) is behind that budget.
+// (other parts of the ball, the end of `--for`, tracing) is part of that budget.
 
 using bytecode::element_by_index;
 using bytecode::element_count;
@@ -28,7 +28,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     DISPATCH();                                                                                    \
   } while (false)
 
-// The line ends, and the one behind it in the text is next.
+// The line ends, and the one after it in the text is next.
 #define FOLLOWING_LINE()                                                                           \
   do {                                                                                             \
     pc = pc->following_line();                                                                     \
@@ -63,7 +63,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
 #define B r[pc->b]
 #define C r[pc->c]
 
-// An operation behind which the line goes on.
+// An operation after which the line goes on.
 #define STEP(name, ...)                                                                            \
   OP(name) {                                                                                       \
     __VA_ARGS__;                                                                                   \
@@ -71,7 +71,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     DISPATCH();                                                                                    \
   }
 
-// An operation behind which the line may go on or end.
+// An operation after which the line may go on or end.
 #define VALUE(name, ...)                                                                           \
   STEP(name, __VA_ARGS__)                                                                          \
   OP_LINE(name) {                                                                                  \
