@@ -11,7 +11,8 @@ struct Foreign {
 
   std::string_view spelling; ///< in small letters
   Place place;
-  std::string_view instead; ///< what takes its place; `-` nothing, empty where a person must write
+  std::string_view instead; ///< what takes its place; `-` nothing, `--` not even
+                            ///< its line, empty where a person must write
   std::string_view help;
 };
 

@@ -268,8 +268,7 @@ private:
     if (!is_loop_part(node))
       return;
     if (is(node, spec::Statement::Next) && (set_ & bit(stepped_by(node))) == 0) {
-      findings_.add(rules::NextWithoutFor, node.span,
-                    fmt::format("there is no `for {}`", name_of(stepped_by(node))));
+      add_next_of_nobody(i);
       return;
     }
     bool always = true;
@@ -285,6 +284,40 @@ private:
       add_depth(node, *stopped).severity = always ? Severity::Error : Severity::Warning;
     else if (always)
       add_stray_next(node, stopped->loops);
+  }
+
+  /// Whether more loops count in a letter than end with it.
+  bool lacks_next(std::uint32_t variable) const {
+    int open = 0;
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const auto& node = statement(i);
+      open += is(node, spec::Statement::For) && counter_of(node) == variable ? 1 : 0;
+      open -= is(node, spec::Statement::Next) && stepped_by(node) == variable ? 1 : 0;
+    }
+    return open > 0;
+  }
+
+  /// `next Q` without any `for Q`: where one loop is open on every way and lacks its `next`, this
+  /// is the one.
+  void add_next_of_nobody(std::uint32_t i) {
+    const auto& node = statement(i);
+    auto& d = findings_.add(rules::NextWithoutFor, node.span,
+                            fmt::format("there is no `for {}`", name_of(stepped_by(node))));
+    std::optional<std::uint32_t> innermost;
+    for (auto at = first_state_[i]; at != none; at = states_[at].next) {
+      const auto& loops = states_[at].loops;
+      if (!loops.known || loops.count == 0)
+        return;
+      const std::uint32_t here = loops.variables[loops.count - 1U];
+      if (innermost.value_or(here) != here)
+        return;
+      innermost = here;
+    }
+    if (!innermost || !lacks_next(*innermost))
+      return;
+    d.help = fmt::format("write `next {}`", name_of(*innermost));
+    d.fix = single_fix(d.help, program_.as<NextView>(node).variable.span,
+                       std::string(1, name_of(*innermost)));
   }
 
   Diagnostic& add_depth(const StatementNode& node, const State& state) {

@@ -81,12 +81,24 @@ private:
           rules::MissingLineNumber, run[i]->span,
           fmt::format("expected a line number, found `{}`", program_.text_of(run[i]->span)),
           fmt::format("each line begins with a number from 1 to {}", greatest));
-      const auto free = below + std::min(room, step) * static_cast<std::uint32_t>(i + 1);
-      if (room == 0 || is_named(free))
+      auto free = below + std::min(room, step) * static_cast<std::uint32_t>(i + 1);
+      if (const auto named = named_between(below, above); run.size() == 1 && named.size() == 1)
+        free = named[0]; // what jumps into the gap means this line
+      else if (room == 0 || is_named(free))
         continue;
       d.help = fmt::format("write `{} {}`", free, text_of(*run[i]));
       d.fix = Fix{fmt::format("number the line {}", free), {number(*run[i], free)}, Safety::Safe};
     }
+  }
+
+  /// The numbers between two lines that something jumps to, each once.
+  std::vector<std::uint32_t> named_between(std::uint32_t below, std::uint32_t above) const {
+    std::vector<std::uint32_t> named;
+    for (const auto& item : program_.items)
+      if (item.kind == ItemKind::Target && below < item.value && item.value < above &&
+          std::find(named.begin(), named.end(), item.value) == named.end())
+        named.push_back(item.value);
+    return named;
   }
 
   bool is_named(std::uint32_t number) const {

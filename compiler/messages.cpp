@@ -138,8 +138,20 @@ private:
     if (best) {
       d.help = fmt::format("did you mean `{}`?", *best);
       set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Unsafe);
+      if (is_slip_of_the_hand(name, *best))
+        offer(d, d.fix->title, {{fault_.span, *best}});
     }
     return d;
+  }
+
+  /// A long word that begins right and has no other neighbour among the statements: nothing else
+  /// can have been meant if the line parses with it.
+  static bool is_slip_of_the_hand(std::string_view name, std::string_view best) {
+    constexpr std::size_t least = 4;
+    auto others = statement_words();
+    std::erase(others, best);
+    return name.size() >= least && equal_words(name.substr(0, 1), best.substr(0, 1)) &&
+           !closest(name, others);
   }
 
   /// `name = …`: a variable that does not exist.
@@ -238,7 +250,8 @@ private:
     return d;
   }
 
-  /// `A <= 5` is `A < 6`; only a plain number on the right can be rewritten on the spot.
+  /// `A <= 5` is `A < 6`, `A <= B` is `A < B + 1`; more than a number or a variable on the right is
+  /// not rewritten.
   void or_equal(Diagnostic& d, Span span, char sign, int step) const {
     auto begin = span.end;
     while (begin < line_.span.end && is_blank(text_[begin]))
@@ -248,17 +261,29 @@ private:
       ++end;
     d.help = fmt::format("values are whole numbers: write `A {} B {} 1` for `A {}= B`", sign,
                          step > 0 ? '+' : '-', sign);
-    const auto value = parse_number<std::int32_t>(text_.substr(begin, end - begin));
-    const char next = after(end);
-    const bool whole = next == '\0' || next == '\'' || is_letter(next);
-    const auto limit = step > 0 ? spec::value_of(spec::Limit::GreatestInteger) : 0;
-    if (!value || *value == limit || !whole)
+    if (const auto name = word_at(begin); name.size() > 0 && ends_comparison(name.end)) {
+      const auto changed =
+          fmt::format("{} {} {} 1", sign, program_.text_of(name), step > 0 ? '+' : '-');
+      d.help = fmt::format("values are whole numbers: write `{}`", changed);
+      offer(d, fmt::format("write `{}`", changed), {{{span.begin, name.end}, changed}});
       return;
-    const auto other = std::to_string(*value + step);
+    }
+    const auto value = parse_number<std::int32_t>(text_.substr(begin, end - begin));
+    if (!value || !ends_comparison(end) ||
+        (step > 0 && *value == spec::value_of(spec::Limit::GreatestInteger)))
+      return;
+    // Older robots have no negative numbers.
+    const auto other = *value + step < 0 ? std::string("0 - 1") : std::to_string(*value + step);
     d.help = fmt::format("values are whole numbers: write `{} {}`", sign, other);
     d.fix = Fix{fmt::format("write `{} {}`", sign, other),
                 {Edit{span, std::string(1, sign)}, Edit{{begin, end}, other}},
                 Safety::Safe};
+  }
+
+  /// Whether nothing, a comment or a word (`then`, `and`) follows.
+  bool ends_comparison(std::uint32_t offset) const {
+    const char next = after(offset);
+    return next == '\0' || next == '\'' || is_letter(next);
   }
 
   Diagnostic expected_target() const {

@@ -71,8 +71,10 @@ private:
 
   std::optional<Diagnostic> foreign_statement() const {
     const bool first = is(Reason::UnknownWord) || is(Reason::MissingNumber);
-    const auto* row = first ? find_foreign(token(), Foreign::Place::Statement) : nullptr;
-    if (row == nullptr || after(end()) == '=' || after(end()) == ':')
+    const bool chosen = is(Reason::ExpectedGotoOrGosub); // `on A call 100`
+    const auto* row = first || chosen ? find_foreign(token(), Foreign::Place::Statement) : nullptr;
+    if (row == nullptr || (chosen && row->instead != "gosub") || after(end()) == '=' ||
+        after(end()) == ':')
       return std::nullopt;
     const bool remark = row->instead == "'";
     if (is(Reason::MissingNumber) && !remark)
@@ -83,21 +85,44 @@ private:
       d.help = "write `'`: comments need no number and are stripped before upload";
     if (row->instead == "delay" && short_time(d))
       return d;
-    replace(d, *row, fault_.span);
+    if (row->instead == "--")
+      leave_out(d);
+    else
+      replace(d, *row, fault_.span);
     return d;
   }
 
-  /// A wait of less than a tenth of a second was most likely meant in seconds.
+  /// A wait for so few was meant in seconds, most likely.
+  static constexpr std::int32_t most_seconds = 15;
+
   bool short_time(Diagnostic& d) const {
-    constexpr std::int32_t least_likely = 100; // ms
     const Span digits = digits_at(skip_blanks(end()));
     const auto value = number_in(digits);
-    if (!value || *value >= least_likely || skip_blanks(digits.end) != code_end())
+    if (!value || *value > most_seconds || skip_blanks(digits.end) != code_end())
       return false;
     const auto line = fmt::format("delay {}", *value * second_ms);
     d.help = fmt::format("write `{}`; it takes milliseconds", line);
     d.fix = Fix{fmt::format("write `{}`", line), {{{begin(), digits.end}, line}}, Safety::Unsafe};
     return true;
+  }
+
+  /// Removes the line where it holds nothing else; what jumps to it goes to the next line.
+  void leave_out(Diagnostic& d) const {
+    const auto below = std::find_if(program_.lines.begin() + fault_.line + 1, program_.lines.end(),
+                                    [](const Line& line) { return line.has_number(); });
+    std::vector<Edit> edits;
+    for (const auto& item : program_.items)
+      if (item.kind == ItemKind::Target && item.value == line_.number && line_.has_number())
+        edits.push_back(
+            {item.span, below == program_.lines.end() ? "" : std::to_string(below->number)});
+    if (line_.comment.size() > 0 || skip_blanks(end()) != code_end() ||
+        (!edits.empty() && below == program_.lines.end()))
+      return;
+    const auto next = std::min<std::size_t>(text_.find('\n', line_.span.end), text_.size() - 1) + 1;
+    edits.push_back({{line_.span.begin, static_cast<std::uint32_t>(next)}, ""});
+    std::sort(edits.begin(), edits.end(),
+              [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
+    d.fix = Fix{"remove the line", std::move(edits), Safety::Safe};
   }
 
   std::optional<Diagnostic> foreign_value() const {
@@ -540,9 +565,12 @@ private:
 
   /// `if A = 5 then` with its statement on the next line, and the `end if` that closes it.
   std::optional<Diagnostic> empty_branch() const {
-    if (is(Reason::Trailing) && in(Statement::End) && equal_words(token(), "if"))
-      return finding(rules::SyntaxError, fault_.span, "an `if` ends with its line",
-                     "leave this line out");
+    if (is(Reason::Trailing) && in(Statement::End) && equal_words(token(), "if")) {
+      auto d = finding(rules::SyntaxError, fault_.span, "an `if` ends with its line",
+                       "leave this line out");
+      leave_out(d);
+      return d;
+    }
     if (!is(Reason::ExpectedStatement) || !in(Statement::If) || !token().empty())
       return std::nullopt;
     return finding(rules::SyntaxError, fault_.span, "the statement of the `if` is missing",
@@ -561,10 +589,18 @@ private:
     while (from > line_.span.begin && (is_digit(text_[from - 1])))
       --from;
     const auto value = number_in({from, stop});
-    constexpr std::int32_t most_seconds = 65;
-    const auto time = value.value_or(1) > most_seconds ? *value : value.value_or(1) * second_ms;
-    return finding(rules::SyntaxError, fault_.span, "`sleep` takes 3 values, found 1",
-                   fmt::format("`sleep` switches the ball off; to wait write `delay {}`", time));
+    const auto number = value.value_or(1);
+    const auto line = fmt::format("delay {}", number > most_seconds ? number : number * second_ms);
+    auto d = finding(rules::SyntaxError, fault_.span, "`sleep` takes 3 values, found 1",
+                     fmt::format("`sleep` switches the ball off; to wait write `{}`", line));
+    constexpr std::string_view word = "sleep";
+    const auto before_value =
+        text_.substr(0, skip_back(before(from) == '(' ? skip_back(from) - 1 : from));
+    if (number > most_seconds && before_value.ends_with(word))
+      offer(d, fmt::format("write `{}`", line),
+            {{{static_cast<std::uint32_t>(before_value.size() - word.size()), skip_back(begin())},
+              line}});
+    return d;
   }
 
   /// `print "a" : end`: the rest gets a line of its own where a number is free.

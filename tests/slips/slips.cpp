@@ -1,7 +1,7 @@
 // slips ROOT [--update]: plants beginners' slips into every program of ROOT/examples, one at a
 // time, and counts how many are explained on their line with the right words, and how many `--fix`
 // takes back. Prints docs/slips.md; fails when that page says something else, when too few are
-// explained, or when a fix leaves more errors or others than there were.
+// explained or taken back, or when a fix leaves more errors or others than there were.
 
 #include "compiler/check.h"
 #include "compiler/parse.h"
@@ -134,7 +134,7 @@ const std::vector<Slip> slips{
   {"print \"hi",              swap("^(\\d+ print \"[^\"']*)\"$", "$1"),           "closing"},
   {"print \xE2\x80\x9Chi\xE2\x80\x9D", swap("^(\\d+ print) \"([^\"']*)\"", "$1 \xE2\x80\x9C$2\xE2\x80\x9D"), "straight"},
   {"print hello",             swap("^(\\d+ print) \"([A-Za-z]{3,}) ?\"", "$1 $2"), "quotes"},
-  {"print \"A is \"; A",      swap("^(\\d+ print \"[^\"]*\") (?=[A-Z])", "$1; "), "blank"},
+  {"print \"A is \"; A",      swap("^(\\d+ print \"[^\"]*\") (?=[A-Z])", "$1; "), "space"},
   {"print \"A is \" + A",     swap("^(\\d+ print \"[^\"]*\") (?=[A-Z])", "$1 + "), "side by side"},
   {"if A == 5 then",          swap("^(\\d+ if [^\"]*?) = ", "$1 == "),            "`=`"},
   {"if A != 5 then",          swap(" ! ", " != "),                                "`!`"},
@@ -315,6 +315,10 @@ std::string page(const std::vector<Count>& counts, std::size_t programs) {
       "No fix ever leaves more errors, or others. The page is printed by a test "
       "(`build/dev/bin/slips . "
       "--update`).\n\n"
+      "What stays has no fix that is right for certain: nobody knows which line `goto start` and\n"
+      "`goto 9999` mean, nor where the block of a `while` ends; a `wait` of up to 15 may have been "
+      "meant in\n"
+      "seconds; and a word without quotes that is also a misspelt variable may be either.\n\n"
       "**{} of {} explained: {}; {} taken back: {}.**\n\n"
       "| slip | planted | explained | taken back |\n|---|--:|--:|--:|\n{}",
       programs, all.explained, all.planted, share(all.explained), all.mended, share(all.mended),
@@ -338,11 +342,11 @@ int main(int argc, char** argv) {
     campaign.plant_all(path.filename().string(), lines_of(read(path)));
 
   const auto text = page(campaign.counts(), paths.size());
-  std::size_t planted = 0;
-  std::size_t explained = 0;
+  Count all;
   for (const auto& count : campaign.counts()) {
-    planted += count.planted;
-    explained += count.explained;
+    all.planted += count.planted;
+    all.explained += count.explained;
+    all.mended += count.mended;
   }
   std::cout << text;
   const auto target = root / "docs" / "slips.md";
@@ -353,6 +357,7 @@ int main(int argc, char** argv) {
   if (!current)
     std::cerr
         << "docs/slips.md is not what this prints; run with --update and read the difference\n";
-  return current && campaign.wrong_fixes() == 0 && explained * 100 >= planted * least_percent ? 0
-                                                                                              : 1;
+  const auto enough = [&](std::size_t n) { return n * 100 >= all.planted * least_percent; };
+  return current && campaign.wrong_fixes() == 0 && enough(all.explained) && enough(all.mended) ? 0
+                                                                                               : 1;
 }

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <set>
+#include <sstream>
 #include <string>
 #include <variant>
 
@@ -162,12 +163,36 @@ TEST(Property, FixingIsFinal) {
   }
 }
 
+/// The line of a program that has this number; empty where none has.
+std::string line_of(const std::string& text, const std::string& number) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (std::string first; std::istringstream(line) >> first && first == number)
+      return line;
+  return {};
+}
+
+/// Whether the fixed program does the same. Where the program stops at a line that the fix has
+/// changed (`next` of nobody), what it did until then stays.
+bool does_the_same(const std::string& text, const std::string& fixed) {
+  const auto before = run(text).notes;
+  const auto after = run(fixed).notes;
+  constexpr std::string_view mark = "stop ";
+  const auto stop = before.rfind(mark);
+  if (before == after || stop == std::string::npos)
+    return before == after;
+  const auto number =
+      before.substr(stop + mark.size(), before.find(' ', stop + mark.size()) - stop - mark.size());
+  return line_of(text, number) != line_of(fixed, number) &&
+         after.starts_with(before.substr(0, stop));
+}
+
 // Safe fixes of a program that parses do not change what it does.
 TEST(Property, SafeFixesKeepBehaviour) {
   for (std::uint64_t seed = 0; seed < programs; ++seed) {
     const auto text = valid_program(seed);
     const auto fixed = fix(text, {});
-    ASSERT_EQ(run(text).notes, run(fixed.text).notes) << text << "---\n" << fixed.text;
+    ASSERT_TRUE(does_the_same(text, fixed.text)) << text << "---\n" << fixed.text;
   }
 }
 
