@@ -42,6 +42,7 @@ struct RunOptions {
   std::string trace;
   std::string trace_out;
   std::string report;
+  std::string compare;
   std::string svg;
   TargetOptions target;
   bool disconnected = false;
@@ -185,10 +186,24 @@ void print_fault(const run::Fault& fault) {
     print_err(fmt::format("  help: {}\n", fault.help));
 }
 
-tl::expected<void, IoError> write_pictures(const RunOptions& options,
-                                           const report::Journey& journey) {
+/// The run of the page to compare with; empty where none is given.
+tl::expected<std::string, Failure> read_before(const RunOptions& options) {
+  if (options.compare.empty())
+    return std::string();
+  const auto page = disk::read(options.compare);
+  if (!page)
+    return refuse(ExitCode::File, page.error().message);
+  auto run = report::run_of_page(*page);
+  if (!run)
+    return refuse(ExitCode::Usage, fmt::format("{} is not a page of `orb run --report`",
+                                               disk::display_name(options.compare)));
+  return *std::move(run);
+}
+
+tl::expected<void, IoError>
+write_pictures(const RunOptions& options, const report::Journey& journey, std::string_view before) {
   if (!options.report.empty()) {
-    auto page = report::report_page(journey, disk::display_name(options.files.front()));
+    auto page = report::report_page(journey, disk::display_name(options.files.front()), before);
     if (options.watch)
       page = report::reloading(std::move(page));
     if (auto done = disk::write(options.report, as_bytes(page)); !done)
@@ -270,6 +285,9 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
       print_findings(context, *input.source, input.findings);
       return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name()));
     }
+  const auto before = read_before(given);
+  if (!before)
+    return tl::unexpected(before.error());
   if (const auto want = run::want(*inputs, *options))
     print_note(context, "hint: " + want->advice);
   Console console(given);
@@ -283,7 +301,7 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   for (const auto& fault : ending->faults)
     print_fault(fault);
   if (written && journey)
-    written = write_pictures(given, *journey);
+    written = write_pictures(given, *journey, *before);
   if (!written)
     return refuse(ExitCode::File, written.error().message);
   tell(context, given, *ending);
@@ -377,6 +395,8 @@ void add_run(CLI::App& app, Context& context) {
   command->add_option("--report", options->report, "writes a page that plays the run back");
   command->add_flag("--open", options->open,
                     "opens that page in a browser; without --report, a temporary one");
+  command->add_option("--compare", options->compare,
+                      "shows the run of another such page beside this one");
   command->add_option("--svg", options->svg, "draws the path");
   command->add_option("--expect", options->run.expect,
                       "text that must be printed; ends the run, exit 0; never printed: exit 1");
@@ -396,6 +416,9 @@ void add_run(CLI::App& app, Context& context) {
         return fail(context, report.error());
       options->report = *std::move(report);
     }
+    if (!options->compare.empty() && options->report.empty())
+      return fail(context, {ExitCode::Usage,
+                            "`--compare` shows a report; add `--report OUT.html` or `--open`"});
     (options->watch ? run_and_watch : run_and_report)(context, *options);
     if (std::error_code not_empty; temporary)
       std::filesystem::remove(std::filesystem::path(options->report).parent_path(), not_empty);

@@ -68,7 +68,7 @@ void Journey::add(Duration t, const vm::Event& event) {
       [&](const auto& seen) {
         using Seen = std::decay_t<decltype(seen)>;
         if constexpr (std::is_same_v<Seen, of::Print>) {
-          happen(t, Kind::Print, seen.text);
+          print(t, seen.text);
         } else if constexpr (std::is_same_v<Seen, of::Error>) {
           const auto found = lines_.find(seen.line);
           if (found != lines_.end())
@@ -117,7 +117,10 @@ void Journey::add(Duration t, const vm::Event& event) {
         } else if constexpr (std::is_same_v<Seen, of::End>) {
           totals_.lines = std::max(totals_.lines, seen.lines);
         } else if constexpr (std::is_same_v<Seen, of::Bump>) {
-          // The path ends there, and a collision that was asked for says it.
+          happen(t, Kind::Bump,
+                 fmt::format("ran into the wall {}={:g} at speed {}",
+                             seen.wall.axis == vm::Wall::Axis::X ? 'x' : 'y', seen.wall.at_cm,
+                             seen.speed));
         } else {
           static_assert(std::is_same_v<Seen, of::MacroEnd>); // its last command says it
         }
@@ -137,7 +140,18 @@ void Journey::sample(Duration t, const vm::Body& body) {
                      rounded(100 * body.battery_v()), body.stabilized() ? 1 : 0}});
 }
 
+/// Prints are joined as the robot sends them: an entry for each line, at the time of its end.
+void Journey::print(Duration t, std::string_view text) {
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
+       text.remove_prefix(end + 1), line_.clear())
+    happen(t, Happening::Kind::Print, line_.append(text.substr(0, end + 1)));
+  // What stays open is cut where the list would cut it.
+  line_.append(text.substr(0, text_limit - std::min(text_limit, line_.size())));
+}
+
 void Journey::finish(Duration t, std::string reason, std::string words) {
+  if (!line_.empty())
+    happen(t, Happening::Kind::Print, std::exchange(line_, {}));
   end_.t = t;
   end_.reason = std::move(reason);
   end_.words = std::move(words);

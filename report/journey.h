@@ -76,8 +76,8 @@ struct Sensors {
 
 /// One entry of the list of what happened.
 struct Happening {
-  enum class Kind : std::uint8_t { Print, Error, Marker, Collision, Macro, Sleep };
-  static constexpr std::size_t kind_count = 6;
+  enum class Kind : std::uint8_t { Print, Error, Marker, Bump, Collision, Macro, Sleep };
+  static constexpr std::size_t kind_count = 7;
 
   Duration t{};
   Kind kind = Kind::Print;
@@ -151,6 +151,7 @@ public:
 private:
   void happen(Duration t, Happening::Kind kind, std::string text, std::string label = {});
   void visit(Duration t, Place place);
+  void print(Duration t, std::string_view text);
 
   std::vector<File> files_;
   std::vector<vm::Wall> walls_;
@@ -167,6 +168,7 @@ private:
   std::vector<Happening> first_;
   std::deque<Happening> last_;
   std::optional<vm::Pose> pose_;
+  std::string line_; ///< printed and not ended yet
 };
 
 } // namespace orb::report

@@ -2,6 +2,8 @@
 
 #include "base/utf8.h"
 #include "report/assets.h"
+#include "spec/basic.h"
+#include "spec/macro.h"
 
 #include <array>
 #include <cmath>
@@ -14,6 +16,8 @@ namespace orb::report {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr std::string_view schema = "orb.report/1";
 
 /// Poses come this often while the ball moves (docs/ball.md); over a longer gap it stood still.
 constexpr Duration pose_period = std::chrono::milliseconds{50};
@@ -72,6 +76,7 @@ std::string_view kind_name(Happening::Kind kind) {
   case Happening::Kind::Print: return "print";
   case Happening::Kind::Error: return "error";
   case Happening::Kind::Marker: return "marker";
+  case Happening::Kind::Bump: return "bump";
   case Happening::Kind::Collision: return "collision";
   case Happening::Kind::Macro: return "macro";
   case Happening::Kind::Sleep: return "sleep";
@@ -193,6 +198,21 @@ ordered_json sensors(const Journey& journey) {
   return list;
 }
 
+/// The words of the robot's languages, by the kind that a page colours them as.
+ordered_json words() {
+  auto statements = plain(spec::statements, [](const auto& row) { return row.word; });
+  for (const auto word : spec::particles)
+    statements.push_back(word);
+  const auto word_of = [](const auto& row) { return row.word; };
+  return {
+      {"basic",
+       {{"statement", statements},
+        {"function", plain(spec::functions, word_of)},
+        {"sensor", plain(spec::variables, word_of)}}},
+      {"macro",
+       {{"statement", plain(spec::macro_commands, [](const auto& row) { return row.mnemonic; })}}}};
+}
+
 std::string thousands(std::uint64_t value) {
   auto digits = std::to_string(value);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
@@ -250,7 +270,7 @@ std::string outcome(const Journey::End& end) {
 
 ordered_json run_data(const Journey& journey, std::string_view title) {
   const auto listed = journey.listed();
-  return {{"schema", "orb.report/1"},
+  return {{"schema", schema},
           {"title", to_valid_utf8(title)},
           {"end",
            {{"t", microseconds(journey.end().t)},
@@ -260,6 +280,7 @@ ordered_json run_data(const Journey& journey, std::string_view title) {
           {"counts", counts(journey)},
           {"thinned", thinned_words(journey, listed)},
           {"files", files(journey)},
+          {"words", words()},
           {"walls", walls(journey)},
           {"pose", poses(journey)},
           {"led", lamps(journey)},
@@ -288,7 +309,19 @@ std::string script_safe(const ordered_json& data) {
 
 } // namespace
 
-std::string report_page(const Journey& journey, std::string_view title) {
+std::optional<std::string> run_of_page(std::string_view page) {
+  constexpr std::string_view head = "<script type=\"application/json\" id=\"run\">";
+  const auto begin = page.find(head);
+  if (begin == std::string_view::npos)
+    return std::nullopt;
+  const auto rest = page.substr(begin + head.size());
+  const auto run = ordered_json::parse(rest.substr(0, rest.find("</script>")), nullptr, false);
+  if (!run.is_object() || run.value("schema", "") != schema)
+    return std::nullopt;
+  return script_safe(run);
+}
+
+std::string report_page(const Journey& journey, std::string_view title, std::string_view before) {
   std::string_view rest = page_html;
   std::string page;
   const auto fill = [&](std::string_view place, std::string_view with) {
@@ -299,6 +332,7 @@ std::string report_page(const Journey& journey, std::string_view title) {
   };
   fill("/*{style}*/", page_css);
   fill("/*{run}*/", script_safe(run_data(journey, title)));
+  fill("/*{before}*/", before.empty() ? "null" : before);
   fill("/*{script}*/", page_js);
   return page += rest;
 }

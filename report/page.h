@@ -2,13 +2,19 @@
 
 #include "report/journey.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace orb::report {
 
 /// One self-contained page that plays the run back: no network, no other file. `title` stands on
-/// top; the same journey makes the same bytes.
-std::string report_page(const Journey& journey, std::string_view title);
+/// top; `before`, from run_of_page(), is a run to show beside it. The same journey makes the same
+/// bytes.
+std::string report_page(const Journey& journey, std::string_view title,
+                        std::string_view before = {});
+
+/// The run that a page of report_page() plays back; nothing where `page` is something else.
+std::optional<std::string> run_of_page(std::string_view page);
 
 } // namespace orb::report

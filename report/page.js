@@ -1,27 +1,7 @@
 "use strict";
 (() => {
-const run = JSON.parse(document.getElementById("run").textContent);
 const $ = id => document.getElementById(id);
 const svg_ns = "http://www.w3.org/2000/svg";
-
-// ---- the columns of the run: differences of whole numbers, summed up again here ----
-const sums = list => { let sum = 0; return list.map(step => sum += step); };
-const column = (list, scale) => sums(list).map(value => value / scale);
-const pose = {
-  t: sums(run.pose.t), x: column(run.pose.x, 1000), y: column(run.pose.y, 1000),
-  heading: column(run.pose.heading, 10), speed: column(run.pose.speed, 100),
-};
-const led = { t: sums(run.led.t), rgb: run.led.rgb };
-const backled = { t: sums(run.backled.t), value: run.backled.value };
-// Where the run was, file by file: a program and a macro run side by side.
-const steps = run.files.map(() => ({ t: [], line: [] }));
-sums(run.line.t).forEach((t, i) => {
-  const own = steps[run.line.file[i]];
-  own.t.push(t);
-  own.line.push(run.line.line[i]);
-});
-const events = run.events;
-const end = Math.max(run.end.t, 1);
 
 /** Index of the last entry of ascending `list` that is not after `t`; -1 before the first. */
 function last_at(list, t) {
@@ -56,38 +36,87 @@ function shape(name, attributes, parent) {
   return made;
 }
 
-// ---- the ball at any moment ----
+// ---- a run, and the ball at any moment of it ----
 function turn(from, to, share) {
   let by = (to - from) % 360;
   if (by > 180) by -= 360;
   if (by < -180) by += 360;
   return ((from + by * share) % 360 + 360) % 360;
 }
-function state_at(t) {
-  const i = last_at(pose.t, t);
-  if (i < 0) return { x: pose.x[0] ?? 0, y: pose.y[0] ?? 0, heading: pose.heading[0] ?? 0, speed: 0, index: -1 };
-  const next = i + 1;
-  if (next >= pose.t.length)
-    return { x: pose.x[i], y: pose.y[i], heading: pose.heading[i], speed: pose.speed[i], index: i };
-  // A pose comes while something moves; over a longer gap the ball stood where it was.
-  const gap = pose.t[next] - pose.t[i];
-  const share = gap > run.pose.step * 1.5 ? 0 : (t - pose.t[i]) / gap;
-  const mix = list => list[i] + (list[next] - list[i]) * share;
-  return { x: mix(pose.x), y: mix(pose.y), heading: turn(pose.heading[i], pose.heading[next], share), speed: mix(pose.speed), index: i };
+// Columns are differences of whole numbers, summed up again here.
+const sums = list => { let sum = 0; return list.map(step => sum += step); };
+const column = (list, scale) => sums(list).map(value => value / scale);
+
+const base_name = path => path.split("/").pop() || path;
+
+function journey(id) {
+  const run = JSON.parse($(id).textContent);
+  if (!run) return null;
+  const pose = {
+    t: sums(run.pose.t), x: column(run.pose.x, 1000), y: column(run.pose.y, 1000),
+    heading: column(run.pose.heading, 10), speed: column(run.pose.speed, 100),
+  };
+  const led = { t: sums(run.led.t), rgb: run.led.rgb };
+  const backled = { t: sums(run.backled.t), value: run.backled.value };
+  // Where the run was, file by file: a program and a macro run side by side.
+  const steps = run.files.map(() => ({ t: [], line: [] }));
+  sums(run.line.t).forEach((t, i) => {
+    const own = steps[run.line.file[i]];
+    own.t.push(t);
+    own.line.push(run.line.line[i]);
+  });
+  const state_at = t => {
+    const i = last_at(pose.t, t);
+    if (i < 0) return { x: pose.x[0] ?? 0, y: pose.y[0] ?? 0, heading: pose.heading[0] ?? 0, speed: 0, index: -1 };
+    const next = i + 1;
+    if (next >= pose.t.length)
+      return { x: pose.x[i], y: pose.y[i], heading: pose.heading[i], speed: pose.speed[i], index: i };
+    // A pose comes while something moves; over a longer gap the ball stood where it was.
+    const gap = pose.t[next] - pose.t[i];
+    const share = gap > run.pose.step * 1.5 ? 0 : (t - pose.t[i]) / gap;
+    const mix = list => list[i] + (list[next] - list[i]) * share;
+    return { x: mix(pose.x), y: mix(pose.y), heading: turn(pose.heading[i], pose.heading[next], share), speed: mix(pose.speed), index: i };
+  };
+  const lamp_at = t => led.rgb[last_at(led.t, t)] ?? 0;
+  const tail_at = t => backled.value[last_at(backled.t, t)] ?? 0;
+  // Stretches of path in one colour; the LED may change between two poses.
+  const stretches = [];
+  let color = -1;
+  for (let i = 1; i < pose.t.length; ++i) {
+    const lit = lamp_at(pose.t[i - 1]);
+    if (pose.x[i] === pose.x[i - 1] && pose.y[i] === pose.y[i - 1]) continue;
+    const open = stretches[stretches.length - 1];
+    if (lit === color && open && open.to === i - 1) open.to = i;
+    else stretches.push({ from: i - 1, to: i, color: lit });
+    color = lit;
+  }
+  const name = base_name(run.title);
+  return { run, name, pose, led, backled, steps, stretches, state_at, lamp_at, tail_at };
 }
-const lamp_at = t => led.rgb[last_at(led.t, t)] ?? 0;
-const tail_at = t => backled.value[last_at(backled.t, t)] ?? 0;
+const main = journey("run"), before = journey("before");
+const runs = before ? [before, main] : [main];
+const run = main.run, pose = main.pose, led = main.led, backled = main.backled;
+const end = Math.max(1, ...runs.map(one => one.run.end.t));
+
 const css_color = rgb => "#" + rgb.toString(16).padStart(6, "0");
 const rgb_words = rgb => `${rgb >> 16}, ${rgb >> 8 & 255}, ${rgb & 255}`;
+/** How bright a colour is, from 0 to 1: a pale or a deep one needs an outline of its own. */
+const brightness = rgb => (.3 * (rgb >> 16) + .59 * (rgb >> 8 & 255) + .11 * (rgb & 255)) / 255;
+const position_words = state => `${state.x.toFixed(1)}, ${state.y.toFixed(1)} cm`;
+const speed_words = state => `${state.speed.toFixed(1)} cm/s`;
 
 // ---- heading of the page ----
-document.title = `${run.title} · orb run`;
-$("title").textContent = run.title;
+document.title = `${main.name} · orb run`;
+// A name breaks after a sign, never inside a word.
+main.name.split(/(?<=[-_.])/).forEach((part, i) => $("title").append(...i ? [element("wbr")] : [], part));
+$("title").title = run.title;
 $("outcome").textContent = run.end.text;
 $("outcome").className = run.end.reason === "error" ? "bad" : "";
 for (const [name, value, id] of run.totals) {
   const box = element("div");
   box.append(element("dt", {}, name), element("dd", { "data-total": id }, value));
+  const other = before?.run.totals.find(total => total[2] === id);
+  if (other) box.append(element("dd", { class: "before", "data-before": id }, `before ${other[1]}`));
   $("totals").append(box);
 }
 if (run.thinned) {
@@ -113,187 +142,283 @@ function next_theme() {
 $("theme").addEventListener("click", next_theme);
 show_theme();
 
-// ---- the map ----
-const map = $("map");
+// ---- the maps: of the run, and of the one before it ----
 const view = { zoom: 1, x: 0, y: 0, follow: false };
-let layers = null;
-let pixels = { width: 0, height: 0, scale: 1, left: 0, top: 0 };
-
-function bounds() {
-  let [left, right, low, high] = [0, 0, 0, 0];
-  if (pose.t.length) {
-    left = Math.min(...pose.x); right = Math.max(...pose.x);
-    low = Math.min(...pose.y); high = Math.max(...pose.y);
-  }
+const box = (() => {
+  const x = runs.flatMap(one => one.pose.x), y = runs.flatMap(one => one.pose.y);
+  const least = list => list.reduce((a, b) => Math.min(a, b), list[0] ?? 0);
+  const most = list => list.reduce((a, b) => Math.max(a, b), list[0] ?? 0);
+  const [left, right, low, high] = [least(x), most(x), least(y), most(y)];
   return { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
-}
-const box = bounds();
-const moved = box.right - box.left > 1 || box.high - box.low > 1;
-
-function measure() {
-  const area = map.getBoundingClientRect();
-  const width = Math.max(area.width, 50), height = Math.max(area.height, 50);
-  const wide = Math.max(box.right - box.left, 20), tall = Math.max(box.high - box.low, 20);
-  const fit = Math.min((width - 110) / wide, (height - 120) / tall);
-  const scale = Math.max(fit, .02) * view.zoom;
-  const center_x = view.follow ? state_at(now).x : box.middle_x + view.x;
-  const center_y = view.follow ? state_at(now).y : box.middle_y + view.y;
-  pixels = { width, height, scale, left: width / 2 - center_x * scale, top: height / 2 + center_y * scale };
-}
-const px = x => pixels.left + x * pixels.scale;
-const py = y => pixels.top - y * pixels.scale;
-const at = i => `${px(pose.x[i]).toFixed(1)} ${py(pose.y[i]).toFixed(1)}`;
-
-// Stretches of path in one colour; the LED may change between two poses.
-const stretches = (() => {
-  const list = [];
-  let color = -1;
-  for (let i = 1; i < pose.t.length; ++i) {
-    const lit = lamp_at(pose.t[i - 1]);
-    if (pose.x[i] === pose.x[i - 1] && pose.y[i] === pose.y[i - 1]) continue;
-    const open = list[list.length - 1];
-    if (lit === color && open && open.to === i - 1) open.to = i;
-    else list.push({ from: i - 1, to: i, color: lit });
-    color = lit;
-  }
-  return list;
 })();
-const line_from = (from, to) => {
-  let d = `M${at(from)}`;
-  for (let i = from + 1; i <= to; ++i) d += `L${at(i)}`;
-  return d;
+const moved = box.right - box.left > 1 || box.high - box.low > 1;
+const length_words = cm => cm >= 100 ? `${trim(cm / 100, 2)} m` : `${trim(cm, 2)} cm`;
+const hit_path = "M-5 -5L5 5M-5 5L5 -5";
+const mark_art = {
+  start: g => shape("circle", { r: 8, class: "mark-start" }, g),
+  end: g => shape("rect", { x: -5, y: -5, width: 10, height: 10, class: "mark-end" }, g),
+  bump: g => shape("circle", { r: 6, class: "mark-hit" }, g),
+  collision: g => shape("path", { d: hit_path, class: "mark-hit" }, g),
+  marker: g => shape("path", { d: "M0 -6L6 0L0 6L-6 0Z", class: "mark-marker" }, g),
+  error: g => shape("path", { d: "M0 -8L8 6H-8Z", class: "mark-error" }, g),
 };
 
-function grid_step() {
-  const wanted = 64 / pixels.scale;
+function make_map(map, of) {
+  const { run, pose, stretches } = of;
+  let pixels = { width: 0, height: 0, scale: 1, left: 0, top: 0 };
+  let layers = null;
+  const px = x => pixels.left + x * pixels.scale;
+  const py = y => pixels.top - y * pixels.scale;
+  const at = i => `${px(pose.x[i]).toFixed(1)} ${py(pose.y[i]).toFixed(1)}`;
+
+  function measure() {
+    const area = map.getBoundingClientRect();
+    const width = Math.max(area.width, 50), height = Math.max(area.height, 50);
+    const wide = Math.max(box.right - box.left, 20), tall = Math.max(box.high - box.low, 20);
+    const fit = Math.min((width - 96) / wide, (height - 84) / tall);
+    const scale = Math.max(fit, .02) * view.zoom;
+    const center_x = view.follow ? of.state_at(now).x : box.middle_x + view.x;
+    const center_y = view.follow ? of.state_at(now).y : box.middle_y + view.y;
+    pixels = { width, height, scale, left: width / 2 - center_x * scale, top: height / 2 + center_y * scale };
+  }
+  function line_from(from, to) {
+    let d = `M${at(from)}`;
+    for (let i = from + 1; i <= to; ++i) d += `L${at(i)}`;
+    return d;
+  }
+  const wall_pixels = axis => run.walls.filter(wall => wall.axis === axis).map(wall => axis === "x" ? px(wall.at) : py(wall.at));
+
+  /** Walls lie on the lines and under the words. */
+  function draw_grid(lines, words) {
+    const grid = grid_step(pixels.scale);
+    const first_x = Math.ceil(-pixels.left / pixels.scale / grid), last_x = Math.floor((pixels.width - pixels.left) / pixels.scale / grid);
+    const first_y = Math.ceil((pixels.top - pixels.height) / pixels.scale / grid), last_y = Math.floor(pixels.top / pixels.scale / grid);
+    const upright = wall_pixels("x"), level = wall_pixels("y");
+    const clear = (value, walls, room) => walls.every(wall => Math.abs(wall - value) > room);
+    const low_row = clear(pixels.height - 10, level, 12), left_row = clear(18, upright, 22);
+    for (let n = first_x; n <= last_x; ++n) {
+      const x = Math.round(px(n * grid)) + .5;
+      shape("path", { d: `M${x} 0V${pixels.height}`, class: n === 0 ? "grid-line strong" : "grid-line" }, lines);
+      if (low_row && x > 44 && x < pixels.width - 20 && clear(x, upright, 20))
+        shape("text", { x, y: pixels.height - 7, "text-anchor": "middle", class: "grid-word" }, words).textContent = trim(n * grid, 3);
+    }
+    for (let n = first_y; n <= last_y; ++n) {
+      const y = Math.round(py(n * grid)) + .5;
+      shape("path", { d: `M0 ${y}H${pixels.width}`, class: n === 0 ? "grid-line strong" : "grid-line" }, lines);
+      if (left_row && y > 16 && y < pixels.height - 22 && clear(y, level, 14))
+        shape("text", { x: 8, y: y - 4, class: "grid-word" }, words).textContent = trim(n * grid, 3);
+    }
+  }
+  function draw_walls(parent) {
+    for (const x of wall_pixels("x")) shape("path", { d: `M${x} 0V${pixels.height}`, class: "wall" }, parent);
+    for (const y of wall_pixels("y")) shape("path", { d: `M0 ${y}H${pixels.width}`, class: "wall" }, parent);
+  }
+  /** Where a word beside a point meets the fewest of path, walls, marks and words. */
+  function free_place(x, y, words, taken) {
+    const wide = 6.4 * words.length, tall = 12;
+    const places = [[18, 4], [-18 - wide, 4], [16, -12], [16, 20], [-16 - wide, -12], [-16 - wide, 20], [-wide / 2, -24], [-wide / 2, 34]];
+    const cost = ([dx, dy]) => {
+      const left = x + dx - 3, right = left + wide + 6, low = y + dy + 4, high = low - tall - 4;
+      const inside = (a, b) => a > left && a < right && b > high && b < low;
+      let sum = left < 2 || right > pixels.width - 2 || high < 2 || low > pixels.height - 2 ? 1e6 : 0;
+      for (let i = 0; i < pose.t.length; ++i) if (inside(px(pose.x[i]), py(pose.y[i]))) ++sum;
+      for (const wall of wall_pixels("x")) if (wall > left - 3 && wall < right + 3) sum += 500;
+      for (const wall of wall_pixels("y")) if (wall > high - 3 && wall < low + 3) sum += 500;
+      for (const one of taken) if (one.left < right && one.right > left && one.high < low && one.low > high) sum += 1000;
+      return sum;
+    };
+    const best = places.map(place => [cost(place), place]).reduce((a, b) => b[0] < a[0] ? b : a)[1];
+    taken.push({ left: x + best[0], right: x + best[0] + wide, high: y + best[1] - tall, low: y + best[1] + 4 });
+    return best;
+  }
+  function draw_marks(parent) {
+    const taken = [];
+    const pin = (x, y, kind, title) => {
+      const group = shape("g", { transform: `translate(${px(x).toFixed(1)} ${py(y).toFixed(1)})`, "data-mark": kind }, parent);
+      if (title) shape("title", {}, group).textContent = title;
+      mark_art[kind](group);
+      taken.push({ left: px(x) - 8, right: px(x) + 8, high: py(y) - 8, low: py(y) + 8 });
+      return group;
+    };
+    // Marks in one place share their words.
+    const labels = new Map();
+    for (const event of run.events) {
+      if (event.x === undefined || !event.short) continue;
+      const place = `${px(event.x).toFixed(0)} ${py(event.y).toFixed(0)}`;
+      if (!labels.has(place)) labels.set(place, { x: event.x, y: event.y, words: [] });
+      labels.get(place).words.push(event.short);
+    }
+    const word = (x, y, words) => {
+      const [dx, dy] = free_place(px(x), py(y), words, taken);
+      shape("text", { x: px(x) + dx, y: py(y) + dy, class: "mark-word" }, parent).textContent = words;
+    };
+    for (const event of run.events) {
+      if (event.x === undefined || !mark_art[event.kind]) continue;
+      pin(event.x, event.y, event.kind, `${seconds(event.t)} s: ${event.text}`);
+    }
+    const some = list => list.length > 4 ? [...list.slice(0, 3), "…"] : list;
+    if (labels.size < 40) for (const { x, y, words } of labels.values()) word(x, y, some(words).join(", "));
+    if (!pose.t.length) return;
+    const final = pose.t.length - 1;
+    pin(pose.x[0], pose.y[0], "start");
+    if (!moved) return;
+    pin(pose.x[final], pose.y[final], "end");
+    word(pose.x[0], pose.y[0], "start");
+    word(pose.x[final], pose.y[final], "end");
+  }
+  function draw_ball(parent) {
+    const defs = shape("defs", {}, parent);
+    const glow = shape("radialGradient", { id: `${map.id}-glow` }, defs);
+    const lamp_stops = [shape("stop", { offset: .2, "stop-opacity": .75 }, glow), shape("stop", { offset: 1, "stop-opacity": 0 }, glow)];
+    const shine = shape("radialGradient", { id: `${map.id}-shine`, cx: .36, cy: .3, r: .75 }, defs);
+    shape("stop", { offset: 0, "stop-color": "#fff", "stop-opacity": .85 }, shine);
+    shape("stop", { offset: .45, "stop-color": "#fff", "stop-opacity": .12 }, shine);
+    shape("stop", { offset: 1, "stop-color": "#000", "stop-opacity": .28 }, shine);
+    const ball = shape("g", { class: "ball", ...of === main ? { id: "ball" } : {} }, parent);
+    const halo = shape("circle", { r: moved ? 40 : 90, fill: `url(#${map.id}-glow)` }, ball);
+    const r = moved ? 13 : 34;
+    shape("ellipse", { cx: 2, cy: 4, rx: r, ry: r, class: "ball-shadow" }, ball);
+    shape("circle", { r, class: "ball-body" }, ball);
+    const lamp = shape("circle", { ...of === main ? { id: "ball-lamp" } : {}, r: r - .7 }, ball);
+    shape("circle", { r, fill: `url(#${map.id}-shine)` }, ball);
+    const nose = shape("g", {}, ball);
+    shape("path", { d: `M0 ${-r - 9}l5 8h-10z`, class: "mark-end" }, nose);
+    const tail = shape("circle", { cy: r - 2, r: r / 5 + 1, fill: "#4a8dff" }, nose);
+    return { ball, lamp, nose, tail, halo, lamp_stops };
+  }
+  function draw() {
+    measure();
+    for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
+    map.setAttribute("viewBox", `0 0 ${pixels.width} ${pixels.height}`);
+    const grid = shape("g", {}, map);
+    draw_walls(shape("g", {}, map));
+    draw_grid(grid, shape("g", {}, map));
+    const ahead = shape("g", { class: "ahead" }, map);
+    const halos = shape("g", { class: "halo" }, map);
+    const dark = shape("g", {}, map); // unlit stretches lie below lit ones
+    const casings = shape("g", {}, map);
+    const done = shape("g", {}, map);
+    const casing_class = color => brightness(color) > .7 ? "run casing pale" : brightness(color) < .2 ? "run casing deep" : "run casing";
+    for (const stretch of stretches) {
+      const lit = stretch.color !== 0;
+      const look = { class: lit ? "run" : "run unlit", d: line_from(stretch.from, stretch.to), ...lit ? { stroke: css_color(stretch.color) } : {} };
+      stretch.d = look.d;
+      if (lit) shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 4.5 }, ahead);
+      shape("path", { ...look, "stroke-width": 3 }, ahead);
+      stretch.layers = [
+        ...lit ? [shape("path", { ...look, "stroke-width": 13 }, halos),
+          shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 6 }, casings)] : [],
+        shape("path", { ...look, "stroke-width": lit ? 3.5 : 2.5 }, lit ? done : dark),
+      ];
+      for (const layer of stretch.layers) layer.setAttribute("visibility", "hidden");
+      stretch.state = "ahead";
+    }
+    draw_marks(shape("g", {}, map));
+    draw_paper_scale(shape("g", { class: "paper-scale" }, map));
+    layers = draw_ball(map);
+  }
+  /** On paper the map has another size than on the screen: the scale stands in it. */
+  function draw_paper_scale(parent) {
+    const cm = grid_step(pixels.scale), long = cm * pixels.scale;
+    const right = pixels.width - 16, low = pixels.height - 12;
+    shape("rect", { x: right - long - 8, y: low - 22, width: long + 16, height: 28 }, parent);
+    shape("path", { d: `M${right - long} ${low - 5}v5h${long}v-5` }, parent);
+    shape("text", { x: right - long / 2, y: low - 8, "text-anchor": "middle" }, parent).textContent = length_words(cm);
+  }
+  /** Shows the part of the path that lies before this moment; only what changed is touched. */
+  function draw_progress(state) {
+    const i = state.index;
+    for (const stretch of stretches) {
+      const wanted = stretch.to <= i ? "done" : stretch.from <= i ? "open" : "ahead";
+      if (wanted === stretch.state && wanted !== "open") continue;
+      const cut = wanted === "open", whole = !cut && stretch.state === "open";
+      const d = cut
+        ? `${line_from(stretch.from, Math.min(i, stretch.to))}L${px(state.x).toFixed(1)} ${py(state.y).toFixed(1)}`
+        : stretch.d;
+      for (const layer of stretch.layers) {
+        if (cut || whole) layer.setAttribute("d", d);
+        layer.setAttribute("visibility", wanted === "ahead" ? "hidden" : "visible");
+      }
+      stretch.state = wanted;
+    }
+  }
+  /** Following moves the map only when the ball comes near its edge. */
+  function leaves_view(state) {
+    const x = px(state.x) / pixels.width, y = py(state.y) / pixels.height;
+    return x < .2 || x > .8 || y < .2 || y > .8;
+  }
+  function show(state) {
+    const lamp = of.lamp_at(now), lamp_color = lamp ? css_color(lamp) : "transparent";
+    if (view.follow && leaves_view(state)) draw();
+    draw_progress(state);
+    layers.ball.setAttribute("transform", `translate(${px(state.x).toFixed(2)} ${py(state.y).toFixed(2)})`);
+    layers.nose.setAttribute("transform", `rotate(${state.heading.toFixed(1)})`);
+    layers.lamp.setAttribute("fill", lamp_color);
+    layers.tail.setAttribute("opacity", (of.tail_at(now) / 255).toFixed(3));
+    layers.halo.setAttribute("opacity", lamp ? 1 : 0);
+    for (const stop of layers.lamp_stops) stop.setAttribute("stop-color", lamp_color);
+  }
+  map.addEventListener("wheel", event => {
+    if (!event.ctrlKey && !event.metaKey) return; // a plain wheel scrolls the page
+    event.preventDefault();
+    zoom_by(event.deltaY < 0 ? 1.15 : 1 / 1.15);
+  }, { passive: false });
+  map.addEventListener("pointerdown", event => {
+    if (view.follow || event.pointerType === "touch") return;
+    map.setPointerCapture(event.pointerId);
+    const start = { x: event.clientX, y: event.clientY, view_x: view.x, view_y: view.y };
+    const drag = moved_to => {
+      view.x = start.view_x - (moved_to.clientX - start.x) / pixels.scale;
+      view.y = start.view_y + (moved_to.clientY - start.y) / pixels.scale;
+      redraw();
+    };
+    map.addEventListener("pointermove", drag);
+    for (const name of ["pointerup", "pointercancel"])
+      map.addEventListener(name, () => map.removeEventListener("pointermove", drag), { once: true });
+  });
+  return { draw, show, scale: () => pixels.scale };
+}
+const maps = [];
+for (const one of [...runs].reverse()) {
+  const svg = one === main ? $("map") : $("map-before");
+  svg.parentElement.hidden = false;
+  if (before) svg.nextElementSibling.firstElementChild.textContent = one === main ? "this run" : "before";
+  maps.push({ of: one, words: svg.nextElementSibling, ...make_map(svg, one) });
+}
+document.body.classList.toggle("two", maps.length > 1);
+
+/** 1, 2 or 5 times a power of ten: lines stand at least 64 pixels apart. */
+function grid_step(scale) {
+  const wanted = 64 / scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
   return [1, 2, 5, 10].find(factor => factor * power >= wanted) * power;
 }
-const length_words = cm => cm >= 100 ? `${trim(cm / 100, 2)} m` : `${trim(cm, 2)} cm`;
 
-function draw_grid(parent) {
-  const grid = grid_step();
-  const first_x = Math.ceil(-pixels.left / pixels.scale / grid), last_x = Math.floor((pixels.width - pixels.left) / pixels.scale / grid);
-  const first_y = Math.ceil((pixels.top - pixels.height) / pixels.scale / grid), last_y = Math.floor(pixels.top / pixels.scale / grid);
-  for (let n = first_x; n <= last_x; ++n) {
-    const x = Math.round(px(n * grid)) + .5;
-    shape("path", { d: `M${x} 0V${pixels.height}`, class: n === 0 ? "grid-line strong" : "grid-line" }, parent);
-    if (x > 70 && x < pixels.width - 150)
-      shape("text", { x, y: pixels.height - 8, "text-anchor": "middle", class: "grid-word" }, parent).textContent = trim(n * grid, 3);
-  }
-  for (let n = first_y; n <= last_y; ++n) {
-    const y = Math.round(py(n * grid)) + .5;
-    shape("path", { d: `M0 ${y}H${pixels.width}`, class: n === 0 ? "grid-line strong" : "grid-line" }, parent);
-    if (y > 130 && y < pixels.height - 24)
-      shape("text", { x: 8, y: y - 4, class: "grid-word" }, parent).textContent = trim(n * grid, 3);
-  }
-  const long = grid * pixels.scale, right = pixels.width - 16, low = pixels.height - 14;
-  shape("path", { d: `M${right - long} ${low - 5}v5h${long}v-5`, class: "scale" }, parent);
-  shape("text", { x: right - long / 2, y: low - 8, "text-anchor": "middle", class: "scale-word" }, parent).textContent = length_words(grid);
+// ---- what the signs on the map mean, and its scale ----
+const legend_words = { start: "start", end: "end", bump: "ran into a wall", collision: "collision reported", marker: "marker", error: "error" };
+for (const [kind, words] of Object.entries(legend_words)) {
+  const seen = kind === "start" ? pose.t.length : kind === "end" ? moved : runs.some(one => one.run.events.some(event => event.kind === kind && event.x !== undefined));
+  if (!seen) continue;
+  const item = element("li", { "data-sign": kind });
+  mark_art[kind](shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
+  item.append(words);
+  $("legend").append(item);
 }
-
-const hit_path = "M-5 -5L5 5M-5 5L5 -5";
-function draw_marks(parent) {
-  const pin = (event, draw) => {
-    if (event.x === undefined) return;
-    const group = shape("g", { transform: `translate(${px(event.x).toFixed(1)} ${py(event.y).toFixed(1)})` }, parent);
-    shape("title", {}, group).textContent = `${seconds(event.t)} s: ${event.text}`;
-    draw(group);
-  };
-  for (const event of events) {
-    if (event.kind === "marker") pin(event, g => {
-      shape("path", { d: "M0 -6L6 0L0 6L-6 0Z", class: "mark-marker" }, g);
-      shape("text", { x: 9, y: 4, class: "mark-word" }, g).textContent = event.short ?? "";
-    });
-    if (event.kind === "collision") pin(event, g => shape("path", { d: hit_path, class: "mark-hit" }, g));
-    if (event.kind === "error") pin(event, g => shape("path", { d: "M0 -8L8 6H-8Z", class: "mark-error" }, g));
-  }
-  if (!pose.t.length) return;
-  const final = pose.t.length - 1;
-  shape("circle", { cx: px(pose.x[0]), cy: py(pose.y[0]), r: 8, class: "mark-start" }, parent);
-  if (!moved) return;
-  const near = Math.hypot(px(pose.x[0]) - px(pose.x[final]), py(pose.y[0]) - py(pose.y[final])) < 34;
-  shape("text", { x: px(pose.x[0]) + 13, y: py(pose.y[0]) + (near ? -8 : 4), class: "mark-word" }, parent).textContent = "start";
-  shape("rect", { x: px(pose.x[final]) - 5, y: py(pose.y[final]) - 5, width: 10, height: 10, class: "mark-end" }, parent);
-  shape("text", { x: px(pose.x[final]) + 13, y: py(pose.y[final]) + (near ? 16 : 4), class: "mark-word" }, parent).textContent = "end";
+for (const [sign, words, seen] of [["wall", "wall", runs.some(one => one.run.walls.length)], ["run unlit", "LED off", runs.some(one => one.stretches.some(stretch => !stretch.color))]]) {
+  if (!seen) continue;
+  const item = element("li", { "data-sign": sign.split(" ").pop() });
+  shape("path", { d: "M-9 0H9", class: sign, "stroke-width": 2.5 }, shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
+  item.append(words);
+  $("legend").append(item);
 }
-
-function draw_ball(parent) {
-  const defs = shape("defs", {}, parent);
-  const glow = shape("radialGradient", { id: "glow" }, defs);
-  const lamp_stops = [shape("stop", { offset: .2, "stop-opacity": .75 }, glow), shape("stop", { offset: 1, "stop-opacity": 0 }, glow)];
-  const shine = shape("radialGradient", { id: "shine", cx: .36, cy: .3, r: .75 }, defs);
-  shape("stop", { offset: 0, "stop-color": "#fff", "stop-opacity": .85 }, shine);
-  shape("stop", { offset: .45, "stop-color": "#fff", "stop-opacity": .12 }, shine);
-  shape("stop", { offset: 1, "stop-color": "#000", "stop-opacity": .28 }, shine);
-  const ball = shape("g", { id: "ball" }, parent);
-  const halo = shape("circle", { r: moved ? 40 : 90, fill: "url(#glow)" }, ball);
-  const r = moved ? 13 : 34;
-  shape("ellipse", { cx: 2, cy: 4, rx: r, ry: r, class: "ball-shadow" }, ball);
-  shape("circle", { r, class: "ball-body" }, ball);
-  const lamp = shape("circle", { id: "ball-lamp", r: r - .7 }, ball);
-  shape("circle", { r, fill: "url(#shine)" }, ball);
-  const nose = shape("g", {}, ball);
-  shape("path", { d: `M0 ${-r - 9}l5 8h-10z`, class: "mark-end" }, nose);
-  const tail = shape("circle", { cy: r - 2, r: r / 5 + 1, fill: "#4a8dff" }, nose);
-  return { ball, lamp, nose, tail, halo, lamp_stops };
+function draw_scale() {
+  const cm = grid_step(maps[0].scale());
+  $("scale-bar").style.width = `${(cm * maps[0].scale()).toFixed(1)}px`;
+  $("scale-words").textContent = length_words(cm);
 }
-
-function draw_map() {
-  measure();
-  for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
-  map.setAttribute("viewBox", `0 0 ${pixels.width} ${pixels.height}`);
-  draw_grid(shape("g", {}, map));
-  const walls = shape("g", {}, map);
-  for (const wall of run.walls) {
-    const d = wall.axis === "x" ? `M${px(wall.at)} 0V${pixels.height}` : `M0 ${py(wall.at)}H${pixels.width}`;
-    shape("path", { d, class: "wall" }, walls);
-  }
-  const ahead = shape("g", { class: "ahead" }, map);
-  const halos = shape("g", { class: "halo" }, map);
-  const casings = shape("g", {}, map);
-  const dark = shape("g", {}, map); // unlit stretches lie below lit ones
-  map.insertBefore(dark, casings);
-  const done = shape("g", {}, map);
-  const paint = stretch => stretch.color ? { stroke: css_color(stretch.color) } : {};
-  for (const stretch of stretches) {
-    const look = { class: stretch.color ? "run" : "run unlit", d: line_from(stretch.from, stretch.to), ...paint(stretch) };
-    stretch.d = look.d;
-    shape("path", { ...look, "stroke-width": 3 }, ahead);
-    stretch.layers = [
-      shape("path", { ...look, "stroke-width": 13 }, halos),
-      ...stretch.color ? [shape("path", { class: "run casing", d: look.d, "stroke-width": 5.5 }, casings)] : [],
-      shape("path", { ...look, "stroke-width": stretch.color ? 3.5 : 2.5 }, stretch.color ? done : dark),
-    ];
-    for (const layer of stretch.layers) layer.setAttribute("visibility", "hidden");
-    stretch.state = "ahead";
-  }
-  draw_marks(shape("g", {}, map));
-  layers = draw_ball(map);
-}
-
-/** Shows the part of the path that lies before this moment; only what changed is touched. */
-function draw_progress(state) {
-  const i = state.index;
-  for (const stretch of stretches) {
-    const wanted = stretch.to <= i ? "done" : stretch.from <= i ? "open" : "ahead";
-    if (wanted === stretch.state && wanted !== "open") continue;
-    const cut = wanted === "open", whole = !cut && stretch.state === "open";
-    const d = cut
-      ? `${line_from(stretch.from, Math.min(i, stretch.to))}L${px(state.x).toFixed(1)} ${py(state.y).toFixed(1)}`
-      : stretch.d;
-    for (const layer of stretch.layers) {
-      if (cut || whole) layer.setAttribute("d", d);
-      layer.setAttribute("visibility", wanted === "ahead" ? "hidden" : "visible");
-    }
-    stretch.state = wanted;
-  }
-}
-
-/** Following moves the map only when the ball comes near its edge. */
-function leaves_view(state) {
-  const x = px(state.x) / pixels.width, y = py(state.y) / pixels.height;
-  return x < .2 || x > .8 || y < .2 || y > .8;
+function draw_maps() {
+  for (const one of maps) one.draw();
+  draw_scale();
 }
 
 function zoom_by(factor) {
@@ -307,7 +432,7 @@ function fit() {
 function toggle_follow() {
   view.follow = !view.follow;
   if (!view.follow) {
-    const state = state_at(now);
+    const state = main.state_at(now);
     view.x = state.x - box.middle_x;
     view.y = state.y - box.middle_y;
   }
@@ -318,24 +443,6 @@ $("zoom-in").addEventListener("click", () => zoom_by(1.5));
 $("zoom-out").addEventListener("click", () => zoom_by(1 / 1.5));
 $("zoom-fit").addEventListener("click", fit);
 $("follow").addEventListener("click", toggle_follow);
-map.addEventListener("wheel", event => {
-  if (!event.ctrlKey && !event.metaKey) return; // a plain wheel scrolls the page
-  event.preventDefault();
-  zoom_by(event.deltaY < 0 ? 1.15 : 1 / 1.15);
-}, { passive: false });
-map.addEventListener("pointerdown", event => {
-  if (view.follow || event.pointerType === "touch") return;
-  map.setPointerCapture(event.pointerId);
-  const start = { x: event.clientX, y: event.clientY, view_x: view.x, view_y: view.y };
-  const drag = moved_to => {
-    view.x = start.view_x - (moved_to.clientX - start.x) / pixels.scale;
-    view.y = start.view_y + (moved_to.clientY - start.y) / pixels.scale;
-    redraw();
-  };
-  map.addEventListener("pointermove", drag);
-  map.addEventListener("pointerup", () => map.removeEventListener("pointermove", drag), { once: true });
-  map.addEventListener("pointercancel", () => map.removeEventListener("pointermove", drag), { once: true });
-});
 if (!moved) {
   $("still").textContent = pose.t.length ? "The ball stayed where it was." : "The ball did not move.";
   $("still").hidden = false;
@@ -352,19 +459,44 @@ for (const [name, words] of [["position", "at"], ["speed", "speed"], ["heading",
 readings.led.append(element("span", { class: "swatch" }), document.createTextNode(""));
 
 // ---- program text ----
+const kinds_of = words => new Map(Object.entries(words).flatMap(([kind, list]) => list.map(word => [word, kind])));
+const languages = {
+  basic: { words: kinds_of(run.words.basic), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>\d+)|(?<name>[A-Za-z_]\w*)|[^'"\dA-Za-z_]+/g },
+  macro: { words: kinds_of(run.words.macro), tokens: /(?<comment>[#;].*)|(?<string>"(?:\\.|[^"\\])*"?)|(?<directive>\.\w+)|(?<number>-?\b\d\w*(?:\.\d+\w*)?)|(?<name>[A-Za-z_]\w*)|[^#;"\dA-Za-z_]/g },
+};
+/** A line in the colours of its language; what no rule knows stays as it is. */
+function colored(text, { words, tokens }) {
+  const cell = element("td");
+  let first = true;
+  for (const token of text.matchAll(tokens)) {
+    const found = Object.entries(token.groups).find(([, part]) => part !== undefined);
+    const kind = !found ? "" : found[0] === "name" ? words.get(token[0]) ?? "" : found[0] === "number" && first ? "label" : found[0];
+    if (kind) cell.append(element("span", { class: `is-${kind}` }, token[0]));
+    else cell.append(token[0]);
+    if (token[0].trim()) first = false;
+  }
+  if (!text) cell.append(" ");
+  return cell;
+}
+let shown = main;
 let shown_file = 0;
 let rows = [];
 function show_file(index) {
   shown_file = index;
-  const file = run.files[index];
-  const body = $("source").tBodies[0];
-  body.replaceChildren();
-  rows = [];
+  const file = shown.run.files[index];
+  rows = file ? source_rows(file) : [];
+  $("source").tBodies[0].replaceChildren(...rows);
   if (!file) return;
-  $("source-title").textContent = run.files.length > 1 ? "Program" : file.name;
+  $("source-title").textContent = shown.run.files.length > 1 ? "Program" : base_name(file.name);
+  $("source-title").title = file.name;
+  current_row = null;
+}
+/** A row for each line of a file: its number, how often it ran, its text. */
+function source_rows(file) {
   const ran = new Map(file.counts.map(([line, count, first]) => [line, { count, first }]));
-  const most = Math.max(1, ...file.counts.map(([, count]) => count));
-  file.text.replace(/\r\n?/g, "\n").replace(/\n$/, "").split("\n").forEach((text, i) => {
+  const most = file.counts.reduce((sum, [, count]) => Math.max(sum, count), 1);
+  const language = file.name.endsWith(".macro") ? languages.macro : languages.basic;
+  return file.text.replace(/\r\n?/g, "\n").replace(/\n$/, "").split("\n").map((text, i) => {
     const line = i + 1, entry = ran.get(line);
     const row = element("tr", { "data-line": line });
     if (!entry) row.className = "ran-never";
@@ -375,24 +507,23 @@ function show_file(index) {
       row.dataset.first = entry.first;
       row.title = `first ran at ${seconds(entry.first)} s`;
     }
-    row.append(element("td", { class: "no" }, String(line)), cell, element("td", {}, text || " "));
-    body.append(row);
-    rows.push(row);
+    row.append(element("td", { class: "no" }, String(line)), cell, colored(text, language));
+    return row;
   });
-  current_row = null;
 }
 $("source").addEventListener("click", event => {
   const row = event.target.closest("tr[data-first]");
   if (row) seek(Number(row.dataset.first));
 });
-if (run.files.length > 1) {
-  run.files.forEach((file, i) => $("file").append(element("option", { value: i }, file.name)));
-  $("file").hidden = false;
-  $("file").addEventListener("change", () => { show_file(Number($("file").value)); show_line(); });
+function list_files() {
+  $("file").replaceChildren(...shown.run.files.map((file, i) => element("option", { value: i }, base_name(file.name))));
+  $("file").hidden = shown.run.files.length < 2;
+  show_file(0);
 }
+$("file").addEventListener("change", () => { show_file(Number($("file").value)); show_line(); });
 let current_row = null;
 function show_line() {
-  const own = steps[shown_file];
+  const own = shown.steps[shown_file];
   const i = own ? last_at(own.t, now) : -1;
   const inside = i >= 0;
   const row = inside ? rows[own.line[i] - 1] : null;
@@ -417,45 +548,59 @@ const kinds = {
   print: { words: "prints", icon: "M1 3h12v7H6l-3 3v-3H1z" },
   error: { words: "errors", icon: "M7 1L14 13H0z" },
   marker: { words: "markers", icon: "M7 1l6 6-6 6-6-6z" },
-  collision: { words: "collisions", icon: "M2 2l10 10M2 12L12 2" },
+  bump: { words: "bumps", icon: "M12 7a5 5 0 1 1-10 0 5 5 0 0 1 10 0z", stroked: true },
+  collision: { words: "collisions", icon: "M2 2l10 10M2 12L12 2", stroked: true },
   macro: { words: "macros", icon: "M3 2v10l9-5z" },
   sleep: { words: "sleep", icon: "M10 9a5 5 0 1 1-5-7 4 4 0 0 0 5 7z" },
 };
-const event_rows = [];
+let events = [];
+let event_rows = [];
+let event_times = [];
+let current_event = -2;
+const hidden_kinds = new Set();
 function icon(kind) {
   const art = shape("svg", { viewBox: "0 0 14 14", class: "icon", "aria-hidden": "true" });
-  const stroked = kind === "collision";
-  shape("path", { d: kinds[kind].icon, fill: stroked ? "none" : "currentColor", stroke: stroked ? "currentColor" : "none", "stroke-width": 2.4 }, art);
+  const stroked = kinds[kind].stroked;
+  shape("path", { d: kinds[kind].icon, fill: stroked ? "none" : "currentColor", stroke: stroked ? "currentColor" : "none", "stroke-width": 2.2 }, art);
   return art;
 }
-events.forEach((event, i) => {
-  if (event.gap && i > 0)
-    $("events").append(element("li", { class: "gap" }, `${event.gap.toLocaleString("en")} events in between are not listed`));
-  const item = element("li", { class: event.kind });
-  const button = element("button", { type: "button", "data-t": event.t, "data-kind": event.kind });
-  const words = element("span", { class: "words" }, event.text.replace(/\n$/, "") || "(empty line)");
-  button.append(element("span", { class: "t" }, seconds(event.t)), icon(event.kind), words);
-  button.setAttribute("aria-label", `${seconds(event.t)} seconds, ${event.kind}: ${event.text}`);
-  button.addEventListener("click", () => seek(event.t));
-  item.append(button);
-  $("events").append(item);
-  event_rows.push(item);
-});
-const hidden_kinds = new Set();
-for (const [kind, { words }] of Object.entries(kinds)) {
-  const count = run.counts[kind] ?? 0;
-  if (!count) continue;
-  const button = element("button", { type: "button", "aria-pressed": "true", "data-filter": kind, "data-count": count }, `${words} ${count.toLocaleString("en")}`);
-  button.addEventListener("click", () => {
-    if (!hidden_kinds.delete(kind)) hidden_kinds.add(kind);
-    button.setAttribute("aria-pressed", String(!hidden_kinds.has(kind)));
-    events.forEach((event, i) => { event_rows[i].hidden = hidden_kinds.has(event.kind); });
-  });
-  $("filters").append(button);
+function list_events() {
+  events = shown.run.events;
+  event_times = events.map(event => event.t);
+  event_rows = [];
+  current_event = -2;
+  $("events").replaceChildren();
+  for (const [i, event] of events.entries()) {
+    if (event.gap && i > 0)
+      $("events").append(element("li", { class: "gap" }, `${event.gap.toLocaleString("en")} events in between are not listed`));
+    const item = element("li", { class: event.kind });
+    const button = element("button", { type: "button", "data-t": event.t, "data-kind": event.kind });
+    const words = element("span", { class: "words" }, event.text.replace(/\n$/, "") || "(empty line)");
+    button.append(element("span", { class: "t" }, seconds(event.t)), icon(event.kind), words);
+    button.setAttribute("aria-label", `${seconds(event.t)} seconds, ${event.kind}: ${event.text}`);
+    button.addEventListener("click", () => seek(event.t));
+    item.append(button);
+    $("events").append(item);
+    event_rows.push(item);
+  }
+  $("no-events").hidden = events.length > 0;
+  $("filters").replaceChildren();
+  for (const [kind, { words }] of Object.entries(kinds)) {
+    const count = shown.run.counts[kind] ?? 0;
+    if (!count) continue;
+    const button = element("button", { type: "button", "data-filter": kind, "data-count": count }, `${words} ${count.toLocaleString("en")}`);
+    button.addEventListener("click", () => {
+      if (!hidden_kinds.delete(kind)) hidden_kinds.add(kind);
+      show_kinds();
+    });
+    $("filters").append(button);
+  }
+  show_kinds();
 }
-$("no-events").hidden = events.length > 0;
-const event_times = events.map(event => event.t);
-let current_event = -2;
+function show_kinds() {
+  for (const button of $("filters").children) button.setAttribute("aria-pressed", String(!hidden_kinds.has(button.dataset.filter)));
+  events.forEach((event, i) => { event_rows[i].hidden = hidden_kinds.has(event.kind); });
+}
 function show_event() {
   const i = last_at(event_times, now);
   if (i === current_event) return;
@@ -477,12 +622,28 @@ function jump(by) {
 $("previous").addEventListener("click", () => jump(-1));
 $("next").addEventListener("click", () => jump(1));
 
+// ---- which of two runs the lists show ----
+function choose(one) {
+  shown = one;
+  for (const button of $("whose").children) button.setAttribute("aria-pressed", String(button.dataset.run === (one === main ? "run" : "before")));
+  list_files();
+  list_events();
+}
+if (before) {
+  for (const [name, words, one] of [["before", "before", before], ["run", "this run", main]]) {
+    const button = element("button", { type: "button", "data-run": name }, words);
+    button.addEventListener("click", () => { choose(one); show(); });
+    $("whose").append(button);
+  }
+  $("whose").hidden = false;
+}
+
 // ---- values over time ----
 const lanes = [];
 /** `series`: [{name, t, v, digits}]; `cyclic`: 360 where a value wraps round; `between`: what a state
- *  between two poses says, where values are not held. */
-function add_lane({ id, name, unit, series, cyclic, low, high, held, between }) {
-  const values = series.flatMap(one => one.v.length ? [Math.min(...one.v), Math.max(...one.v)] : [0]);
+ *  between two poses says, where values are not held; `other`: the same series of the run before. */
+function add_lane({ id, name, unit, series, cyclic, low, high, held, between, other }) {
+  const values = [...series, ...other ? [other] : []].flatMap(one => one.v.length ? [one.v.reduce((a, b) => Math.min(a, b)), one.v.reduce((a, b) => Math.max(a, b))] : [0]);
   let from = low ?? Math.min(...values), to = high ?? Math.max(...values);
   if (to - from < 1e-9) { to += 1; from -= low === undefined ? 1 : 0; }
   const lane = element("div", { class: series.length === 1 ? "lane one" : "lane", "data-lane": id });
@@ -502,7 +663,7 @@ function add_lane({ id, name, unit, series, cyclic, low, high, held, between }) 
   plot.append(playhead);
   lane.append(words, plot);
   $("lanes").append(lane);
-  const made = { plot, art, playhead, outputs, series, from, to, cyclic, held, between };
+  const made = { plot, art, playhead, outputs, series, from, to, cyclic, held, between, other };
   plot.addEventListener("pointerdown", event => scrub(event, plot));
   lanes.push(made);
 }
@@ -524,7 +685,7 @@ function draw_lane(lane) {
   const ticks = tick_times(width);
   for (const t of ticks) shape("path", { d: `M${x(t).toFixed(1)} 0V${height}`, class: "grid-line" }, lane.art);
   if (lane.from < 0 && lane.to > 0) shape("path", { d: `M0 ${y(0)}H${width}`, class: "grid-line strong" }, lane.art);
-  lane.series.forEach((one, k) => {
+  const curve = (one, look) => {
     let d = "", previous = null, last_x = -9;
     for (let i = 0; i < one.t.length; ++i) {
       const here = x(one.t[i]);
@@ -537,8 +698,10 @@ function draw_lane(lane) {
       last_x = here;
     }
     if (d) d += `H${width}`;
-    shape("path", { d: d || "M0 0", class: `line s${k}` }, lane.art);
-  });
+    shape("path", { d: d || "M0 0", class: `line ${look}` }, lane.art);
+  };
+  if (lane.other) curve(lane.other, "before");
+  lane.series.forEach((one, k) => curve(one, `s${k}`));
   shape("text", { x: 4, y: 10 }, lane.art).textContent = trim(lane.to, 1);
   shape("text", { x: 4, y: height - 3 }, lane.art).textContent = trim(lane.from, 1);
 }
@@ -587,8 +750,8 @@ const led_plot = add_thin_lane("LED", "led-lane");
 const led_art = shape("svg", { preserveAspectRatio: "none" }, led_plot);
 const led_playhead = element("div", { class: "playhead" });
 led_plot.append(led_playhead);
-add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, between: state => state.speed, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 1 }] });
-add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, between: state => state.heading, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
+add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, between: state => state.speed, other: before && { t: before.pose.t, v: before.pose.speed }, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 1 }] });
+add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, between: state => state.heading, other: before && { t: before.pose.t, v: before.pose.heading }, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
 if (backled.t.length)
   add_lane({ id: "backled", name: "Aiming light", unit: "", low: 0, high: 255, held: true, series: [{ name: "backLED", t: backled.t, v: backled.value, digits: 0 }] });
 for (const group of run.sensors) {
@@ -617,21 +780,18 @@ function draw_colors(art) {
 }
 
 function show() {
-  const state = state_at(now);
-  const lamp = lamp_at(now), lamp_color = lamp ? css_color(lamp) : "transparent";
-  if (view.follow && leaves_view(state)) draw_map();
-  draw_progress(state);
-  layers.ball.setAttribute("transform", `translate(${px(state.x).toFixed(2)} ${py(state.y).toFixed(2)})`);
-  layers.nose.setAttribute("transform", `rotate(${state.heading.toFixed(1)})`);
-  layers.lamp.setAttribute("fill", lamp_color);
-  layers.tail.setAttribute("opacity", (tail_at(now) / 255).toFixed(3));
-  layers.halo.setAttribute("opacity", lamp ? 1 : 0);
-  for (const stop of layers.lamp_stops) stop.setAttribute("stop-color", lamp_color);
+  const state = main.state_at(now);
+  const lamp = main.lamp_at(now), lamp_color = lamp ? css_color(lamp) : "transparent";
+  for (const one of maps) {
+    const there = one.of.state_at(now);
+    one.show(there);
+    one.words.lastElementChild.textContent = `${position_words(there)}, ${speed_words(there)}`;
+  }
   document.documentElement.style.setProperty("--lamp", lamp_color);
   if (lamp) document.documentElement.style.setProperty("--lamp-solid", lamp_color);
   else document.documentElement.style.removeProperty("--lamp-solid");
-  readings.position.textContent = `${state.x.toFixed(1)}, ${state.y.toFixed(1)} cm`;
-  readings.speed.textContent = `${state.speed.toFixed(1)} cm/s`;
+  readings.position.textContent = position_words(state);
+  readings.speed.textContent = speed_words(state);
   readings.heading.textContent = `${state.heading.toFixed(1)}°`;
   readings.led.firstChild.style.background = lamp_color;
   readings.led.lastChild.textContent = rgb_words(lamp);
@@ -643,7 +803,7 @@ function show() {
   show_lanes(state);
 }
 function redraw() {
-  draw_map();
+  draw_maps();
   show();
 }
 function seek(t) {
@@ -692,16 +852,46 @@ document.addEventListener("keydown", event => {
 });
 
 // ---- begin ----
-show_file(0);
-const everything = () => { draw_map(); lanes.forEach(draw_lane); draw_axis(); show(); };
+choose(main);
+const everything = () => { draw_maps(); lanes.forEach(draw_lane); draw_axis(); show(); };
 draw_colors($("track"));
 draw_colors(led_art);
-const asked = /^#t=([0-9.]+)$/.exec(location.hash);
-if (asked) now = clamp(Number(asked[1]) * 1e6, 0, end);
+/** The moment that the address asks for: `#t=3.2`, in seconds; nothing where it asks for none. */
+function asked_time() {
+  const asked = /^#t=([0-9.]+)$/.exec(location.hash);
+  return asked ? clamp(Number(asked[1]) * 1e6, 0, end) : null;
+}
+now = asked_time() ?? 0;
+window.addEventListener("hashchange", () => { if (asked_time() !== null) seek(asked_time()); });
 everything();
+
+// On paper the run is over: the whole path, whatever part of it was looked at.
+let put_aside = null;
+window.addEventListener("beforeprint", () => {
+  set_playing(false);
+  put_aside = { now, ...view };
+  Object.assign(view, { zoom: 1, x: 0, y: 0, follow: false });
+  now = end;
+  shown.run.files.forEach((file, i) => {
+    if (i === shown_file) return;
+    const table = element("table", { class: "listing" });
+    table.append(...source_rows(file));
+    $("paper-files").append(element("h2", {}, base_name(file.name)), table);
+  });
+  redraw();
+});
+window.addEventListener("afterprint", () => {
+  if (!put_aside) return;
+  const { now: then, ...looked } = put_aside;
+  Object.assign(view, looked);
+  now = then;
+  put_aside = null;
+  $("paper-files").replaceChildren();
+  redraw();
+});
 let pending = 0;
 new ResizeObserver(() => {
   cancelAnimationFrame(pending);
   pending = requestAnimationFrame(everything);
-}).observe(map);
+}).observe($("map"));
 })();

@@ -10,10 +10,10 @@ namespace orb::report {
 namespace {
 
 /// The columns after `t` and `event`: every key in the order in which the events name them.
-constexpr std::array<std::string_view, 23> columns{
-    "r",      "g",     "b",       "heading", "speed", "go",      "x",      "y",
-    "marker", "macro", "command", "line",    "code",  "message", "reason", "lines",
-    "text",   "value", "axis",    "xmag",    "ymag",  "seconds", "id",
+constexpr std::array<std::string_view, 25> columns{
+    "r",     "g",       "b",    "heading", "speed",   "go",     "x",     "y",    "marker",
+    "macro", "command", "line", "code",    "message", "reason", "lines", "text", "value",
+    "axis",  "xmag",    "ymag", "seconds", "id",      "wall",   "at",
 };
 
 template <class... Functions>
@@ -170,7 +170,12 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
           },
           [&](const e::End&) { return std::string(); },
           [&](const e::MacroEnd&) { return std::string(); },
-          [&](const e::Bump&) { return std::string(); },
+          [&](const e::Bump& x) {
+            return line("bump",
+                        {{"wall", std::string(x.wall.axis == vm::Wall::Axis::X ? "x" : "y")},
+                         {"at", x.wall.at_cm},
+                         {"speed", n(x.speed)}});
+          },
       },
       event);
 }

@@ -281,6 +281,159 @@ class Report(unittest.TestCase):
         page.wait("document.body.textContent.includes('after')")
         self.assertEqual(page.complaints, [])
 
+    def test_the_readout_stands_beside_the_map(self):
+        for width, mobile in ((1280, False), (390, True)):
+            page = self.open(self.dance, width, 860, mobile)
+            self.assertEqual(page.evaluate("""(() => {
+              const map = document.getElementById('map').getBoundingClientRect();
+              return ['now', 'legend', 'scale-bar', 'zoom-in', 'follow'].filter(id => {
+                const box = document.getElementById(id).getBoundingClientRect();
+                return box.left < map.right && box.right > map.left && box.top < map.bottom && box.bottom > map.top;
+              });
+            })()"""), [])
+
+    # How strongly what outlines a stretch stands out from the card, as WCAG counts it; a stroke may be
+    # half transparent.
+    contrast = """(selector => {
+      const channels = text => text.match(/[0-9.]+/g).map(Number);
+      const card = channels(getComputedStyle(document.querySelector('.stage')).backgroundColor);
+      const [r, g, b, a = 1] = channels(getComputedStyle(document.querySelector(selector)).stroke);
+      const light = rgb => rgb.map(c => c / 255).map(c => c <= .03928 ? c / 12.92 : ((c + .055) / 1.055) ** 2.4)
+        .reduce((sum, c, i) => sum + c * [.2126, .7152, .0722][i], 0);
+      const seen = light([r, g, b].map((c, i) => c * a + card[i] * (1 - a))), under = light(card);
+      return (Math.max(seen, under) + .05) / (Math.min(seen, under) + .05);
+    })"""
+
+    def test_white_black_and_no_light_are_seen_on_light_and_dark(self):
+        program = self.file("leds.bas", "10 RGB 255,255,255\n20 goroll 0,90,1\n30 delay 900\n40 RGB 0,0,30\n50 delay 900\n60 RGB 0,0,0\n70 delay 900\n80 goroll 0,0,0\n90 delay 900\n")
+        page = self.open(Run(self.folder.name, "leds", program))
+        page.key("End")
+        page.evaluate("delete document.documentElement.dataset.theme")
+        for scheme, outlined in (("light", ".casing.pale"), ("dark", ".casing.deep")):
+            page.prefer(scheme)
+            for selector in (outlined, ".run.unlit"):
+                self.assertGreater(page.evaluate(f"{self.contrast}('{selector}')"), 3, (scheme, selector))
+        self.assertEqual(page.evaluate("document.querySelector('[data-sign=unlit]').textContent"), "LED off")
+
+    def test_the_program_has_the_colours_of_its_language(self):
+        text = "10 ' counts\n20 for A = 1 to 3 ' up\n30 print \"for 5 \" A, xpos\n40 next A\n"
+        page = self.open(Run(self.folder.name, "colours", self.file("colours.bas", text)))
+        rows = page.evaluate("[...document.querySelectorAll('#source tr')].map(row => row.lastChild.textContent)")
+        self.assertEqual(rows, text.rstrip("\n").split("\n"))
+        of = lambda kind: page.evaluate(f"[...document.querySelectorAll('#source .is-{kind}')].map(one => one.textContent)")
+        self.assertEqual(of("comment"), ["' counts", "' up"])
+        self.assertEqual(of("statement"), ["for", "to", "print", "next"])
+        self.assertEqual(of("string"), ['"for 5 "'])
+        self.assertEqual(of("number"), ["1", "3"])
+        self.assertEqual(of("label"), ["10", "20", "30", "40"])
+        self.assertEqual(of("sensor"), ["xpos"])
+        page = self.open(Run(self.folder.name, "macro-colours", example("square.macro")))
+        self.assertIn("wait_until_stopped", page.evaluate("[...document.querySelectorAll('#source .is-statement')].map(one => one.textContent)"))
+
+    def test_what_a_program_says_stays_text(self):
+        bad = "<img src=x onerror=\"window.hacked = 1\"><script>window.hacked = 1</script>"
+        name = "<b>x.bas"
+        program = self.file(name, f"10 print \"<i>\" ' {bad}\n20 print 1/0 ' </script><!--\n")
+        run = Run(self.folder.name, "hostile", program)
+        page = self.open(run)
+        self.assertEqual(page.evaluate("document.querySelectorAll('img, #events i, #title b, body script').length"), 3)  # its own
+        self.assertIsNone(page.evaluate("window.hacked"))
+        self.assertIn(bad, page.evaluate("document.querySelector('#source tr').textContent"))
+        self.assertEqual(page.evaluate("document.querySelector('#events .words').textContent"), "<i>")
+        self.assertEqual(page.evaluate("document.getElementById('title').textContent"), name)
+        after = Run(self.folder.name, "after-hostile", example("dance.bas"), "--compare", run.page_path)
+        page = self.open(after)
+        page.evaluate("document.querySelector('[data-run=before]').click()")
+        self.assertIsNone(page.evaluate("window.hacked"))
+        self.assertIn(bad, page.evaluate("document.querySelector('#source tr').textContent"))
+
+    def test_walls_that_were_hit_are_listed_without_collision_detection(self):
+        run = Run(self.folder.name, "maze", example("maze.bas"), "--stimulus", example("maze.stimulus"))
+        self.assertEqual(run.of("collision"), [])
+        bumps = run.of("bump")
+        self.assertGreater(len(bumps), 5)
+        page = self.open(run)
+        times = page.evaluate("[...document.querySelectorAll('#events [data-kind=bump]')].map(one => Number(one.dataset.t))")
+        self.assertEqual(times, [micro(bump["t"]) for bump in bumps])
+        self.assertEqual(page.evaluate("document.querySelectorAll('#map [data-mark=bump]').length"), len(bumps))
+        self.assertIn("wall", page.evaluate("document.querySelector('#events .bump .words').textContent"))
+
+    def test_prints_are_joined_as_the_robot_sends_them(self):
+        program = self.file("joined.bas", "10 print \"a\";\n20 delay 100\n30 print \"b\"\n40 print \"c\";\n")
+        run = Run(self.folder.name, "joined", program)
+        page = self.open(run)
+        self.assertEqual(page.evaluate("[...document.querySelectorAll('#events [data-kind=print]')].map(one => [one.querySelector('.words').textContent, Number(one.dataset.t)])"),
+                         [["ab", micro(run.of("print")[1]["t"])], ["c", micro(run.of("end")[0]["t"])]])
+        self.assertEqual(page.evaluate("document.querySelector('[data-filter=print]').dataset.count"), "2")
+
+    def test_the_moment_of_the_address_is_honoured_on_change(self):
+        page = self.open(self.dance)
+        for t in ("3.2", "1"):
+            page.evaluate(f"location.hash = '#t={t}'")
+            page.wait(f"{now} === {round(float(t) * 1e6)}")
+
+    def test_titles_on_a_phone_break_between_words(self):
+        program = self.file("my-first-very-long_program.of-a-pupil.bas", "10 end\n")
+        page = self.open(Run(self.folder.name, "long", program), 320, 700, mobile=True)
+        broken = page.evaluate("""[...document.getElementById('title').childNodes].filter(node => node.nodeType === 3).filter(node => {
+          const range = document.createRange();
+          range.selectNode(node);
+          return new Set([...range.getClientRects()].map(box => box.top)).size > 1;
+        }).map(node => node.textContent)""")
+        self.assertEqual(broken, [])
+        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 320)
+
+    def test_words_on_the_map_keep_clear_of_walls(self):
+        run = Run(self.folder.name, "walls", example("maze.bas"), "--stimulus", example("maze.stimulus"))
+        for width, mobile in ((1280, False), (390, True)):
+            page = self.open(run, width, 860, mobile)
+            self.assertEqual(page.evaluate("""(() => {
+              const walls = [...document.querySelectorAll('#map .wall')].map(one => one.getBoundingClientRect());
+              return [...document.querySelectorAll('#map .grid-word, #map .mark-word')].filter(word => {
+                const box = word.getBoundingClientRect();
+                return walls.some(wall => wall.left < box.right && wall.right > box.left && wall.top < box.bottom && wall.bottom > box.top);
+              }).map(word => word.textContent);
+            })()"""), [])
+
+    def test_paper_shows_the_whole_path_and_the_whole_program(self):
+        page = self.open(Run(self.folder.name, "paper", example("conductor.bas"), example("orchestra.macro")))
+        page.prefer("dark")
+        page.evaluate(f"{seek}(1000000)")
+        page.evaluate("document.getElementById('zoom-in').click()")
+        page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(page.evaluate("document.querySelectorAll('#map [visibility=hidden]').length"), 0)
+        self.assertEqual(page.evaluate("""[...document.querySelectorAll('.scroll')].filter(one =>
+          getComputedStyle(one).overflow !== 'visible' || one.getBoundingClientRect().height + 1 < one.scrollHeight).length"""), 0)
+        self.assertEqual(page.evaluate("document.querySelectorAll('.listing tr').length"), 9 + 21)
+        self.assertEqual(page.evaluate("""['.transport', '.tools', '.zoom', '.lanes'].filter(one =>
+          document.querySelector(one).getClientRects().length > 0)"""), [])
+        self.assertEqual(page.evaluate("getComputedStyle(document.documentElement).color"), "rgb(20, 33, 43)")
+        page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(page.evaluate(now), 1_000_000)
+        self.assertEqual(page.evaluate("document.querySelectorAll('.listing tr').length"), 9)
+
+    def test_two_runs_stand_side_by_side(self):
+        slow = self.file("drive.bas", "10 RGB 0,200,0\n20 goroll 0,60,1\n30 delay 1000\n40 goroll 0,0,0\n50 delay 1000\n60 print \"slow\"\n")
+        before = Run(self.folder.name, "before", slow)
+        fast = self.file("drive.bas", "10 RGB 0,200,0\n20 goroll 90,120,1\n30 delay 1000\n40 goroll 90,0,0\n50 delay 500\n60 print \"fast\"\n")
+        after = Run(self.folder.name, "after", fast, "--compare", before.page_path)
+        page = self.open(after)
+        maps = page.evaluate("['map-before', 'map'].map(id => { const box = document.getElementById(id).getBoundingClientRect(); return [box.left, box.top, box.width]; })")
+        self.assertLess(maps[0][0] + maps[0][2], maps[1][0] + 2)
+        self.assertEqual(maps[0][1], maps[1][1])
+        self.assertEqual(page.evaluate("document.querySelector('[data-before=time]').textContent"), "before 2.002 s")
+        self.assertEqual(page.evaluate("document.querySelectorAll('.line.before').length"), 2)
+        page.evaluate(f"{seek}(1500000)")
+        pose = before.at("pose", 1500)
+        shown = page.evaluate("document.querySelector('#map-before + figcaption span').textContent")
+        self.assertAlmostEqual(float(shown.split(",")[1].split()[0]), pose["y"], delta=2)
+        words = "document.querySelector('#events .words').textContent"
+        self.assertEqual(page.evaluate(words), "fast")
+        page.evaluate("document.querySelector('[data-run=before]').click()")
+        self.assertEqual(page.evaluate(words), "slow")
+        self.assertIn("goroll 0,60,1", page.evaluate("document.getElementById('source').textContent"))
+
 
 if __name__ == "__main__":
     if chromium.find() is None:

@@ -68,18 +68,32 @@ TEST(Journey, AddsUp) {
 TEST(Journey, ListsTheFirstAndTheLastOfManyEvents) {
   Journey journey;
   for (int i = 0; i < 5000; ++i)
-    journey.add(ms(i), event::Print{std::to_string(i)});
+    journey.add(ms(i), event::Print{std::to_string(i) + "\n"});
   const auto listed = journey.listed();
   ASSERT_EQ(listed.happenings.size(), 2000U);
   EXPECT_EQ(listed.left_out, 3000U);
-  EXPECT_EQ(listed.happenings[listed.gap_at].text, "4000");
-  EXPECT_EQ(listed.happenings.back().text, "4999");
+  EXPECT_EQ(listed.happenings[listed.gap_at].text, "4000\n");
+  EXPECT_EQ(listed.happenings.back().text, "4999\n");
 }
 
 TEST(Journey, CutsLongPrints) {
   Journey journey;
   journey.add(ms(0), event::Print{std::string(100'000, 'x')});
+  journey.finish(ms(1), "end", "");
   EXPECT_EQ(journey.listed().happenings.front().text.size(), 200U);
+}
+
+TEST(Journey, JoinsPrintsToTheLinesThatTheRobotSends) {
+  Journey journey;
+  journey.add(ms(1), event::Print{"a"});
+  journey.add(ms(2), event::Print{"b\nc\nd"});
+  journey.finish(ms(3), "end", "");
+  const auto lines = journey.listed().happenings;
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].text, "ab\n");
+  EXPECT_EQ(lines[0].t, ms(2));
+  EXPECT_EQ(lines[2].text, "d");
+  EXPECT_EQ(lines[2].t, ms(3));
 }
 
 TEST(Report, NoTextOfAProgramEndsItsScript) {
@@ -88,9 +102,21 @@ TEST(Report, NoTextOfAProgramEndsItsScript) {
   for (auto at = page.find("</script>"); at != std::string::npos;
        at = page.find("</script>", at + 1))
     ++ends;
-  EXPECT_EQ(ends, 2U); // the data's and the script's own
+  EXPECT_EQ(ends, 3U); // of the data, of the run before, and of the script
   EXPECT_EQ(page.find("<!--"), std::string::npos);
   EXPECT_EQ(page.find("/*{"), std::string::npos) << "a place was not filled";
+}
+
+TEST(Report, ARunComesBackOutOfItsPage) {
+  const auto page = report_page(square(), "</script><!--");
+  const auto run = run_of_page(page);
+  ASSERT_TRUE(run);
+  EXPECT_NE(page.find(*run), std::string::npos);
+  const auto both = report_page(square(), "after", *run);
+  EXPECT_NE(both.find(*run), std::string::npos);
+  EXPECT_NE(*run_of_page(both), *run);
+  EXPECT_FALSE(run_of_page("<html>"));
+  EXPECT_FALSE(run_of_page(R"(<script type="application/json" id="run">[1]</script>)"));
 }
 
 TEST(Report, BytesThatAreNotTextSurvive) {
