@@ -43,7 +43,7 @@ void silence(std::string_view text, std::span<const AllowComment> comments,
     }
   std::erase_if(findings, [&](const Diagnostic& d) {
     return std::any_of(allowed.begin(), allowed.end(), [&](const Allowed& entry) {
-      return entry.rule == d.rule && entry.about.begin <= d.span.begin &&
+      return entry.rule->id == d.rule->id && entry.about.begin <= d.span.begin &&
              d.span.begin < entry.about.end;
     });
   });

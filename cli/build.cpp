@@ -9,6 +9,7 @@
 #include "disk/disk.h"
 #include "run/line_map.h"
 #include "run/listing.h"
+#include "structured/listing.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ struct Options {
   std::string map;
   TargetOptions target;
   bool pack = false;
+  bool readable = false;
   bool no_check = false;
   bool listing = false;
   bool native = false;
@@ -72,7 +74,7 @@ void build_basic(Context& context, const Options& options, const Source& source)
                              options.target.area, options.pack ? "" : "; try `--pack`")});
   }
   if (!options.map.empty() &&
-      !write(context, options.map, run::print_line_map(source.name(), image)))
+      !write(context, options.map, run::print_line_map(run::line_map(source.name(), image), image)))
     return;
   const auto listed = options.native ? run::Listed::MachineCode : run::Listed::Instructions;
   if (write(context, options.out, options.listing ? run::listing(image, listed) : image.bytes))
@@ -80,10 +82,41 @@ void build_basic(Context& context, const Options& options, const Source& source)
                fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
 }
 
+void build_structured(Context& context, const Options& options, const Source& source) {
+  const auto target = options.target.target();
+  DiskFiles files;
+  const auto input = run::read_input(source.name(), std::string(source.text()), "structured",
+                                     target, run::Findings::None, files);
+  if (!input)
+    return fail(context, input.error());
+  if (print_findings(context, *input)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  const auto& program = *input->program;
+  if (!options.map.empty() &&
+      !write(context, options.map, run::print_line_map(program.lines, program.image)))
+    return;
+  const auto text = options.readable  ? structured::readable(*program.compiled)
+                    : options.native  ? run::listing(program.image, run::Listed::MachineCode)
+                    : options.listing ? structured::listing(*program.compiled, program.image)
+                                      : program.image.bytes;
+  if (write(context, options.out, text))
+    print_note(context, fmt::format("{} of {} bytes ({})", program.image.bytes.size(),
+                                    compiler::area_bytes(target), options.target.area));
+}
+
 void build(Context& context, const Options& options) {
   const auto file = read_source(options.file, options.lang);
   if (!file)
     return fail(context, file.error());
+  if (file->language == run::Language::Structured)
+    return build_structured(context, options, file->source);
+  if (options.readable)
+    return fail(context,
+                {ExitCode::Usage,
+                 fmt::format("`--readable` is for structured programs (.orb); {} is not one",
+                             file->source.name())});
   if (file->language == run::Language::Basic)
     return build_basic(context, options, file->source);
   AsmOptions macros;
@@ -102,19 +135,27 @@ void add_build(CLI::App& app, Context& context) {
   auto* command = add_command(app, "build", "make the exact bytes to upload",
                               "orb build square.bas -o square.img\n"
                               "orb build --pack square.bas --map square.json -o square.img\n"
+                              "orb build patrol.orb --readable -o patrol.bas\n"
                               "orb build --listing --native square.bas");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "a source; `-` is standard input")->required();
   add_language_option(*command, options->lang);
   command->add_option("-o,--output", options->out,
                       "where the bytes go; standard output if missing");
-  command->add_flag("--pack", options->pack, "as small as it gets with the same behaviour");
-  command->add_option("--map", options->map, "write which source line became which robot line");
+  command->add_flag("--pack", options->pack,
+                    "as small as it gets with the same behaviour; structured programs always are");
+  auto* map =
+      command->add_option("--map", options->map, "write which source line became which robot line");
+  auto* readable = command->add_flag("--readable", options->readable,
+                                     "of a structured program: orbBasic for people, with comments");
+  readable->excludes(map);
   add_target_options(*command, options->target);
   command->add_flag("--no-check", options->no_check, "build although the program has errors");
   auto* listing = command->add_flag("--listing", options->listing,
                                     "in place of the bytes: each line and the instructions that "
-                                    "the virtual ball makes of it");
+                                    "the virtual ball makes of it; of a structured program the "
+                                    "robot's lines and their bytes");
+  listing->excludes(readable);
   command->add_flag("--native", options->native, "list their machine code, too")->needs(listing);
   command->callback([&context, options] { build(context, *options); });
 }

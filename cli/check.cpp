@@ -46,6 +46,9 @@ tl::expected<Sources, Failure> read_sources(const Options& options) {
   return sources;
 }
 
+/// The sources of what programs include, which findings refer to.
+using IncludedSources = std::deque<Source>;
+
 FileFindings check_basic(const Options& options, const Source& source) {
   FileFindings findings;
   findings.source = &source;
@@ -55,8 +58,42 @@ FileFindings check_basic(const Options& options, const Source& source) {
   return findings;
 }
 
+/// A structured program, and behind it each file that it includes and something is said about.
+std::vector<FileFindings> check_structured(const Options& options, const Source& source,
+                                           IncludedSources& included) {
+  DiskFiles disk;
+  const auto compiled = structured::compile(source.name(), source.name(), source.text(),
+                                            options.target.target(), disk);
+  auto found = structured::findings_by_file(compiled.program);
+  std::vector<FileFindings> files;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i > 0 && found[i].empty())
+      continue;
+    const auto& file = compiled.program.files[i];
+    if (i > 0)
+      included.emplace_back(file.name,
+                            compiled.program.text.substr(file.begin, file.end - file.begin));
+    files.push_back({i == 0 ? &source : &included.back(), std::move(found[i]), {}});
+  }
+  if (!compiled.robot.lines.empty())
+    files.front().built_size = compiled.image_bytes;
+  return files;
+}
+
+/// Whether an included file is checked for its own sake, or was shown already.
+bool is_told(const std::vector<FileFindings>& files, const Sources& inputs, const SourceFile& main,
+             const FileFindings& file) {
+  const auto& name = file.source->name();
+  return file.source != &main.source &&
+         (std::any_of(inputs.begin(), inputs.end(),
+                      [&](const SourceFile& input) { return input.source.name() == name; }) ||
+          std::any_of(files.begin(), files.end(),
+                      [&](const FileFindings& other) { return other.source->name() == name; }));
+}
+
 /// Checks all files. Macros are checked together: they go to one ball and call each other.
-std::vector<FileFindings> check_all(const Options& options, const Sources& inputs) {
+std::vector<FileFindings> check_all(const Options& options, const Sources& inputs,
+                                    IncludedSources& included) {
   std::vector<const Source*> macros;
   for (const auto& input : inputs)
     if (input.language == Language::Macro)
@@ -67,16 +104,30 @@ std::vector<FileFindings> check_all(const Options& options, const Sources& input
   for (const auto& input : inputs) {
     switch (input.language) {
     case Language::Basic: files.push_back(check_basic(options, input.source)); break;
+    case Language::Structured:
+      for (auto& file : check_structured(options, input.source, included))
+        if (!is_told(files, inputs, input, file))
+          files.push_back(std::move(file));
+      break;
     case Language::Macro: files.push_back(std::move(of_macros[next_macro++])); break;
     }
-    weigh(options.policy, files.back().diagnostics);
   }
+  for (auto& file : files)
+    weigh(options.policy, file.diagnostics);
   return files;
 }
 
 std::vector<Diagnostic> findings_of(const Options& options, const SourceFile& input) {
-  auto found = input.language == Language::Basic ? check_basic(options, input.source).diagnostics
-                                                 : assembler::check(input.source, options.macro);
+  IncludedSources included;
+  auto found = [&] {
+    switch (input.language) {
+    case Language::Basic: return check_basic(options, input.source).diagnostics;
+    case Language::Structured:
+      return std::move(check_structured(options, input.source, included).front().diagnostics);
+    case Language::Macro: break;
+    }
+    return assembler::check(input.source, options.macro);
+  }();
   weigh(options.policy, found);
   return found;
 }
@@ -136,7 +187,8 @@ void check(Context& context, const Options& options) {
   for (auto& input : *inputs)
     if (options.fix && !fix_one(context, options, input))
       return;
-  auto files = check_all(options, *inputs);
+  IncludedSources included;
+  auto files = check_all(options, *inputs, included);
   if (count(files).errors > 0)
     context.exit = ExitCode::BadInput;
   const auto hidden = cut(options.policy, files);
@@ -152,7 +204,7 @@ void add_check(CLI::App& app, Context& context) {
   auto* command = add_command(app, "check", "find the mistakes in programs and macros",
                               "orb check square.bas\n"
                               "orb check --target 1.2 --ram 1024 *.bas\n"
-                              "orb check --fix square.bas\n"
+                              "orb check --fix patrol.orb\n"
                               "orb check --watch square.bas\n"
                               "orb check --format sarif *.bas *.macro > findings.sarif");
   auto options = std::make_shared<Options>();

@@ -12,6 +12,7 @@
 #include "compiler/print.h"
 #include "compiler/renumber.h"
 #include "disk/disk.h"
+#include "structured/format.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -72,6 +73,16 @@ std::optional<std::string> format_text(Context& context, const Source& source,
   return compiler::format(compiler::parse(text));
 }
 
+/// The same for a structured program, which has no numbers.
+std::optional<std::string> format_structured(Context& context, const Source& source) {
+  if (const auto refused = compiler::refuse_text(source.text())) {
+    print_err(render_text(source, *refused, context.err_style()));
+    context.exit = ExitCode::BadInput;
+    return std::nullopt;
+  }
+  return structured::format(source.text());
+}
+
 /// The same for macro source, whose statements keep their order and their remarks.
 std::optional<std::string> format_macro(Context& context, const Source& source) {
   namespace rules = assembler::rules;
@@ -91,12 +102,19 @@ void run_one(Context& context, const Options& options, const std::string& path,
   if (!file)
     return fail(context, file.error());
   const auto& source = file->source;
-  const bool is_macro = file->language == run::Language::Macro;
-  if (is_macro && numbering)
-    return fail(context,
-                {ExitCode::Usage, fmt::format("{}: macros have no line numbers", source.name())});
-  const auto formatted =
-      is_macro ? format_macro(context, source) : format_text(context, source, numbering);
+  if (file->language != run::Language::Basic && numbering)
+    return fail(context, {ExitCode::Usage, fmt::format("{}: {} have no line numbers", source.name(),
+                                                       file->language == run::Language::Macro
+                                                           ? "macros"
+                                                           : "structured programs")});
+  const auto formatted = [&] {
+    switch (file->language) {
+    case run::Language::Basic: return format_text(context, source, numbering);
+    case run::Language::Structured: return format_structured(context, source);
+    case run::Language::Macro: break;
+    }
+    return format_macro(context, source);
+  }();
   if (!formatted)
     return;
   const bool changed = *formatted != source.text();
@@ -133,7 +151,7 @@ void format_all(Context& context, const Options& options) {
 void add_fmt(CLI::App& app, Context& context) {
   auto* command = add_command(app, "fmt", "lay programs and macros out in one canonical way",
                               "orb fmt square.bas\n"
-                              "orb fmt -w *.bas\n"
+                              "orb fmt -w *.bas *.orb\n"
                               "orb fmt --renumber=100:10 --diff square.bas");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->files, "sources; `-` is standard input")->required();

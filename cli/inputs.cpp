@@ -12,7 +12,7 @@ namespace orb::cli {
 
 void add_language_option(CLI::App& command, std::string& lang) {
   command.add_option("--lang", lang, "the language, where a file's ending does not tell")
-      ->check(one_of({"basic", "macro"}));
+      ->check(one_of({"basic", "structured", "macro"}));
 }
 
 tl::expected<std::string, Failure> read_text(const std::string& path) {
@@ -20,6 +20,11 @@ tl::expected<std::string, Failure> read_text(const std::string& path) {
   if (!text)
     return tl::unexpected(Failure{ExitCode::File, text.error().message});
   return *std::move(text);
+}
+
+std::optional<std::string> DiskFiles::read(const std::string& path) {
+  auto text = disk::read(path == "-" ? "./-" : path); // a file of that name, never standard input
+  return text ? std::optional(*std::move(text)) : std::nullopt;
 }
 
 tl::expected<SourceFile, Failure> read_source(const std::string& path, std::string_view lang) {
@@ -37,15 +42,16 @@ tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std
                                                            const compiler::Target& target,
                                                            run::Findings findings) {
   std::vector<run::Input> inputs;
+  DiskFiles files;
   for (const auto& path : paths) {
     auto text = read_text(path);
     if (!text)
       return tl::unexpected(text.error());
     auto input =
-        run::read_input(disk::display_name(path), *std::move(text), lang, target, findings);
+        run::read_input(disk::display_name(path), *std::move(text), lang, target, findings, files);
     if (!input)
       return tl::unexpected(input.error());
-    inputs.push_back(*std::move(input));
+    run::add_input(inputs, *std::move(input));
   }
   return inputs;
 }
@@ -94,6 +100,13 @@ bool print_findings(const Context& context, const Source& source,
         context.verbosity > 0)
       print_err(render_text(source, diagnostic, context.err_style()));
   }
+  return errors;
+}
+
+bool print_findings(const Context& context, const run::Input& input) {
+  bool errors = print_findings(context, *input.source, input.findings);
+  for (const auto& file : input.included)
+    errors = print_findings(context, *file.source, file.findings) || errors;
   return errors;
 }
 

@@ -15,11 +15,17 @@ class App;
 
 namespace orb::cli {
 
-/// Adds `--lang basic|macro`, which overrides the ending of file names.
+/// Adds `--lang basic|structured|macro`, which overrides the ending of file names.
 void add_language_option(CLI::App& command, std::string& lang);
 
 /// Reads the file at `path`, or standard input for `-`.
 tl::expected<std::string, Failure> read_text(const std::string& path);
+
+/// The files that a program names, on the disk.
+class DiskFiles final : public structured::Files {
+public:
+  std::optional<std::string> read(const std::string& path) override;
+};
 
 /// A source in its language: programs and macro source, not bytes.
 struct SourceFile {
@@ -29,7 +35,8 @@ struct SourceFile {
 };
 tl::expected<SourceFile, Failure> read_source(const std::string& path, std::string_view lang);
 
-/// Reads programs and macros for a ball; their findings are not printed yet.
+/// Reads programs and macros for a ball, and the macros that the programs use; their findings are
+/// not printed yet.
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
                                                            std::string_view lang,
                                                            const compiler::Target& target,
@@ -49,5 +56,8 @@ read_stimuli(const Context& context, const std::vector<std::string>& given);
 /// is an error among them.
 bool print_findings(const Context& context, const Source& source,
                     const std::vector<Diagnostic>& findings);
+
+/// The same for an input with all that it includes.
+bool print_findings(const Context& context, const run::Input& input);
 
 } // namespace orb::cli

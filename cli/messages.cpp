@@ -23,10 +23,8 @@ bool is(const Async& message, AsyncId id) {
 }
 
 std::string place(const run::LineMap& lines, std::uint32_t robot_line) {
-  const auto found = lines.source_line.find(robot_line);
-  if (lines.file.empty() || found == lines.source_line.end())
-    return {};
-  return fmt::format("{}:{}:1: ", lines.file, found->second);
+  const auto words = lines.words(robot_line);
+  return words.empty() ? words : words + ": ";
 }
 
 void print_message(const Context& context, const Async& message, const run::LineMap& lines,
@@ -42,9 +40,12 @@ void print_message(const Context& context, const Async& message, const run::Line
     const auto line = read_u16(message.data, 0);
     const auto code = read_u16(message.data, 2);
     const auto known = spec::find_error(code);
-    print_err(fmt::format(
-        "{}{}: line {}: {}\n", place(lines, line), context.err_style().paint(Role::Error, "error"),
-        line, known ? std::string(spec::info(*known).text) : fmt::format("error {:02X}h", code)));
+    const auto where = place(lines, line);
+    const bool named = !where.empty() && lines.known == run::Known::FileAndColumn;
+    print_err(fmt::format("{}{}: {}{}\n", where, context.err_style().paint(Role::Error, "error"),
+                          named ? std::string() : fmt::format("line {}: ", line),
+                          known ? std::string(spec::info(*known).text)
+                                : fmt::format("error {:02X}h", code)));
     return;
   }
   const auto packet = encode(message);

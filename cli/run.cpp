@@ -14,6 +14,7 @@
 #include "run/want.h"
 #include "spec/firmware.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -65,11 +66,11 @@ constexpr std::string_view from_stdin = "@stdin";
 /// Prints what the program prints, or its trace, and waits where the robot would take its time.
 class Console final : public run::Listener {
 public:
-  explicit Console(const RunOptions& options) : options_(options) {
+  Console(const RunOptions& options, const std::vector<run::Input>& inputs) : options_(options) {
     if (const auto format = options.format())
-      trace_.emplace(*format,
-                     options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
-                     [this](std::string_view text) { put(text); });
+      trace_.emplace(
+          *format, options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
+          [this](std::string_view text) { put(text); }, places(inputs));
   }
 
   void on_event(Duration t, const vm::Event& event) override {
@@ -102,6 +103,18 @@ public:
   }
 
 private:
+  /// Where the robot's lines stand in a program whose source has no numbers.
+  static report::LinePlaces places(const std::vector<run::Input>& inputs) {
+    report::LinePlaces places;
+    const auto first = std::find_if(inputs.begin(), inputs.end(), [](const run::Input& input) {
+      return input.program.has_value();
+    });
+    if (first != inputs.end() && first->program->compiled)
+      for (const auto& entry : first->program->lines.places)
+        places.emplace(static_cast<int>(entry.first), first->program->lines.words(entry.first));
+    return places;
+  }
+
   void put(std::string_view text) {
     if (options_.trace_out.empty())
       print_out(text);
@@ -178,8 +191,10 @@ void print_fault(const run::Fault& fault) {
   const auto place = fault.place.line == 0
                          ? std::string()
                          : fmt::format(":{}:{}", fault.place.line, fault.place.column);
-  print_err(fmt::format("{}{}: error: line {}: {}\n", fault.file, place, fault.robot_line,
-                        spec::info(fault.code).text));
+  const auto line =
+      fault.robot_line == 0 ? std::string() : fmt::format("line {}: ", fault.robot_line);
+  print_err(
+      fmt::format("{}{}: error: {}{}\n", fault.file, place, line, spec::info(fault.code).text));
   if (!fault.finding.empty())
     print_err(fmt::format("  {}\n", fault.finding));
   if (!fault.help.empty())
@@ -282,15 +297,17 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     return tl::unexpected(inputs.error());
   for (const auto& input : *inputs)
     if (input.has_errors()) {
-      print_findings(context, *input.source, input.findings);
+      print_findings(context, input);
       return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name()));
     }
   const auto before = read_before(given);
   if (!before)
     return tl::unexpected(before.error());
+  if (auto numbered = run::check_start_line(*inputs, options->line); !numbered)
+    return tl::unexpected(numbered.error());
   if (const auto want = run::want(*inputs, *options))
     print_note(context, "hint: " + want->advice);
-  Console console(given);
+  Console console(given, *inputs);
   std::optional<report::Journey> journey;
   if (!given.report.empty() || !given.svg.empty())
     journey.emplace();
@@ -355,7 +372,7 @@ void add_run(CLI::App& app, Context& context) {
                   "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
                   "maze.svg\norb run dance.bas waltz.sphero --expect done");
   auto options = std::make_shared<RunOptions>();
-  command->add_option("FILE", options->files, "orbBasic programs and macros; the first one runs")
+  command->add_option("FILE", options->files, "programs and macros; the first one runs")
       ->required();
   add_language_option(*command, options->language);
   command->add_option("--for", options->time, "robot time after which the run is stopped; 0: never")

@@ -48,12 +48,16 @@ tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
   if (!inputs)
     return inputs;
   bool errors = false;
-  for (const auto& input : *inputs)
-    errors = print_findings(context, *input.source, input.findings) || errors;
+  bool sendable = true; // as it is: there is something to send
+  for (const auto& input : *inputs) {
+    errors = print_findings(context, input) || errors;
+    sendable = sendable && (input.program || !input.macros.empty());
+  }
   if (errors)
-    return tl::unexpected(Failure{ExitCode::BadInput,
-                                  "nothing was sent: correct the errors above, or send it as it is "
-                                  "with `--no-check`"});
+    return tl::unexpected(
+        Failure{ExitCode::BadInput,
+                fmt::format("nothing was sent: correct the errors above{}",
+                            sendable ? ", or send it as it is with `--no-check`" : "")});
   return inputs;
 }
 
@@ -158,7 +162,7 @@ ExitCode dry_run(const Context& context, const Options& options,
 run::LineMap lines_of(const std::vector<run::Input>& inputs) {
   for (const auto& input : inputs)
     if (input.program)
-      return run::line_map(input.source->name(), input.program->image);
+      return input.program->lines;
   return {};
 }
 
@@ -205,6 +209,10 @@ void upload(Context& context, const Options& options) {
   const auto inputs = load_all(context, options);
   if (!inputs)
     return cli::fail(context, inputs.error());
+  const auto start = options.run_line ? std::optional(static_cast<std::uint16_t>(*options.run_line))
+                                      : std::nullopt;
+  if (const auto numbered = run::check_start_line(*inputs, start); !numbered)
+    return cli::fail(context, numbered.error());
   const auto delivery = arrange(options, *inputs);
   if (!delivery)
     return cli::fail(context, {ExitCode::Usage, delivery.error()});

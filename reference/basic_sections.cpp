@@ -2,6 +2,7 @@
 
 #include "reference/sections.h"
 #include "spec/basic.h"
+#include "structured/words.h"
 
 #include <fmt/format.h>
 
@@ -118,6 +119,25 @@ Section basic_errors_section() {
     entry.summary = fmt::format("{}: {}", row.text, row.summary);
     section.entries.push_back(std::move(entry));
   }
+  return section;
+}
+
+Section structured_words_section() {
+  Section section{
+      "structured-words", "Words of structured orbBasic", "word of structured orbBasic", {}};
+  const auto add = [&](const structured::WordInfo& row) {
+    Entry entry;
+    entry.name = row.word;
+    entry.summary = row.summary;
+    entry.facts.emplace_back("usage", row.usage);
+    if (!row.example.empty())
+      entry.code.emplace_back("example", row.example);
+    section.entries.push_back(std::move(entry));
+  };
+  for (const auto& row : structured::keywords)
+    add(row);
+  for (const auto& row : structured::wider_words)
+    add(row);
   return section;
 }
 

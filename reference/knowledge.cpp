@@ -31,6 +31,8 @@ std::vector<Section> knowledge() {
           limits_section(),
           basic_flags_section(),
           rules_section(),
+          structured_words_section(),
+          structured_rules_section(),
           macro_commands_section(),
           macro_flags_section(),
           macro_limits_section(),

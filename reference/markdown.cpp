@@ -55,11 +55,13 @@ class Links {
 public:
   /// For links from the page of `here`.
   Links(const std::vector<Section>& sections, const Section& here) {
-    // A word of both languages leads to the one that the page is about.
-    const auto is_macro = [](const Section& section) { return section.id.starts_with("macro"); };
+    // A word of several languages leads to the one that the page is about. Only pages about
+    // structured programs lead to their words: elsewhere `sub` and `end` are something else.
+    const auto own = language_of(here);
     for (const bool own_language : {true, false})
       for (const auto& section : sections)
-        if ((is_macro(section) == is_macro(here)) == own_language)
+        if ((language_of(section) == own) == own_language &&
+            (own_language || language_of(section) != Language::Structured))
           add(section, here);
   }
 
@@ -89,6 +91,13 @@ public:
   }
 
 private:
+  enum class Language { Basic, Structured, Macro };
+  static Language language_of(const Section& section) {
+    return section.id.starts_with("macro")        ? Language::Macro
+           : section.id.starts_with("structured") ? Language::Structured
+                                                  : Language::Basic;
+  }
+
   void add(const Section& section, const Section& here) {
     const auto page = section.id == here.id ? std::string() : fmt::format("{}.md", section.id);
     for (const auto& entry : section.entries) {

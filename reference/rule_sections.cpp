@@ -4,6 +4,7 @@
 #include "compiler/rules.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
+#include "structured/rules.h"
 #include "vm/rules.h"
 
 #include <fmt/format.h>
@@ -39,6 +40,11 @@ Section with_rules(Section section, std::span<const Rule> rules) {
 
 Section rules_section() {
   return with_rules({"rules", "Rules for orbBasic", "rule", {}}, compiler::rules::all());
+}
+
+Section structured_rules_section() {
+  return with_rules({"structured-rules", "Rules for structured orbBasic", "structured rule", {}},
+                    structured::rules::all());
 }
 
 Section macro_rules_section() {

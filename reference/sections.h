@@ -15,6 +15,8 @@ Section basic_errors_section();
 Section limits_section();
 Section rules_section();
 Section basic_flags_section();
+Section structured_words_section();
+Section structured_rules_section();
 Section macro_commands_section();
 Section macro_flags_section();
 Section macro_limits_section();

@@ -61,6 +61,14 @@ void Journey::visit(Duration t, Place place) {
   places_.push(t, place);
 }
 
+std::string Journey::where(int robot_line) const {
+  const auto found = lines_.find(robot_line);
+  if (told_ == Told::RobotLine || found == lines_.end())
+    return fmt::format("line {}", robot_line);
+  return fmt::format("{}:{}", files_[static_cast<std::size_t>(found->second.file)].name,
+                     found->second.line);
+}
+
 void Journey::add(Duration t, const vm::Event& event) {
   namespace of = vm::event;
   using Kind = Happening::Kind;
@@ -74,7 +82,7 @@ void Journey::add(Duration t, const vm::Event& event) {
           if (found != lines_.end())
             files_[static_cast<std::size_t>(found->second.file)].failed.push_back(
                 found->second.line);
-          end_.fault = fmt::format("line {}: {}", seen.line, spec::info(seen.code).text);
+          end_.fault = fmt::format("{}: {}", where(seen.line), spec::info(seen.code).text);
           happen(t, Kind::Error, end_.fault);
         } else if constexpr (std::is_same_v<Seen, of::Led>) {
           led_.push(t, seen.color);

@@ -66,6 +66,10 @@ struct Place {
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
+/// How an error says where it happened: by the robot's line, or by the file and its line where the
+/// source has no numbers.
+enum class Told : std::uint8_t { RobotLine, Source };
+
 /// What the body's sensors say at one moment, in the units that orbBasic reads.
 struct Sensors {
   static constexpr std::size_t count = 11;
@@ -118,6 +122,7 @@ public:
   // Before the run.
   int add_file(std::string name, std::string text);
   void map_line(int robot_line, Place place);
+  void tell_places(Told told) { told_ = told; }
   void map_command(int macro, int command, Place place);
   void add_wall(const vm::Wall& wall) { walls_.push_back(wall); }
 
@@ -152,10 +157,12 @@ private:
   void happen(Duration t, Happening::Kind kind, std::string text, std::string label = {});
   void visit(Duration t, Place place);
   void print(Duration t, std::string_view text);
+  std::string where(int robot_line) const;
 
   std::vector<File> files_;
   std::vector<vm::Wall> walls_;
   std::map<int, Place> lines_;
+  Told told_ = Told::RobotLine;
   std::map<std::pair<int, int>, Place> commands_;
   std::map<Place, Count> counts_;
   Totals totals_;

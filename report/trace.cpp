@@ -180,20 +180,48 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
       event);
 }
 
+namespace {
+
+/// The robot's line that an event speaks of; 0 where it speaks of none.
+int line_of(const vm::Event& event) {
+  if (const auto* error = std::get_if<vm::event::Error>(&event))
+    return error->line;
+  const auto* line = std::get_if<vm::event::Line>(&event);
+  return line == nullptr ? 0 : line->line;
+}
+
+} // namespace
+
 TraceWriter::TraceWriter(TraceFormat format, TraceLines lines,
-                         std::function<void(std::string_view)> put)
-    : format_(format), lines_(lines), put_(std::move(put)) {
-  put_(trace_head(format_));
+                         std::function<void(std::string_view)> put, LinePlaces places)
+    : format_(format), lines_(lines), put_(std::move(put)), places_(std::move(places)) {
+  put_(with_source(trace_head(format_), "source"));
 }
 
 void TraceWriter::add(Duration t, const vm::Event& event) {
-  if (lines_ == TraceLines::Keep || !std::holds_alternative<vm::event::Line>(event))
-    put_(trace_line(format_, t, event));
+  if (lines_ == TraceLines::Leave && std::holds_alternative<vm::event::Line>(event))
+    return;
+  const auto place = places_.find(line_of(event));
+  const bool known = place != places_.end();
+  put_(with_source(trace_line(format_, t, event),
+                   known ? printed(format_, {"source", place->second}) : std::string()));
+}
+
+std::string TraceWriter::with_source(std::string line, const std::string& source) const {
+  if (line.empty() || places_.empty())
+    return line;
+  if (format_ == TraceFormat::Csv)
+    line.insert(line.size() - 1, "," + source);
+  else if (!source.empty())
+    line.insert(line.size() - 2, ",\"source\":" + source);
+  return line;
 }
 
 void TraceWriter::finish(Duration t, std::string_view reason, std::uint64_t lines) {
-  put_(trace_line(format_, t, "end",
-                  {{"reason", std::string(reason)}, {"lines", static_cast<std::int64_t>(lines)}}));
+  const auto line =
+      trace_line(format_, t, "end",
+                 {{"reason", std::string(reason)}, {"lines", static_cast<std::int64_t>(lines)}});
+  put_(with_source(line, {}));
 }
 
 } // namespace orb::report

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -32,20 +33,28 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event);
 /// The first line of the CSV form: the columns. Empty for JSON.
 std::string trace_head(TraceFormat format);
 
+/// Where lines of the robot stand in a source without numbers: `patrol.orb:12:3` by line. Empty
+/// where the source has numbers itself.
+using LinePlaces = std::map<int, std::string>;
+
 /// Which events a trace has.
 enum class TraceLines : std::uint8_t { Leave, Keep };
 
 /// Writes the trace of one run, a line an event.
 class TraceWriter {
 public:
-  TraceWriter(TraceFormat format, TraceLines lines, std::function<void(std::string_view)> put);
+  TraceWriter(TraceFormat format, TraceLines lines, std::function<void(std::string_view)> put,
+              LinePlaces places = {});
   void add(Duration t, const vm::Event& event);
   void finish(Duration t, std::string_view reason, std::uint64_t lines);
 
 private:
+  std::string with_source(std::string line, const std::string& source) const;
+
   TraceFormat format_;
   TraceLines lines_; ///< a report needs every line even where the trace leaves them out
   std::function<void(std::string_view)> put_;
+  LinePlaces places_;
 };
 
 } // namespace orb::report

@@ -3,10 +3,12 @@
 #include "assembler/assemble.h"
 #include "assembler/lint.h"
 #include "compiler/check.h"
+#include "compiler/parse.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <utility>
 
 namespace orb::run {
 namespace {
@@ -19,6 +21,7 @@ struct Ending {
 constexpr auto endings = std::to_array<Ending>({
     {".bas", Form::Basic},
     {".orbbas", Form::Basic},
+    {".orb", Form::Structured},
     {".macro", Form::MacroSource},
     {".sphero", Form::MacroBody},
     {".bin", Form::MacroImage},
@@ -43,7 +46,8 @@ void read_program(Input& input, const compiler::Target& target, Findings finding
   auto image = compiler::build_image(checked.program, compiler::Packing::Plain);
   if (is_built(input.source->text()))
     image.bytes = input.source->text();
-  input.program = Program{std::move(checked.program), std::move(image)};
+  auto lines = line_map(input.source->name(), image);
+  input.program = Program{std::move(checked.program), std::move(image), std::move(lines), nullptr};
 }
 
 void read_macro_source(Input& input, Findings findings) {
@@ -59,6 +63,58 @@ void read_macro_source(Input& input, Findings findings) {
   }
   input.findings = findings == Findings::Lint ? assembler::check(*input.source)
                                               : std::move(assembly.diagnostics);
+}
+
+bool is_error(const Diagnostic& diagnostic) {
+  return diagnostic.severity == Severity::Error;
+}
+
+bool any_error(const std::vector<Diagnostic>& findings) {
+  return std::any_of(findings.begin(), findings.end(), is_error);
+}
+
+/// Without the linter only what keeps a program from becoming lines is told.
+std::vector<Diagnostic> told(std::vector<Diagnostic> found, Findings findings) {
+  if (findings == Findings::None)
+    std::erase_if(found, [](const Diagnostic& one) { return !is_error(one); });
+  return found;
+}
+
+/// The macros of a file that a program uses: those that it can call.
+Input used_macros(const structured::MacroFile& file) {
+  Input used;
+  used.source = std::make_unique<Source>(file.path, file.text);
+  read_macro_source(used, Findings::None);
+  std::erase_if(used.macros, [](const Macro& macro) { return !macro.has_id; });
+  return used;
+}
+
+void read_structured(Input& input, const compiler::Target& target, Findings findings,
+                     structured::Files& files) {
+  const auto& name = input.source->name();
+  auto compiled = std::make_unique<structured::Compiled>(
+      structured::compile(name, name, input.source->text(), target, files));
+  auto found = structured::findings_by_file(compiled->program);
+  input.findings = told(std::move(found.front()), findings);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    const auto& file = compiled->program.files[i];
+    auto text = compiled->program.text.substr(file.begin, file.end - file.begin);
+    input.included.push_back({std::make_unique<Source>(file.name, std::move(text)),
+                              told(std::move(found[i]), findings)});
+  }
+  if (compiled->has_errors())
+    return;
+  if (!compiled->runs) { // fine by itself, but there is nothing to run or to send
+    input.findings.push_back(structured::nothing_to_run());
+    return;
+  }
+  for (const auto& file : compiled->program.macro_files)
+    input.used.push_back(used_macros(file));
+  auto parsed = compiler::parse(compiled->robot.text);
+  auto image = compiler::build_image(parsed, compiler::Packing::Packed);
+  auto lines = line_map(*compiled);
+  input.program =
+      Program{std::move(parsed), std::move(image), std::move(lines), std::move(compiled)};
 }
 
 tl::expected<void, Failure> read_macro_bytes(Input& input, Form form) {
@@ -93,6 +149,8 @@ std::optional<Form> form_of(std::string_view name, std::string_view language) {
                            (ending->form == Form::MacroBody || ending->form == Form::MacroImage);
   if (language == "basic")
     return Form::Basic;
+  if (language == "structured")
+    return Form::Structured;
   if (language == "macro" && !macro_bytes)
     return Form::MacroSource;
   return ending == endings.end() ? std::nullopt : std::optional(ending->form);
@@ -102,6 +160,8 @@ std::optional<Language> language_of(std::string_view name, std::string_view lang
   const auto form = form_of(name, language);
   if (form == Form::Basic)
     return Language::Basic;
+  if (form == Form::Structured)
+    return Language::Structured;
   if (form == Form::MacroSource)
     return Language::Macro;
   return std::nullopt;
@@ -109,7 +169,7 @@ std::optional<Language> language_of(std::string_view name, std::string_view lang
 
 Failure unknown_form(std::string_view name) {
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} by its name; give "
-                                       "`--lang basic` or `--lang macro`",
+                                       "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};
 }
 
@@ -120,15 +180,20 @@ std::optional<std::uint16_t> Program::first_line() const {
   return std::nullopt;
 }
 
+std::string Program::where(std::uint32_t robot_line) const {
+  const auto place = compiled ? lines.words(robot_line) : std::string();
+  return place.empty() ? fmt::format("line {}", robot_line) : place;
+}
+
 bool Input::has_errors() const {
-  return std::any_of(findings.begin(), findings.end(), [](const Diagnostic& diagnostic) {
-    return diagnostic.severity == Severity::Error;
-  });
+  return any_error(findings) ||
+         std::any_of(included.begin(), included.end(),
+                     [](const Included& file) { return any_error(file.findings); });
 }
 
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Findings findings) {
+                                        Findings findings, structured::Files& files) {
   const auto form = form_of(name, language);
   if (!form && !is_built(text))
     return tl::unexpected(unknown_form(name));
@@ -136,6 +201,7 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
   input.source = std::make_unique<Source>(std::move(name), std::move(text));
   switch (form.value_or(Form::Basic)) {
   case Form::Basic: read_program(input, target, findings); break;
+  case Form::Structured: read_structured(input, target, findings, files); break;
   case Form::MacroSource: read_macro_source(input, findings); break;
   case Form::MacroBody:
   case Form::MacroImage:
@@ -144,6 +210,32 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
     break;
   }
   return input;
+}
+
+tl::expected<void, Failure> check_start_line(const std::vector<Input>& inputs,
+                                             std::optional<std::uint16_t> line) {
+  for (const auto& input : inputs)
+    if (line && input.program && input.program->compiled)
+      return tl::unexpected(Failure{
+          ExitCode::Usage, fmt::format("{} has no line {} to start at: structured programs have no "
+                                       "line numbers",
+                                       input.source->name(), *line)});
+  return {};
+}
+
+void add_input(std::vector<Input>& inputs, Input input) {
+  const auto same = [&](const Input& one) {
+    return std::find_if(inputs.begin(), inputs.end(), [&](const Input& other) {
+      return other.source->name() == one.source->name() && !other.program && !one.program;
+    });
+  };
+  for (auto& used : std::exchange(input.used, {}))
+    if (same(used) == inputs.end())
+      inputs.push_back(std::move(used));
+  if (const auto found = same(input); found != inputs.end() && !input.macros.empty())
+    *found = std::move(input); // with the macros that have no id
+  else
+    inputs.push_back(std::move(input));
 }
 
 } // namespace orb::run

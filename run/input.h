@@ -6,6 +6,9 @@
 #include "compiler/image.h"
 #include "compiler/lint.h"
 #include "protocol/macro.h"
+#include "run/line_map.h"
+#include "structured/compile.h"
+#include "structured/files.h"
 
 #include <cstdint>
 #include <memory>
@@ -20,17 +23,19 @@
 namespace orb::run {
 
 /// What a source is written in.
-enum class Language : std::uint8_t { Basic, Macro };
+enum class Language : std::uint8_t { Basic, Structured, Macro };
 
 /// What a file holds.
 enum class Form : std::uint8_t {
   Basic,       ///< an orbBasic program: source, or a built image with its final NUL
+  Structured,  ///< a program in structured orbBasic
   MacroSource, ///< macro source
   MacroBody,   ///< the commands of one macro: `.sphero`
   MacroImage,  ///< a framed macro: `.bin`
 };
 
-/// What the ending of `name` says, or `language` (`basic`, `macro` or empty), which is stronger.
+/// What the ending of `name` says, or `language` (`basic`, `structured`, `macro` or empty), which
+/// is stronger.
 std::optional<Form> form_of(std::string_view name, std::string_view language);
 
 /// The language of a source, by the same rule; nothing where the file holds bytes or cannot be
@@ -42,11 +47,15 @@ Failure unknown_form(std::string_view name);
 
 /// A program as it goes to a ball.
 struct Program {
-  compiler::Program parsed; ///< refers to the source of its input
+  compiler::Program parsed; ///< refers to the source of its input, or to the compiled text
   compiler::Image image;
+  LineMap lines;
+  std::unique_ptr<structured::Compiled> compiled; ///< null where the lines were written by hand
 
   /// The number of the first line that the robot can start at; nothing where there is none.
   std::optional<std::uint16_t> first_line() const;
+  /// `line 20`; of a structured program the place in its source, as in `patrol.orb:12:3`.
+  std::string where(std::uint32_t robot_line) const;
 };
 
 /// A macro as it goes to a ball.
@@ -57,6 +66,12 @@ struct Macro {
   std::vector<std::uint32_t> command_lines; ///< of command number k + 1; empty for bytes
 };
 
+/// A file that a structured program includes.
+struct Included {
+  std::unique_ptr<Source> source;
+  std::vector<Diagnostic> findings;
+};
+
 /// One file: a program, or one or more macros, and the findings about it. With an error among
 /// them, what else is there is good only for a look.
 struct Input {
@@ -64,6 +79,8 @@ struct Input {
   std::optional<Program> program;
   std::vector<Macro> macros;
   std::vector<Diagnostic> findings;
+  std::vector<Included> included; ///< in the order of Program::lines.files, behind the source
+  std::vector<Input> used;        ///< the macro files that go along with the program
 
   bool has_errors() const;
 };
@@ -72,9 +89,17 @@ struct Input {
 enum class Findings : std::uint8_t { Lint, None };
 
 /// Reads the content of the file `name`. Bytes that are not a macro are a failure; mistakes of a
-/// source are findings. A name that says nothing will do where the text is a built image.
+/// source are findings. A name that says nothing will do where the text is a built image. What a
+/// structured program names is read through `files`, its paths counting from `name`.
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Findings findings);
+                                        Findings findings, structured::Files& files);
+
+/// Refuses a line to start at where the program is structured: its lines have no numbers.
+tl::expected<void, Failure> check_start_line(const std::vector<Input>& inputs,
+                                             std::optional<std::uint16_t> line);
+
+/// Adds an input and before it the macro files that it uses; a file is taken once.
+void add_input(std::vector<Input>& inputs, Input input);
 
 } // namespace orb::run

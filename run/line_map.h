@@ -1,25 +1,44 @@
 #pragma once
 
 #include "compiler/image.h"
+#include "structured/compile.h"
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace orb::run {
 
-/// Where the robot's lines come from, so that its errors can point into a source file.
+/// Where a line of the robot comes from. Lines and columns count from 1.
+struct LinePlace {
+  std::uint32_t file = 0; ///< index into LineMap::files
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+  std::string sub = {}; ///< the sub or function of a structured program; empty for its main part
+};
+
+/// What is known about a line's place besides its line.
+enum class Known : std::uint8_t { Line, FileAndColumn };
+
+/// Where the robot's lines come from, so that its errors can point into the sources.
 struct LineMap {
-  std::string file;
-  std::map<std::uint32_t, std::uint32_t> source_line; ///< by the robot's line number
+  std::vector<std::string> files;
+  std::map<std::uint32_t, LinePlace> places; ///< by the robot's line number
+  Known known = Known::Line;
+
+  /// `patrol.orb:12:3`; empty for a line that is not known.
+  std::string words(std::uint32_t robot_line) const;
 };
 
 LineMap line_map(const std::string& file, const compiler::Image& image);
+LineMap line_map(const structured::Compiled& compiled);
 
-/// The map that `orb build --map` writes (schema orb.map/1).
-std::string print_line_map(const std::string& file, const compiler::Image& image);
+/// The map that `orb build --map` writes (schema orb.map/1). Of a structured program each line also
+/// says its file, column and sub.
+std::string print_line_map(const LineMap& map, const compiler::Image& image);
 
 /// Reads such a map; nothing where `text` is none.
 std::optional<LineMap> parse_line_map(std::string_view text);

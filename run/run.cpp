@@ -375,13 +375,31 @@ Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
   return Reason::End;
 }
 
+const Program& first_program(std::span<const Input> inputs) {
+  return *std::find_if(inputs.begin(), inputs.end(), [](const Input& input) {
+            return input.program.has_value();
+          })->program;
+}
+
 /// What a run that came to no end by itself waits for.
 std::string waits_for(Reason reason, std::span<const Input> inputs, const Options& options,
                       const vm::Ball& ball) {
   if (reason == Reason::Input)
-    return fmt::format("a number in line {}", ball.machine().line());
+    return fmt::format("a number in {}", first_program(inputs).where(
+                                             static_cast<std::uint32_t>(ball.machine().line())));
   const auto found = reason == Reason::TimeLimit ? want(inputs, options) : std::nullopt;
   return found ? std::string(found->what) : std::string();
+}
+
+/// Where a fault is in a structured program, which was checked before it ran.
+Fault explain(const Watcher::RobotFault& fault, const LineMap& lines) {
+  Fault found{0, fault.code, lines.files.front(), {0, 0}, {}, {}};
+  const auto place = lines.places.find(static_cast<std::uint32_t>(fault.line));
+  if (place == lines.places.end())
+    return found;
+  found.file = lines.files[place->second.file];
+  found.place = {place->second.line, place->second.column};
+  return found;
 }
 
 /// Where a fault is in the user's file, and what the linter knows about that line.
@@ -389,6 +407,8 @@ Fault explain(const Watcher::RobotFault& fault, const Load::ProgramOf& of,
               const compiler::Target& target) {
   const auto& source = *of.input->source;
   const auto& parsed = of.program->parsed;
+  if (of.program->compiled)
+    return explain(fault, of.program->lines);
   Fault found{static_cast<std::uint32_t>(fault.line), fault.code, source.name(), {0, 0}, {}, {}};
   const auto line = std::find_if(parsed.lines.begin(), parsed.lines.end(), [&](const auto& one) {
     return one.number == found.robot_line && one.has_statement();
@@ -418,12 +438,13 @@ void describe(std::span<const Input> inputs, const Options& options, report::Jou
     if (!input.program && !has_lines)
       continue;
     const int file = journey.add_file(source.name(), std::string(source.text()));
+    for (const auto& other : input.included)
+      journey.add_file(other.source->name(), std::string(other.source->text()));
     if (input.program && std::exchange(first, false)) {
-      const auto& lines = input.program->parsed.lines;
-      for (auto line = lines.rbegin(); line != lines.rend(); ++line)
-        if (line->has_number())
-          journey.map_line(static_cast<int>(line->number),
-                           {file, static_cast<int>(source.position(line->span.begin).line)});
+      journey.tell_places(input.program->compiled ? report::Told::Source : report::Told::RobotLine);
+      for (const auto& [line, place] : input.program->lines.places)
+        journey.map_line(static_cast<int>(line),
+                         {file + static_cast<int>(place.file), static_cast<int>(place.line)});
     }
     for (const auto& macro : input.macros)
       for (std::size_t k = 0; k < macro.command_lines.size(); ++k)

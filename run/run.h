@@ -65,7 +65,7 @@ std::string_view to_string(Reason reason);
 
 /// A fault of the robot and where it is in the user's file.
 struct Fault {
-  std::uint32_t robot_line = 0;
+  std::uint32_t robot_line = 0; ///< 0: the source has no such numbers
   spec::BasicError code{};
   std::string file;
   Position place{0, 0}; ///< line 0: the file has no such line

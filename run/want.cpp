@@ -57,7 +57,8 @@ std::uint32_t line_at(const compiler::Program& program, std::uint32_t offset) {
   return line == program.lines.end() ? 0 : line->number;
 }
 
-std::optional<Want> number(const compiler::Program& program, const Options& options) {
+std::optional<Want> number(const Program& of, const Options& options) {
+  const auto& program = of.parsed;
   if (!options.numbers.empty() || options.asks == Asks::Yes ||
       comes(options, is_one_of<stimulus::Number>))
     return std::nullopt;
@@ -67,12 +68,13 @@ std::optional<Want> number(const compiler::Program& program, const Options& opti
       continue;
     const auto line = line_at(program, statement.span.begin);
     return Want{line, "a number",
-                fmt::format("line {} waits for a number; add `--input 20`", line)};
+                fmt::format("{} waits for a number; add `--input 20`", of.where(line))};
   }
   return std::nullopt;
 }
 
-std::optional<Want> sensor(const compiler::Program& program, const Options& options) {
+std::optional<Want> sensor(const Program& of, const Options& options) {
+  const auto& program = of.parsed;
   for (const auto& node : program.nodes) {
     if (node.kind != compiler::NodeKind::System)
       continue;
@@ -83,7 +85,7 @@ std::optional<Want> sensor(const compiler::Program& program, const Options& opti
       continue;
     const auto line = line_at(program, node.span.begin);
     return Want{line, cause->what,
-                fmt::format("line {} reads `{}`, and {}; add `--stimulus '{}'`", line,
+                fmt::format("{} reads `{}`, and {}; add `--stimulus '{}'`", of.where(line),
                             program.text_of(node.span), cause->lack, cause->line)};
   }
   return std::nullopt;
@@ -96,7 +98,7 @@ std::optional<Want> want(std::span<const Input> inputs, const Options& options) 
                                   [](const Input& one) { return one.program.has_value(); });
   if (input == inputs.end())
     return std::nullopt;
-  const auto& program = input->program->parsed;
+  const auto& program = *input->program;
   auto found = number(program, options);
   return found ? found : sensor(program, options);
 }

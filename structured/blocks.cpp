@@ -80,7 +80,7 @@ private:
     const auto* block = by_opener(opener.kind);
     report(rules::UnclosedBlock, open_.back(),
            fmt::format("this `{}` is never closed", block->word),
-           fmt::format("write `{}` behind its last line", block->end_words));
+           fmt::format("write `{}` after its last line", block->end_words));
     open_.pop_back();
     last_.pop_back();
   }

@@ -64,7 +64,7 @@ private:
   }
 
   void report_condition(std::uint32_t node) {
-    report(rules::ConditionAsValue, program_.nodes[node].span, "a condition is no number",
+    report(rules::ConditionAsValue, program_.nodes[node].span, "a condition is not a number",
            "write `if … then` and set the value there");
   }
 
@@ -297,7 +297,7 @@ private:
         written = true;
         if (node.value % 1000 != 0)
           report(rules::BadNumber, node.span,
-                 fmt::format("`{}` is no whole number of seconds", program_.text_of(node.span)),
+                 fmt::format("`{}` is not a whole number of seconds", program_.text_of(node.span)),
                  "`sleep` counts in seconds");
       } else if (node.kind == NodeKind::Name && names_.of_node[n] != none &&
                  names_.symbols[names_.of_node[n]].duration) {

@@ -92,9 +92,8 @@ private:
     for (const auto compared : {first.left, first.right})
       if (code_.terms[compared].kind == TermKind::Variable)
         for (const auto term : {second.left, second.right})
-          each_read(code_, term, [&](std::uint32_t v) {
-            shared = shared || v == code_.terms[compared].left;
-          });
+          each_read(code_, term,
+                    [&](std::uint32_t v) { shared = shared || v == code_.terms[compared].left; });
     return shared && (can_fault(code_, second.left) || can_fault(code_, second.right));
   }
 

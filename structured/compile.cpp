@@ -11,6 +11,7 @@
 #include "structured/read.h"
 #include "structured/relay.h"
 #include "structured/rules.h"
+#include "structured/silence.h"
 #include "structured/words.h"
 
 #include <algorithm>
@@ -143,34 +144,53 @@ bool Compiled::has_errors() const {
                      [](const Diagnostic& d) { return d.severity == Severity::Error; });
 }
 
-Compiled compile(std::string name, std::string path, std::string_view text,
-                 const compiler::Target& target, Files& files) {
-  Compiled compiled;
-  compiled.program = read(std::move(name), std::move(path), text, files);
+namespace {
+
+/// Compiles what has been read; the findings say how far that went.
+void compile(Compiled& compiled, const compiler::Target& target) {
+  if (compiled.program.statements.empty() && !compiled.has_errors())
+    compiled.program.diagnostics.push_back(
+        finding(rules::NothingToRun, {0, 0}, "the file holds no statement",
+                "a program is a line such as `print \"hello\"`"));
   compiled.names = resolve(compiled.program);
   check(compiled.program, compiled.names, target);
   compiled.runs = has_program(compiled.program);
   if (compiled.has_errors() || !compiled.runs)
-    return compiled;
+    return;
   const auto decided = plan(compiled.program, compiled.names);
   if (report_chain(compiled, decided))
-    return compiled;
+    return;
   compiled.code = lower(compiled.program, compiled.names, decided);
   optimise(compiled.code);
   if (compiled.code.too_large) {
     report_too_large(compiled, target);
-    return compiled;
+    return;
   }
   compiled.letters =
       choose_letters(compiled.code, wishes_of(compiled.program, compiled.names, compiled.code));
   if (compiled.letters.crowded_line != none) {
     report_crowd(compiled);
-    return compiled;
+    return;
   }
   write_choices(compiled.code, compiled.letters, source_lines_of(compiled.program));
   compiled.robot = print(compiled.program, compiled.code, compiled.letters, {});
   relay_findings(compiled, target);
+}
+
+} // namespace
+
+Compiled compile(std::string name, std::string path, std::string_view text,
+                 const compiler::Target& target, Files& files) {
+  Compiled compiled;
+  compiled.program = read(std::move(name), std::move(path), text, files);
+  compile(compiled, target);
+  silence(compiled.program);
   return compiled;
+}
+
+Diagnostic nothing_to_run() {
+  return finding(rules::NothingToRun, {0, 0}, "the file holds declarations only",
+                 "include it from a program, or add a statement outside of its subs");
 }
 
 std::string readable(const Compiled& compiled) {
@@ -183,7 +203,10 @@ std::string readable(const Compiled& compiled) {
     if (symbol == none || compiled.letters.of[v] == no_letter)
       continue;
     const auto name = compiled.program.name(compiled.names.symbols[symbol].name);
-    variables += fmt::format("' {}: {}\n", static_cast<char>('A' + compiled.letters.of[v]), name);
+    const auto line =
+        fmt::format("' {}: {}\n", static_cast<char>('A' + compiled.letters.of[v]), name);
+    if (variables.find(line) == std::string::npos)
+      variables += line;
   }
   constexpr Numbering by_tens{10, 10};
   return variables +

@@ -34,6 +34,10 @@ struct Compiled {
 Compiled compile(std::string name, std::string path, std::string_view text,
                  const compiler::Target& target, Files& files);
 
+/// That a program holds nothing that would run, which `check` allows and every other command
+/// refuses.
+Diagnostic nothing_to_run();
+
 /// The same lines numbered 10 by 10, with the names of subs and variables and the lines of the
 /// source in comments: a valid program that does the same.
 std::string readable(const Compiled& compiled);

@@ -21,7 +21,8 @@ public:
   std::optional<std::string> read(const std::string&) override { return std::nullopt; }
 };
 
-/// `path` as it is written in the file `from`: its folder, `/`, the path. Absolute paths stay.
+/// `path` as it is written in the file `from`: its folder, `/`, the path, without `./` and with
+/// `name/../` folded, so that a file has one path. Absolute paths stay.
 std::string resolve_path(std::string_view from, std::string_view path);
 
 } // namespace orb::structured

@@ -26,7 +26,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   switch (reason) {
   case Reason::Trailing:
     if (text == ":")
-      return finding(rules::ForeignWord, found, "`:` parts no statements",
+      return finding(rules::ForeignWord, found, "`:` does not separate statements",
                      "write one statement on a line");
     return malformed(program, found, "the statement is complete");
   case Reason::ExpectedStatement: return malformed(program, found, "a statement is missing");
@@ -51,7 +51,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::ExpectedFile:
     return malformed(program, found, "the name of a file in quotes belongs here");
   case Reason::NotAStatement:
-    return finding(rules::MalformedLine, found, fmt::format("`{}` begins no statement", text));
+    return finding(rules::MalformedLine, found, fmt::format("no statement begins with `{}`", text));
   case Reason::NakedArguments:
     return malformed(program, found, "the arguments of a call stand in parentheses");
   case Reason::TooManyArguments:
@@ -66,11 +66,11 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(rules::ReservedName, found,
                    fmt::format("the name has {} characters; 31 are the most", found.size()));
   case Reason::BadNumber:
-    return finding(rules::BadNumber, found, fmt::format("`{}` is no number", text),
+    return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
                    "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");
   case Reason::FractionOfMillisecond:
     return finding(rules::BadNumber, found,
-                   fmt::format("`{}` is no whole number of milliseconds", text));
+                   fmt::format("`{}` is not a whole number of milliseconds", text));
   case Reason::TooDeep:
     return finding(rules::NestingDepth, found, "more than 64 brackets are open here",
                    "compute a part on a line of its own");
@@ -98,7 +98,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
 Diagnostic habit(const Program& program, Span found, std::string_view instead,
                  std::string_view help) {
   auto d = finding(rules::ForeignWord, found,
-                   fmt::format("`{}` is of another language", program.text_of(found)),
+                   fmt::format("`{}` belongs to another language", program.text_of(found)),
                    std::string(help));
   if (!instead.empty()) {
     const auto written = instead == " " ? std::string_view() : instead;

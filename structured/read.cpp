@@ -8,6 +8,7 @@
 #include "structured/words.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
@@ -160,10 +161,7 @@ private:
 } // namespace
 
 std::string resolve_path(std::string_view from, std::string_view path) {
-  const auto slash = from.rfind('/');
-  if (path.starts_with('/') || slash == std::string_view::npos)
-    return std::string(path);
-  return fmt::format("{}/{}", from.substr(0, slash), path);
+  return (std::filesystem::path(from).parent_path() / path).lexically_normal().generic_string();
 }
 
 Program read(std::string name, std::string path, std::string_view text, Files& files) {

@@ -19,7 +19,8 @@ bool is_told(const Rule* rule) {
   for (const auto* told :
        {&robot::ValueOutOfRange, &robot::DivisionByZero, &robot::UnknownFlags, &robot::MissingGo,
         &robot::ReadPastData, &robot::ClearedByReading, &robot::DataReplaced, &robot::BusyLoop,
-        &robot::IndexRange, &robot::NonprintingByte})
+        &robot::IndexRange, &robot::NonprintingByte, &robot::MissingDelay, &robot::DrivesOn,
+        &robot::LoopLeavesRange, &robot::HeadingGrows})
     if (rule == told)
       return true;
   return false;
@@ -48,24 +49,84 @@ private:
     return static_cast<std::size_t>(next - lines.begin()) - 1;
   }
 
+  const Statement& statement_at(std::uint32_t offset) const {
+    return compiled_.program.statements[compiled_.robot.lines[line_at(offset)].statement];
+  }
+
+  /// The argument of the source that a value of the robot's line was written for, or null.
+  const Item* argument_of(Span value, const Statement& statement) const {
+    const auto items = compiled_.program.items_of(statement);
+    for (const auto& plain : plain_.statements) {
+      const auto values = plain_.items_of(plain);
+      if (statement.kind != Kind::Robot || plain.kind != statement.robot ||
+          values.size() != items.size())
+        continue;
+      for (std::size_t n = 0; n < items.size(); ++n)
+        if (values[n].span == value)
+          return &items[n];
+    }
+    return nullptr;
+  }
+
   void tell(const Diagnostic& found) {
     auto& program = compiled_.program;
-    const auto& line = compiled_.robot.lines[line_at(found.span.begin)];
-    const auto span = program.statements[line.statement].span;
+    const auto& statement = statement_at(found.span.begin);
+    const auto* argument = argument_of(found.span, statement);
     const bool said = std::any_of(
         program.diagnostics.begin(), program.diagnostics.end(), [&](const Diagnostic& other) {
-          return other.span.begin >= span.begin && other.span.end <= span.end &&
+          return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
                  (other.rule == found.rule || other.severity == Severity::Error);
         });
     if (said)
       return;
-    Diagnostic told = finding(*found.rule, span, found.message, found.help);
+    Diagnostic told = finding(*found.rule, argument != nullptr ? argument->span : statement.span,
+                              found.message, found.help);
     told.severity = found.severity;
+    for (const auto& note : found.notes)
+      if (const auto& there = statement_at(note.span.begin); &there != &statement)
+        told.notes.push_back({there.span, note.message});
+    put_into_source_words(found, statement, told);
+    program.diagnostics.push_back(std::move(told));
+  }
+
+  /// Letters and line numbers of the robot say nothing to whoever wrote names.
+  void put_into_source_words(const Diagnostic& found, const Statement& statement,
+                             Diagnostic& told) const {
+    const auto& program = compiled_.program;
     if (found.rule == &robot::BusyLoop)
       told.message = "the loop runs for ever and never waits";
     if (found.rule == &robot::IndexRange)
       told.message = "the index lies outside of the array";
-    program.diagnostics.push_back(std::move(told));
+    if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
+      tell_of_heading(statement, told);
+    if (found.rule == &robot::LoopLeavesRange) {
+      const auto letters = plain_.text_of(found.span);
+      const auto names = std::string(program.text_of(told.span));
+      const bool single = letters.size() == 1 && names.find_first_of(" +-*/%&|{}") != names.npos;
+      replace(told.message, fmt::format("`{}`", letters), fmt::format("`{}`", names));
+      replace(told.help, fmt::format("`({})", letters), fmt::format("`({})", names));
+      replace(told.help, fmt::format("`{} ", letters),
+              single ? fmt::format("`({}) ", names) : fmt::format("`{} ", names));
+    }
+  }
+
+  static void replace(std::string& text, std::string_view from, std::string_view to) {
+    if (const auto at = text.find(from); at != std::string::npos)
+      text.replace(at, from.size(), to);
+  }
+
+  void tell_of_heading(const Statement& statement, Diagnostic& told) const {
+    const auto& program = compiled_.program;
+    const auto items = program.items_of(statement);
+    const auto name = program.text_of(items[0].span);
+    auto sum = std::string(program.text_of(items[1].span));
+    if (statement.operation != Statement::none_operation)
+      sum = fmt::format("{} {} {}", name,
+                        spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
+    const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
+    told.message =
+        fmt::format("`{}` is a heading and grows for ever; headings end at {}", name, turn - 1);
+    told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
   }
 
   void check_size(const compiler::Image& image) {
@@ -99,7 +160,7 @@ private:
   std::string parts(const compiler::Image& image) const {
     std::map<std::uint32_t, std::uint32_t> bytes;
     for (std::size_t i = 0; i < image.lines.size(); ++i)
-      bytes[compiled_.robot.lines[i].routine] += image.lines[i].size;
+      bytes[compiled_.names.routine_of[compiled_.robot.lines[i].statement]] += image.lines[i].size;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted;
     for (const auto& [routine, size] : bytes)
       sorted.push_back({size, routine});

@@ -481,8 +481,8 @@ private:
       candidates.push_back(row.word);
     suggest(span, candidates,
             node.kind == NodeKind::Name      ? "is never assigned"
-            : node.kind == NodeKind::Element ? "is no array"
-                                             : "is no function");
+            : node.kind == NodeKind::Element ? "is not an array"
+                                             : "is not a function");
   }
 
   void report_unknown_word(Span span) {
@@ -492,8 +492,8 @@ private:
         candidates.push_back(program_.name(symbol.name));
     for (const auto& row : spec::statements)
       candidates.push_back(row.word);
-    for (const auto word : keywords)
-      candidates.push_back(word);
+    for (const auto& row : keywords)
+      candidates.push_back(row.word);
     suggest(span, candidates, "is neither a statement nor a sub");
   }
 

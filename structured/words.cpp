@@ -43,7 +43,7 @@ constexpr auto table = [] {
       add(spec::variables[i].old_word, WordKind::Variable, i);
   }
   for (std::size_t i = 0; i < keywords.size(); ++i)
-    add(keywords[i], WordKind::Keyword, i);
+    add(keywords[i].word, WordKind::Keyword, i);
   return all;
 }();
 
@@ -87,7 +87,7 @@ Word find_word(std::string_view text) {
 std::string_view spelling(Word word) {
   switch (word.kind) {
   case WordKind::Name: return {};
-  case WordKind::Keyword: return keywords[word.index];
+  case WordKind::Keyword: return keywords[word.index].word;
   case WordKind::Statement: return spec::statements[word.index].word;
   case WordKind::Function: return spec::functions[word.index].word;
   case WordKind::Variable: return spec::variables[word.index].word;

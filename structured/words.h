@@ -13,35 +13,30 @@
 
 namespace orb::structured {
 
-/// Words that the robot's tables do not have, in their documented spelling.
-#define ORB_KEYWORDS(X)                                                                            \
-  X(Const, "const")                                                                                \
-  X(Local, "local")                                                                                \
-  X(Array, "array")                                                                                \
-  X(Use, "use")                                                                                    \
-  X(Include, "include")                                                                            \
-  X(Then, "then")                                                                                  \
-  X(ElseIf, "elseif")                                                                              \
-  X(Else, "else")                                                                                  \
-  X(While, "while")                                                                                \
-  X(Repeat, "repeat")                                                                              \
-  X(Until, "until")                                                                                \
-  X(Loop, "loop")                                                                                  \
-  X(To, "to")                                                                                      \
-  X(Step, "step")                                                                                  \
-  X(Exit, "exit") X(Continue, "continue") X(Select, "select") X(Case, "case") X(Sub, "sub")        \
-      X(Function, "function") X(And, "and") X(Or, "or") X(Not, "not") X(Min, "min") X(Max, "max")
-
+/// Words that the robot's tables do not have: the rows of structured/words.def.
 enum class Keyword : std::uint8_t {
-#define X(name, text) name,
-  ORB_KEYWORDS(X)
-#undef X
+#define ORB_KEYWORD(name, ...) name,
+#include "structured/words.def"
 };
 
-inline constexpr auto keywords = std::to_array<std::string_view>({
-#define X(name, text) text,
-    ORB_KEYWORDS(X)
-#undef X
+/// A word as people look it up.
+struct WordInfo {
+  std::string_view word;
+  std::string_view usage;
+  std::string_view summary;
+  std::string_view example; ///< a whole program; may be empty
+};
+
+/// The keywords in the order of Keyword.
+inline constexpr auto keywords = std::to_array<WordInfo>({
+#define ORB_KEYWORD(name, word, usage, summary, example) {word, usage, summary, example},
+#include "structured/words.def"
+});
+
+/// Words of the robot that mean more in structured programs.
+inline constexpr auto wider_words = std::to_array<WordInfo>({
+#define ORB_WIDER_WORD(word, usage, summary, example) {word, usage, summary, example},
+#include "structured/words.def"
 });
 
 enum class WordKind : std::uint8_t {

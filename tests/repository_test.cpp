@@ -42,8 +42,8 @@ const std::vector<Room> rooms = {
     {4, "uploader", {"protocol"}},
     {4, "vm", {"protocol", "bytecode"}},
     {5, "report", {"vm"}},
-    {6, "reference", {"compiler", "assembler", "vm"}},
-    {6, "run", {"report", "compiler", "assembler", "uploader"}},
+    {6, "reference", {"structured", "vm"}},
+    {6, "run", {"report", "structured", "uploader"}},
     {7, "editor", {"reference", "run"}},
     {7, "serve", {"vm", "disk"}},
     {8, "cli", {"editor", "serve", "reference", "report", "uploader", "structured", "disk"}},
@@ -193,7 +193,7 @@ TEST(Golden, EveryRuleIsShown) {
   for (const auto& file : files_below(root / "tests" / "golden", {".txt"}))
     shown += read_all(file);
   const std::regex row(R"re(ORB_RULE\(\w+,\s*"([a-z-]+)")re");
-  for (const auto* table : {"compiler/rules.def", "assembler/rules.def"}) {
+  for (const auto* table : {"compiler/rules.def", "structured/rules.def", "assembler/rules.def"}) {
     const auto text = read_all(root / table);
     const std::sregex_iterator end;
     std::size_t rows = 0;

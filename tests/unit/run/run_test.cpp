@@ -50,17 +50,18 @@ std::string random_bytes(Random& random) {
 }
 
 tl::expected<Input, Failure> random_input(Random& random, const compiler::Target& target) {
+  structured::NoFiles files;
   switch (random.below(4)) {
   case 0: {
     testing::RandomProgram::Style style;
     style.lines = 1 + static_cast<int>(random.below(8));
     style.broken = 0.2;
     return read_input("a.bas", testing::RandomProgram(random.next(), style).write(), "", target,
-                      Findings::None);
+                      Findings::None, files);
   }
-  case 1: return read_input("a.sphero", random_bytes(random), "", target, Findings::None);
-  case 2: return read_input("a.bin", random_bytes(random), "", target, Findings::None);
-  default: return read_input("a.macro", random_macros(random), "", target, Findings::None);
+  case 1: return read_input("a.sphero", random_bytes(random), "", target, Findings::None, files);
+  case 2: return read_input("a.bin", random_bytes(random), "", target, Findings::None, files);
+  default: return read_input("a.macro", random_macros(random), "", target, Findings::None, files);
   }
 }
 

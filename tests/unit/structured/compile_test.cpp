@@ -223,7 +223,7 @@ TEST(Limits, CallsDeeperThanFourAreWrittenIntoTheirCallers) {
 TEST(Limits, AProgramThatIsTooLargeNamesItsParts) {
   std::string text = "sub big(n)\n";
   for (int i = 0; i < 300; ++i)
-    text += fmt::format("  RGB n, {}, {}\n", i % 256, (i * 7) % 256);
+    text += fmt::format("  RGB n, {}, {}\n  delay 20\n", i % 256, (i * 7) % 256);
   text += "end sub\nbig(1)\nbig(2)\n";
   const auto result = compiled(text);
   EXPECT_EQ(first_rule(result), "program-too-large");
@@ -263,6 +263,21 @@ TEST(FilesOf, CirclesAndMissingFilesAreFindings) {
   files.texts["c.orb"] = "print 2\n";
   EXPECT_EQ(first_rule(compile("m", "m", "include \"c.orb\"\nprint 1\n", {}, files)),
             "included-statement");
+}
+
+TEST(FilesOf, AFileHasOnePath) {
+  EXPECT_EQ(resolve_path("main.orb", "a.orb"), "a.orb");
+  EXPECT_EQ(resolve_path("x/main.orb", "./lib/../a.orb"), "x/a.orb");
+  EXPECT_EQ(resolve_path("x/main.orb", "../a.orb"), "a.orb");
+  EXPECT_EQ(resolve_path("x/main.orb", "/lib/a.orb"), "/lib/a.orb");
+}
+
+TEST(FilesOf, VeryManyAreOneFinding) {
+  MapFiles files;
+  for (int i = 0; i < 100; ++i)
+    files.texts[fmt::format("f{}.orb", i)] = fmt::format("include \"f{}.orb\"\n", i + 1);
+  const auto result = compile("m", "m", "include \"f0.orb\"\nprint 1\n", {}, files);
+  EXPECT_EQ(result.program.diagnostics.size(), 1U);
 }
 
 TEST(FilesOf, MacrosAreCalledByName) {

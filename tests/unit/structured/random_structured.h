@@ -222,8 +222,8 @@ private:
     const int items = upto(5);
     for (int n = 0; n < items; ++n) {
       const int kind = upto(5);
-      text += kind == 0 ? (chance(0.8) ? "\"some more text\" "
-                                       : "\"a text that is longer than the robot prints\" ")
+      text += kind == 0   ? (chance(0.8) ? "\"some more text\" "
+                                         : "\"a text that is longer than the robot prints\" ")
               : kind == 1 ? ", "
               : kind == 2 ? "$(65 + abs(" + variable() + ") % 20) "
                           : "(" + expression(1) + ") ";
