@@ -189,6 +189,8 @@ std::string_view fence(std::string_view section, std::string_view caption) {
     return "sh";
   if (section.starts_with("macro-"))
     return "macro";
+  if (section.starts_with("structured-"))
+    return "orb";
   return section.starts_with("stimulus-") ? "stimulus" : "basic";
 }
 

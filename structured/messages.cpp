@@ -1,6 +1,8 @@
 #include "structured/messages.h"
 
+#include "base/suggest.h"
 #include "structured/rules.h"
+#include "structured/words.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +19,25 @@ Diagnostic malformed(const Program& program, Span found, std::string_view what,
                      std::string help = {}) {
   return finding(rules::MalformedLine, found, fmt::format("{}, {}", what, shown(program, found)),
                  std::move(help));
+}
+
+/// Values after a name without parentheses: a statement that is misspelt, or a call.
+Diagnostic naked_arguments(const Program& program, Span found) {
+  auto end = found.begin;
+  while (end > 0 && is_blank(program.text[end - 1]))
+    --end;
+  auto begin = end;
+  while (begin > 0 && is_name_char(program.text[begin - 1]))
+    --begin;
+  const auto word = std::string(program.text_of({begin, end}));
+  std::vector<std::string_view> statements;
+  for (const auto& row : spec::statements)
+    statements.push_back(row.word);
+  if (const auto meant = closest(word, statements))
+    return finding(rules::UnknownName, {begin, end},
+                   fmt::format("`{}` is neither a statement nor a sub", word),
+                   fmt::format("did you mean `{}`?", *meant));
+  return malformed(program, found, "the arguments of a call stand in parentheses");
 }
 
 } // namespace
@@ -52,8 +73,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return malformed(program, found, "the name of a file in quotes belongs here");
   case Reason::NotAStatement:
     return finding(rules::MalformedLine, found, fmt::format("no statement begins with `{}`", text));
-  case Reason::NakedArguments:
-    return malformed(program, found, "the arguments of a call stand in parentheses");
+  case Reason::NakedArguments: return naked_arguments(program, found);
   case Reason::TooManyArguments:
     return finding(rules::ArgumentCount, found, "the statement takes no more values");
   case Reason::ReadOnly:

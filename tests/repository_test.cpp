@@ -177,7 +177,7 @@ TEST(Golden, EveryExampleIsCheckedAndRun) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(root / "examples")) {
     const auto name = "examples/" + entry.path().filename().string();
-    if (!name.ends_with(".bas") && !name.ends_with(".macro"))
+    if (!name.ends_with(".bas") && !name.ends_with(".orb") && !name.ends_with(".macro"))
       continue;
     ++count;
     const std::regex checked("orb check [^\n]*" + name);

@@ -230,6 +230,12 @@ TEST(Limits, AProgramThatIsTooLargeNamesItsParts) {
   EXPECT_NE(result.program.diagnostics.front().help.find("`big`"), std::string::npos);
 }
 
+TEST(Lines, AMisspeltStatementIsNotTakenForACall) {
+  EXPECT_EQ(lines("dealy 1s\n"), "unknown-name: `dealy` is neither a statement nor a sub\n");
+  EXPECT_EQ(lines("patrol 3\n"),
+            "malformed-line: the arguments of a call stand in parentheses, found `3`\n");
+}
+
 TEST(Targets, NewerWordsAreNamed) {
   compiler::Target target;
   target.version = spec::BasicVersion::V0_9;

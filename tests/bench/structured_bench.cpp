@@ -1,0 +1,70 @@
+// Structured programs to lines of the robot: all of it, from the text to the checked image, and for
+// comparison only reading and checking. The program is the examples' own kind: subs, loops,
+// choices.
+
+#include "structured/check.h"
+#include "structured/compile.h"
+#include "structured/read.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <string>
+
+namespace {
+
+using namespace orb::structured;
+
+/// A program of about so many lines that an area holds when there are 200.
+std::string program(std::int64_t lines) {
+  std::string text = "' a patrol\nconst side = 400ms\narray visits[12]\ncourse = 0\n\n";
+  std::string subs;
+  for (std::int64_t n = 0; 16 * n < lines; ++n) {
+    text += fmt::format("for round_{0} = 1 to {1}\n  leg_{0}(round_{0} * 30)\n"
+                        "  if speed <= 5 and course > 90 then print \"stuck at \", course\n"
+                        "next round_{0}\n",
+                        n, n % 5 + 2);
+    subs += fmt::format("\nsub leg_{0}(turn)\n  local n ' of this leg\n"
+                        "  course = (course + turn) % 360\n  RGB course % 256, {1}, 0\n"
+                        "  goroll course, {2}, 1\n  delay side\n  visits[{3}] += 1\n"
+                        "  n = visits[{3}] * 2\n  print \"visited {0}: \", n\nend sub\n",
+                        n, n * 7 % 256, 60 + n % 90, n % 12 + 1);
+  }
+  return text + "goroll 0, 0, 0\n" + subs;
+}
+
+void finish(benchmark::State& state, const std::string& text) {
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) *
+                          static_cast<std::int64_t>(text.size()));
+  state.counters["bytes"] = static_cast<double>(text.size());
+}
+
+void compile_program(benchmark::State& state) {
+  const auto text = program(state.range(0));
+  orb::compiler::Target target;
+  target.ram_bytes = 4096;
+  NoFiles files;
+  for (auto _ : state) {
+    const auto compiled = compile("a.orb", "a.orb", text, target, files);
+    if (compiled.has_errors())
+      state.SkipWithError("the program is meant to be fine");
+    benchmark::DoNotOptimize(compiled.robot.text.data());
+  }
+  finish(state, text);
+}
+
+void read_and_check(benchmark::State& state) {
+  const auto text = program(state.range(0));
+  NoFiles files;
+  for (auto _ : state) {
+    auto read_program = read("a.orb", "a.orb", text, files);
+    const auto names = resolve(read_program);
+    check(read_program, names, {});
+    benchmark::DoNotOptimize(read_program.statements.data());
+  }
+  finish(state, text);
+}
+
+BENCHMARK(compile_program)->Arg(50)->Arg(100)->Arg(200);
+BENCHMARK(read_and_check)->Arg(50)->Arg(100)->Arg(200);
+
+} // namespace
