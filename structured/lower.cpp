@@ -117,11 +117,17 @@ private:
     return term;
   }
 
-  /// Computes what lies on the stack and must happen before something with these effects.
+  /// Computes what lies on the stack and must happen before something with these effects, and what
+  /// must happen before that.
   void settle(std::uint8_t effects) {
-    for (auto& term : pending_)
-      if (ordered(code_.terms[term].effects, effects))
-        term = code_.read(into_temporary(term));
+    std::vector<std::size_t> early;
+    for (auto i = pending_.size(); i-- > 0;)
+      if (const auto own = code_.terms[pending_[i]].effects; ordered(own, effects)) {
+        effects |= own;
+        early.push_back(i);
+      }
+    for (auto i = early.rbegin(); i != early.rend(); ++i)
+      pending_[*i] = code_.read(into_temporary(pending_[*i]));
   }
 
   /// Computes all that a call could change, up to `end`.

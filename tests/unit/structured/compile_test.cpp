@@ -122,6 +122,12 @@ TEST(Lines, ATestThatIsSafeOnlyBehindAnotherIsNotJoinedToIt) {
             "1 input X\n2 input Y\n3 if Y > 0 and 100 / (X & 7 + 1) > 20 then LEDC 1\n");
 }
 
+TEST(Lines, WhatIsComputedEarlyTakesAlongWhatStandsBeforeIt) {
+  // The division must come before the element, and the first sensor before the division.
+  EXPECT_EQ(lines("array a[3]\nprint (dshake & 1) + (7 / dshake) * a[rnd(3)]\n"),
+            "1 B = dshake & 1\n2 A = 7 / dshake\n3 Y = rnd 3\n4 print B + A * Z\n");
+}
+
 TEST(Lines, NegativeNumbersAreDifferences) {
   EXPECT_EQ(lines("locate -5, xpos + -3\n"), "1 locate 0-5,xpos - 3\n");
   EXPECT_EQ(lines("print xpos * -4\n"), "1 print xpos * (0-4)\n");
