@@ -8,7 +8,6 @@
 #include "structured/words.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
@@ -161,7 +160,19 @@ private:
 } // namespace
 
 std::string resolve_path(std::string_view from, std::string_view path) {
-  return (std::filesystem::path(from).parent_path() / path).lexically_normal().generic_string();
+  std::string whole(path.starts_with('/') ? std::string_view()
+                                          : from.substr(0, from.rfind('/') + 1));
+  whole += path;
+  std::vector<std::string_view> parts;
+  for (std::string_view rest = whole; !rest.empty();) {
+    const auto part = rest.substr(0, rest.find('/'));
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    if (part == ".." && !parts.empty() && parts.back() != "..")
+      parts.pop_back();
+    else if (!part.empty() && part != ".")
+      parts.push_back(part);
+  }
+  return fmt::format("{}{}", whole.starts_with('/') ? "/" : "", fmt::join(parts, "/"));
 }
 
 Program read(std::string name, std::string path, std::string_view text, Files& files) {
