@@ -46,17 +46,22 @@ constexpr std::int32_t absolute(std::int32_t x) {
   return x < 0 ? subtract(0, x) : x;
 }
 
+/// Moves a negative `x` so far that cutting off its low bits divides it by a power of two and
+/// rounds toward zero.
+constexpr std::int32_t before_cut(std::int32_t x, std::int32_t power) {
+  return add(x, x >> 31 & (power - 1));
+}
+
 __extension__ typedef __int128 Wide;
 
-/// What divide_by() multiplies with for a divisor above 1.
+/// What divide_by() multiplies with for a divisor that is above 2 and no power of two.
 constexpr std::int64_t reciprocal(std::int32_t divisor) {
-  return static_cast<std::int64_t>((std::uint64_t{1} << 63) / static_cast<std::uint64_t>(divisor)) +
-         1;
+  return static_cast<std::int64_t>(~std::uint64_t{0} / static_cast<std::uint64_t>(divisor)) + 1;
 }
 /// divide() by the divisor of `reciprocal`: the error of the product is less than 1 / divisor, so
-/// only the rounding of negative quotients remains to be corrected.
+/// only negative quotients, which it rounds down, need one more.
 constexpr std::int32_t divide_by(std::int32_t x, std::int64_t reciprocal) {
-  return static_cast<std::int32_t>(Wide{x} * reciprocal >> 63) + (x < 0 ? 1 : 0);
+  return static_cast<std::int32_t>(Wide{x} * reciprocal >> 64) - (x >> 31);
 }
 
 } // namespace orb::bytecode

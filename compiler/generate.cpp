@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -187,9 +188,9 @@ private:
   // Values.
 
   /// Emits what computes the next value on the stack.
-  void compute(Op op, std::uint16_t b = 0, std::uint16_t c = 0) {
+  void compute(Op op, std::uint16_t b = 0, std::uint16_t c = 0, std::uint16_t d = 0) {
     const std::uint16_t to = temporary(stack_.size());
-    emit(op, to, b, c);
+    emit(op, to, b, c, d);
     stack_.push_back(to);
   }
 
@@ -203,12 +204,33 @@ private:
       stack_.push_back(constant(*value));
       return;
     }
-    Op op = operations[static_cast<std::size_t>(written)];
-    if (y && *y > 1 && op == Op::Divide)
-      op = Op::DivideBy;
-    if (y && *y > 1 && op == Op::Remainder)
-      op = Op::RemainderBy;
-    compute(op, left, right);
+    const Op op = operations[static_cast<std::size_t>(written)];
+    if (y && *y > 1 && (op == Op::Divide || op == Op::Remainder))
+      divide_by_constant(op, left, right, static_cast<std::uint32_t>(*y));
+    else if (op == Op::Add && (is_last_product(left) || is_last_product(right)))
+      add_to_product(is_last_product(left) ? right : left);
+    else
+      compute(op, left, right);
+  }
+
+  void divide_by_constant(Op op, std::uint16_t left, std::uint16_t right, std::uint32_t divisor) {
+    const bool quotient = op == Op::Divide;
+    if (std::has_single_bit(divisor))
+      compute(quotient ? Op::DivideByPower : Op::RemainderByPower, left, right,
+              static_cast<std::uint16_t>(std::countr_zero(divisor)));
+    else
+      compute(quotient ? Op::DivideBy : Op::RemainderBy, left, right);
+  }
+
+  bool is_last_product(std::uint16_t index) const {
+    return is_temporary(index) && chunk_.code.back().op == Op::Multiply &&
+           chunk_.code.back().a == index;
+  }
+
+  void add_to_product(std::uint16_t summand) {
+    const auto product = chunk_.code.back();
+    chunk_.code.pop_back();
+    compute(Op::MultiplyAdd, product.b, product.c, summand);
   }
 
   void negate() {
@@ -451,7 +473,17 @@ private:
 
   /// Puts the registers of both sides on the stack. False when one traps.
   bool compare(const Comparison& comparison) {
-    return value(comparison.left.value) && value(comparison.right.value);
+    if (!value(comparison.left.value) || !value(comparison.right.value))
+      return false;
+    const auto left = stack_[stack_.size() - 2];
+    const auto relation = relation_of(comparison);
+    if (is_temporary(left) && chunk_.code.back().op == Op::RemainderByPower &&
+        constant_in(stack_.back()) == 0 &&
+        (relation == Relation::Equal || relation == Relation::NotEqual)) {
+      auto& last = chunk_.code.back(); // the remainder is 0 where the low bits are
+      last = {Op::And, false, left, last.b, constant(*constant_in(last.c) - 1)};
+    }
+    return true;
   }
 
   void decide(const StatementNode& node) {

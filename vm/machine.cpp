@@ -252,7 +252,7 @@ void Machine::link(bytecode::Chunk given) {
   for (std::size_t i = 0; i < chunk.constants.size(); ++i) {
     const std::int32_t value = chunk.constants[i];
     core_.registers[chunk.first_constant() + i] = value;
-    if (value > 1)
+    if (value > 2)
       core_.reciprocals[chunk.first_constant() + i] = bytecode::reciprocal(value);
   }
 

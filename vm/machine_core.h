@@ -76,7 +76,7 @@ struct Core {
   bytecode::Chunk chunk;
   std::vector<Code> code; ///< one for one with the chunk's
   std::vector<std::int32_t> registers;
-  /// By register, of constants above 1: for DivideBy and RemainderBy.
+  /// By register, of constants above 2: for DivideBy and RemainderBy.
   std::vector<std::int64_t> reciprocals;
 
   // Where it is.

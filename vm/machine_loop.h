@@ -100,9 +100,12 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   VALUE(Multiply, A = bytecode::multiply(B, C))
   VALUE(Divide, if (C == 0) FAULT(BasicError::DivideByZero); A = bytecode::divide(B, C))
   VALUE(Remainder, if (C == 0) FAULT(BasicError::DivideByZero); A = bytecode::remainder(B, C))
+  VALUE(MultiplyAdd, A = bytecode::add(bytecode::multiply(B, C), r[pc->d]))
   VALUE(DivideBy, A = bytecode::divide_by(B, reciprocal[pc->c]))
   VALUE(RemainderBy, const auto quotient = bytecode::divide_by(B, reciprocal[pc->c]);
         A = bytecode::subtract(B, bytecode::multiply(quotient, C)))
+  VALUE(DivideByPower, A = bytecode::before_cut(B, C) >> pc->d)
+  VALUE(RemainderByPower, A = bytecode::subtract(B, bytecode::before_cut(B, C) & -C))
   VALUE(ShiftLeft, if (!bytecode::is_shift_count(C)) FAULT(BasicError::BadNumericParameter);
         A = bytecode::shift_left(B, C))
   VALUE(ShiftRight, if (!bytecode::is_shift_count(C)) FAULT(BasicError::BadNumericParameter);
@@ -283,20 +286,3 @@ return Exit::Fault;
 out_of_budget : SYNC(pc);
 core.budget = 0;
 return Exit::Budget;
-
-#undef NEXT_LINE
-#undef FOLLOWING_LINE
-#undef FAULT
-#undef SYNC
-#undef SLOW
-#undef ELEMENT
-#undef A
-#undef B
-#undef C
-#undef STEP
-#undef VALUE
-#undef STATEMENT
-#undef TEST
-#undef CHOSEN
-#undef BEGIN_LOOP
-#undef STEP_LOOP

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -197,22 +196,6 @@ private:
   std::vector<std::uint16_t> housed_;
 };
 
-/// Division by a constant: the high part of a product, as bytecode::divide_by() has it, with the
-/// smallest factor that is exact for 32 bits.
-struct Factor {
-  std::uint32_t factor = 0;
-  int shift = 0;
-};
-
-Factor factor_of(std::uint32_t divisor) {
-  for (int shift = 32;; ++shift) {
-    const std::uint64_t power = std::uint64_t{1} << shift;
-    const std::uint64_t factor = power / divisor + 1;
-    if ((factor * divisor - power) << 31 < power)
-      return {static_cast<std::uint32_t>(factor), shift};
-  }
-}
-
 /// Writes the code of a program.
 class Writer {
 public:
@@ -326,7 +309,6 @@ private:
     leave_ = a_.newLabel();
     following_ = chunk_.begin(line + 1);
     next_ = plan_.begins_block(line + 1) ? labels_[following_] : a_.newLabel();
-    masked_.reset();
     doors_.push_back({begin, rest, leave_, {}});
     if (plan_.begins_block(line)) {
       a_.bind(labels_[begin]);
@@ -359,15 +341,18 @@ private:
   void write(std::uint32_t at, const Instruction& i) {
     switch (i.op) {
     case Op::Copy: copy(i.a, i.b); break;
-    case Op::Add: add(i); break;
+    case Op::Add: calculate(x86::Inst::kIdAdd, i.a, i.b, i.c); break;
     case Op::Subtract: calculate(x86::Inst::kIdSub, i.a, i.b, i.c); break;
     case Op::Multiply: multiply(i); break;
     case Op::And: calculate(x86::Inst::kIdAnd, i.a, i.b, i.c); break;
     case Op::Or: calculate(x86::Inst::kIdOr, i.a, i.b, i.c); break;
     case Op::Divide: divide(i, x86::eax); break;
     case Op::Remainder: divide(i, x86::edx); break;
+    case Op::MultiplyAdd: multiply_add(i); break;
     case Op::DivideBy: divide_by(i); break;
-    case Op::RemainderBy: remainder_by(at, i); break;
+    case Op::RemainderBy: remainder_by(i); break;
+    case Op::DivideByPower: divide_by_power(i); break;
+    case Op::RemainderByPower: remainder_by_power(i); break;
     case Op::ShiftLeft: shift(x86::Inst::kIdShl, i); break;
     case Op::ShiftRight: shift(x86::Inst::kIdSar, i); break;
     case Op::Abs: absolute(i); break;
@@ -431,6 +416,11 @@ private:
   /// Where a result is computed: in its home, or in eax.
   x86::Gp place_of(std::uint16_t index) const { return homes_[index].value_or(x86::eax); }
 
+  /// The same, but in eax where `other`, which is still needed, has that home.
+  x86::Gp apart(std::uint16_t index, std::uint16_t other) const {
+    return index == other ? x86::Gp(x86::eax) : place_of(index);
+  }
+
   void store(std::uint16_t index, const x86::Gp& from) {
     if (!homes_[index])
       a_.mov(memory(index), from);
@@ -464,26 +454,27 @@ private:
     store(to, place);
   }
 
-  /// Of three registers, or two and a number, as an address.
-  void add(const Instruction& i) {
-    const auto left = homes_[i.b];
-    const auto to = homes_[i.a];
-    if (left && to && left != to && is_constant(i.c))
-      a_.lea(*to, x86::ptr(left->r64(), constant(i.c)));
-    else if (left && to && left != to && homes_[i.c] && homes_[i.c] != to)
-      a_.lea(*to, x86::ptr(left->r64(), homes_[i.c]->r64()));
-    else
-      calculate(x86::Inst::kIdAdd, i.a, i.b, i.c);
+  /// The product of two registers of the program.
+  void product(const x86::Gp& to, std::uint16_t left, std::uint16_t right) {
+    if (is_constant(left) || operand(right) == to)
+      std::swap(left, right);
+    if (is_constant(right)) {
+      a_.emit(x86::Inst::kIdImul, to, operand(left), Imm(constant(right)));
+    } else {
+      load(to, left);
+      a_.emit(x86::Inst::kIdImul, to, operand(right));
+    }
   }
 
   void multiply(const Instruction& i) {
-    const auto [value, number] = is_constant(i.b) ? std::pair(i.c, i.b) : std::pair(i.b, i.c);
-    if (!is_constant(number) || is_constant(value)) {
-      calculate(x86::Inst::kIdImul, i.a, i.b, i.c);
-      return;
-    }
-    const auto place = place_of(i.a);
-    a_.emit(x86::Inst::kIdImul, place, operand(value), Imm(constant(number)));
+    product(place_of(i.a), i.b, i.c);
+    store(i.a, place_of(i.a));
+  }
+
+  void multiply_add(const Instruction& i) {
+    const auto place = apart(i.a, i.d);
+    product(place, i.b, i.c);
+    a_.emit(x86::Inst::kIdAdd, place, operand(i.d));
     store(i.a, place);
   }
 
@@ -499,101 +490,57 @@ private:
     store(i.a, result);
   }
 
-  /// Computes the quotient, rounded toward zero, in `to`; returns where b is, which is not there.
-  x86::Gp quotient(const Instruction& i, const x86::Gp& to) {
+  /// bytecode::divide_by() in edx; spoils eax, returns where b is, which is neither.
+  x86::Gp quotient(const Instruction& i) {
     const auto x = loaded(i.b, x86::ecx);
-    const auto divisor = static_cast<std::uint32_t>(constant(i.c));
-    const auto [factor, bits] = factor_of(divisor);
-    a_.movsxd(to.r64(), x);
-    if (factor <= INT32_MAX) {
-      a_.imul(to.r64(), to.r64(), factor);
-    } else {
-      a_.mov(x86::edx, factor);
-      a_.imul(to.r64(), x86::rdx);
-    }
-    a_.sar(to.r64(), bits);
-    a_.mov(x86::edx, x);
-    a_.shr(x86::edx, 31);
-    a_.add(to, x86::edx);
-    return x;
-  }
-
-  /// Of a divisor 2^bits: leaves b, moved toward the next multiple by what rounding toward zero
-  /// needs, in eax, and b in what is returned.
-  x86::Gp toward_zero(const Instruction& i, int bits) {
-    const auto x = loaded(i.b, x86::ecx);
+    a_.mov(x86::rax, bytecode::reciprocal(constant(i.c)));
+    a_.movsxd(x86::rdx, x);
+    a_.imul(x86::rdx);
     a_.mov(x86::eax, x);
-    if (bits > 1)
-      a_.sar(x86::eax, 31);
-    a_.shr(x86::eax, 32 - bits);
-    a_.add(x86::eax, x);
+    a_.sar(x86::eax, 31);
+    a_.sub(x86::edx, x86::eax);
     return x;
   }
 
   void divide_by(const Instruction& i) {
-    const auto divisor = static_cast<std::uint32_t>(constant(i.c));
-    if (std::has_single_bit(divisor)) {
-      toward_zero(i, std::countr_zero(divisor));
-      a_.sar(x86::eax, std::countr_zero(divisor));
-      store(i.a, x86::eax);
-    } else {
-      const bool apart = homes_[i.a] && operand(i.a) != operand(i.b);
-      const x86::Gp to = apart ? *homes_[i.a] : x86::Gp(x86::eax);
-      quotient(i, to);
-      store(i.a, to);
-    }
+    quotient(i);
+    store(i.a, x86::edx);
   }
 
-  void remainder_by(std::uint32_t at, const Instruction& i) {
-    const auto divisor = static_cast<std::uint32_t>(constant(i.c));
+  void remainder_by(const Instruction& i) {
+    const auto x = quotient(i);
     const auto place = place_of(i.a);
-    if (!std::has_single_bit(divisor)) {
-      const auto x = quotient(i, x86::eax);
-      a_.imul(x86::edx, x86::eax, constant(i.c));
-      if (place != x)
-        a_.mov(place, x);
-      a_.sub(place, x86::edx);
-      store(i.a, place);
-    } else if (is_only_tested(at, i)) {
-      masked_ = i;
-    } else {
-      const auto x = toward_zero(i, std::countr_zero(divisor));
-      a_.and_(x86::eax, -constant(i.c));
-      a_.mov(x86::edx, x);
-      a_.sub(x86::edx, x86::eax);
-      store(i.a, x86::edx);
-    }
+    a_.imul(x86::edx, x86::edx, constant(i.c));
+    if (place != x)
+      a_.mov(place, x);
+    a_.sub(place, x86::edx);
+    store(i.a, place);
   }
 
-  /// How often an instruction names a register in operands of these kinds.
-  static int count(const Instruction& i, std::string_view kinds, std::uint16_t index) {
-    const std::array values{i.a, i.b, i.c, i.d};
-    int found = 0;
-    for (std::size_t n = 0; n < values.size(); ++n) {
-      const char kind = bytecode::info(i.op).operands[n];
-      const bool second = kind == 'p' && values[n] + 1 == index;
-      found += kinds.find(kind) != kinds.npos && (values[n] == index || second) ? 1 : 0;
-    }
-    return found;
+  /// bytecode::before_cut() in `to`; returns where b is, which is not there.
+  x86::Gp before_cut(const Instruction& i, const x86::Gp& to) {
+    const auto x = loaded(i.b, x86::ecx);
+    a_.mov(to, x);
+    if (i.d > 1)
+      a_.sar(to, 31);
+    a_.shr(to, 32 - i.d);
+    a_.add(to, x);
+    return x;
   }
 
-  /// Whether the line only asks whether a remainder is 0: the low bits of `i.b` tell.
-  bool is_only_tested(std::uint32_t at, const Instruction& i) const {
-    bool tested = false;
-    while (++at < following_ && i.a >= bytecode::first_temporary && !is_constant(i.b)) {
-      const auto& next = chunk_.code[at];
-      const bool selects = next.op == Op::SelectEqual || next.op == Op::SelectNotEqual;
-      const bool tests = next.op == Op::UnlessEqual || next.op == Op::UnlessNotEqual ||
-                         next.op == Op::WhenEqual || next.op == Op::WhenNotEqual;
-      const auto [left, right] = selects ? std::pair(next.b, next.c) : std::pair(next.a, next.b);
-      const bool with_zero = left == i.a && is_constant(right) && constant(right) == 0;
-      const int reads = count(next, "rp", i.a);
-      if (!tested && (selects || tests) && with_zero && reads == 1)
-        tested = true;
-      else if (reads > 0 || (!tested && count(next, "w", i.b) > 0))
-        return false;
-    }
-    return tested;
+  void divide_by_power(const Instruction& i) {
+    const auto to = apart(i.a, i.b);
+    before_cut(i, to);
+    a_.sar(to, i.d);
+    store(i.a, to);
+  }
+
+  void remainder_by_power(const Instruction& i) {
+    const auto x = before_cut(i, x86::eax);
+    a_.and_(x86::eax, -constant(i.c));
+    a_.mov(x86::edx, x);
+    a_.sub(x86::edx, x86::eax);
+    store(i.a, x86::edx);
   }
 
   void shift(InstId op, const Instruction& i) {
@@ -643,11 +590,6 @@ private:
   // Decisions.
 
   void compare(std::uint16_t left, std::uint16_t right) {
-    if (masked_ && masked_->a == left) {
-      a_.emit(x86::Inst::kIdTest, operand(masked_->b), Imm(constant(masked_->c) - 1));
-      masked_.reset();
-      return;
-    }
     if (homes_[left] && is_constant(right) && constant(right) == 0) {
       a_.test(*homes_[left], *homes_[left]);
       return;
@@ -665,11 +607,11 @@ private:
   }
 
   void select(std::uint32_t at, const Instruction& i, x86::CondCode takes_first) {
-    const auto second = static_cast<std::uint16_t>(i.d + 1);
-    load(x86::ecx, second); // eax is what a comparison may need
+    const auto place = apart(i.a, i.d) == x86::eax ? x86::Gp(x86::ecx) : *homes_[i.a];
     compare(i.b, i.c);
-    a_.emit(x86::Inst::cmovccFromCond(takes_first), x86::ecx, operand(i.d));
-    store(i.a, x86::ecx);
+    load(place, static_cast<std::uint16_t>(i.d + 1)); // a move leaves the flags alone
+    a_.emit(x86::Inst::cmovccFromCond(takes_first), place, operand(i.d));
+    store(i.a, place);
     jump(at, following_);
   }
 
@@ -761,7 +703,6 @@ private:
   Label leave_;
   Label next_; ///< the way to the line behind it
   std::uint32_t following_ = 0;
-  std::optional<Instruction> masked_; ///< a remainder of which only low bits are looked at
 };
 
 /// The finished code of a program, not yet in memory of its own.

@@ -211,6 +211,23 @@ TEST(Agreement, EnginesAgreeAfterEverySlice) {
     EXPECT_GT(counts[lines], 0u) << "no slice had " << lines << " lines";
 }
 
+TEST(Agreement, DivisionByConstantsIsExact) {
+  SliceCounts counts{};
+  for (const std::string divisor :
+       {"1", "2", "3", "4", "5", "7", "8", "10", "25", "641", "65536", "65537", "1073741824",
+        "1431655765", "2147483646", "2147483647"})
+    for (const std::string value : {"0", "1", "2", "3", "7", "8", "9", "65535", "65536",
+                                    "2147483646", "2147483647", "2147483647+1"})
+      for (const std::string sign : {"", "0-"}) {
+        const auto text = fmt::format("10 X={0}({1})\n20 A=X/{2}\n30 B=X%{2}\n40 X=X/{2}+A*A+B\n"
+                                      "50 if A%{2}=0 then C=1\n60 if A%{2}!0 then D=1\n",
+                                      sign, value, divisor);
+        SideBySide all(text, 1);
+        while (all.goes_on() && !::testing::Test::HasFailure())
+          all.run(longest_slice, counts);
+      }
+}
+
 /// A program of which some bytes have been changed, lost or doubled.
 std::string damaged(std::uint64_t seed) {
   Random random{seed};

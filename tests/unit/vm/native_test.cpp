@@ -112,7 +112,7 @@ TEST_F(NativeCodeTest, TakesBoundedMemoryForHostilePrograms) {
 TEST_F(NativeCodeTest, IsNotMadeOfProgramsThatAreTooLarge) {
   std::string text;
   for (int line = 0; line < 65'000; ++line)
-    text += fmt::format("{} A=A*B+C\n", line);
+    text += fmt::format("{} A=A*B-C\n", line);
   const auto code = NativeCode::compile(compiler::load(text));
   ASSERT_FALSE(code);
   EXPECT_EQ(code.error(), "the program is too large for machine code");
