@@ -1,8 +1,10 @@
 #include "base/suggest.h"
 
+#include "base/nearest.h"
 #include "base/text.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace orb {
@@ -54,6 +56,24 @@ std::optional<std::string> closest(std::string_view word,
     }
   }
   return best;
+}
+
+std::vector<std::string> nearest(std::string_view word,
+                                 std::span<const std::string_view> candidates, std::size_t count) {
+  if (word.empty() || word.size() > longest_word)
+    return {};
+  const std::size_t limit = std::max<std::size_t>(1, word.size() / 2);
+  std::vector<std::pair<std::size_t, std::string_view>> near;
+  for (const auto candidate : candidates)
+    if (const auto d = distance(word, candidate); d <= limit)
+      near.emplace_back(d, candidate);
+  std::stable_sort(near.begin(), near.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (const auto& [d, name] : near)
+    if (names.size() < count && std::find(names.begin(), names.end(), name) == names.end())
+      names.emplace_back(name);
+  return names;
 }
 
 } // namespace orb

@@ -1,5 +1,7 @@
-#include "base/suggest.h"
+#include "base/nearest.h"
+#include "base/text.h"
 #include "cli/commands.h"
+#include "cli/options.h"
 #include "reference/knowledge.h"
 
 #include <algorithm>
@@ -9,22 +11,33 @@
 namespace orb::cli {
 namespace {
 
-bool answers_to(const reference::Entry& entry, std::string_view word) {
-  return entry.name == word ||
-         std::find(entry.aliases.begin(), entry.aliases.end(), word) != entry.aliases.end();
-}
+using reference::Section;
 
-/// Every entry that `word` names, one after the other: `roll` is a variable and a macro command.
-std::string explain(const std::vector<reference::Section>& sections, std::string_view word) {
+/// Every entry that `is_meant` of its name or of an alias, one after the other: `roll` is a
+/// variable and a macro command.
+template <class IsMeant>
+std::string explain(const std::vector<Section>& sections, Style style, IsMeant is_meant) {
   std::string out;
   for (const auto& section : sections)
     for (const auto& entry : section.entries)
-      if (answers_to(entry, word))
-        out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry);
+      if (is_meant(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_meant))
+        out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry, style);
   return out;
 }
 
-std::vector<std::string> all_names(const std::vector<reference::Section>& sections) {
+/// The word as it is written, else in any case, else as an option without its dashes.
+std::string explain(const std::vector<Section>& sections, Style style, const std::string& word) {
+  auto found = explain(sections, style, [&](const std::string& name) { return name == word; });
+  if (found.empty())
+    found =
+        explain(sections, style, [&](const std::string& name) { return equal_words(name, word); });
+  if (found.empty())
+    found = explain(sections, style,
+                    [&](const std::string& name) { return equal_words(name, "--" + word); });
+  return found;
+}
+
+std::vector<std::string> all_names(const std::vector<Section>& sections) {
   std::vector<std::string> names;
   for (const auto& section : sections)
     for (const auto& entry : section.entries) {
@@ -34,29 +47,38 @@ std::vector<std::string> all_names(const std::vector<reference::Section>& sectio
   return names;
 }
 
-void run(Context& context, const std::string& word) {
-  const auto sections = reference::knowledge();
-  const auto text = explain(sections, word);
+void run(Context& context, const reference::CommandLine& line, const std::string& word) {
+  auto sections = reference::knowledge();
+  for (auto& section : reference::commands_knowledge(line))
+    sections.push_back(std::move(section));
+  const auto text = explain(sections, context.out_style(), word);
   if (!text.empty()) {
     print_out(text);
     return;
   }
+  constexpr std::size_t most = 3;
   const auto names = all_names(sections);
   const std::vector<std::string_view> views(names.begin(), names.end());
-  const auto meant = closest(word, views);
-  fail(context, {ExitCode::BadInput, fmt::format("nothing is known about `{}`{}", word,
-                                                 meant ? fmt::format("; did you mean `{}`?", *meant)
-                                                       : "; `orb spec` lists all there is")});
+  const auto near = nearest(word, views, most);
+  fail(context,
+       {ExitCode::BadInput,
+        fmt::format("nothing is known about `{}`; {}", word,
+                    near.empty() ? "`orb spec` lists all there is"
+                                 : fmt::format("did you mean `{}`?", fmt::join(near, "`, `")))});
 }
 
 } // namespace
 
 void add_explain(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "explain", "say all that the tables know about a word",
-                              "orb explain goroll\norb explain 08h\norb explain unknown-statement");
+  auto* command = add_command(
+      app, "explain", "say all that the tables know about a word",
+      "orb explain goroll\norb explain 08h\norb explain unknown-statement\norb explain -- --open");
   auto word = std::make_shared<std::string>();
-  command->add_option("WORD", *word, "a rule, statement, error, variable or command")->required();
-  command->callback([&context, word] { run(context, *word); });
+  command
+      ->add_option("WORD", *word,
+                   "a statement, variable, colour, error, limit, rule, command or option")
+      ->required();
+  command->callback([&app, &context, word] { run(context, command_line(app), *word); });
 }
 
 } // namespace orb::cli

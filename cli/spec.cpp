@@ -16,6 +16,7 @@ struct Options {
   std::string section;
   bool json = false;
   bool markdown = false;
+  bool cheatsheet = false;
   std::string editors; ///< the folder to print the editors' word lists into
 };
 
@@ -28,10 +29,10 @@ std::string overview(const std::vector<reference::Section>& sections) {
   return out;
 }
 
-std::string plain(const reference::Section& section) {
+std::string plain(const reference::Section& section, Style style) {
   std::string out;
   for (const auto& entry : section.entries)
-    out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry);
+    out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry, style);
   return out;
 }
 
@@ -66,6 +67,10 @@ void run(Context& context, const Options& options) {
     write_editor_files(context, options.editors);
     return;
   }
+  if (options.cheatsheet) {
+    print_out(reference::print_cheatsheet());
+    return;
+  }
   const auto all = reference::knowledge();
   auto sections = all;
   const bool one = !options.section.empty();
@@ -79,7 +84,7 @@ void run(Context& context, const Options& options) {
     for (const auto& section : sections)
       print_out(reference::print_markdown(all, section));
   else if (one)
-    print_out(plain(sections.front()));
+    print_out(plain(sections.front(), context.out_style()));
   else {
     print_out(overview(sections));
     print_note(context, "`orb spec SECTION` prints one section, `orb explain WORD` one entry");
@@ -95,6 +100,8 @@ void add_spec(CLI::App& app, Context& context) {
   command->add_option("SECTION", options->section, "one table; all where none is named");
   auto* json = command->add_flag("--json", options->json, "as one JSON document");
   command->add_flag("--markdown", options->markdown, "as pages of docs/reference")->excludes(json);
+  command->add_flag("--cheatsheet", options->cheatsheet, "the language on one page")
+      ->excludes(json);
   command
       ->add_option("--editors", options->editors,
                    "write the grammars and syntax files for editors into this folder")

@@ -16,6 +16,10 @@ constexpr auto table = std::to_array<Foreign>({
 
 } // namespace
 
+std::span<const Foreign> foreign_words() {
+  return table;
+}
+
 const Foreign* find_foreign(std::string_view spelling, Foreign::Place place) {
   const auto row = std::find_if(table.begin(), table.end(), [&](const Foreign& foreign) {
     return foreign.place == place && equal_words(spelling, foreign.spelling);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace orb::compiler {
@@ -15,6 +16,9 @@ struct Foreign {
                             ///< its line, empty where a person must write
   std::string_view help;
 };
+
+/// All rows.
+std::span<const Foreign> foreign_words();
 
 /// The row of a word or sign in that place, without regard to case, or null.
 const Foreign* find_foreign(std::string_view spelling, Foreign::Place place);

@@ -1,10 +1,14 @@
 // What the orbBasic tables know.
 
+#include "compiler/foreign.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
+#include "spec/limits.h"
 #include "structured/words.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace orb::reference {
 namespace {
@@ -35,6 +39,40 @@ std::string_view describe(spec::Access access) {
   return "";
 }
 
+/// The statement that ends what this one begins, or begins what it ends; null where there is none.
+const spec::StatementInfo* partner(const spec::StatementInfo& row) {
+  if (row.form != spec::Form::Loop && row.form != spec::Form::LoopEnd)
+    return nullptr;
+  const auto form = row.form == spec::Form::Loop ? spec::Form::LoopEnd : spec::Form::Loop;
+  return std::find_if(spec::statements.begin(), spec::statements.end(),
+                      [&](const auto& other) { return other.form == form; });
+}
+
+/// A statement's line, or the lines of both partners in the order in which they run.
+std::string example(const spec::StatementInfo& row) {
+  const auto* other = partner(row);
+  if (other == nullptr)
+    return std::string(row.example);
+  const auto& [first, last] =
+      row.form == spec::Form::Loop ? std::pair{row, *other} : std::pair{*other, row};
+  return fmt::format("{}\n{}", first.example, last.example);
+}
+
+/// Whether a usage line names `word` as a word of its own.
+bool names(std::string_view usage, std::string_view word) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  for (auto at = usage.find(word); at != std::string_view::npos; at = usage.find(word, at + 1)) {
+    const auto end = at + word.size();
+    if ((at == 0 || !is_letter(usage[at - 1])) && (end == usage.size() || !is_letter(usage[end])))
+      return true;
+  }
+  return false;
+}
+
+Swatch swatch(const spec::LedColour& row) {
+  return {fmt::format("{} {}", row.code, row.name), row.red, row.green, row.blue};
+}
+
 } // namespace
 
 Section statements_section() {
@@ -47,10 +85,84 @@ Section statements_section() {
     for (const auto& parameter : row.parameters())
       entry.facts.emplace_back(parameter.name,
                                range(parameter.least, parameter.greatest, parameter.unit));
+    if (const auto* other = partner(row))
+      entry.facts.emplace_back("goes with", fmt::format("`{}`", other->word));
+    if (row.statement == spec::Statement::Ledc)
+      for (const auto& colour : spec::led_colours) {
+        entry.swatches.push_back(swatch(colour));
+        if (colour.code == 0)
+          entry.facts.emplace_back("colours", entry.swatches.back().name);
+        else
+          entry.facts.back().second += ", " + entry.swatches.back().name;
+      }
     entry.facts.emplace_back("since", since(row.since));
     entry.facts.emplace_back("after then", describe(row.in_then));
     entry.facts.emplace_back("source", row.source);
-    entry.code.emplace_back("example", row.example);
+    entry.code.emplace_back("example", example(row));
+    section.entries.push_back(std::move(entry));
+  }
+  return section;
+}
+
+Section words_section() {
+  Section section{"words", "Words inside statements", "word of a statement", {}};
+  for (const auto word : spec::particles)
+    for (const auto& row : spec::statements) {
+      if (!names(row.usage, word))
+        continue;
+      Entry entry;
+      entry.name = word;
+      entry.summary = fmt::format("a part of `{}`, which {}", row.word, row.summary);
+      entry.facts.emplace_back("usage", row.usage);
+      entry.code.emplace_back("example", example(row));
+      section.entries.push_back(std::move(entry));
+    }
+  return section;
+}
+
+Section letters_section() {
+  Section section{"letters", "Variables", "variable", {}};
+  const auto greatest = spec::value_of(spec::Limit::GreatestInteger);
+  const auto values = range(-greatest, greatest, "");
+  Entry plain;
+  plain.name = "A to X";
+  plain.summary = "a variable of the program: a number, 0 when it starts";
+  for (char letter = 'A'; letter <= 'X'; ++letter)
+    plain.aliases.emplace_back(1, letter);
+  plain.facts.emplace_back("range", values);
+  plain.facts.emplace_back("small letters", "the same variables: `a` is `A`");
+  plain.code.emplace_back("example", "10 A = A + 1");
+  Entry index{.name = "Y", .summary = "a variable, and the number of the element that `Z` is"};
+  index.facts.emplace_back(
+      "range", fmt::format("{}; where `Z` is used, {}", values,
+                           range(1, spec::value_of(spec::Limit::IndexedVariables), "")));
+  Entry element{.name = "Z", .summary = "the element of the list that `Y` names"};
+  element.facts.emplace_back("range", values);
+  element.code.emplace_back("example", "10 Y = 3\n20 Z = 100");
+  section.entries = {std::move(plain), std::move(index), std::move(element)};
+  return section;
+}
+
+Section colours_section() {
+  Section section{"colours", "Colours of LEDC", "colour", {}};
+  for (const auto& row : spec::led_colours) {
+    Entry entry;
+    entry.name = row.name;
+    entry.summary = fmt::format("the colour {} of `LEDC`", row.code);
+    entry.facts.emplace_back("LEDC", fmt::format("{}", row.code));
+    entry.facts.emplace_back("RGB", fmt::format("{},{},{}", row.red, row.green, row.blue));
+    entry.swatches.push_back(swatch(row));
+    section.entries.push_back(std::move(entry));
+  }
+  return section;
+}
+
+Section foreign_section() {
+  Section section{"other-languages", "Words of other languages", "word of other languages", {}};
+  for (const auto& row : compiler::foreign_words()) {
+    Entry entry;
+    entry.name = row.spelling;
+    entry.summary = row.help;
     section.entries.push_back(std::move(entry));
   }
   return section;

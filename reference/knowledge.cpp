@@ -24,9 +24,13 @@ std::string indented(std::string_view text) {
 
 std::vector<Section> knowledge() {
   return {statements_section(),
+          words_section(),
           functions_section(),
+          letters_section(),
           variables_section(),
           operators_section(),
+          colours_section(),
+          foreign_section(),
           basic_errors_section(),
           limits_section(),
           basic_flags_section(),
@@ -46,13 +50,17 @@ std::vector<Section> knowledge() {
           ball_section()};
 }
 
-std::string print_entry(const Section& section, const Entry& entry) {
+std::string print_entry(const Section& section, const Entry& entry, Style style) {
   auto out = fmt::format("{} ({})\n  {}\n", entry.name, section.kind, entry.summary);
   std::size_t width = 0;
   for (const auto& fact : entry.facts)
     width = std::max(width, fact.first.size());
   for (const auto& [caption, value] : entry.facts)
     out += fmt::format("  {:<{}}  {}\n", caption, width, value);
+  if (style.color)
+    for (const auto& swatch : entry.swatches)
+      out += fmt::format("  \x1b[48;2;{};{};{}m      \x1b[0m {}\n", swatch.red, swatch.green,
+                         swatch.blue, swatch.name);
   if (!entry.explanation.empty())
     out += "\n" + indented(entry.explanation);
   for (const auto& [caption, source] : entry.code)

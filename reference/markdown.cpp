@@ -55,12 +55,16 @@ class Links {
 public:
   /// For links from the page of `here`.
   Links(const std::vector<Section>& sections, const Section& here) {
+    // These pages' words have another meaning wherever a text names them.
+    const auto is_alone = [](const Section& section) {
+      return section.id == "other-languages" || section.id == "colours";
+    };
     // A word of several languages leads to the one that the page is about. Only pages about
     // structured programs lead to their words: elsewhere `sub` and `end` are something else.
     const auto own = language_of(here);
     for (const bool own_language : {true, false})
       for (const auto& section : sections)
-        if ((language_of(section) == own) == own_language &&
+        if ((language_of(section) == own) == own_language && !is_alone(section) &&
             (own_language || language_of(section) != Language::Structured))
           add(section, here);
   }
@@ -183,7 +187,7 @@ std::string contents(const Section& section, const Links& links) {
 
 /// What a fence holds (tests/docs/page.h). A mistake, or a line out of a program, is only text.
 std::string_view fence(std::string_view section, std::string_view caption) {
-  if (caption == "bad" || section == "statements" || section == "functions")
+  if (caption == "bad" || section == "statements" || section == "words" || section == "functions")
     return "text";
   if (section.starts_with("api-"))
     return "sh";

@@ -1,0 +1,120 @@
+#include "reference/knowledge.h"
+#include "spec/basic.h"
+#include "spec/limits.h"
+
+#include <fmt/format.h>
+
+// docs/cheatsheet.md: what somebody wants beside the keyboard, on one printed page.
+
+namespace orb::reference {
+namespace {
+
+/// `text` fit for a cell of a table.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    (out += c == '|' ? "\\" : "") += c;
+  return out;
+}
+
+std::string statements() {
+  std::string out = "| write | it | values |\n|---|---|---|\n";
+  for (const auto& row : spec::statements) {
+    std::string values;
+    for (const auto& one : row.parameters())
+      values +=
+          fmt::format("{}{} {}…{}", values.empty() ? "" : ", ", one.name, one.least, one.greatest);
+    out += fmt::format("| `{}` | {} | {} |\n", cell(row.usage), row.summary, values);
+  }
+  return out;
+}
+
+/// Names with their meaning in running text: `**word** meaning · …`.
+class List {
+public:
+  void add(std::string_view name, std::string_view meaning) {
+    text_ += fmt::format("{}`{}` {}", text_.empty() ? "" : " · ", name, meaning);
+  }
+  std::string text() const { return text_ + "\n"; }
+
+private:
+  std::string text_;
+};
+
+std::string values() {
+  List list;
+  for (const auto& row : spec::functions)
+    list.add(row.word, row.summary);
+  for (const auto& row : spec::operators)
+    list.add(std::string_view(&row.symbol, 1), row.summary);
+  return list.text();
+}
+
+std::string relations() {
+  List list;
+  for (const auto& row : spec::relations)
+    list.add(std::string_view(&row.symbol, 1), row.summary);
+  return list.text();
+}
+
+std::string variables() {
+  List list;
+  for (const auto& row : spec::variables)
+    list.add(row.word, fmt::format("{}…{}{}{}", row.least, row.greatest,
+                                   row.unit.empty() ? "" : " ", row.unit));
+  return list.text();
+}
+
+std::string colours() {
+  List list;
+  for (const auto& row : spec::led_colours)
+    list.add(std::to_string(row.code), row.name);
+  return list.text();
+}
+
+std::string flags() {
+  List list;
+  for (const auto& row : spec::basic_flags)
+    list.add(std::to_string(static_cast<int>(row.flag)), row.summary);
+  return list.text();
+}
+
+std::string errors() {
+  List list;
+  for (const auto& row : spec::basic_errors)
+    list.add(row.text, row.summary);
+  return list.text();
+}
+
+std::string limits() {
+  const auto of = [](spec::Limit limit) { return spec::value_of(limit); };
+  return fmt::format(
+      "Lines are numbered {} to {}. {} loops and {} subroutines can be open, {} parentheses in an "
+      "expression. A `print` has at most {} characters, `data` {} values, the list `Z` {} "
+      "elements, "
+      "a number at most {}. A program has {} bytes on every robot, {} on newer ones.\n",
+      of(spec::Limit::LeastLineNumber), of(spec::Limit::GreatestLineNumber),
+      of(spec::Limit::ForDepth), of(spec::Limit::GosubDepth), of(spec::Limit::ExpressionLevels),
+      of(spec::Limit::PrintBytes), of(spec::Limit::DataValues), of(spec::Limit::IndexedVariables),
+      of(spec::Limit::GreatestInteger), of(spec::Limit::RamBytesUntil146),
+      of(spec::Limit::RamBytes));
+}
+
+} // namespace
+
+std::string print_cheatsheet() {
+  std::string out =
+      "<!-- Printed by `orb spec --cheatsheet`; a test compares them. -->\n"
+      "# orbBasic on one page\n\n"
+      "A line is a number, a space and a statement; lines run in the order of the "
+      "text. `'` begins a comment. Variables are `A` to `Y`, all 0 at the start, and "
+      "`Z`, the element of the list that `Y` names. Capitals count: `RGB`, `goto`.\n\n";
+  out += statements();
+  out += fmt::format("\n**In expressions:** {}\n**Between expressions after `if`:** {}\n"
+                     "**To read:** {}\n**`LEDC`:** {}\n**`basflg`:** {}\n"
+                     "**What stops a program:** {}\n**Limits:** {}",
+                     values(), relations(), variables(), colours(), flags(), errors(), limits());
+  return out;
+}
+
+} // namespace orb::reference
