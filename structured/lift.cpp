@@ -133,7 +133,8 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
   const auto compiled = compile("", "", lifted.text, {}, files);
   for (const auto& found : compiled.program.diagnostics)
     if (found.severity == Severity::Error) {
-      const auto line = lifted.lines[lifting::not_blank(lifted.text, found.span.begin)];
+      const auto nth = lifting::not_blank(lifted.text, found.span.begin);
+      const auto line = nth < lifted.lines.size() ? lifted.lines[nth] : 0;
       findings.push_back(lifting::obstacle(
           program.lines[line].span,
           fmt::format("structured, the line would have an error: {}", found.message)));
@@ -146,6 +147,8 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
 Lifted lift(const compiler::Program& program) {
   Lifted lifted;
   auto ways = lifting::read_ways(program);
+  if (ways.steps.empty())
+    ways.obstacle = lifting::obstacle({}, "the program holds no statement");
   if (ways.obstacle) {
     lifted.findings.push_back(*ways.obstacle);
     return lifted;

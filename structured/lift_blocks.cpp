@@ -15,7 +15,7 @@ constexpr std::uint32_t exit_node = 0;
 struct Form {
   PieceKind kind = PieceKind::Forever;
   std::uint32_t close = none;  ///< For, Until: the node that decides at the end of the body
-  std::uint32_t follow = none; ///< where it goes on behind the loop
+  std::uint32_t follow = none; ///< where it goes on after the loop
 };
 
 class Writer {
@@ -161,7 +161,7 @@ private:
     return list.empty() ? otherwise : list.front();
   }
 
-  /// A node with all that is written with it; behind it stands `follow`.
+  /// A node with all that is written with it; after it stands `follow`.
   void write_tree(std::uint32_t n, std::uint32_t follow, Pieces& out) {
     if (is_head(n)) {
       write_loop(n, follow, out);
@@ -181,18 +181,18 @@ private:
 
   void write_loop(std::uint32_t head, std::uint32_t follow, Pieces& out) {
     const auto& form = forms_[at(head).loop];
-    const auto behind = first_of(outside_[head], follow);
+    const auto after = first_of(outside_[head], follow);
     out.push_back(piece(PieceKind::Label, head));
     auto loop = piece(form.kind, head);
     const auto last = form.close != none ? form.close : head;
     const bool skips =
         form.close != none && (form.kind != PieceKind::For && is_prepared(form.close));
-    open_.push_back({form.kind == PieceKind::Forever ? behind : form.follow, skips ? none : last});
+    open_.push_back({form.kind == PieceKind::Forever ? after : form.follow, skips ? none : last});
     write_body(head, last, form, loop);
     open_.pop_back();
     out.push_back(std::move(loop));
     if (form.kind != PieceKind::Forever)
-      write_branch(form.close != none ? form.close : head, form.follow, behind, out);
+      write_branch(form.close != none ? form.close : head, form.follow, after, out);
     write_list(outside_[head], follow, out);
   }
 
@@ -283,7 +283,7 @@ private:
     out.push_back(std::move(choice));
   }
 
-  /// The way from one node to another, where `follow` stands behind.
+  /// The way from one node to another, where `follow` stands after.
   void write_branch(std::uint32_t from, std::uint32_t to, std::uint32_t follow, Pieces& out) {
     if (to == follow)
       return;
@@ -300,8 +300,8 @@ private:
   const Graph& graph_;
   const Hints& hints_;
   std::vector<Form> forms_;                         ///< of each loop
-  std::vector<std::vector<std::uint32_t>> inside_;  ///< of each node: those written behind it
-  std::vector<std::vector<std::uint32_t>> outside_; ///< of each head: those behind its loop
+  std::vector<std::vector<std::uint32_t>> inside_;  ///< of each node: those written after it
+  std::vector<std::vector<std::uint32_t>> outside_; ///< of each head: those after its loop
   std::vector<bool> placed_; ///< written in a list, not where a way leads to them
   std::vector<Context> open_;
 };
@@ -354,7 +354,7 @@ private:
                                        graph_.nodes[pieces.back().node].kind == NodeKind::Stop));
   }
 
-  /// What stands behind `else` goes behind the block where the first part never gets there.
+  /// What stands after `else` goes after the block where the first part never gets there.
   void flatten(Pieces& out) const {
     auto& test = out.back();
     const auto swap = [&] {
@@ -366,9 +366,9 @@ private:
       swap();
     if (!leaves(test.first))
       return;
-    auto behind = std::move(test.second);
+    auto after = std::move(test.second);
     test.second.clear();
-    std::move(behind.begin(), behind.end(), std::back_inserter(out));
+    std::move(after.begin(), after.end(), std::back_inserter(out));
   }
 
   static bool continues(const Pieces& pieces) {

@@ -74,8 +74,8 @@ private:
 
   std::uint32_t node_of(std::uint32_t step) {
     step = thread(step);
-    if (step == ways_.end() || !ways_.steps[step].reached) // behind a call that never returns
-      return graph_.is_main ? exit : behind_last();
+    if (step == ways_.end() || !ways_.steps[step].reached) // after a call that never returns
+      return graph_.is_main ? exit : after_last();
     const auto sub = std::lower_bound(ways_.subroutines.begin(), ways_.subroutines.end(), step);
     const bool other = sub != ways_.subroutines.end() && *sub == step && step != first_;
     const auto kind = kind_of(step);
@@ -91,10 +91,10 @@ private:
     return known->second;
   }
 
-  std::uint32_t behind_last() {
-    if (behind_last_ == none)
-      behind_last_ = add(NodeKind::Stop, none);
-    return behind_last_;
+  std::uint32_t after_last() {
+    if (after_last_ == none)
+      after_last_ = add(NodeKind::Stop, none);
+    return after_last_;
   }
 
   std::uint32_t head_of(std::uint32_t loop) {
@@ -146,7 +146,7 @@ private:
   Graph graph_;
   std::map<std::uint32_t, std::uint32_t> node_of_step_;
   std::map<std::uint32_t, std::uint32_t> heads_; ///< of the loop that a step begins
-  std::uint32_t behind_last_ = none;
+  std::uint32_t after_last_ = none;
 };
 
 // ---- order, dominators, loops

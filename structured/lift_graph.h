@@ -15,14 +15,14 @@ enum class NodeKind : std::uint8_t {
   Choice,    ///< `on … goto`: a successor for each target
   Begin,     ///< `for`; its successor is the Head of its loop
   Head,      ///< of a loop; nothing to write
-  Close,     ///< `next`; successors: the Head of its loop, what is behind the loop
+  Close,     ///< `next`; successors: the Head of its loop, what is after the loop
   Tail,      ///< runs on into another subroutine: calls it and leaves
   Stop,      ///< ends the program
 };
 
 struct Node {
   NodeKind kind = NodeKind::Statement;
-  std::uint32_t step = none; ///< none: a Head made for a loop; a Stop behind the last line
+  std::uint32_t step = none; ///< none: a Head made for a loop; a Stop after the last line
   std::uint32_t sub = none;  ///< Tail: index into Ways::subroutines
   std::vector<std::uint32_t> successors;
 

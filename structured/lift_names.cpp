@@ -25,7 +25,7 @@ bool is_joint(std::string_view word) {
 
 struct Phrase {
   std::vector<std::string> words; ///< in small letters
-  bool whole = true;              ///< nothing stands behind them
+  bool whole = true;              ///< nothing stands after them
 };
 
 /// The words that a comment begins with, up to the first sign.

@@ -13,7 +13,7 @@ namespace orb::structured::lifting {
 /// The comments of a numbered program, as they are kept.
 struct Comments {
   std::vector<std::vector<std::string_view>> before; ///< of each line: those that stand above it
-  std::vector<std::string_view> last;                ///< behind the last line
+  std::vector<std::string_view> last;                ///< after the last line
 };
 
 /// Whose comments go where; those above a line that is left out go to the next one. Marks the steps

@@ -72,6 +72,14 @@ std::string duration(std::int32_t ms) {
   return fmt::format("{}ms", ms);
 }
 
+/// Whether a line of a text is more than a comment.
+bool has_statement(std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+    if (text[at] != '\'' && text[at] != '\n')
+      return true;
+  return false;
+}
+
 std::string_view sign_of(spec::Relation relation, bool negated) {
   switch (relation) {
   case spec::Relation::Equal: return negated ? "<>" : "=";
@@ -126,11 +134,10 @@ private:
         line(comment);
       line(fmt::format("sub {}", names_.sub(g - 1)));
     }
-    const auto blocks = make_blocks(*graph_, hints_);
-    list(blocks);
+    list(make_blocks(*graph_, hints_));
     if (!is_main)
       line("end sub");
-    else if (blocks.empty())
+    else if (!has_statement(out_))
       line("end");
   }
 
@@ -248,7 +255,7 @@ private:
     return name;
   }
 
-  /// A block of one statement that fits behind `then`.
+  /// A block of one statement that fits after `then`.
   std::optional<std::string> short_text(const Pieces& pieces) {
     if (pieces.size() != 1)
       return std::nullopt;
@@ -261,7 +268,7 @@ private:
       return std::nullopt;
     const auto choices = choices_.size();
     auto lines = lines_of(only.node);
-    choices_.resize(choices); // they are written again where this is no short text
+    choices_.resize(choices); // they are written again where the text is not short
     return lines.size() == 1 ? std::optional(std::move(lines.front())) : std::nullopt;
   }
 
@@ -451,7 +458,7 @@ private:
     return node.kind == compiler::NodeKind::Negate ? -program_.nodes[root - 1].value : node.value;
   }
 
-  /// The end of a loop that is no `for`: a number, or the variable that keeps it.
+  /// The end of a loop that is not written as `for`: a number, or the variable that keeps it.
   std::string end_of(std::uint32_t step, const compiler::ForView& loop) {
     if (program_.nodes[loop.end.value].kind == compiler::NodeKind::Number)
       return value(loop.end);
@@ -589,7 +596,7 @@ private:
         text += fmt::format(" ${}", operand(item.value));
       } else {
         const auto shown = value(item);
-        // What stands in parentheses behind a name would be its arguments.
+        // What stands in parentheses after a name would be its arguments.
         const bool calls = shown.front() == '(' &&
                            (before == ItemKind::Expression || before == ItemKind::Character);
         text += fmt::format("{} {}", calls ? ";" : "", shown);

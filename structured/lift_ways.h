@@ -13,15 +13,15 @@ namespace orb::structured::lifting {
 
 inline constexpr std::uint32_t none = 0xFFFFFFFF;
 
-/// A statement of a numbered program that can run: that of a line, or one behind its `then` or
+/// A statement of a numbered program that can run: that of a line, or one after its `then` or
 /// `else`.
 struct Step {
   std::uint32_t statement = none; ///< in compiler::Program
   std::uint32_t line = none;      ///< in compiler::Program
   bool begins_line = false;
-  std::uint32_t next = none; ///< the step of the line below; `Ways::end()` behind the last
+  std::uint32_t next = none; ///< the step of the line below; `Ways::end()` after the last
   std::uint32_t otherwise =
-      none; ///< `if`: the step behind `else`; the one behind `then` is the next in the array
+      none; ///< `if`: the step after `else`; the one after `then` is the next in the array
   std::vector<std::uint32_t> targets; ///< of `goto`, `gosub` and `on`
   std::uint32_t loop = none;          ///< `next`: the step of its `for`
   bool reached = false;
