@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/inputs.h"
 #include "editor/language_server.h"
 #include "editor/wire.h"
 
@@ -17,7 +18,8 @@ void print_all(const std::vector<std::string>& messages) {
 
 /// Serves until the client says `exit` or goes away.
 ExitCode serve() {
-  editor::LanguageServer server;
+  DiskFiles disk;
+  editor::LanguageServer server(&disk);
   editor::MessageReader reader;
   std::array<char, 65536> bytes{};
   for (;;) {

@@ -1,11 +1,12 @@
 #pragma once
 
-// What an editor may ask about a text, without any protocol: places are bytes of a Source. The two
-// languages answer in editor/basic.cpp and editor/macro.cpp.
+// What an editor may ask about a text, without any protocol: places are bytes of a Source. The
+// languages answer in editor/basic.cpp, editor/structured.cpp and editor/macro.cpp.
 
 #include "base/diagnostic.h"
 #include "base/source.h"
 #include "spec/basic.h"
+#include "structured/files.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,7 @@ namespace orb::editor {
 /// What programs are checked for.
 struct LanguageOptions {
   spec::BasicVersion target = spec::BasicVersion::V1_6;
+  structured::Files* files = nullptr; ///< what programs include; null: no file at all
 };
 
 struct Hover {
@@ -61,6 +63,13 @@ struct Rewrite {
   std::string text;
 };
 
+/// A short text that an editor shows after a place, and what it says of itself.
+struct Hint {
+  std::uint32_t at = 0;
+  std::string label;
+  std::string tooltip;
+};
+
 /// One language. Every function is pure and takes any text, however broken.
 struct LanguageService {
   std::vector<Diagnostic> (*check)(const Source& source, const LanguageOptions& options);
@@ -76,9 +85,12 @@ struct LanguageService {
   std::optional<std::string> (*format)(const Source& source);
   /// Only those that change something.
   std::vector<Rewrite> (*rewrites)(const Source& source, const LanguageOptions& options);
+  /// In the order of the text; null for a language without any.
+  std::vector<Hint> (*hints)(const Source& source, const LanguageOptions& options) = nullptr;
 };
 
 extern const LanguageService basic_service;
+extern const LanguageService structured_service;
 extern const LanguageService macro_service;
 
 } // namespace orb::editor

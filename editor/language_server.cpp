@@ -68,10 +68,16 @@ struct Document {
 
 /// The language by the editor's word for it, else by the ending of the file's name.
 const LanguageService& language_of(std::string_view id, std::string_view uri) {
-  const auto word = id == "orbmacro" || id == "macro"   ? std::string_view("macro")
-                    : id == "orbbasic" || id == "basic" ? std::string_view("basic")
-                                                        : std::string_view();
-  return run::language_of(uri, word) == run::Language::Macro ? macro_service : basic_service;
+  const auto word = id == "orbmacro" || id == "macro"             ? std::string_view("macro")
+                    : id == "orbbasic" || id == "basic"           ? std::string_view("basic")
+                    : id == "orbstructured" || id == "structured" ? std::string_view("structured")
+                                                                  : std::string_view();
+  switch (run::language_of(uri, word).value_or(run::Language::Basic)) {
+  case run::Language::Basic: return basic_service;
+  case run::Language::Structured: return structured_service;
+  case run::Language::Macro: return macro_service;
+  }
+  return basic_service;
 }
 
 int severity_number(Severity severity) {
@@ -105,7 +111,18 @@ bool overlap(Span a, Span b) {
 
 } // namespace
 
-struct LanguageServer::State {
+struct LanguageServer::State final : structured::Files {
+  explicit State(structured::Files* from) : disk(from) { options.files = this; }
+
+  /// An open document, else what the disk holds.
+  std::optional<std::string> read(const std::string& path) override {
+    for (const auto& [uri, document] : documents)
+      if (path_of_uri(uri) == path)
+        return std::string(document.source.text());
+    return disk != nullptr ? disk->read(path) : std::nullopt;
+  }
+
+  structured::Files* disk;
   std::map<std::string, Document> documents;
   PositionEncoding encoding = PositionEncoding::Utf16;
   LanguageOptions options;
@@ -193,11 +210,12 @@ struct LanguageServer::State {
   Answer symbols(const Document& document) const;
   Answer format(const Document& document) const;
   Answer code_actions(const std::string& uri, const Document& document, const Json& params) const;
+  Answer hints(const Document& document, const Json& params) const;
   Json diagnostic(const std::string& uri, const Document& document, const Diagnostic& one) const;
   std::vector<Diagnostic> check(const Document& document) const;
 };
 
-LanguageServer::LanguageServer() : state_(std::make_unique<State>()) {}
+LanguageServer::LanguageServer(structured::Files* disk) : state_(std::make_unique<State>(disk)) {}
 LanguageServer::~LanguageServer() = default;
 
 std::vector<std::string> LanguageServer::receive(std::string_view message) {
@@ -283,6 +301,8 @@ Answer LanguageServer::State::request(const std::string& method, const Json& par
     return format(document);
   if (method == "textDocument/codeAction")
     return code_actions(uri, document, params);
+  if (method == "textDocument/inlayHint")
+    return hints(document, params);
   const auto at = offset(document.source, member(params, "position"));
   if (!at && member(params, "position").is_null())
     return refuse(RpcError::MethodNotFound,
@@ -350,6 +370,7 @@ Answer LanguageServer::State::initialize(const Json& params) {
                 {"renameProvider", {{"prepareProvider", true}}},
                 {"documentSymbolProvider", true},
                 {"documentFormattingProvider", true},
+                {"inlayHintProvider", true},
                 {"codeActionProvider",
                  {{"codeActionKinds", {"quickfix", "source.fixAll", "source.renumber"}}}}}},
               {"serverInfo", {{"name", "orb"}, {"version", ORB_VERSION}}}};
@@ -531,6 +552,22 @@ Answer LanguageServer::State::symbols(const Document& document) const {
 Answer LanguageServer::State::format(const Document& document) const {
   const auto text = document.language->format(document.source);
   return text ? replace_all(document.source, *text) : Json();
+}
+
+Answer LanguageServer::State::hints(const Document& document, const Json& params) const {
+  const auto place = span(document.source, member(params, "range"));
+  if (!place)
+    return refuse(RpcError::InvalidParams, "a range has a start and an end");
+  auto list = Json::array();
+  if (document.language->hints == nullptr)
+    return list;
+  for (const auto& hint : document.language->hints(document.source, options))
+    if (place->begin <= hint.at && hint.at <= place->end)
+      list.push_back({{"position", position(document.source, hint.at)},
+                      {"label", hint.label},
+                      {"tooltip", hint.tooltip},
+                      {"paddingLeft", !hint.label.starts_with(':')}});
+  return list;
 }
 
 Answer LanguageServer::State::code_actions(const std::string& uri, const Document& document,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "structured/files.h"
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,11 +11,13 @@
 namespace orb::editor {
 
 /// A language server without a transport: JSON messages in, JSON messages out. It holds the open
-/// documents and nothing else, reads no file and no clock, and answers every message, however
+/// documents and nothing else, reads no clock, and answers every message, however
 /// malformed, without throwing.
 class LanguageServer {
 public:
-  LanguageServer();
+  /// What programs include is taken from the open documents, then from `disk`; null: no file. It
+  /// must outlive the server.
+  explicit LanguageServer(structured::Files* disk = nullptr);
   ~LanguageServer();
   LanguageServer(const LanguageServer&) = delete;
   LanguageServer& operator=(const LanguageServer&) = delete;

@@ -3,6 +3,7 @@
 #include "editor/directives.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
+#include "structured/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -73,6 +74,28 @@ Words macro_command_words() {
   return words;
 }
 
+/// The words of structured programs that the robot's tables do not have, and those that end blocks
+/// or jump.
+Words structured_control_words() {
+  auto words = control_words();
+  std::erase_if(words, [](std::string_view word) {
+    return structured::find_word(word).kind == structured::WordKind::Name || word == "gosub" ||
+           word == "on";
+  });
+  for (const auto& row : structured::keywords)
+    if (std::find(words.begin(), words.end(), row.word) == words.end())
+      words.push_back(row.word);
+  return words;
+}
+
+Words structured_statement_words() {
+  auto words = statement_words();
+  std::erase_if(words, [](std::string_view word) {
+    return structured::find_word(word).kind == structured::WordKind::Name; // `let`
+  });
+  return words;
+}
+
 /// Flags and the words that stand for values of operands.
 Words macro_value_words() {
   Words words;
@@ -127,6 +150,35 @@ std::string basic_textmate() {
         pattern("variable.other.orbbasic", "(?<![A-Za-z])[A-Za-z](?![A-Za-z])"),
         pattern("constant.numeric.orbbasic", "\\d+"),
         pattern("keyword.operator.orbbasic", "[-+*/%&|{}=!<>?$]")}}};
+  return grammar.dump(2) + "\n";
+}
+
+std::string structured_textmate() {
+  constexpr auto part = "A-Za-z0-9_";
+  const auto words = [&](const char* name, const Words& list) -> Json {
+    return {{"name", name},
+            {"match", fmt::format("(?i)(?<![{0}])(?:{1})(?![{0}])", part, alternatives(list))}};
+  };
+  const Json grammar{
+      {"comment", generated},
+      {"name", "Structured orbBasic"},
+      {"scopeName", "source.orbstructured"},
+      {"patterns",
+       {pattern("comment.line.apostrophe.orbstructured", "'.*$"),
+        {{"name", "string.quoted.double.orbstructured"}, {"begin", "\""}, {"end", "\"|$"}},
+        pattern("entity.name.label.orbstructured", "^\\s*[A-Za-z_][A-Za-z0-9_]*(?=:)"),
+        {{"match", "(?i)(?<![A-Za-z0-9_])(?:sub|function)\\s+([A-Za-z_][A-Za-z0-9_]*)"},
+         {"captures",
+          {{"0", {{"name", "keyword.control.orbstructured"}}},
+           {"1", {{"name", "entity.name.function.orbstructured"}}}}}},
+        words("keyword.control.orbstructured", structured_control_words()),
+        words("support.function.orbstructured", structured_statement_words()),
+        words("support.function.math.orbstructured", function_words()),
+        words("variable.language.orbstructured", variable_words()),
+        pattern("constant.numeric.orbstructured",
+                "#[0-9A-Fa-f]{6}\\b|\\b(?:0[xX][0-9A-Fa-f]+|\\d+(?:\\.\\d+)?(?:ms|s|min)?)\\b"),
+        pattern("variable.other.orbstructured", "[A-Za-z_][A-Za-z0-9_]*"),
+        pattern("keyword.operator.orbstructured", "[-+*/%&|{}=!<>?$]")}}};
   return grammar.dump(2) + "\n";
 }
 
@@ -208,6 +260,33 @@ std::string basic_vim() {
   return out + "let b:current_syntax = 'orbbasic'\n";
 }
 
+std::string structured_vim() {
+  auto out = vim_head("structured orbBasic for Sphero robots");
+  out += "syntax case ignore\n"
+         "syntax match orbstructuredName /\\<\\h\\w*\\>/\n";
+  out += vim_keywords("orbstructuredControl", structured_control_words());
+  out += vim_keywords("orbstructuredStatement", structured_statement_words());
+  out += vim_keywords("orbstructuredFunction", function_words());
+  out += vim_keywords("orbstructuredSystem", variable_words());
+  out += "syntax match orbstructuredNumber "
+         "/#\\x\\{6}\\>\\|\\<\\(0x\\x\\+\\|\\d\\+\\(\\.\\d\\+\\)\\?\\(ms\\|s\\|min\\)\\?\\)\\>/\n"
+         "syntax match orbstructuredLabel /^\\s*\\h\\w*:/\n"
+         "syntax match orbstructuredOperator /[-+*\\/%&|{}=!<>?$]/\n"
+         "syntax region orbstructuredString start=/\"/ end=/\"/ oneline\n"
+         "syntax match orbstructuredComment /'.*$/\n";
+  out += vim_links("orbstructured", {{"Control", "Conditional"},
+                                     {"Statement", "Statement"},
+                                     {"Function", "Function"},
+                                     {"System", "Special"},
+                                     {"Name", "Identifier"},
+                                     {"Number", "Number"},
+                                     {"Label", "Label"},
+                                     {"Operator", "Operator"},
+                                     {"String", "String"},
+                                     {"Comment", "Comment"}});
+  return out + "let b:current_syntax = 'orbstructured'\n";
+}
+
 std::string macro_vim() {
   auto out = vim_head("macros of Sphero robots");
   out += vim_keywords("orbmacroCommand", macro_command_words());
@@ -236,8 +315,10 @@ std::string macro_vim() {
 
 std::vector<SyntaxFile> syntax_files() {
   return {{"vscode/syntaxes/orbbasic.tmLanguage.json", basic_textmate()},
+          {"vscode/syntaxes/orbstructured.tmLanguage.json", structured_textmate()},
           {"vscode/syntaxes/orbmacro.tmLanguage.json", macro_textmate()},
           {"vim/syntax/orbbasic.vim", basic_vim()},
+          {"vim/syntax/orbstructured.vim", structured_vim()},
           {"vim/syntax/orbmacro.vim", macro_vim()}};
 }
 

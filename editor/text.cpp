@@ -3,6 +3,7 @@
 #include "base/utf8.h"
 
 #include <algorithm>
+#include <charconv>
 #include <string_view>
 
 namespace orb::editor {
@@ -51,6 +52,23 @@ TextPosition position_of(const Source& source, std::uint32_t offset, PositionEnc
     at += length;
   }
   return position;
+}
+
+std::string path_of_uri(std::string_view uri) {
+  constexpr std::string_view scheme = "file://";
+  if (!uri.starts_with(scheme))
+    return std::string(uri);
+  uri.remove_prefix(scheme.size());
+  std::string path;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned byte = 0;
+    const auto digits = uri.substr(i + 1, 2);
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+    const bool is_code = uri[i] == '%' && digits.size() == 2 && read.ptr == digits.data() + 2;
+    path += is_code ? static_cast<char>(byte) : uri[i];
+    i += is_code ? 2 : 0;
+  }
+  return path;
 }
 
 } // namespace orb::editor

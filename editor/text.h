@@ -3,6 +3,8 @@
 #include "base/source.h"
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace orb::editor {
 
@@ -23,5 +25,8 @@ std::uint32_t offset_of(const Source& source, TextPosition position, PositionEnc
 
 /// The place of byte `offset`; after the end of the text it is the end.
 TextPosition position_of(const Source& source, std::uint32_t offset, PositionEncoding encoding);
+
+/// The path in a `file:` URI; anything else stays as it is.
+std::string path_of_uri(std::string_view uri);
 
 } // namespace orb::editor

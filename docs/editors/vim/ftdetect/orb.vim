@@ -1,2 +1,3 @@
 autocmd BufRead,BufNewFile *.bas,*.orbbas setlocal filetype=orbbasic
+autocmd BufRead,BufNewFile *.orb setlocal filetype=orbstructured
 autocmd BufRead,BufNewFile *.macro setlocal filetype=orbmacro

@@ -1,0 +1,680 @@
+// What an editor may ask about a structured program.
+
+#include "base/fixes.h"
+#include "base/text.h"
+#include "compiler/check.h"
+#include "compiler/image.h"
+#include "compiler/parse.h"
+#include "compiler/rules.h"
+#include "editor/language.h"
+#include "editor/markdown.h"
+#include "editor/text.h"
+#include "reference/sections.h"
+#include "spec/limits.h"
+#include "structured/compile.h"
+#include "structured/format.h"
+#include "structured/parse.h"
+#include "structured/read.h"
+#include "structured/rules.h"
+#include "structured/words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <utility>
+
+namespace orb::editor {
+namespace {
+
+using structured::Compiled;
+using structured::ItemKind;
+using structured::Kind;
+using structured::Names;
+using structured::none;
+using structured::Program;
+using structured::SymbolKind;
+
+constexpr std::string_view language_id = "orbstructured";
+constexpr std::string_view allow_mark = "orb: allow";
+constexpr std::size_t longest_name = 31;
+
+/// A program as far as its own file tells: what it includes is not read.
+struct Reading {
+  Program program;
+  Names names;
+};
+
+Reading read(const Source& source) {
+  structured::NoFiles files;
+  Reading reading;
+  reading.program = structured::read(source.name(), source.name(), source.text(), files);
+  reading.names = structured::resolve(reading.program);
+  return reading;
+}
+
+Compiled compile(const Source& source, const LanguageOptions& options) {
+  structured::NoFiles no_files;
+  compiler::Target target;
+  target.version = options.target;
+  return structured::compile(source.name(), path_of_uri(source.name()), source.text(), target,
+                             options.files != nullptr ? *options.files : no_files);
+}
+
+// ---- names
+
+/// What a name stands for: a symbol, or a label of a routine.
+struct Meaning {
+  std::uint32_t symbol = none;
+  std::uint32_t routine = none; ///< of a label
+  std::uint32_t name = none;    ///< of a label
+
+  friend bool operator==(const Meaning&, const Meaning&) = default;
+};
+
+struct NameUse {
+  Meaning meaning;
+  Span span;
+  bool is_set = false; ///< declared or assigned
+};
+
+class NameUses {
+public:
+  explicit NameUses(const Reading& reading) : program_(reading.program), names_(reading.names) {}
+
+  std::vector<NameUse> collect() {
+    if (program_.files.empty())
+      return {};
+    const auto& file = program_.files.front();
+    for (auto i = file.statements_begin; i < file.statements_end; ++i)
+      add_statement(i);
+    std::sort(uses_.begin(), uses_.end(),
+              [](const NameUse& a, const NameUse& b) { return a.span.begin < b.span.begin; });
+    return std::move(uses_);
+  }
+
+private:
+  void add(std::uint32_t symbol, Span span, bool is_set) {
+    if (symbol != none)
+      uses_.push_back({{symbol, none, none}, span, is_set});
+  }
+
+  void add_statement(std::uint32_t i) {
+    const auto& statement = program_.statements[i];
+    const auto routine = names_.routine_of[i];
+    if (statement.kind == Kind::Label || statement.kind == Kind::Goto)
+      uses_.push_back(
+          {{none, routine, statement.name}, statement.name_span, statement.kind == Kind::Label});
+    else if (statement.kind == Kind::Call)
+      add(names_.of_statement[i], statement.name_span, false);
+    else if (statement.name != none)
+      add(declared_by(i, statement.name), statement.name_span, true);
+    for (const auto& item : program_.items_of(statement)) {
+      if (item.kind == ItemKind::Name)
+        add(declared_by(i, item.value), item.span, statement.kind != Kind::Robot);
+      else if (item.kind == ItemKind::Expression || item.kind == ItemKind::Character ||
+               item.kind == ItemKind::Place)
+        add_nodes(item, statement.kind != Kind::Next);
+    }
+  }
+
+  /// The symbol of a name that a statement declares; of the macro that `macrun` names.
+  std::uint32_t declared_by(std::uint32_t statement, std::uint32_t name) const {
+    auto constant = none;
+    for (std::uint32_t s = 0; s < names_.symbols.size(); ++s) {
+      const auto& symbol = names_.symbols[s];
+      if (symbol.name != name)
+        continue;
+      if (symbol.statement == statement)
+        return s;
+      if (symbol.kind == SymbolKind::Constant)
+        constant = s;
+    }
+    return constant;
+  }
+
+  void add_nodes(const structured::Item& item, bool sets) {
+    for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {
+      const auto& node = program_.nodes[n];
+      if (names_.of_node[n] == none)
+        continue;
+      const auto length =
+          static_cast<std::uint32_t>(program_.name(static_cast<std::uint32_t>(node.value)).size());
+      add(names_.of_node[n], {node.span.begin, node.span.begin + length},
+          sets && item.kind == ItemKind::Place && n == item.value);
+    }
+  }
+
+  const Program& program_;
+  const Names& names_;
+  std::vector<NameUse> uses_;
+};
+
+/// The name that touches `offset`; of two the one after it wins.
+const NameUse* use_at(const std::vector<NameUse>& uses, std::uint32_t offset) {
+  const NameUse* found = nullptr;
+  for (const auto& use : uses)
+    if (use.span.begin <= offset && offset <= use.span.end)
+      found = &use;
+  return found;
+}
+
+Occurrences occurrences(const Source& source, std::uint32_t offset) {
+  const auto reading = read(source);
+  const auto uses = NameUses(reading).collect();
+  Occurrences found;
+  if (const auto* here = use_at(uses, offset))
+    for (const auto& use : uses)
+      if (use.meaning == here->meaning)
+        (use.is_set ? found.definitions : found.uses).push_back(use.span);
+  return found;
+}
+
+// ---- the words of a line, for text that need not parse
+
+enum class TokenKind : std::uint8_t { Number, Word, String, Comment, Sign };
+
+struct Token {
+  TokenKind kind = TokenKind::Sign;
+  Span span;
+};
+
+std::size_t end_of_token(std::string_view line, std::size_t at, TokenKind kind) {
+  if (kind == TokenKind::Comment)
+    return line.size();
+  if (kind == TokenKind::String)
+    return std::min(line.find('"', at + 1), line.size() - 1) + 1;
+  if (kind == TokenKind::Sign)
+    return at + 1;
+  auto end = at;
+  while (end < line.size() && structured::is_name_char(line[end]))
+    ++end;
+  return end;
+}
+
+/// The tokens of the line that holds `offset`.
+std::vector<Token> tokens_at(const Source& source, std::uint32_t offset) {
+  const auto number = source.position(offset).line;
+  const auto line = source.line(number);
+  const auto start = source.line_start(number);
+  std::vector<Token> tokens;
+  for (std::size_t at = 0; at < line.size();) {
+    if (is_blank(line[at])) {
+      ++at;
+      continue;
+    }
+    const auto kind = line[at] == '\''                    ? TokenKind::Comment
+                      : line[at] == '"'                   ? TokenKind::String
+                      : is_digit(line[at])                ? TokenKind::Number
+                      : structured::begins_name(line[at]) ? TokenKind::Word
+                                                          : TokenKind::Sign;
+    const auto end = end_of_token(line, at, kind);
+    tokens.push_back(
+        {kind, {start + static_cast<std::uint32_t>(at), start + static_cast<std::uint32_t>(end)}});
+    at = end;
+  }
+  return tokens;
+}
+
+// ---- hover
+
+std::string lines_where(const Source& source, const std::vector<NameUse>& uses,
+                        const Meaning& meaning, bool is_set) {
+  std::vector<std::uint32_t> lines;
+  for (const auto& use : uses) {
+    const auto line = source.position(use.span.begin).line;
+    if (use.meaning == meaning && use.is_set == is_set && (lines.empty() || lines.back() != line))
+      lines.push_back(line);
+  }
+  return lines.empty()
+             ? "nowhere"
+             : fmt::format("in line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "));
+}
+
+/// The letter of the robot that holds a name of the main file, once it compiles.
+std::map<std::uint32_t, char> letters_of(const Compiled& compiled) {
+  std::map<std::uint32_t, char> letters; // by where the name is declared
+  for (std::size_t v = 1; v < compiled.code.variables.size() && v < compiled.letters.of.size();
+       ++v) {
+    const auto symbol = compiled.code.variables[v].symbol;
+    if (symbol != none && compiled.letters.of[v] != structured::no_letter)
+      letters[compiled.names.symbols[symbol].span.begin] =
+          static_cast<char>('A' + compiled.letters.of[v]);
+  }
+  return letters;
+}
+
+std::string variable_markdown(const Source& source, const Reading& reading,
+                              const std::vector<NameUse>& uses, const Meaning& meaning) {
+  const auto& symbol = reading.names.symbols[meaning.symbol];
+  const auto kind = symbol.kind == SymbolKind::Local       ? "local variable"
+                    : symbol.kind == SymbolKind::Parameter ? "parameter"
+                                                           : "variable";
+  const auto begins = symbol.kind == SymbolKind::Local       ? "0 at each call"
+                      : symbol.kind == SymbolKind::Parameter ? "a copy of what the caller gives"
+                                                             : "0 when the program begins";
+  auto text = fmt::format("**`{}`** ({}): a whole number of 32 bits, {}\n\n- set: {}\n- read: {}\n",
+                          reading.program.name(symbol.name), kind, begins,
+                          lines_where(source, uses, meaning, true),
+                          lines_where(source, uses, meaning, false));
+  const auto letters = letters_of(compile(source, {}));
+  if (const auto letter = letters.find(symbol.span.begin); letter != letters.end())
+    text += fmt::format("- the robot's `{}`\n", letter->second);
+  return text;
+}
+
+std::string declaration_markdown(const Source& source, const structured::Symbol& symbol) {
+  const auto line = source.position(symbol.span.begin).line;
+  auto text = fmt::format("```{}\n{}\n```\n", language_id, trim(source.line(line)));
+  const auto above = line > 1 ? trim(source.line(line - 1)) : std::string_view();
+  if (above.starts_with("'"))
+    text += fmt::format("{}\n", trim(above.substr(1)));
+  return text;
+}
+
+std::string name_markdown(const Source& source, const Reading& reading,
+                          const std::vector<NameUse>& uses, const Meaning& meaning) {
+  if (meaning.symbol == none)
+    return fmt::format("**`{}`** (label): jumped to {}\n", reading.program.name(meaning.name),
+                       lines_where(source, uses, meaning, false));
+  const auto& symbol = reading.names.symbols[meaning.symbol];
+  switch (symbol.kind) {
+  case SymbolKind::Variable:
+  case SymbolKind::Local:
+  case SymbolKind::Parameter: return variable_markdown(source, reading, uses, meaning);
+  case SymbolKind::Constant:
+    return declaration_markdown(source, symbol) +
+           fmt::format("the number {}{}\n", symbol.value, symbol.duration ? " (ms)" : "");
+  case SymbolKind::Array:
+    return declaration_markdown(source, symbol) + fmt::format("elements 1 to {}\n", symbol.value);
+  case SymbolKind::Sub:
+  case SymbolKind::Function: return declaration_markdown(source, symbol);
+  }
+  return {};
+}
+
+std::optional<std::string> word_markdown(std::string_view text) {
+  const auto word = structured::find_word(text);
+  const auto spelled = structured::spelling(word);
+  const auto section = [&]() -> std::optional<reference::Section> {
+    switch (word.kind) {
+    case structured::WordKind::Name: return std::nullopt;
+    case structured::WordKind::Keyword: return reference::structured_words_section();
+    case structured::WordKind::Statement: return reference::statements_section();
+    case structured::WordKind::Function: return reference::functions_section();
+    case structured::WordKind::Variable: return reference::variables_section();
+    }
+    return std::nullopt;
+  };
+  // Words of the robot that mean more here have an entry of their own.
+  if (auto wider = find_markdown(reference::structured_words_section(), spelled, language_id);
+      wider && word.kind != structured::WordKind::Name)
+    return wider;
+  const auto found = section();
+  return found ? find_markdown(*found, spelled.empty() ? text : spelled, language_id)
+               : std::nullopt;
+}
+
+bool is_rule_part(char c) {
+  return is_letter(c) || is_digit(c) || c == '-';
+}
+
+std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_t offset) {
+  const auto text = source.text();
+  auto begin = std::min(offset, comment.end);
+  auto end = begin;
+  while (begin > comment.begin && is_rule_part(text[begin - 1]))
+    --begin;
+  while (end < comment.end && is_rule_part(text[end]))
+    ++end;
+  const auto word = source.text({begin, end});
+  const auto* rule = structured::rules::find(word);
+  if (rule == nullptr)
+    rule = compiler::rules::find(word);
+  if (rule == nullptr)
+    return std::nullopt;
+  return Hover{{begin, end},
+               fmt::format("**{}**: {}\n\n{}\n", rule->id, rule->summary, rule->explanation)};
+}
+
+std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
+  for (const auto& token : tokens_at(source, offset)) {
+    if (offset < token.span.begin || offset > token.span.end)
+      continue;
+    if (token.kind == TokenKind::Comment)
+      return hover_rule(source, token.span, offset);
+    if (token.kind == TokenKind::String)
+      return std::nullopt;
+    if (token.kind != TokenKind::Word)
+      continue;
+    const auto reading = read(source);
+    const auto uses = NameUses(reading).collect();
+    if (const auto* use = use_at(uses, token.span.begin); use != nullptr)
+      return Hover{use->span, name_markdown(source, reading, uses, use->meaning)};
+    if (auto found = word_markdown(source.text(token.span)))
+      return Hover{token.span, *std::move(found)};
+  }
+  return std::nullopt;
+}
+
+// ---- completion
+
+enum class Context : std::uint8_t { Statement, Expression, Label, Block, Macro };
+
+Context context_after(const Source& source, const std::vector<Token>& before) {
+  if (before.empty())
+    return Context::Statement;
+  const auto word = structured::find_word(source.text(before.back().span));
+  if (word.is(structured::Keyword::Then) || word.is(structured::Keyword::Else))
+    return Context::Statement;
+  if (word.is(spec::Statement::Goto))
+    return Context::Label;
+  if (word.is(spec::Statement::Macrun))
+    return Context::Macro;
+  return before.size() == 1 && word.is(spec::Statement::End) ? Context::Block : Context::Expression;
+}
+
+class Suggester {
+public:
+  Suggester(const Source& source, std::uint32_t offset, Suggestions& out)
+      : reading_(read(source)), offset_(offset), out_(out) {}
+
+  void suggest(Context context) {
+    switch (context) {
+    case Context::Statement:
+      names({SymbolKind::Variable, SymbolKind::Local, SymbolKind::Parameter, SymbolKind::Array,
+             SymbolKind::Sub});
+      statements();
+      words(reference::structured_words_section());
+      settable();
+      return;
+    case Context::Expression:
+      names({SymbolKind::Variable, SymbolKind::Local, SymbolKind::Parameter, SymbolKind::Array,
+             SymbolKind::Constant, SymbolKind::Function});
+      rows(reference::variables_section(), SuggestionKind::Variable);
+      rows(reference::functions_section(), SuggestionKind::Function);
+      words(reference::structured_words_section());
+      return;
+    case Context::Label: labels(); return;
+    case Context::Block:
+      for (const auto* word : {"if", "while", "repeat", "loop", "select", "sub", "function"})
+        out_.items.push_back({word, SuggestionKind::Keyword, fmt::format("end {}", word), ""});
+      return;
+    case Context::Macro: names({SymbolKind::Constant}); return;
+    }
+  }
+
+private:
+  std::uint32_t routine() const {
+    std::uint32_t routine = 0;
+    const auto& statements = reading_.program.statements;
+    for (std::uint32_t i = 0; i < statements.size() && statements[i].span.begin < offset_; ++i) {
+      const bool ended =
+          statements[i].kind == Kind::EndSub || statements[i].kind == Kind::EndFunction;
+      routine = ended ? 0 : reading_.names.routine_of[i];
+    }
+    return routine;
+  }
+
+  void names(std::initializer_list<SymbolKind> kinds) {
+    const auto here = routine();
+    for (const auto kind : kinds)
+      for (const auto& symbol : reading_.names.symbols) {
+        const bool own = symbol.kind == SymbolKind::Local || symbol.kind == SymbolKind::Parameter;
+        if (symbol.kind != kind || (own && symbol.routine != here) ||
+            (symbol.span.begin <= offset_ && offset_ <= symbol.span.end))
+          continue;
+        const bool calls = kind == SymbolKind::Sub || kind == SymbolKind::Function;
+        out_.items.push_back({std::string(reading_.program.name(symbol.name)),
+                              calls                          ? SuggestionKind::Function
+                              : kind == SymbolKind::Constant ? SuggestionKind::Value
+                                                             : SuggestionKind::Variable,
+                              detail_of(symbol), ""});
+      }
+  }
+
+  std::string detail_of(const structured::Symbol& symbol) const {
+    switch (symbol.kind) {
+    case SymbolKind::Variable: return "variable";
+    case SymbolKind::Local: return "local variable";
+    case SymbolKind::Parameter: return "parameter";
+    case SymbolKind::Constant: return fmt::format("{}", symbol.value);
+    case SymbolKind::Array: return fmt::format("array of {}", symbol.value);
+    case SymbolKind::Sub:
+    case SymbolKind::Function: {
+      const auto& statement = reading_.program.statements[symbol.statement];
+      return std::string(trim(reading_.program.text_of(statement.span)));
+    }
+    }
+    return {};
+  }
+
+  void statements() {
+    const auto section = reference::statements_section();
+    for (std::size_t i = 0; i < spec::statements.size(); ++i) {
+      const auto word = structured::find_word(spec::statements[i].word);
+      const bool is_numbered = spec::statements[i].statement == spec::Statement::Gosub ||
+                               spec::statements[i].statement == spec::Statement::On;
+      if (word.kind == structured::WordKind::Statement && !is_numbered)
+        out_.items.push_back({std::string(spec::statements[i].word), SuggestionKind::Keyword,
+                              std::string(spec::statements[i].usage),
+                              entry_markdown(section, section.entries[i], language_id)});
+    }
+  }
+
+  void rows(const reference::Section& section, SuggestionKind kind) {
+    for (const auto& entry : section.entries)
+      out_.items.push_back(
+          {entry.name, kind, entry.summary, entry_markdown(section, entry, language_id)});
+  }
+
+  void words(const reference::Section& section) {
+    for (const auto& entry : section.entries) {
+      const bool listed =
+          std::any_of(out_.items.begin(), out_.items.end(),
+                      [&](const Suggestion& item) { return item.label == entry.name; });
+      if (!listed)
+        out_.items.push_back({entry.name, SuggestionKind::Keyword, entry.summary,
+                              entry_markdown(section, entry, language_id)});
+    }
+  }
+
+  void settable() {
+    for (const auto& row : spec::variables)
+      if (row.access == spec::Access::ReadWrite)
+        out_.items.push_back(
+            {std::string(row.word), SuggestionKind::Variable, std::string(row.summary), ""});
+  }
+
+  void labels() {
+    const auto here = routine();
+    const auto& program = reading_.program;
+    for (std::uint32_t i = 0; i < program.statements.size(); ++i)
+      if (program.statements[i].kind == Kind::Label && reading_.names.routine_of[i] == here)
+        out_.items.push_back({std::string(program.name(program.statements[i].name)),
+                              SuggestionKind::Line, "label", ""});
+  }
+
+  Reading reading_;
+  std::uint32_t offset_;
+  Suggestions& out_;
+};
+
+void suggest_rules(const Source& source, Span comment, Suggestions& out) {
+  const auto text = source.text();
+  if (source.text({comment.begin, out.replaces.end}).find(allow_mark) == std::string_view::npos)
+    return;
+  while (out.replaces.begin > comment.begin && is_rule_part(text[out.replaces.begin - 1]))
+    --out.replaces.begin;
+  for (const auto rules : {structured::rules::all(), compiler::rules::all()})
+    for (const auto& rule : rules)
+      out.items.push_back({std::string(rule.id), SuggestionKind::Rule, std::string(rule.summary),
+                           std::string(rule.explanation)});
+}
+
+Suggestions suggest(const Source& source, std::uint32_t offset) {
+  offset = std::min(offset, static_cast<std::uint32_t>(source.text().size()));
+  Suggestions out{{offset, offset}, {}};
+  std::vector<Token> before;
+  for (const auto& token : tokens_at(source, offset)) {
+    if (token.span.begin >= offset)
+      break;
+    if (token.kind == TokenKind::Comment) {
+      suggest_rules(source, token.span, out);
+      return out;
+    }
+    if (token.kind == TokenKind::String && offset < token.span.end)
+      return out;
+    if (token.kind == TokenKind::Word && offset <= token.span.end) {
+      out.replaces.begin = token.span.begin;
+      break;
+    }
+    before.push_back(token);
+  }
+  Suggester(source, offset, out).suggest(context_after(source, before));
+  return out;
+}
+
+// ---- outline
+
+std::vector<Symbol> outline(const Source& source) {
+  const auto reading = read(source);
+  const auto& program = reading.program;
+  std::vector<Symbol> symbols;
+  if (program.files.empty())
+    return symbols;
+  const auto& file = program.files.front();
+  for (auto i = file.statements_begin; i < file.statements_end; ++i) {
+    const auto& statement = program.statements[i];
+    const bool declares = statement.kind == Kind::Sub || statement.kind == Kind::Function ||
+                          statement.kind == Kind::Const || statement.kind == Kind::Array;
+    if (!declares || statement.name == none)
+      continue;
+    const auto end =
+        statement.next != none ? program.statements[statement.next].span.end : statement.span.end;
+    symbols.push_back({std::string(program.text_of(statement.name_span)),
+                       std::string(program.text_of(statement.word)),
+                       {statement.span.begin, end},
+                       statement.name_span});
+  }
+  return symbols;
+}
+
+// ---- changes
+
+std::optional<std::string> why_no_name(std::string_view name) {
+  const bool well_formed = !name.empty() && structured::begins_name(name.front()) &&
+                           std::all_of(name.begin(), name.end(), structured::is_name_char) &&
+                           name.size() <= longest_name;
+  if (!well_formed)
+    return fmt::format(
+        "a name is a letter or `_`, then letters, digits and `_`, at most {} of them",
+        longest_name);
+  if (structured::find_word(name).kind != structured::WordKind::Name)
+    return fmt::format("`{}` is a word of the language", name);
+  return std::nullopt;
+}
+
+tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::uint32_t offset,
+                                                    std::string_view name) {
+  const auto reading = read(source);
+  const auto uses = NameUses(reading).collect();
+  const auto* here = use_at(uses, offset);
+  if (here == nullptr)
+    return tl::unexpected(std::string("this is not a name of the program"));
+  if (auto why = why_no_name(name))
+    return tl::unexpected(*std::move(why));
+  std::vector<Edit> edits;
+  bool is_declared = false;
+  for (const auto& use : uses) {
+    if (use.meaning == here->meaning) {
+      edits.push_back({use.span, std::string(name)});
+      is_declared = is_declared || use.is_set;
+    } else if (equal_words(source.text(use.span), name)) {
+      return tl::unexpected(fmt::format("`{}` is in use already", name));
+    }
+  }
+  if (!is_declared)
+    return tl::unexpected(fmt::format("`{}` is declared in another file", source.text(here->span)));
+  return edits;
+}
+
+std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {
+  auto found = structured::findings_by_file(compile(source, options).program);
+  return found.empty() ? std::vector<Diagnostic>() : std::move(found.front());
+}
+
+std::optional<std::string> format(const Source& source) {
+  if (compiler::refuse_text(source.text()))
+    return std::nullopt;
+  return structured::format(source.text());
+}
+
+std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& options) {
+  constexpr int most_rounds = 64; // one mistake hides the next on its line
+  auto fixed = source;
+  std::size_t made = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    auto next = apply_fixes(fixed.text(), check(fixed, options));
+    if (next.count == 0)
+      break;
+    made += next.count;
+    fixed = Source(source.name(), std::move(next.text));
+  }
+  if (made == 0)
+    return {};
+  return {{"apply all safe fixes", "source.fixAll", std::string(fixed.text())}};
+}
+
+// ---- hints
+
+/// The bytes of the image that each routine takes where it stands.
+std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
+  std::map<std::uint32_t, std::uint32_t> bytes;
+  const auto plain = compiler::parse(compiled.robot.text);
+  const auto image = compiler::build_image(plain, compiler::Packing::Packed);
+  for (std::size_t i = 0; i < image.lines.size() && i < compiled.robot.lines.size(); ++i)
+    bytes[compiled.robot.lines[i].routine] += image.lines[i].size;
+  return bytes;
+}
+
+std::uint32_t end_of_line(const Source& source, std::uint32_t offset) {
+  const auto line = source.position(offset).line;
+  return source.line_start(line) + static_cast<std::uint32_t>(source.line(line).size());
+}
+
+std::vector<Hint> hints(const Source& source, const LanguageOptions& options) {
+  const auto compiled = compile(source, options);
+  std::vector<Hint> found;
+  if (compiled.robot.lines.empty() || compiled.has_errors())
+    return found;
+  const auto end = compiled.program.files.front().end;
+  for (const auto& [at, letter] : letters_of(compiled))
+    if (at < end) {
+      const auto name = std::find_if(compiled.names.symbols.begin(), compiled.names.symbols.end(),
+                                     [&](const auto& symbol) { return symbol.span.begin == at; });
+      found.push_back({name->span.end, fmt::format(": {}", letter),
+                       fmt::format("the robot's `{}` holds it", letter)});
+    }
+  const auto bytes = bytes_of(compiled);
+  for (std::uint32_t r = 1; r < compiled.names.routines.size(); ++r) {
+    const auto& header = compiled.program.statements[compiled.names.routines[r].statement];
+    if (header.span.begin >= end)
+      continue;
+    const auto own = bytes.find(r);
+    found.push_back(
+        {end_of_line(source, header.span.begin),
+         own == bytes.end() ? "no bytes of its own" : fmt::format("{} bytes", own->second),
+         own == bytes.end() ? "it is written into its callers, or never called"
+                            : "of the packed image"});
+  }
+  std::sort(found.begin(), found.end(), [](const Hint& a, const Hint& b) { return a.at < b.at; });
+  return found;
+}
+
+} // namespace
+
+const LanguageService structured_service = {check,  hover,  suggest,  outline, occurrences,
+                                            rename, format, rewrites, hints};
+
+} // namespace orb::editor

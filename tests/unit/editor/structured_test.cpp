@@ -1,0 +1,195 @@
+// What an editor may ask about a structured program.
+
+#include "tests/unit/editor/client.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace orb::editor {
+namespace {
+
+using Json = nlohmann::json;
+
+// Columns below count in this text.
+constexpr auto program = "const side = 1.5s\n"             // 0
+                         "array visits[4]\n"               // 1
+                         "' drives one side\n"             // 2
+                         "sub leg(n)\n"                    // 3
+                         "  goroll n * 90, 80, 1\n"        // 4
+                         "  delay side\n"                  // 5
+                         "  visits[n] += 1\n"              // 6
+                         "end sub\n"                       // 7
+                         "function twice(x)\n"             // 8
+                         "  return x * 2\n"                // 9
+                         "end function\n"                  // 10
+                         "turns = rnd(3)\n"                // 11
+                         "for n = 1 to turns\n"            // 12
+                         "  leg(n)\n"                      // 13
+                         "  leg(twice(n) - 1)\n"           // 14
+                         "next n\n"                        // 15
+                         "again:\n"                        // 16
+                         "delay side\n"                    // 17
+                         "print visits[1]\n"               // 18
+                         "if turns > 1 then goto again\n"; // 19
+
+const std::string name = "file:///robot/patrol.orb";
+
+struct Session : LspClient {
+  Session() : LspClient("utf-8") { open(program, name); }
+  explicit Session(const std::string& text) : LspClient("utf-8") { open(text, name); }
+
+  Json ask(const std::string& method, int line, int character) {
+    return at(method, line, character, Json::object(), name);
+  }
+  std::string hover(int line, int character) {
+    const auto found = ask("hover", line, character);
+    return found.is_null() ? "" : found["contents"]["value"].get<std::string>();
+  }
+  bool suggests(int line, int character, const std::string& label) {
+    const auto found = ask("completion", line, character);
+    return std::any_of(found["items"].begin(), found["items"].end(),
+                       [&](const Json& item) { return item["label"] == label; });
+  }
+  /// `line:from-to` for each range of a list.
+  static std::string places(const Json& list) {
+    std::string out;
+    for (const auto& one : list) {
+      const auto& range = one["range"];
+      out += (out.empty() ? "" : " ") + range["start"]["line"].dump() + ":" +
+             range["start"]["character"].dump() + "-" + range["end"]["character"].dump();
+    }
+    return out;
+  }
+  std::string renamed(int line, int character, const std::string& to) {
+    const auto response =
+        request("textDocument/rename", {{"textDocument", {{"uri", name}}},
+                                        {"position", {{"line", line}, {"character", character}}},
+                                        {"newName", to}});
+    if (response.contains("error"))
+      return response["error"]["message"];
+    return places(response["result"]["changes"][name]);
+  }
+  Json of_all(const std::string& method) {
+    return request("textDocument/" + method, {{"textDocument", {{"uri", name}}},
+                                              {"range",
+                                               {{"start", {{"line", 0}, {"character", 0}}},
+                                                {"end", {{"line", 999}, {"character", 0}}}}},
+                                              {"context", Json::object()}})["result"];
+  }
+};
+
+TEST(Structured, IsCheckedAsWhatItIs) {
+  Session session("turns = 1\nprint turnes\n");
+  EXPECT_EQ(session.codes(), (std::vector<std::string>{"unknown-name"}));
+  Session good;
+  EXPECT_EQ(good.codes(), (std::vector<std::string>{"unstructured"}));
+}
+
+TEST(Structured, HoverSaysWhatANameStandsFor) {
+  Session session;
+  EXPECT_NE(session.hover(12, 14).find("**`turns`** (variable)"), std::string::npos);
+  EXPECT_NE(session.hover(12, 14).find("- set: in line 12\n"), std::string::npos);
+  EXPECT_NE(session.hover(12, 14).find("- the robot's `"), std::string::npos);
+  EXPECT_NE(session.hover(13, 3).find("sub leg(n)\n```\ndrives one side"), std::string::npos);
+  EXPECT_NE(session.hover(5, 9).find("the number 1500 (ms)"), std::string::npos);
+  EXPECT_NE(session.hover(6, 4).find("elements 1 to 4"), std::string::npos);
+  EXPECT_NE(session.hover(4, 10).find("(parameter)"), std::string::npos);
+  EXPECT_NE(session.hover(19, 24).find("(label): jumped to in line 20"), std::string::npos);
+  EXPECT_NE(session.hover(4, 4).find("goroll"), std::string::npos);
+  EXPECT_NE(session.hover(3, 1).find("sub"), std::string::npos);
+  EXPECT_EQ(session.hover(2, 4), "");
+}
+
+TEST(Structured, DefinitionsAndReferences) {
+  Session session;
+  EXPECT_EQ(Session::places(session.ask("definition", 13, 3)), "3:4-7");
+  EXPECT_EQ(Session::places(session.ask("references", 3, 5)), "3:4-7 13:2-5 14:2-5");
+  EXPECT_EQ(Session::places(session.ask("definition", 4, 9)), "3:8-9");
+  EXPECT_EQ(Session::places(session.ask("references", 12, 4)), "12:4-5 13:6-7 14:12-13 15:5-6");
+  EXPECT_EQ(Session::places(session.ask("definition", 19, 24)), "16:0-5");
+}
+
+TEST(Structured, RenameKeepsToOneMeaning) {
+  Session session;
+  EXPECT_EQ(session.renamed(12, 4, "lap"), "12:4-5 13:6-7 14:12-13 15:5-6");
+  EXPECT_EQ(session.renamed(3, 8, "which"), "3:8-9 4:9-10 6:9-10");
+  EXPECT_EQ(session.renamed(14, 7, "doubled"), "8:9-14 14:6-11");
+  EXPECT_EQ(session.renamed(12, 4, "delay"), "`delay` is a word of the language");
+  EXPECT_EQ(session.renamed(12, 4, "Turns"), "`Turns` is in use already");
+  EXPECT_EQ(session.renamed(12, 4, "2nd"),
+            "a name is a letter or `_`, then letters, digits and `_`, at most 31 of them");
+  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the program");
+}
+
+TEST(Structured, CompletionKnowsWhatIsVisible) {
+  Session session;
+  EXPECT_TRUE(session.suggests(13, 2, "leg"));
+  EXPECT_TRUE(session.suggests(13, 2, "repeat"));
+  EXPECT_TRUE(session.suggests(13, 2, "goroll"));
+  EXPECT_FALSE(session.suggests(13, 2, "gosub"));
+  EXPECT_TRUE(session.suggests(18, 6, "turns"));
+  EXPECT_TRUE(session.suggests(18, 6, "twice"));
+  EXPECT_FALSE(session.suggests(18, 6, "x"));
+  EXPECT_TRUE(session.suggests(9, 9, "x"));
+  EXPECT_TRUE(session.suggests(19, 23, "again"));
+  EXPECT_FALSE(session.suggests(19, 23, "turns"));
+  EXPECT_TRUE(session.suggests(7, 4, "sub"));
+  Session comment("print 1 ' orb: allow \n");
+  EXPECT_TRUE(comment.suggests(0, 21, "unused-name"));
+  EXPECT_FALSE(comment.suggests(0, 12, "print"));
+}
+
+TEST(Structured, OutlineListsDeclarations) {
+  Session session;
+  const auto found = session.of_all("documentSymbol");
+  std::string names;
+  for (const auto& one : found)
+    names += one["name"].get<std::string>() + " ";
+  EXPECT_EQ(names, "side visits leg twice ");
+  EXPECT_EQ(found[2]["range"]["end"]["line"], 7);
+}
+
+TEST(Structured, FormattingAndFixes) {
+  Session session("if yaw==90 then PRINT 1\n");
+  const auto actions = session.of_all("codeAction");
+  ASSERT_EQ(actions.size(), 2U);
+  EXPECT_EQ(actions[0]["kind"], "quickfix");
+  EXPECT_EQ(actions[1]["kind"], "source.fixAll");
+  Session good("if yaw=90 then PRINT 1\n");
+  EXPECT_EQ(good.of_all("formatting")[0]["newText"], "if yaw = 90 then print 1\n");
+}
+
+TEST(Structured, HintsSayLettersAndBytes) {
+  Session session("sub leg(n)\n  print \"a text of some length\", n\n  goroll n, 80, 1\n"
+                  "  delay 1s\nend sub\nsub once\n  print 1\nend sub\n"
+                  "turns = rnd(3)\nleg(turns)\nleg(2)\nleg(3)\nonce\n");
+  std::string hints;
+  for (const auto& hint : session.of_all("inlayHint"))
+    hints += hint["position"]["line"].dump() + ":" + hint["position"]["character"].dump() +
+             hint["label"].get<std::string>() + "\n";
+  // `turns` is computed where it is used and needs no letter.
+  EXPECT_EQ(hints, "0:9: N\n0:1070 bytes\n5:8no bytes of its own\n");
+}
+
+TEST(Structured, OpenDocumentsAreIncluded) {
+  LspClient client("utf-8");
+  client.open("const pause = 5\n", "file:///robot/a%20b.orb");
+  client.open("include \"a b.orb\"\ndelay pause\n", name);
+  EXPECT_TRUE(client.codes().empty());
+}
+
+TEST(Structured, AnyTextIsAnswered) {
+  for (const auto* text : {"", "\n", "sub", "sub a(\nend", "a[", "goto\n", "\"", "next\n",
+                           "end if\n", "10 print 1\n", "x = y(\n", "select\ncase\n"}) {
+    Session session(text);
+    for (const auto* method :
+         {"hover", "completion", "definition", "references", "prepareRename", "documentHighlight"})
+      for (int character = 0; character < 8; ++character)
+        session.ask(method, 0, character);
+    for (const auto* method : {"documentSymbol", "formatting", "codeAction", "inlayHint"})
+      session.of_all(method);
+  }
+}
+
+} // namespace
+} // namespace orb::editor
