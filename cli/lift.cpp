@@ -26,14 +26,17 @@ std::vector<Diagnostic> errors_of(std::vector<Diagnostic> findings) {
 }
 
 void lift(Context& context, const Options& options) {
-  const auto file = read_source(options.file, options.file == "-" ? "basic" : "");
+  const auto language = run::language_of(options.file, "").value_or(run::Language::Basic);
+  if (language != run::Language::Basic)
+    return fail(context,
+                {ExitCode::Usage,
+                 fmt::format("{} is {}; `orb lift` takes programs with line numbers (`.bas`)",
+                             disk::display_name(options.file),
+                             language == run::Language::Macro ? "a macro" : "structured already")});
+  const auto file = read_source(options.file, "basic");
   if (!file)
     return fail(context, file.error());
   const auto& source = file->source;
-  if (file->language != run::Language::Basic)
-    return fail(context, {ExitCode::Usage,
-                          fmt::format("{}: a macro; `orb lift` takes numbered programs (.bas)",
-                                      source.name())});
   const auto checked = compiler::check(source.text(), {});
   if (print_findings(context, source, errors_of(checked.diagnostics))) {
     context.exit = ExitCode::BadInput;
