@@ -33,7 +33,7 @@ public:
   }
   std::optional<spec::BasicError> write(spec::Variable variable, std::int32_t value,
                                         Instant) override {
-    values_[variable] = value;
+    values_[variable] = value != 0 ? 1 : 0; // only `ctrl` can be set
     add(std::string(spec::info(variable).word) + " = " + std::to_string(value));
     return std::nullopt;
   }
