@@ -25,39 +25,12 @@ struct Session : LspClient {
   Session() : LspClient("utf-8") { open(program); }
   explicit Session(const std::string& text) : LspClient("utf-8") { open(text); }
 
-  std::string hover(int line, int character) {
-    const auto found = at("hover", line, character);
-    return found.is_null() ? "" : found["contents"]["value"].get<std::string>();
-  }
   std::vector<std::string> suggested(int line, int character) {
     std::vector<std::string> labels;
     const auto found = at("completion", line, character);
     for (const auto& item : found["items"])
       labels.push_back(item["label"]);
     return labels;
-  }
-  bool suggests(int line, int character, const std::string& label) {
-    const auto labels = suggested(line, character);
-    return std::find(labels.begin(), labels.end(), label) != labels.end();
-  }
-  /// `line:from-to` for each range of a list.
-  static std::string places(const Json& list) {
-    std::string out;
-    for (const auto& one : list) {
-      const auto& range = one["range"];
-      out += (out.empty() ? "" : " ") + range["start"]["line"].dump() + ":" +
-             range["start"]["character"].dump() + "-" + range["end"]["character"].dump();
-    }
-    return out;
-  }
-  std::string renamed(int line, int character, const std::string& name) {
-    const auto response =
-        request("textDocument/rename", {{"textDocument", {{"uri", uri}}},
-                                        {"position", {{"line", line}, {"character", character}}},
-                                        {"newName", name}});
-    if (response.contains("error"))
-      return response["error"]["message"];
-    return places(response["result"]["changes"][uri]);
   }
   Json actions(Json range, Json context = Json::object()) {
     return request("textDocument/codeAction", {{"textDocument", {{"uri", uri}}},

@@ -2,6 +2,7 @@
 
 #include "editor/language_server.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -55,6 +56,38 @@ public:
     more["position"] = {{"line", line}, {"character", character}};
     return request("textDocument/" + method, std::move(more))["result"];
   }
+  /// The same of the document `document`, and what an editor makes of the answers.
+  Json ask(const std::string& method, int line, int character, Json more = Json::object()) {
+    return at(method, line, character, std::move(more), document);
+  }
+  std::string hover(int line, int character) {
+    const auto found = ask("hover", line, character);
+    return found.is_null() ? "" : found["contents"]["value"].get<std::string>();
+  }
+  bool suggests(int line, int character, const std::string& label) {
+    const auto found = ask("completion", line, character);
+    return std::any_of(found["items"].begin(), found["items"].end(),
+                       [&](const Json& item) { return item["label"] == label; });
+  }
+  /// Where a new name is written, or why it cannot be.
+  std::string renamed(int line, int character, const std::string& name) {
+    const auto response =
+        request("textDocument/rename", {{"textDocument", {{"uri", document}}},
+                                        {"position", {{"line", line}, {"character", character}}},
+                                        {"newName", name}});
+    return response.contains("error") ? response["error"]["message"].get<std::string>()
+                                      : places(response["result"]["changes"][document]);
+  }
+  /// `line:from-to` for each range of a list.
+  static std::string places(const Json& list) {
+    std::string out;
+    for (const auto& one : list) {
+      const auto& range = one["range"];
+      out += (out.empty() ? "" : " ") + range["start"]["line"].dump() + ":" +
+             range["start"]["character"].dump() + "-" + range["end"]["character"].dump();
+    }
+    return out;
+  }
   /// The codes of the latest findings.
   std::vector<std::string> codes() const {
     std::vector<std::string> found;
@@ -64,6 +97,7 @@ public:
   }
 
   inline static const std::string uri = "file:///square.bas";
+  std::string document = uri;
   Json diagnostics;
   LanguageServer& server() { return server_; }
 

@@ -26,37 +26,8 @@ constexpr auto program = ".const fast = 200\n"               // 0
 
 struct Session : LspClient {
   explicit Session(const std::string& text = program) : LspClient("utf-8") {
-    open(text, macro_uri);
-  }
-
-  Json ask(const std::string& method, int line, int character, Json more = Json::object()) {
-    return at(method, line, character, std::move(more), macro_uri);
-  }
-  std::string hover(int line, int character) {
-    const auto found = ask("hover", line, character);
-    return found.is_null() ? "" : found["contents"]["value"].get<std::string>();
-  }
-  bool suggests(int line, int character, const std::string& label) {
-    const auto found = ask("completion", line, character);
-    return std::any_of(found["items"].begin(), found["items"].end(),
-                       [&](const Json& item) { return item["label"] == label; });
-  }
-  static std::string places(const Json& list) {
-    std::string out;
-    for (const auto& one : list) {
-      const auto& range = one["range"];
-      out += (out.empty() ? "" : " ") + range["start"]["line"].dump() + ":" +
-             range["start"]["character"].dump() + "-" + range["end"]["character"].dump();
-    }
-    return out;
-  }
-  std::string renamed(int line, int character, const std::string& name) {
-    const auto response =
-        request("textDocument/rename", {{"textDocument", {{"uri", macro_uri}}},
-                                        {"position", {{"line", line}, {"character", character}}},
-                                        {"newName", name}});
-    return response.contains("error") ? response["error"]["message"].get<std::string>()
-                                      : places(response["result"]["changes"][macro_uri]);
+    document = macro_uri;
+    open(text, document);
   }
 };
 

@@ -35,40 +35,11 @@ constexpr auto program = "const side = 1.5s\n"             // 0
 const std::string name = "file:///robot/patrol.orb";
 
 struct Session : LspClient {
-  Session() : LspClient("utf-8") { open(program, name); }
-  explicit Session(const std::string& text) : LspClient("utf-8") { open(text, name); }
+  explicit Session(const std::string& text = program) : LspClient("utf-8") {
+    document = name;
+    open(text, document);
+  }
 
-  Json ask(const std::string& method, int line, int character) {
-    return at(method, line, character, Json::object(), name);
-  }
-  std::string hover(int line, int character) {
-    const auto found = ask("hover", line, character);
-    return found.is_null() ? "" : found["contents"]["value"].get<std::string>();
-  }
-  bool suggests(int line, int character, const std::string& label) {
-    const auto found = ask("completion", line, character);
-    return std::any_of(found["items"].begin(), found["items"].end(),
-                       [&](const Json& item) { return item["label"] == label; });
-  }
-  /// `line:from-to` for each range of a list.
-  static std::string places(const Json& list) {
-    std::string out;
-    for (const auto& one : list) {
-      const auto& range = one["range"];
-      out += (out.empty() ? "" : " ") + range["start"]["line"].dump() + ":" +
-             range["start"]["character"].dump() + "-" + range["end"]["character"].dump();
-    }
-    return out;
-  }
-  std::string renamed(int line, int character, const std::string& to) {
-    const auto response =
-        request("textDocument/rename", {{"textDocument", {{"uri", name}}},
-                                        {"position", {{"line", line}, {"character", character}}},
-                                        {"newName", to}});
-    if (response.contains("error"))
-      return response["error"]["message"];
-    return places(response["result"]["changes"][name]);
-  }
   Json of_all(const std::string& method) {
     return request("textDocument/" + method, {{"textDocument", {{"uri", name}}},
                                               {"range",
