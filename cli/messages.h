@@ -2,6 +2,7 @@
 
 #include "cli/link.h"
 #include "run/line_map.h"
+#include "run/run.h"
 
 namespace orb::cli {
 
@@ -11,9 +12,19 @@ struct Watched {
   bool lost = false; ///< the link ended by itself
 };
 
+/// Prints a fault of the robot to stderr: where it is, which value it was, the line to write.
+void print_fault(const Context& context, const run::Fault& fault);
+
+/// Where the faults of a program on a ball are looked up.
+struct Lookup {
+  run::LineMap lines;
+  const run::Input* input = nullptr; ///< the source, where there is one to look into
+};
+
 /// Prints what comes from the ball until Ctrl-C, or until the built-in ball is at rest: prints to
-/// stdout as they are, markers, collisions and sensor values a line each; errors to stderr.
+/// stdout as they are, markers, collisions and sensor values a line each; errors to stderr. With
+/// the format `json` everything is a line of JSON on stdout (docs/json.md).
 Watched monitor(const Context& context, Link& link, uploader::Session& session,
-                const run::LineMap& lines);
+                const Lookup& lookup, std::string_view format = "text");
 
 } // namespace orb::cli

@@ -3,6 +3,7 @@
 #include "cli/browser.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/messages.h"
 #include "cli/options.h"
 #include "cli/target.h"
 #include "cli/watch.h"
@@ -79,6 +80,26 @@ public:
       print_out(print->text);
     if (trace_)
       trace_->add(t, event);
+  }
+
+  void on_fault(Duration t, const run::Fault& fault) override {
+    if (!trace_)
+      return;
+    const auto& cause = fault.cause;
+    std::vector<report::TraceField> fields{{"line", std::int64_t{fault.robot_line}},
+                                           {"code", std::int64_t{spec::code(fault.code)}},
+                                           {"message", std::string(spec::info(fault.code).text)}};
+    if (!cause.seen.empty())
+      fields.push_back({"detail", cause.variables.empty()
+                                      ? cause.seen
+                                      : fmt::format("{}; {}", cause.seen, cause.variables)});
+    if (!cause.parameter.empty())
+      fields.push_back({"parameter", cause.parameter});
+    for (const auto& [key, value] :
+         {std::pair{"value", cause.value}, {"least", cause.least}, {"greatest", cause.greatest}})
+      if (value)
+        fields.push_back({key, *value});
+    trace_->add(t, "error", fields);
   }
 
   void on_time(Duration t) override {
@@ -185,20 +206,6 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
     return tl::unexpected(stimuli.error());
   options.stimuli = *std::move(stimuli);
   return options;
-}
-
-void print_fault(const run::Fault& fault) {
-  const auto place = fault.place.line == 0
-                         ? std::string()
-                         : fmt::format(":{}:{}", fault.place.line, fault.place.column);
-  const auto line =
-      fault.robot_line == 0 ? std::string() : fmt::format("line {}: ", fault.robot_line);
-  print_err(
-      fmt::format("{}{}: error: {}{}\n", fault.file, place, line, spec::info(fault.code).text));
-  if (!fault.finding.empty())
-    print_err(fmt::format("  {}\n", fault.finding));
-  if (!fault.help.empty())
-    print_err(fmt::format("  help: {}\n", fault.help));
 }
 
 /// The run of the page to compare with; empty where none is given.
@@ -316,7 +323,7 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     return tl::unexpected(ending.error());
   auto written = console.finish(*ending);
   for (const auto& fault : ending->faults)
-    print_fault(fault);
+    print_fault(context, fault);
   if (written && journey)
     written = write_pictures(given, *journey, *before);
   if (!written)

@@ -159,17 +159,17 @@ ExitCode dry_run(const Context& context, const Options& options,
   return ExitCode::Done;
 }
 
-run::LineMap lines_of(const std::vector<run::Input>& inputs) {
+Lookup lookup_of(const std::vector<run::Input>& inputs) {
   for (const auto& input : inputs)
     if (input.program)
-      return input.program->lines;
+      return {input.program->lines, &input};
   return {};
 }
 
 /// Tells how it ended, and watches what runs where that was asked for.
 ExitCode finish(const Context& context, const Options& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
-                const run::LineMap& lines) {
+                const Lookup& lookup) {
   if (report.kind != Report::Kind::Done)
     return fail(context, exit_code(report.kind), report.message);
   print_note(context,
@@ -178,12 +178,12 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
                          link.is_sim ? ", on the built-in virtual ball" : ""));
   if (!options.monitor)
     return ExitCode::Done;
-  const auto watched = monitor(context, link, session, lines);
+  const auto watched = monitor(context, link, session, lookup);
   return watched.faulted ? ExitCode::BadInput : watched.lost ? ExitCode::LinkLost : ExitCode::Done;
 }
 
 ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
-              const run::LineMap& lines) {
+              const Lookup& lookup) {
   const InterruptGuard guard; // from here on the last word is what is on the ball
   auto link = open_link(context, options.port);
   if (!link)
@@ -200,7 +200,7 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
                 progress);
   }
   return link->finish(
-      context, finish(context, options, *link, session, report, session.now() - start, lines));
+      context, finish(context, options, *link, session, report, session.now() - start, lookup));
 }
 
 void upload(Context& context, const Options& options) {
@@ -217,7 +217,7 @@ void upload(Context& context, const Options& options) {
   if (!delivery)
     return cli::fail(context, {ExitCode::Usage, delivery.error()});
   context.exit = options.dry_run ? dry_run(context, options, *delivery)
-                                 : send(context, options, *delivery, lines_of(*inputs));
+                                 : send(context, options, *delivery, lookup_of(*inputs));
 }
 
 } // namespace

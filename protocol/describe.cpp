@@ -28,6 +28,18 @@ std::string quoted(ByteView bytes) {
   return out + "\"";
 }
 
+/// What the number of a field stands for; empty for a plain number.
+std::string meaning(const FieldValue& value) {
+  const auto bits = static_cast<std::uint32_t>(value.number);
+  if (value.field->unit == "nibbles")
+    return fmt::format("{}.{}", value.number >> 4, value.number & 15);
+  if (value.field->unit == "orbBasic error")
+    if (const auto error = spec::find_error(bits))
+      return std::string(spec::info(*error).text);
+  const auto name = std::string(spec::value_name(value.field->unit, bits));
+  return name.empty() ? spec::bit_names(value.field->unit, bits) : name;
+}
+
 std::string value_text(const FieldValue& value) {
   const auto& field = *value.field;
   if (!spec::is_number(field.type)) {
@@ -35,18 +47,54 @@ std::string value_text(const FieldValue& value) {
     return is_text ? quoted(value.bytes) : to_hex(value.bytes);
   }
   if (field.unit == "nibbles")
-    return fmt::format("{}.{}", value.number >> 4, value.number & 15);
+    return meaning(value);
   const auto bits = static_cast<std::uint32_t>(value.number);
-  auto name = std::string(spec::value_name(field.unit, bits));
-  if (name.empty())
-    name = spec::bit_names(field.unit, bits);
-  if (field.unit == "orbBasic error")
-    if (const auto error = spec::find_error(bits))
-      name = spec::info(*error).text;
+  const auto name = meaning(value);
   const auto is_mask = field.unit.starts_with("stream mask") || field.unit.ends_with("flags");
   const auto number = is_mask ? fmt::format("{:0{}X}h", bits, 2 * spec::field_size(field.type))
                               : fmt::format("{}", value.number);
   return name.empty() ? number : fmt::format("{} ({})", number, name);
+}
+
+std::size_t size_of(const FieldValue& value) {
+  return spec::is_number(value.field->type) ? spec::field_size(value.field->type)
+                                            : value.bytes.size();
+}
+
+/// Bytes as text: without the NULs behind it, others that are no ASCII as U+0080 to U+00FF.
+std::string plain_text(ByteView bytes) {
+  std::string out;
+  while (!bytes.empty() && bytes.back() == 0)
+    bytes = bytes.first(bytes.size() - 1);
+  for (const auto byte : bytes) {
+    if (byte < 0x80) { // ASCII
+      out += static_cast<char>(byte);
+      continue;
+    }
+    out += static_cast<char>(0xC0 | byte >> 6);     // UTF-8: the upper bits
+    out += static_cast<char>(0x80 | (byte & 0x3F)); // UTF-8: the lower bits
+  }
+  return out;
+}
+
+Parts parts_of(std::string_view name, std::span<const spec::Field> fields, ByteView data) {
+  Parts parts{name, {}, {}};
+  for (const auto& value : read_fields(fields, data)) {
+    const auto size = size_of(value);
+    data = data.subspan(size);
+    if (value.field->name.starts_with("reserved"))
+      continue;
+    NamedValue named{std::string(value.field->name), std::nullopt, {}};
+    if (spec::is_number(value.field->type)) {
+      named.number = value.number;
+      named.text = meaning(value);
+    } else {
+      named.text = value.field->unit == "text" ? plain_text(value.bytes) : to_hex(value.bytes);
+    }
+    parts.fields.push_back(std::move(named));
+  }
+  parts.rest.assign(data.begin(), data.end());
+  return parts;
 }
 
 /// The data as `name value` with commas, then what no field names.
@@ -54,8 +102,7 @@ std::string fields_text(std::span<const spec::Field> fields, ByteView data) {
   std::string out;
   std::size_t used = 0;
   for (const auto& value : read_fields(fields, data)) {
-    used += spec::is_number(value.field->type) ? spec::field_size(value.field->type)
-                                               : value.bytes.size();
+    used += size_of(value);
     if (value.field->name.starts_with("reserved"))
       continue;
     out += fmt::format(", {} {}", value.field->name, value_text(value));
@@ -83,6 +130,23 @@ std::string frames_text(std::uint64_t mask, ByteView data) {
       return out + fmt::format(", frames {}", to_hex(data));
   }
   return out;
+}
+
+/// The frames of a stream as fields: the names repeat, a frame after the other.
+Parts stream_parts(std::string_view name, std::uint64_t mask, ByteView data) {
+  Parts parts{name, {}, {}};
+  for (bool more = true; more && !data.empty();) {
+    more = false;
+    for (const auto& row : spec::streams)
+      if ((row.mask & mask) != 0 && data.size() >= 2) {
+        parts.fields.push_back(
+            {std::string(row.name), static_cast<std::int16_t>(read_u16(data, 0)), {}});
+        data = data.subspan(2);
+        more = true;
+      }
+  }
+  parts.rest.assign(data.begin(), data.end());
+  return parts;
 }
 
 std::string options_text(std::uint8_t flags) {
@@ -113,7 +177,7 @@ std::string Describer::describe(const Item& item) {
   return {};
 }
 
-std::string Describer::command(const Item& item) {
+void Describer::remember(const Item& item) {
   const auto* row = spec::find_command(item.did, item.cid);
   asked_[item.seq] = row;
   if (row != nullptr && row->command == spec::ApiCommand::SetDataStreaming) {
@@ -126,6 +190,33 @@ std::string Describer::command(const Item& item) {
     }
     stream_mask_ = mask;
   }
+}
+
+Parts Describer::parts(const Item& item) {
+  using Fields = std::span<const spec::Field>;
+  if (item.kind == Item::Kind::Command) {
+    remember(item);
+    const auto* row = spec::find_command(item.did, item.cid);
+    return row == nullptr ? parts_of({}, {}, item.data)
+                          : parts_of(row->name, spec::operands(row->command), item.data);
+  }
+  if (item.kind == Item::Kind::Response) {
+    const auto* row = asked_[item.seq];
+    const auto ok = item.code == static_cast<std::uint8_t>(spec::ResponseCode::Ok);
+    return parts_of(row == nullptr ? std::string_view() : row->name,
+                    row == nullptr || !ok ? Fields{} : spec::answer(row->command), item.data);
+  }
+  const auto* row = item.kind == Item::Kind::Async ? spec::find_async(item.code) : nullptr;
+  if (row == nullptr)
+    return parts_of({}, {}, item.data);
+  return row->id == spec::AsyncId::SensorData
+             ? stream_parts(row->name, stream_mask_, item.data)
+             : parts_of(row->name, spec::fields(row->id), item.data);
+}
+
+std::string Describer::command(const Item& item) {
+  const auto* row = spec::find_command(item.did, item.cid);
+  remember(item);
   return fmt::format(
       "command {}: sop2 {}, did {:02X}, cid {:02X}, seq {:02X}, dlen {:02X}{}, chk {:02X}",
       row == nullptr ? "unknown" : row->name, options_text(item.flags), item.did, item.cid,

@@ -136,6 +136,13 @@ void Journey::add(Duration t, const vm::Event& event) {
       event);
 }
 
+void Journey::explain(const std::string& why) {
+  if (why.empty() || end_.fault.empty())
+    return;
+  end_.fault += ": " + why;
+  (last_.empty() ? first_.back() : last_.back()).text = end_.fault;
+}
+
 void Journey::sample(Duration t, const vm::Body& body) {
   if (!sensors_.empty() && t - sensors_.entries().back().t < sensor_period)
     return;

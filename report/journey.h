@@ -128,6 +128,8 @@ public:
 
   // During the run: `t` counts from the start of the program.
   void add(Duration t, const vm::Event& event);
+  /// Adds to the error that came last why it came; empty where nobody knows.
+  void explain(const std::string& why);
   /// Reads the sensors, at most every 20 ms.
   void sample(Duration t, const vm::Body& body);
   void finish(Duration t, std::string reason, std::string words);

@@ -10,11 +10,12 @@ namespace orb::report {
 namespace {
 
 /// The columns after `t` and `event`: every key in the order in which the events name them.
-constexpr std::array<std::string_view, 25> columns{
-    "r",     "g",       "b",    "heading", "speed",   "go",     "x",     "y",    "marker",
-    "macro", "command", "line", "code",    "message", "reason", "lines", "text", "value",
-    "axis",  "xmag",    "ymag", "seconds", "id",      "wall",   "at",
-};
+constexpr auto columns = std::to_array<std::string_view>({
+    "r",      "g",      "b",         "heading", "speed",    "go",      "x",      "y",
+    "marker", "macro",  "command",   "line",    "code",     "message", "reason", "lines",
+    "text",   "value",  "axis",      "xmag",    "ymag",     "seconds", "id",     "wall",
+    "at",     "detail", "parameter", "least",   "greatest",
+});
 
 template <class... Functions>
 struct Overloaded : Functions... {
@@ -215,6 +216,17 @@ std::string TraceWriter::with_source(std::string line, const std::string& source
   else if (!source.empty())
     line.insert(line.size() - 2, ",\"source\":" + source);
   return line;
+}
+
+void TraceWriter::add(Duration t, std::string_view event, const std::vector<TraceField>& fields) {
+  const auto line = std::find_if(fields.begin(), fields.end(),
+                                 [](const auto& field) { return field.key == "line"; });
+  const auto place = line == fields.end()
+                         ? places_.end()
+                         : places_.find(static_cast<int>(std::get<std::int64_t>(line->value)));
+  put_(with_source(trace_line(format_, t, event, fields),
+                   place == places_.end() ? std::string()
+                                          : printed(format_, {"source", place->second})));
 }
 
 void TraceWriter::finish(Duration t, std::string_view reason, std::uint64_t lines) {

@@ -46,6 +46,8 @@ public:
   TraceWriter(TraceFormat format, TraceLines lines, std::function<void(std::string_view)> put,
               LinePlaces places = {});
   void add(Duration t, const vm::Event& event);
+  /// An event of which more is known than the ball says.
+  void add(Duration t, std::string_view event, const std::vector<TraceField>& fields);
   void finish(Duration t, std::string_view reason, std::uint64_t lines);
 
 private:

@@ -63,15 +63,9 @@ private:
 /// Sees everything that happens from the start of the program to its end, and hands it on.
 class Watcher final : public vm::Observer {
 public:
-  Watcher(const Options& options, Listener& listener, report::Journey* journey)
-      : listener_(listener), journey_(journey), expected_(options.expect),
-        forbidden_(options.fail_text) {}
-
-  struct RobotFault {
-    int line = 0;
-    spec::BasicError code{};
-    spec::Area area{};
-  };
+  Watcher(const Load& load, const Options& options, Listener& listener, report::Journey* journey)
+      : load_(load), target_(options.target), listener_(listener), journey_(journey),
+        expected_(options.expect), forbidden_(options.fail_text) {}
 
   /// From when on the ball's events are those of the run.
   enum class From : std::uint8_t {
@@ -102,11 +96,17 @@ public:
       over_ = at;
     const Duration t = at - start_;
     look(event);
-    listener_.on_event(t, event);
-    if (journey_ != nullptr) {
-      journey_->add(t, event);
-      journey_->sample(t, ball_->body());
-    }
+    const auto* error = std::get_if<vm::event::Error>(&event);
+    if (error == nullptr)
+      listener_.on_event(t, event);
+    else
+      listener_.on_fault(t, add_fault(*error));
+    if (journey_ == nullptr)
+      return;
+    journey_->add(t, event);
+    if (error != nullptr)
+      journey_->explain(faults_.back().cause.seen);
+    journey_->sample(t, ball_->body());
   }
 
   Instant start() const { return start_; }
@@ -116,7 +116,7 @@ public:
            : expected_.seen() ? Sought::Expected
                               : Sought::Nothing;
   }
-  const std::vector<RobotFault>& faults() const { return faults_; }
+  const std::vector<Fault>& faults() const { return faults_; }
   std::optional<vm::event::End::Reason> end() const { return end_; }
   const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
   std::uint64_t lines() const { return lines_; }
@@ -142,10 +142,8 @@ private:
         ball_->interrupt();
       return true;
     }
-    if (const auto* error = std::get_if<vm::event::Error>(&event)) {
-      faults_.push_back({error->line, error->code, ball_->basic_area()});
+    if (std::holds_alternative<vm::event::Error>(event))
       return true;
-    }
     if (const auto* end = std::get_if<vm::event::End>(&event)) {
       end_ = end->reason;
       lines_ += end->lines;
@@ -154,6 +152,13 @@ private:
     if (const auto* end = std::get_if<vm::event::MacroEnd>(&event))
       macro_end_ = *end;
     return false;
+  }
+
+  /// The error with what the source and the machine, which still stands there, say of it.
+  const Fault& add_fault(const vm::event::Error& error) {
+    const bool first = ball_->basic_area() == target_.area || load_.programs.size() < 2;
+    return faults_.emplace_back(run::explain(*load_.programs[first ? 0 : 1].input, target_,
+                                             error.line, error.code, &ball_->machine()));
   }
 
   void look(const vm::Event& event) {
@@ -174,11 +179,13 @@ private:
   vm::Ball* ball_ = nullptr;
   From from_ = From::Now;
   Instant start_{};
+  const Load& load_;
+  const compiler::Target& target_;
   Listener& listener_;
   report::Journey* journey_;
   Search expected_;
   Search forbidden_;
-  std::vector<RobotFault> faults_;
+  std::vector<Fault> faults_;
   std::optional<vm::event::End::Reason> end_;
   std::optional<vm::event::MacroEnd> macro_end_;
   std::uint64_t lines_ = 0;
@@ -391,42 +398,6 @@ std::string waits_for(Reason reason, std::span<const Input> inputs, const Option
   return found ? std::string(found->what) : std::string();
 }
 
-/// Where a fault is in a structured program, which was checked before it ran.
-Fault explain(const Watcher::RobotFault& fault, const LineMap& lines) {
-  Fault found{0, fault.code, lines.files.front(), {0, 0}, {}, {}};
-  const auto place = lines.places.find(static_cast<std::uint32_t>(fault.line));
-  if (place == lines.places.end())
-    return found;
-  found.file = lines.files[place->second.file];
-  found.place = {place->second.line, place->second.column};
-  return found;
-}
-
-/// Where a fault is in the user's file, and what the linter knows about that line.
-Fault explain(const Watcher::RobotFault& fault, const Load::ProgramOf& of,
-              const compiler::Target& target) {
-  const auto& source = *of.input->source;
-  const auto& parsed = of.program->parsed;
-  if (of.program->compiled)
-    return explain(fault, of.program->lines);
-  Fault found{static_cast<std::uint32_t>(fault.line), fault.code, source.name(), {0, 0}, {}, {}};
-  const auto line = std::find_if(parsed.lines.begin(), parsed.lines.end(), [&](const auto& one) {
-    return one.number == found.robot_line && one.has_statement();
-  });
-  if (line == parsed.lines.end())
-    return found;
-  found.place = source.position(parsed.statements[line->statement].span.begin);
-  const auto checked = compiler::check(parsed.text, target);
-  for (const auto& diagnostic : checked.diagnostics)
-    if (diagnostic.rule->robot_error == spec::code(fault.code) &&
-        source.position(diagnostic.span.begin).line == found.place.line) {
-      found.finding = diagnostic.message;
-      found.help = diagnostic.help;
-      break;
-    }
-  return found;
-}
-
 /// Tells the journey which files there are and where the robot's lines and commands stand in them.
 void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey) {
   bool first = true; // of two programs the lines of the second are told by their number alone
@@ -489,7 +460,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   const auto load = load_of(inputs);
   if (auto why = objection(load))
     return tl::unexpected(*std::move(why));
-  Watcher watcher(options, listener, journey);
+  Watcher watcher(load, options, listener, journey);
   vm::Ball ball(ball_options(options, watcher, journey));
   vm::BallTransport transport(ball);
   uploader::Session session(transport, {}, 0);
@@ -530,10 +501,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   ending.aborted = how_aborted(watcher.macro_end());
   ending.sight = watcher.sight();
   ending.waits_for = waits_for(ending.reason, inputs, options, ball);
-  for (const auto& fault : watcher.faults()) {
-    const bool first = fault.area == options.target.area || load.programs.size() < 2;
-    ending.faults.push_back(explain(fault, load.programs[first ? 0 : 1], options.target));
-  }
+  ending.faults = watcher.faults();
   if (journey != nullptr)
     journey->finish(ending.lasted, std::string(to_string(ending.reason)), to_string(ending));
   return ending;

@@ -3,6 +3,7 @@
 #include "base/exit_code.h"
 #include "base/time.h"
 #include "report/journey.h"
+#include "run/cause.h"
 #include "run/input.h"
 #include "spec/firmware.h"
 #include "vm/ball.h"
@@ -48,11 +49,30 @@ struct Options {
   std::string fail_text; ///< printed: the run stops as a failure; empty for none
 };
 
+/// A fault of the robot and where it is in the user's file.
+struct Fault {
+  std::uint32_t robot_line = 0;
+  bool numbered = true; ///< the source has such numbers
+  spec::BasicError code{};
+  std::string file;
+  Position place{0, 0}; ///< line 0: the file has no such line
+  Cause cause;
+  std::string finding; ///< what the linter says of that line; may be empty
+  std::string help;    ///< and what to write; may be empty
+};
+
+/// What is known of a fault in a program from its source, and from the machine that stopped there
+/// where that is not null.
+Fault explain(const Input& input, const compiler::Target& target, int robot_line,
+              spec::BasicError code, const vm::Machine* machine);
+
 /// Hears a run while it goes on. Times count from its start.
 class Listener {
 public:
   virtual ~Listener() = default;
   virtual void on_event(Duration t, const vm::Event& event) = 0;
+  /// The program stopped with an error; on_event() does not hear of it.
+  virtual void on_fault(Duration t, const Fault& fault) = 0;
   /// The run has reached `t`, which for --realtime is the moment to wait.
   virtual void on_time(Duration) {}
   /// `input` waits and no number is left; nothing when there will be none.
@@ -62,16 +82,6 @@ public:
 /// Why a run is over. The words of the trace: to_string().
 enum class Reason : std::uint8_t { End, Error, Abort, TimeLimit, Sleep, Input };
 std::string_view to_string(Reason reason);
-
-/// A fault of the robot and where it is in the user's file.
-struct Fault {
-  std::uint32_t robot_line = 0; ///< 0: the source has no such numbers
-  spec::BasicError code{};
-  std::string file;
-  Position place{0, 0}; ///< line 0: the file has no such line
-  std::string finding;  ///< what the linter says of that line; may be empty
-  std::string help;     ///< and what to write; may be empty
-};
 
 /// What was looked for in the output.
 enum class Sought : std::uint8_t { Nothing, Expected, Forbidden };
@@ -97,7 +107,7 @@ struct Ending {
   std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
   Sight sight;
-  std::string waits_for; ///< `a number in line 20`; empty where it waits for nothing
+  std::string waits_for;             ///< `a number in line 20`; empty where it waits for nothing
   std::string_view only_interpreted; ///< why there was no machine code though it was wanted
   std::vector<vm::NativeCode::Piece> machine_code; ///< where it was, for profilers
 };

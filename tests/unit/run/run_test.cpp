@@ -16,6 +16,7 @@ public:
     ran += std::holds_alternative<vm::event::Line>(event) ||
            std::holds_alternative<vm::event::Macro>(event);
   }
+  void on_fault(Duration, const Fault&) override {}
   int ran = 0;
 };
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "protocol/describe.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace orb::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// Adds `--format text|json`.
+void add_format_option(CLI::App& command, std::string& format);
+
+/// The fields of a packet by name: numbers and texts; what numbers stand for is a second object.
+void put_fields(Json& json, const protocol::Parts& parts);
+
+/// One thing found on the wire: a packet with its fields, or what is no packet (docs/json.md).
+Json packet_json(protocol::Describer& describer, const protocol::Item& item);
+
+/// Prints a value on a line of its own.
+void print_json(const Json& json);
+
+} // namespace orb::cli
