@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/options.h"
 #include "disk/disk.h"
 
@@ -22,14 +23,16 @@ using protocol::Item;
 struct DecodeArguments {
   std::vector<std::string> words;
   bool v2 = false;
-  std::string from = "client";
+  std::string from = "auto";
+  std::string format = "text";
 };
 
 /// A stream of one direction, printed as its packets become whole.
 class Printer {
 public:
-  Printer(Direction direction, std::string prefix, protocol::Describer& describer)
-      : decoder_(direction), prefix_(std::move(prefix)), describer_(describer) {}
+  Printer(Direction direction, std::string prefix, bool as_json, protocol::Describer& describer)
+      : decoder_(direction), from_(direction == Direction::ToBall ? "client" : "ball"),
+        prefix_(std::move(prefix)), as_json_(as_json), describer_(describer) {}
 
   void feed(ByteView bytes) {
     decoder_.feed(bytes);
@@ -51,14 +54,24 @@ private:
         if (item->raw.empty())
           continue;
       }
-      print_out(fmt::format("{}{}\n", prefix_, describer_.describe(*item)));
+      print(*item);
       if (item->kind == Item::Kind::BadChecksum || item->kind == Item::Kind::Fragment)
         shown_ = item->raw.size() - 1;
     }
   }
 
+  void print(const Item& item) {
+    if (!as_json_)
+      return print_out(fmt::format("{}{}\n", prefix_, describer_.describe(item)));
+    Json json{{"from", from_}};
+    json.update(packet_json(describer_, item));
+    print_json(json);
+  }
+
   protocol::Decoder decoder_;
+  std::string_view from_;
   std::string prefix_;
+  bool as_json_;
   protocol::Describer& describer_;
   std::size_t shown_ = 0; ///< how many of the bytes to come have been printed already
 };
@@ -87,11 +100,41 @@ Input take_apart(std::string_view content) {
   return {{}, {bytes.begin(), bytes.end()}};
 }
 
-void print_v2(const Input& input) {
+std::string_view kind_name(const protocol::ItemV2& item) {
+  using Kind = protocol::ItemV2::Kind;
+  switch (item.kind) {
+  case Kind::Packet:
+    return (item.packet.flags & static_cast<std::uint8_t>(spec::V2Flag::Response)) != 0 ? "response"
+                                                                                        : "command";
+  case Kind::Noise: return "noise";
+  case Kind::BadChecksum: return "bad-checksum";
+  case Kind::Incomplete: return "incomplete";
+  }
+  return "";
+}
+
+Json packet_json(const protocol::ItemV2& item) {
+  Json json{{"kind", kind_name(item)}};
+  if (item.kind == protocol::ItemV2::Kind::Packet) {
+    const auto& packet = item.packet;
+    json.update(
+        {{"flags", packet.flags}, {"did", packet.did}, {"cid", packet.cid}, {"seq", packet.seq}});
+    if (json["kind"] == "response")
+      json["error"] = packet.error;
+    json["data"] = to_hex(packet.data);
+  }
+  json["raw"] = to_hex(item.raw);
+  return json;
+}
+
+void print_v2(const Input& input, bool as_json) {
   // Both directions share one format; the flags tell answers from commands.
-  const auto print = [](protocol::DecoderV2& decoder, std::string_view prefix) {
+  const auto print = [&](protocol::DecoderV2& decoder, std::string_view prefix) {
     while (const auto item = decoder.next())
-      print_out(fmt::format("{}{}\n", prefix, describe(*item)));
+      if (as_json)
+        print_json(packet_json(*item));
+      else
+        print_out(fmt::format("{}{}\n", prefix, describe(*item)));
   };
   protocol::DecoderV2 to_ball, from_ball;
   if (input.recording.empty()) {
@@ -112,16 +155,37 @@ void print_v2(const Input& input) {
   print(from_ball, "< ");
 }
 
-void print_v1(const Input& input, Direction direction) {
+/// How many of the bytes are part of a whole packet when they travel so.
+std::size_t understood(ByteView bytes, Direction direction) {
+  protocol::Decoder decoder(direction);
+  decoder.feed(bytes);
+  std::size_t count = 0;
+  while (const auto item = decoder.next())
+    if (item->kind == Item::Kind::Command || item->kind == Item::Kind::Response ||
+        item->kind == Item::Kind::Async)
+      count += item->raw.size();
+  return count;
+}
+
+/// Who sent the bytes: whoever's packets have right checksums, the client where that does not tell.
+Direction direction_of(const DecodeArguments& arguments, ByteView bytes) {
+  const bool ball = arguments.from == "ball" ||
+                    (arguments.from == "auto" &&
+                     understood(bytes, Direction::FromBall) > understood(bytes, Direction::ToBall));
+  return ball ? Direction::FromBall : Direction::ToBall;
+}
+
+void print_v1(const Input& input, const DecodeArguments& arguments) {
   protocol::Describer describer;
+  const bool as_json = arguments.format == "json";
   if (input.recording.empty()) {
-    Printer printer(direction, "", describer);
+    Printer printer(direction_of(arguments, input.bytes), "", as_json, describer);
     printer.feed(input.bytes);
     printer.finish();
     return;
   }
-  Printer to_ball(Direction::ToBall, "> ", describer);
-  Printer from_ball(Direction::FromBall, "< ", describer);
+  Printer to_ball(Direction::ToBall, "> ", as_json, describer);
+  Printer from_ball(Direction::FromBall, "< ", as_json, describer);
   for (const auto& piece : input.recording)
     (piece.direction == Direction::ToBall ? to_ball : from_ball).feed(piece.bytes);
   to_ball.finish();
@@ -151,9 +215,9 @@ void decode(Context& context, const DecodeArguments& arguments) {
     }
   }
   if (arguments.v2)
-    print_v2(input);
+    print_v2(input, arguments.format == "json");
   else
-    print_v1(input, arguments.from == "ball" ? Direction::FromBall : Direction::ToBall);
+    print_v1(input, arguments);
 }
 
 } // namespace
@@ -161,14 +225,17 @@ void decode(Context& context, const DecodeArguments& arguments) {
 void add_decode(CLI::App& app, Context& context) {
   auto* command = add_command(app, "decode", "put packets into words",
                               "orb decode FF FF 00 01 52 01 AB\n"
-                              "orb decode --from ball FFFE08000748656C6C6F0AF2\n"
+                              "orb decode FFFE08000748656C6C6F0AF2\n"
                               "orb decode session.txt\norb decode --v2 8D0A11061FBFD8");
   auto arguments = std::make_shared<DecodeArguments>();
   command->add_option("FILE", arguments->words,
                       "hex bytes, or a file with hex, bytes or a recording; - or nothing is stdin");
   command->add_flag("--v2", arguments->v2, "packets of the newer robots");
-  command->add_option("--from", arguments->from, "who sent the bytes; a recording says so itself")
-      ->check(one_of({"client", "ball"}))
+  add_format_option(*command, arguments->format);
+  command
+      ->add_option("--from", arguments->from,
+                   "who sent the bytes; auto: whoever's checksums are right; a recording says so")
+      ->check(one_of({"auto", "client", "ball"}))
       ->capture_default_str();
   command->callback([&context, arguments] { decode(context, *arguments); });
 }

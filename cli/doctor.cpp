@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 #include "cli/config.h"
 #include "cli/interrupt.h"
+#include "cli/json.h"
 #include "cli/link.h"
 #include "cli/ports.h"
 #include "uploader/endpoint.h"
@@ -26,23 +27,30 @@ constexpr int rfcomm_protocol = 3; // BTPROTO_RFCOMM
 constexpr std::string_view rfkill_folder = "/sys/class/rfkill";
 constexpr std::string_view adapters_folder = "/sys/class/bluetooth";
 
-/// Prints one finding a line, and knows whether one was bad.
+/// Prints one finding a line, or gathers them for one JSON document, and knows whether one was bad.
 class Findings {
 public:
-  explicit Findings(const Context& context) : style_(context.out_style()) {}
+  Findings(const Context& context, Json* json) : style_(context.out_style()), json_(json) {}
 
   void good(std::string_view text) {
-    print_out(fmt::format("{}    {}\n", style_.paint(Role::Good, "ok"), text));
+    if (json_ != nullptr)
+      json_->push_back({{"ok", true}, {"text", text}});
+    else
+      print_out(fmt::format("{}    {}\n", style_.paint(Role::Good, "ok"), text));
   }
-  /// What is wrong, and the command or act that mends it.
+  /// What is wrong, and the command or act that helps.
   void bad(std::string_view text, std::string_view remedy) {
     healthy_ = false;
-    print_out(fmt::format("{} {}\n      {}\n", style_.paint(Role::Error, "wrong"), text, remedy));
+    if (json_ != nullptr)
+      json_->push_back({{"ok", false}, {"text", text}, {"remedy", remedy}});
+    else
+      print_out(fmt::format("{} {}\n      {}\n", style_.paint(Role::Error, "wrong"), text, remedy));
   }
   bool healthy() const { return healthy_; }
 
 private:
   Style style_;
+  Json* json_; ///< null where the findings are printed as they come
   bool healthy_ = true;
 };
 
@@ -144,8 +152,10 @@ void check_ball(Context& context, Findings& findings, const PortOptions& options
     findings.good(fmt::format("its battery is {}", spec::value_name("power state", state)));
 }
 
-void run(Context& context, const PortOptions& options) {
-  Findings findings(context);
+void run(Context& context, const PortOptions& options, const std::string& format) {
+  auto list = Json::array();
+  auto* const gathered = format == "json" ? &list : nullptr;
+  Findings findings(context, gathered);
   const auto url = resolve_port(context.config, options.port);
   const auto endpoint =
       url ? uploader::parse_endpoint(*url)
@@ -160,7 +170,7 @@ void run(Context& context, const PortOptions& options) {
   case Scheme::Tcp:
   case Scheme::Replay: break;
   case Scheme::Sim: {
-    Findings system(context); // what is amiss here keeps nobody from the built-in ball
+    Findings system(context, gathered); // what is amiss here keeps nobody from the built-in ball
     for (const auto& port : find_ports(context.config))
       system.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer",
                               port.url, port.what, port.url));
@@ -170,6 +180,8 @@ void run(Context& context, const PortOptions& options) {
   }
   if (reachable)
     check_ball(context, findings, options);
+  if (gathered != nullptr)
+    print_json({{"schema", "orb.doctor/1"}, {"healthy", findings.healthy()}, {"findings", list}});
   if (!findings.healthy())
     context.exit = ExitCode::NoBall;
 }
@@ -182,7 +194,9 @@ void add_doctor(CLI::App& app, Context& context) {
                               "orb doctor --port rfcomm://68:86:E7:00:11:22");
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
-  command->callback([&context, options] { run(context, *options); });
+  auto format = std::make_shared<std::string>("text");
+  add_format_option(*command, *format);
+  command->callback([&context, options, format] { run(context, *options, *format); });
 }
 
 } // namespace orb::cli

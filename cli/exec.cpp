@@ -1,11 +1,16 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/messages.h"
 #include "protocol/describe.h"
 #include "protocol/payload.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace orb::cli {
 namespace {
@@ -14,6 +19,7 @@ struct Options {
   PortOptions port;
   std::string name;
   std::vector<std::string> arguments;
+  std::string format = "text";
   bool monitor = false;
 };
 
@@ -30,18 +36,102 @@ const spec::CommandInfo* find(const Context& context, const std::string& name) {
   return nullptr;
 }
 
-/// The answer in words, with its fields by name.
-std::string describe(spec::ApiCommand command, const protocol::Response& response) {
+/// Puts what came as an answer to `command` into words or values.
+template <class Told>
+auto with_answer(spec::ApiCommand command, const protocol::Response& response, Told told) {
   protocol::Describer describer;
-  const auto item_of = [](protocol::Direction direction, const Bytes& packet) {
-    protocol::Decoder decoder(direction);
-    decoder.feed(packet);
-    return *decoder.next();
+  const auto packets =
+      std::pair{encode(protocol::make_command(command, {}, response.seq)), encode(response)};
+  protocol::Decoder to_ball(protocol::Direction::ToBall);
+  to_ball.feed(packets.first);
+  (void)describer.parts(*to_ball.next()); // the answer's fields are those of the command
+  protocol::Decoder from_ball(protocol::Direction::FromBall);
+  from_ball.feed(packets.second);
+  return told(describer, *from_ball.next());
+}
+
+/// The messages that are the rest of an answer: the answer itself only says that they will come.
+constexpr std::array late{spec::AsyncId::Level1Diagnostics, spec::AsyncId::ConfigBlock,
+                          spec::AsyncId::SelfLevelResult, spec::AsyncId::SoulBlock};
+constexpr Duration patience = 60s; // a ball that levels itself takes its time
+
+constexpr std::uint8_t starts_self_level = 1; // bit 0 of its options; source: API §Self Level
+
+/// The message that the answer to a command announces; null for most, and where it only stops.
+const spec::AsyncInfo* announced(spec::ApiCommand command, const Bytes& data) {
+  if (command == spec::ApiCommand::SelfLevel && (data.at(0) & starts_self_level) == 0)
+    return nullptr;
+  const auto ids = fmt::format("{:02X}h {:02X}h", spec::did(command), spec::cid(command));
+  const auto row = std::find_if(spec::asyncs.begin(), spec::asyncs.end(), [&](const auto& one) {
+    return one.enabler == ids && std::find(late.begin(), late.end(), one.id) != late.end();
+  });
+  return row == spec::asyncs.end() ? nullptr : &*row;
+}
+
+/// Waits for a message; nothing where none came in time or the link broke.
+std::optional<protocol::Async> wait_for(uploader::Session& session, spec::AsyncId id) {
+  auto& inbox = session.inbox();
+  const auto find = [&] {
+    return std::find_if(inbox.begin(), inbox.end(), [&](const protocol::Async& one) {
+      return one.id == static_cast<std::uint8_t>(id);
+    });
   };
-  const auto asked = encode(protocol::make_command(command, {}, response.seq));
-  (void)describer.describe(item_of(protocol::Direction::ToBall, asked));
-  const auto answered = encode(response);
-  return describer.describe(item_of(protocol::Direction::FromBall, answered));
+  static_cast<void>(
+      session.listen(session.now() + patience, [&] { return find() != inbox.end(); }));
+  const auto found = find();
+  if (found == inbox.end())
+    return std::nullopt;
+  auto message = *std::move(found);
+  inbox.erase(found);
+  return message;
+}
+
+/// A message on a line, or as it is where all of it is text.
+std::string in_words(const protocol::Async& message) {
+  const auto packet = encode(message);
+  protocol::Decoder decoder(protocol::Direction::FromBall);
+  decoder.feed(packet);
+  const auto item = *decoder.next();
+  protocol::Describer describer;
+  const auto parts = describer.parts(item);
+  if (parts.fields.size() == 1 && !parts.fields[0].number && parts.rest.empty() &&
+      spec::fields(static_cast<spec::AsyncId>(message.id))[0].unit == "text")
+    return parts.fields[0].text;
+  return describer.describe(item) + "\n";
+}
+
+Json message_json(const protocol::Async& message) {
+  const auto packet = encode(message);
+  protocol::Decoder decoder(protocol::Direction::FromBall);
+  decoder.feed(packet);
+  protocol::Describer describer;
+  return packet_json(describer, *decoder.next());
+}
+
+ExitCode print_answer(const Context& context, const Options& options, spec::ApiCommand command,
+                      const Bytes& data, const protocol::Response& answer,
+                      uploader::Session& session) {
+  const auto* more = announced(command, data);
+  const auto message = more == nullptr ? std::nullopt : wait_for(session, more->id);
+  if (options.format == "json") {
+    Json json{{"schema", "orb.exec/1"}};
+    with_answer(command, answer, [&](auto& describer, const protocol::Item& item) {
+      json.update(packet_json(describer, item));
+    });
+    if (message)
+      json["message"] = message_json(*message);
+    print_json(json);
+  } else {
+    with_answer(command, answer, [](auto& describer, const protocol::Item& item) {
+      print_out(describer.describe(item) + "\n");
+    });
+    if (message)
+      print_out(in_words(*message));
+  }
+  if (more == nullptr || message)
+    return ExitCode::Done;
+  print_error(context, fmt::format("the answer announces {}, and none came", more->name));
+  return ExitCode::LinkLost;
 }
 
 void run(Context& context, const Options& options) {
@@ -60,10 +150,12 @@ void run(Context& context, const Options& options) {
                 print_error(context, answer.error().message);
                 return exit_code(answer.error().kind);
               }
-              print_out(describe(row->command, *answer) + "\n");
-              if (options.monitor && monitor(context, link, session, {}).lost)
+              const auto told =
+                  print_answer(context, options, row->command, *data, *answer, session);
+              if (told == ExitCode::Done && options.monitor &&
+                  monitor(context, link, session, {}, options.format).lost)
                 return ExitCode::LinkLost;
-              return ExitCode::Done;
+              return told;
             });
 }
 
@@ -73,12 +165,14 @@ void add_exec(CLI::App& app, Context& context) {
   auto* command = add_command(app, "exec", "send one command of the API and print the answer",
                               "orb exec --port /dev/rfcomm0 set-rgb-led 255 0 0\n"
                               "orb exec --port @red get-power-state\n"
-                              "orb exec ping");
+                              "orb exec perform-level-1-diagnostics\n"
+                              "orb exec get-power-state --format json");
   auto options = std::make_shared<Options>();
   command->add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
       ->required();
   command->add_option("ARGS", options->arguments, "its operands");
   add_port_options(*command, options->port);
+  add_format_option(*command, options->format);
   command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
   command->callback([&context, options] { run(context, *options); });
 }

@@ -1,5 +1,6 @@
 #include "base/utf8.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/link.h"
 #include "protocol/payload.h"
 #include "spec/firmware.h"
@@ -71,9 +72,47 @@ std::string power_text(ByteView power) {
                      fields.number("since charge").value_or(0));
 }
 
-void run(Context& context, const PortOptions& options) {
+Json versions_json(const uploader::Greeting& greeting) {
+  const Fields fields(ApiCommand::GetVersioning, greeting.versions);
+  const auto& firmware = greeting.firmware;
+  Json json{{"model", fields.number("model").value_or(0)},
+            {"hardware", fields.number("hardware").value_or(0)},
+            {"firmware", fmt::format("{}.{}", fields.number("firmware version").value_or(0),
+                                     fields.number("firmware revision").value_or(0))},
+            {"bootloader", fields.nibbles("bootloader")}};
+  if (firmware.has_basic)
+    json["orbBasic"] = {{"version", fields.nibbles("orbBasic")},
+                        {"ramBytes", firmware.ram_bytes},
+                        {"flashBytes", firmware.flash_bytes},
+                        {"commit", firmware.can_commit}};
+  json["macroExecutive"] = fields.nibbles("macro executive");
+  if (const auto major = fields.number("api major"))
+    json["api"] = fmt::format("{}.{}", *major, fields.number("api minor").value_or(0));
+  return json;
+}
+
+Json power_json(ByteView power) {
+  const Fields fields(ApiCommand::GetPowerState, power);
+  const auto state = static_cast<std::uint32_t>(fields.number("power state").value_or(0));
+  return {{"state", spec::value_name("power state", state)},
+          {"volts", static_cast<double>(fields.number("voltage").value_or(0)) / 100},
+          {"charges", fields.number("charges").value_or(0)},
+          {"secondsSinceCharge", fields.number("since charge").value_or(0)}};
+}
+
+/// The same as the text, as one document.
+Json info_json(const std::string& port, const uploader::Greeting& greeting) {
+  Json json{{"schema", "orb.info/1"}, {"port", port}};
+  json.update(versions_json(greeting));
+  if (greeting.power)
+    json["battery"] = power_json(*greeting.power);
+  return json;
+}
+
+void run(Context& context, const PortOptions& options, const std::string& format) {
   with_ball(context, options,
             [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
+              auto json = info_json(link.name, greeting);
               auto text = fmt::format("port      {}\n", link.name) + versions_text(greeting);
               if (greeting.power)
                 text += power_text(*greeting.power);
@@ -81,11 +120,16 @@ void run(Context& context, const PortOptions& options) {
                 const Fields fields(ApiCommand::GetBluetoothInfo, radio->data);
                 text += fmt::format("name      {}\naddress   {}\n", fields.text("name"),
                                     fields.text("address"));
+                json["name"] = fields.text("name");
+                json["address"] = fields.text("address");
               } else if (radio.error().kind != uploader::Report::Kind::Refused) {
                 print_error(context, radio.error().message);
                 return exit_code(radio.error().kind);
               }
-              print_out(text);
+              if (format == "json")
+                print_json(json);
+              else
+                print_out(text);
               return ExitCode::Done;
             });
 }
@@ -98,7 +142,9 @@ void add_info(CLI::App& app, Context& context) {
                               "orb info --port rfcomm://68:86:E7:00:11:22");
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
-  command->callback([&context, options] { run(context, *options); });
+  auto format = std::make_shared<std::string>("text");
+  add_format_option(*command, *format);
+  command->callback([&context, options, format] { run(context, *options, *format); });
 }
 
 } // namespace orb::cli

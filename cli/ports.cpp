@@ -1,6 +1,7 @@
 #include "cli/ports.h"
 
 #include "cli/commands.h"
+#include "cli/json.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -48,14 +49,23 @@ std::vector<Port> find_ports(const Config& config) {
 }
 
 void add_ports(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "ports", "list where a ball could be", "orb ports\norb ports --quiet");
-  command->callback([&context] {
-    const auto ports = find_ports(context.config);
+  auto* command = add_command(app, "ports", "list where a ball could be",
+                              "orb ports\norb ports --quiet\norb ports --format json");
+  auto format = std::make_shared<std::string>("text");
+  add_format_option(*command, *format);
+  command->callback([&context, format] {
+    auto ports = find_ports(context.config);
+    const bool none = ports.empty();
+    ports.push_back({"sim:", "a ball in this process"});
+    if (*format == "json") {
+      Json json{{"schema", "orb.ports/1"}, {"ports", Json::array()}};
+      for (const auto& port : ports)
+        json["ports"].push_back({{"url", port.url}, {"what", port.what}});
+      return print_json(json);
+    }
     for (const auto& port : ports)
       print_out(fmt::format("{:<16} {}\n", port.url, port.what));
-    print_out(fmt::format("{:<16} {}\n", "sim:", "a ball in this process"));
-    if (ports.empty())
+    if (none)
       print_note(context,
                  "no serial port was found; for a paired Sphero make one with `sudo rfcomm "
                  "bind 0 AA:BB:CC:DD:EE:FF 1`, or use its address: "
