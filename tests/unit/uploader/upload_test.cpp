@@ -172,7 +172,7 @@ TEST(Upload, StartsOverWhereARequestArrivedTwiceAndOneAnswerWasLost) {
 }
 
 TEST(Upload, GoesOnWithABallThatDoesNotCountAsItDoes) {
-  for (const std::uint32_t counts_per_packet : {0, 2}) {
+  for (const std::uint32_t counts_per_packet : {0U, 2U}) {
     ModelBall ball;
     ball.counts_per_packet = counts_per_packet;
     EXPECT_EQ(upload_program(ball, {sixty_lines(), Area::Ram, {}}).kind, Kind::Done);

@@ -43,7 +43,7 @@ private:
     mix_int(x.line);
     mix(spec::code(x.code));
   }
-  void take(const event::Led& x) { mix(x.color.red << 16 | x.color.green << 8 | x.color.blue); }
+  void take(const event::Led& x) { mix_int(x.color.red << 16 | x.color.green << 8 | x.color.blue); }
   void take(const event::BackLed& x) { mix_int(x.value); }
   void take(const event::Drive& x) {
     mix_int(x.roll.heading_deg);
