@@ -46,7 +46,8 @@ public:
     fold_branches();
     finish_tests();
     end_at_once();
-    count_labels();
+    while (remove_unreached())
+      ;
     std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
   }
 
@@ -346,6 +347,23 @@ private:
       line = last;
       line.origin = origin;
     }
+  }
+
+  /// Lines that nothing leads to since the jumps to them became what they led to.
+  bool remove_unreached() {
+    count_labels();
+    bool removed = false;
+    bool reached = true;
+    for (auto& line : code_.lines) {
+      reached = reached || line.kind == LineKind::Label;
+      if (!reached) {
+        line.kind = LineKind::Nothing;
+        removed = true;
+      } else if (line.kind != LineKind::Nothing) {
+        reached = falls(line);
+      }
+    }
+    return removed;
   }
 
   Code& code_;

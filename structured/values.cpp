@@ -593,6 +593,13 @@ private:
     constexpr std::size_t least_cases = 3;
     auto& line = code_.lines[i];
     const auto span = std::int64_t{chosen.hi} - chosen.lo + 1;
+    if (span == 1) {
+      for (auto n = line.parts_begin; n < line.parts_end; ++n)
+        if (code_.cases[n].lo <= chosen.lo && chosen.lo <= code_.cases[n].hi)
+          line.label = code_.cases[n].label;
+      line.kind = LineKind::Goto;
+      return;
+    }
     if (span > most_targets || line.parts_end - line.parts_begin < least_cases)
       return;
     const auto begin = static_cast<std::uint32_t>(code_.parts.size());

@@ -128,6 +128,12 @@ TEST(Lines, WhatIsComputedEarlyTakesAlongWhatStandsBeforeIt) {
             "1 B = dshake & 1\n2 A = 7 / dshake\n3 Y = rnd 3\n4 print B + A * Z\n");
 }
 
+TEST(Lines, AChoiceThatIsKnownIsNoChoice) {
+  EXPECT_EQ(lines("select 1\n  case 1\n    LEDC 1\n  case 2\n    LEDC 2\n  case 3\n    LEDC 3\n"
+                  "end select\nLEDC 4\n"),
+            "1 LEDC 1\n2 LEDC 4\n");
+}
+
 TEST(Lines, NegativeNumbersAreDifferences) {
   EXPECT_EQ(lines("locate -5, xpos + -3\n"), "1 locate 0-5,xpos - 3\n");
   EXPECT_EQ(lines("print xpos * -4\n"), "1 print xpos * (0-4)\n");
