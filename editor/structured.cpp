@@ -651,8 +651,9 @@ std::vector<Hint> hints(const Source& source, const LanguageOptions& options) {
   const auto end = compiled.program.files.front().end;
   for (const auto& [at, letter] : letters_of(compiled))
     if (at < end) {
-      const auto name = std::find_if(compiled.names.symbols.begin(), compiled.names.symbols.end(),
-                                     [&](const auto& symbol) { return symbol.span.begin == at; });
+      const auto name =
+          std::find_if(compiled.names.symbols.begin(), compiled.names.symbols.end(),
+                       [start = at](const auto& symbol) { return symbol.span.begin == start; });
       found.push_back({name->span.end, fmt::format(": {}", letter),
                        fmt::format("the robot's `{}` holds it", letter)});
     }

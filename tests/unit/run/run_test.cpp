@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "tests/random_program.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
