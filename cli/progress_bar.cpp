@@ -12,6 +12,8 @@ using uploader::Stage;
 using uploader::Status;
 
 constexpr int bar_width = 20; // columns
+/// Until a link has been watched so long, what it takes into its buffers says nothing of its speed.
+constexpr double least_seconds = 0.25;
 constexpr std::string_view clear_line = "\r\033[K";
 
 bool can_animate() {
@@ -28,10 +30,10 @@ double fraction(const Status& status) {
 } // namespace
 
 std::string describe_progress(const Status& status, Duration sending_for) {
-  auto text = fmt::format("{}/{} bytes, {}/{} packets", status.bytes_sent, status.bytes_total,
+  auto text = fmt::format("{}/{} bytes, {}/{} pieces", status.bytes_sent, status.bytes_total,
                           status.packets, std::max(status.packets, status.packets_total));
   const auto seconds = static_cast<double>(sending_for.count()) / 1e9;
-  if (status.bytes_sent > 0 && seconds > 0) {
+  if (status.bytes_sent > 0 && seconds >= least_seconds) {
     const auto rate = static_cast<double>(status.bytes_sent) / seconds; // bytes/s
     text += fmt::format(", {:.1f} kB/s", rate / 1000);
     if (status.bytes_sent < status.bytes_total)
