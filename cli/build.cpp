@@ -86,7 +86,7 @@ void build_structured(Context& context, const Options& options, const Source& so
   const auto target = options.target.target();
   DiskFiles files;
   const auto input = run::read_input(source.name(), std::string(source.text()), "structured",
-                                     target, run::Findings::None, files);
+                                     target, run::Lint::Off, files);
   if (!input)
     return fail(context, input.error());
   if (print_findings(context, *input)) {

@@ -28,9 +28,9 @@ constexpr std::string_view rfkill_folder = "/sys/class/rfkill";
 constexpr std::string_view adapters_folder = "/sys/class/bluetooth";
 
 /// Prints one finding a line, or gathers them for one JSON document, and knows whether one was bad.
-class Findings {
+class Checkup {
 public:
-  Findings(const Context& context, Json* json) : style_(context.out_style()), json_(json) {}
+  Checkup(const Context& context, Json* json) : style_(context.out_style()), json_(json) {}
 
   void good(std::string_view text) {
     if (json_ != nullptr)
@@ -62,100 +62,99 @@ std::string first_line(const fs::path& path) {
 }
 
 /// Whether a radio switch holds Bluetooth back.
-void check_rfkill(Findings& findings) {
+void check_rfkill(Checkup& checkup) {
   std::error_code error;
   for (fs::directory_iterator entry(rfkill_folder, error), end; !error && entry != end;
        entry.increment(error)) {
     if (first_line(entry->path() / "type") != "bluetooth")
       continue;
     if (first_line(entry->path() / "hard") == "1")
-      findings.bad("Bluetooth is switched off in hardware", "turn the radio switch on");
+      checkup.bad("Bluetooth is switched off in hardware", "turn the radio switch on");
     else if (first_line(entry->path() / "soft") == "1")
-      findings.bad("Bluetooth is blocked", "`rfkill unblock bluetooth`");
+      checkup.bad("Bluetooth is blocked", "`rfkill unblock bluetooth`");
     else
-      findings.good("no radio switch blocks Bluetooth");
+      checkup.good("no radio switch blocks Bluetooth");
   }
 }
 
-void check_bluetooth(Findings& findings) {
+void check_bluetooth(Checkup& checkup) {
   const auto handle = ::socket(AF_BLUETOOTH, SOCK_STREAM, rfcomm_protocol);
   if (handle < 0) {
-    findings.bad(
-        fmt::format("this system has no Bluetooth sockets: {}", std::strerror(errno)),
-        "`sudo modprobe rfcomm`; in a container use tcp:// and a relay on the host: `socat "
-        "FILE:/dev/rfcomm0,raw TCP-LISTEN:4242`");
+    checkup.bad(fmt::format("this system has no Bluetooth sockets: {}", std::strerror(errno)),
+                "`sudo modprobe rfcomm`; in a container use tcp:// and a relay on the host: `socat "
+                "FILE:/dev/rfcomm0,raw TCP-LISTEN:4242`");
     return;
   }
   ::close(handle);
-  findings.good("Bluetooth sockets are there");
+  checkup.good("Bluetooth sockets are there");
   std::error_code error;
   if (fs::is_empty(adapters_folder, error) || error)
-    findings.bad("there is no Bluetooth adapter", "plug one in; `bluetoothctl list` shows them");
-  check_rfkill(findings);
+    checkup.bad("there is no Bluetooth adapter", "plug one in; `bluetoothctl list` shows them");
+  check_rfkill(checkup);
 }
 
 /// Whether the node is there, is a device and may be opened; it is not opened here.
-bool check_node(Findings& findings, const Endpoint& endpoint) {
+bool check_node(Checkup& checkup, const Endpoint& endpoint) {
   struct stat status {};
   if (::stat(endpoint.path.c_str(), &status) != 0) {
-    findings.bad(fmt::format("{}: {}", endpoint.path, std::strerror(errno)),
-                 endpoint.scheme == Scheme::Pty
-                     ? "start a virtual ball: `orb ball --pty`"
-                     : "`orb ports` lists what there is; `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1` "
-                       "makes one for a paired ball");
+    checkup.bad(fmt::format("{}: {}", endpoint.path, std::strerror(errno)),
+                endpoint.scheme == Scheme::Pty
+                    ? "start a virtual ball: `orb ball --pty`"
+                    : "`orb ports` lists what there is; `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1` "
+                      "makes one for a paired ball");
     return false;
   }
   if (!S_ISCHR(status.st_mode)) {
-    findings.bad(fmt::format("{} is {}, not a device", endpoint.path,
-                             S_ISDIR(status.st_mode) ? "a directory" : "a file"),
-                 "give the path of a device; `orb ports` lists them");
+    checkup.bad(fmt::format("{} is {}, not a device", endpoint.path,
+                            S_ISDIR(status.st_mode) ? "a directory" : "a file"),
+                "give the path of a device; `orb ports` lists them");
     return false;
   }
-  findings.good(fmt::format("{} is a device", endpoint.path));
+  checkup.good(fmt::format("{} is a device", endpoint.path));
   if (::access(endpoint.path.c_str(), R_OK | W_OK) != 0) {
-    findings.bad(fmt::format("you may not read and write {}", endpoint.path),
-                 "`sudo usermod -aG dialout $USER`, then log in again");
+    checkup.bad(fmt::format("you may not read and write {}", endpoint.path),
+                "`sudo usermod -aG dialout $USER`, then log in again");
     return false;
   }
-  findings.good("you may read and write it");
+  checkup.good("you may read and write it");
   return true;
 }
 
 /// Opens the link and greets the ball.
-void check_ball(Context& context, Findings& findings, const PortOptions& options) {
+void check_ball(Context& context, Checkup& checkup, const PortOptions& options) {
   const InterruptGuard guard;
   auto link = open_link(context, options);
   if (!link) {
     if (link.error().code == ExitCode::Interrupted)
       return fail(context, link.error());
-    findings.bad("the link does not open", link.error().message);
+    checkup.bad("the link does not open", link.error().message);
     return;
   }
-  findings.good(fmt::format("{} opens", link->name));
+  checkup.good(fmt::format("{} opens", link->name));
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto greeting = uploader::greet(session);
   if (!greeting) {
     const auto code = exit_code(greeting.error().kind);
     if (code == ExitCode::Interrupted)
       return fail(context, {code, greeting.error().message});
-    findings.bad("no ball answers", greeting.error().message);
+    checkup.bad("no ball answers", greeting.error().message);
     return;
   }
-  findings.good("a ball answers");
+  checkup.good("a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
-    findings.good(fmt::format("{} stray bytes came before that, as real balls send them", noise));
+    checkup.good(fmt::format("{} stray bytes came before that, as real balls send them", noise));
   const auto state = greeting->power_state();
   if (state == spec::power_state::low || state == spec::power_state::critical)
-    findings.bad(fmt::format("its battery is {}", spec::value_name("power state", state)),
-                 "put it on the charger");
+    checkup.bad(fmt::format("its battery is {}", spec::value_name("power state", state)),
+                "put it on the charger");
   else if (state != 0)
-    findings.good(fmt::format("its battery is {}", spec::value_name("power state", state)));
+    checkup.good(fmt::format("its battery is {}", spec::value_name("power state", state)));
 }
 
 void run(Context& context, const PortOptions& options, const std::string& format) {
   auto list = Json::array();
   auto* const gathered = format == "json" ? &list : nullptr;
-  Findings findings(context, gathered);
+  Checkup checkup(context, gathered);
   const auto url = resolve_port(context.config, options.port);
   const auto endpoint =
       url ? uploader::parse_endpoint(*url)
@@ -165,12 +164,12 @@ void run(Context& context, const PortOptions& options, const std::string& format
   auto reachable = true;
   switch (endpoint->scheme) {
   case Scheme::Serial:
-  case Scheme::Pty: reachable = check_node(findings, *endpoint); break;
-  case Scheme::Rfcomm: check_bluetooth(findings); break;
+  case Scheme::Pty: reachable = check_node(checkup, *endpoint); break;
+  case Scheme::Rfcomm: check_bluetooth(checkup); break;
   case Scheme::Tcp:
   case Scheme::Replay: break;
   case Scheme::Sim: {
-    Findings system(context, gathered); // what is amiss here keeps nobody from the built-in ball
+    Checkup system(context, gathered); // what is amiss here keeps nobody from the built-in ball
     for (const auto& port : find_ports(context.config))
       system.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer",
                               port.url, port.what, port.url));
@@ -179,10 +178,10 @@ void run(Context& context, const PortOptions& options, const std::string& format
   }
   }
   if (reachable)
-    check_ball(context, findings, options);
+    check_ball(context, checkup, options);
   if (gathered != nullptr)
-    print_json({{"schema", "orb.doctor/1"}, {"healthy", findings.healthy()}, {"findings", list}});
-  if (!findings.healthy())
+    print_json({{"schema", "orb.doctor/1"}, {"healthy", checkup.healthy()}, {"findings", list}});
+  if (!checkup.healthy())
     context.exit = ExitCode::NoBall;
 }
 

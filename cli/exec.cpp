@@ -1,7 +1,7 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "cli/messages.h"
+#include "cli/monitor.h"
 #include "protocol/describe.h"
 #include "protocol/payload.h"
 

@@ -33,14 +33,14 @@ tl::expected<SourceFile, Failure> read_source(const std::string& path, std::stri
     return tl::unexpected(text.error());
   const auto language = run::language_of(path, lang);
   if (!language)
-    return tl::unexpected(run::unknown_form(disk::display_name(path)));
+    return tl::unexpected(run::unknown_content(disk::display_name(path)));
   return SourceFile{path, *language, Source(disk::display_name(path), *std::move(text))};
 }
 
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
                                                            std::string_view lang,
                                                            const compiler::Target& target,
-                                                           run::Findings findings) {
+                                                           run::Lint lint) {
   std::vector<run::Input> inputs;
   DiskFiles files;
   for (const auto& path : paths) {
@@ -48,7 +48,7 @@ tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std
     if (!text)
       return tl::unexpected(text.error());
     auto input =
-        run::read_input(disk::display_name(path), *std::move(text), lang, target, findings, files);
+        run::read_input(disk::display_name(path), *std::move(text), lang, target, lint, files);
     if (!input)
       return tl::unexpected(input.error());
     run::add_input(inputs, *std::move(input));

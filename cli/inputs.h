@@ -40,7 +40,7 @@ tl::expected<SourceFile, Failure> read_source(const std::string& path, std::stri
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
                                                            std::string_view lang,
                                                            const compiler::Target& target,
-                                                           run::Findings findings);
+                                                           run::Lint lint);
 
 /// Adds `--stimulus`, a script or a line of one, which may be given several times.
 void add_stimulus_option(CLI::App& command, std::vector<std::string>& stimuli);

@@ -73,7 +73,7 @@ std::string describe(const CLI::App& app, const std::string& word) {
   }
   if (command != nullptr)
     return fmt::format("`{}` is an extra word for {}", word, whom);
-  if (orb::run::form_of(word, ""))
+  if (orb::run::content_of(word, ""))
     return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
   return fmt::format("`{}` is not a command of orb{}", word,
                      meant_instead(word, command_names(app)));

@@ -3,7 +3,7 @@
 #include "cli/browser.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/messages.h"
+#include "cli/monitor.h"
 #include "cli/options.h"
 #include "cli/target.h"
 #include "cli/watch.h"
@@ -15,7 +15,6 @@
 #include "run/want.h"
 #include "spec/firmware.h"
 
-#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -82,7 +81,7 @@ public:
       trace_->add(t, event);
   }
 
-  void on_fault(Duration t, const run::Fault& fault) override {
+  void on_fault(Duration t, const run::ProgramError& fault) override {
     if (!trace_)
       return;
     const auto& cause = fault.cause;
@@ -127,10 +126,8 @@ private:
   /// Where the robot's lines stand in a program whose source has no numbers.
   static report::LinePlaces places(const std::vector<run::Input>& inputs) {
     report::LinePlaces places;
-    const auto first = std::find_if(inputs.begin(), inputs.end(), [](const run::Input& input) {
-      return input.program.has_value();
-    });
-    if (first != inputs.end() && first->program->compiled)
+    const auto* first = run::first_with_program(inputs);
+    if (first != nullptr && first->program->compiled)
       for (const auto& entry : first->program->lines.places)
         places.emplace(static_cast<int>(entry.first), first->program->lines.words(entry.first));
     return places;
@@ -298,8 +295,7 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   auto options = read_options(context, given);
   if (!options)
     return tl::unexpected(options.error());
-  const auto inputs =
-      read_inputs(given.files, given.language, options->target, run::Findings::None);
+  const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
   if (!inputs)
     return tl::unexpected(inputs.error());
   for (const auto& input : *inputs)
@@ -369,6 +365,82 @@ void run_and_watch(Context& context, const RunOptions& options) {
       });
 }
 
+/// Runs once or at every change, and sees to the page that its options ask for.
+void run_with_report(Context& context, RunOptions& options) {
+  if (options.open && options.report == "-")
+    return fail(context,
+                {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` out"});
+  const bool temporary = options.open && options.report.empty();
+  if (temporary) {
+    auto report = temporary_report(options.files.front());
+    if (!report)
+      return fail(context, report.error());
+    options.report = *std::move(report);
+  }
+  if (!options.compare.empty() && options.report.empty())
+    return fail(context, {ExitCode::Usage,
+                          "`--compare` shows a report; add `--report OUT.html` or `--open`"});
+  (options.watch ? run_and_watch : run_and_report)(context, options);
+  if (std::error_code not_empty; temporary)
+    std::filesystem::remove(std::filesystem::path(options.report).parent_path(), not_empty);
+}
+
+void add_program_options(CLI::App& command, RunOptions& options) {
+  command.add_option("FILE", options.files, "programs and macros; the first one runs")->required();
+  add_language_option(command, options.language);
+  command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")
+      ->capture_default_str();
+  command.add_option("--line", options.run.line,
+                     "the line to start at; else the first of the file");
+  command.add_option("--seed", options.run.seed, "seeds all that is random")->capture_default_str();
+  command.add_option(
+      "--input", options.input,
+      "numbers for `input`, with commas between; @stdin reads them as they are asked");
+  command.add_flag("--disconnected", options.disconnected, "no client is connected");
+  command.add_option("--expect", options.run.expect,
+                     "text that must be printed; ends the run, exit 0; never printed: exit 1");
+  command.add_option("--fail-text", options.run.fail_text,
+                     "text that must not be printed; ends the run, exit 1");
+}
+
+void add_robot_options(CLI::App& command, RunOptions& options) {
+  add_target_options(command, options.target);
+  std::vector<std::string> names;
+  for (const auto& row : spec::firmwares)
+    names.emplace_back(row.name);
+  command.add_option("--firmware", options.firmware, "the firmware that is simulated")
+      ->check(one_of(std::move(names)))
+      ->capture_default_str();
+  add_stimulus_option(command, options.stimuli);
+  command
+      .add_option("--lines-per-second", options.run.lines_per_second,
+                  "how fast the robot's interpreter is, 1 to 1000000000")
+      ->check(CLI::Range(1u, 1'000'000'000u))
+      ->capture_default_str();
+  command
+      .add_option("--native", options.native,
+                  "when programs become machine code: auto (once they have run for long), on (at "
+                  "once) or off")
+      ->check(one_of({"auto", "on", "off"}))
+      ->capture_default_str();
+  command.add_flag("--realtime", options.realtime, "takes as long as the robot would");
+}
+
+void add_output_options(CLI::App& command, RunOptions& options) {
+  command.add_option("--trace", options.trace, "every event as a line, in place of the output")
+      ->check(one_of({"json", "csv"}));
+  command.add_flag("--trace-lines", options.run.trace_lines,
+                   "the trace has every executed line, too");
+  command.add_option("--trace-out", options.trace_out, "the file for the trace");
+  command.add_option("--report", options.report, "writes a page that plays the run back");
+  command.add_flag("--open", options.open,
+                   "opens that page in a browser; without --report, a temporary one");
+  command.add_option("--compare", options.compare,
+                     "shows the run of another such page beside this one");
+  command.add_option("--svg", options.svg, "draws the path");
+  command.add_flag("--watch", options.watch, "runs again whenever a file changes");
+}
+
 } // namespace
 
 void add_run(CLI::App& app, Context& context) {
@@ -379,74 +451,10 @@ void add_run(CLI::App& app, Context& context) {
                   "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
                   "maze.svg\norb run dance.bas waltz.sphero --expect done");
   auto options = std::make_shared<RunOptions>();
-  command->add_option("FILE", options->files, "programs and macros; the first one runs")
-      ->required();
-  add_language_option(*command, options->language);
-  command->add_option("--for", options->time, "robot time after which the run is stopped; 0: never")
-      ->capture_default_str();
-  command->add_option("--line", options->run.line,
-                      "the line to start at; else the first of the file");
-  command->add_option("--seed", options->run.seed, "seeds all that is random")
-      ->capture_default_str();
-  command->add_option(
-      "--input", options->input,
-      "numbers for `input`, with commas between; @stdin reads them as they are asked");
-  command->add_flag("--disconnected", options->disconnected, "no client is connected");
-  add_target_options(*command, options->target);
-  std::vector<std::string> names;
-  for (const auto& row : spec::firmwares)
-    names.emplace_back(row.name);
-  command->add_option("--firmware", options->firmware, "the firmware that is simulated")
-      ->check(one_of(std::move(names)))
-      ->capture_default_str();
-  add_stimulus_option(*command, options->stimuli);
-  command
-      ->add_option("--lines-per-second", options->run.lines_per_second,
-                   "how fast the robot's interpreter is, 1 to 1000000000")
-      ->check(CLI::Range(1u, 1'000'000'000u))
-      ->capture_default_str();
-  command
-      ->add_option("--native", options->native,
-                   "when programs become machine code: auto (once they have run for long), on (at "
-                   "once) or off")
-      ->check(one_of({"auto", "on", "off"}))
-      ->capture_default_str();
-  command->add_option("--trace", options->trace, "every event as a line, in place of the output")
-      ->check(one_of({"json", "csv"}));
-  command->add_flag("--trace-lines", options->run.trace_lines,
-                    "the trace has every executed line, too");
-  command->add_option("--trace-out", options->trace_out, "the file for the trace");
-  command->add_option("--report", options->report, "writes a page that plays the run back");
-  command->add_flag("--open", options->open,
-                    "opens that page in a browser; without --report, a temporary one");
-  command->add_option("--compare", options->compare,
-                      "shows the run of another such page beside this one");
-  command->add_option("--svg", options->svg, "draws the path");
-  command->add_option("--expect", options->run.expect,
-                      "text that must be printed; ends the run, exit 0; never printed: exit 1");
-  command->add_option("--fail-text", options->run.fail_text,
-                      "text that must not be printed; ends the run, exit 1");
-  command->add_flag("--realtime", options->realtime, "takes as long as the robot would");
-  command->add_flag("--watch", options->watch, "runs again whenever a file changes");
-  command->callback([&context, options] {
-    if (options->open && options->report == "-")
-      return fail(context,
-                  {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` "
-                                    "out"});
-    const bool temporary = options->open && options->report.empty();
-    if (temporary) {
-      auto report = temporary_report(options->files.front());
-      if (!report)
-        return fail(context, report.error());
-      options->report = *std::move(report);
-    }
-    if (!options->compare.empty() && options->report.empty())
-      return fail(context, {ExitCode::Usage,
-                            "`--compare` shows a report; add `--report OUT.html` or `--open`"});
-    (options->watch ? run_and_watch : run_and_report)(context, *options);
-    if (std::error_code not_empty; temporary)
-      std::filesystem::remove(std::filesystem::path(options->report).parent_path(), not_empty);
-  });
+  add_program_options(*command, *options);
+  add_robot_options(*command, *options);
+  add_output_options(*command, *options);
+  command->callback([&context, options] { run_with_report(context, *options); });
 }
 
 } // namespace orb::cli

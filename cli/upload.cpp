@@ -4,7 +4,7 @@
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/link.h"
-#include "cli/messages.h"
+#include "cli/monitor.h"
 #include "cli/options.h"
 #include "cli/progress_bar.h"
 #include "cli/target.h"
@@ -44,7 +44,7 @@ ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
 tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
                                                         const Options& options) {
   auto inputs = read_inputs(options.files, options.lang, options.target.target(),
-                            options.no_check ? run::Findings::None : run::Findings::Lint);
+                            options.no_check ? run::Lint::Off : run::Lint::On);
   if (!inputs)
     return inputs;
   bool errors = false;
@@ -160,10 +160,8 @@ ExitCode dry_run(const Context& context, const Options& options,
 }
 
 Lookup lookup_of(const std::vector<run::Input>& inputs) {
-  for (const auto& input : inputs)
-    if (input.program)
-      return {input.program->lines, &input};
-  return {};
+  const auto* first = run::first_with_program(inputs);
+  return first == nullptr ? Lookup{} : Lookup{first->program->lines, first};
 }
 
 /// Tells how it ended, and watches what runs where that was asked for.

@@ -269,9 +269,9 @@ std::optional<Stopped> where(const vm::Machine& machine, BasicError error) {
 
 // --- words --------------------------------------------------------------------------------------
 
-std::string allowed(const Suspect& suspect) {
-  return suspect.greatest >= unbounded ? fmt::format("{} or more", suspect.least)
-                                       : fmt::format("{} to {}", suspect.least, suspect.greatest);
+std::string range(std::int64_t least, std::int64_t greatest) {
+  return greatest >= unbounded ? fmt::format("{} or more", least)
+                               : fmt::format("{} to {}", least, greatest);
 }
 
 class Teller {
@@ -376,7 +376,8 @@ private:
     cause.value = value;
     cause.least = suspect.least;
     cause.greatest = suspect.greatest;
-    cause.seen = fmt::format("{} is {}, {} allowed", suspect.name, value, allowed(suspect));
+    cause.seen = fmt::format("{} is {}, {} allowed", suspect.name, value,
+                             range(suspect.least, suspect.greatest));
     if (suspect.turns && !is_written_out(suspect)) {
       const auto use = turned(suspect, value < 0);
       cause.seen += fmt::format("; use {}", use);
@@ -425,9 +426,10 @@ private:
                             ? fmt::format("`{}`", suspect.name)
                             : fmt::format("{} `{}`", suspect.name, text(suspect.root));
       cause.seen += cause.seen.empty() ? "" : ", or ";
-      cause.seen += suspect.kind == Kind::Divisor || suspect.kind == Kind::Step
-                        ? fmt::format("{} was 0", what)
-                        : fmt::format("{} was not {}", what, allowed(suspect));
+      cause.seen +=
+          suspect.kind == Kind::Divisor || suspect.kind == Kind::Step
+              ? fmt::format("{} was 0", what)
+              : fmt::format("{} was not {}", what, range(suspect.least, suspect.greatest));
     }
     if (suspects.size() != 1)
       return cause;
@@ -559,7 +561,7 @@ Cause cause_of(const compiler::Program& program, const compiler::Line& line, Bas
 namespace {
 
 /// Takes over what the linter says of the line, where it knows that it stops the program so.
-void add_finding(Fault& fault, const Source& source, std::string_view text,
+void add_finding(ProgramError& fault, const Source& source, std::string_view text,
                  const compiler::Target& target) {
   const auto checked = compiler::check(text, target);
   const auto found = std::find_if(checked.diagnostics.begin(), checked.diagnostics.end(),
@@ -580,8 +582,8 @@ Cause without_letters(const Cause& cause) {
   Cause kept = cause;
   kept.variables.clear();
   kept.help.clear();
-  kept.seen = fmt::format("{} is {}, {} to {} allowed", cause.parameter, *cause.value, *cause.least,
-                          *cause.greatest);
+  kept.seen = fmt::format("{} is {}, {} allowed", cause.parameter, *cause.value,
+                          range(*cause.least, *cause.greatest));
   return kept;
 }
 
@@ -593,7 +595,7 @@ const compiler::Line* find_line(const compiler::Program& program, std::uint32_t 
 }
 
 /// Where a fault is in a structured program.
-void put_place(Fault& fault, const LineMap& lines) {
+void put_place(ProgramError& fault, const LineMap& lines) {
   fault.file = lines.files.front();
   const auto place = lines.places.find(fault.robot_line);
   if (place == lines.places.end())
@@ -604,10 +606,10 @@ void put_place(Fault& fault, const LineMap& lines) {
 
 } // namespace
 
-Fault explain(const Input& input, const compiler::Target& target, int robot_line, BasicError code,
-              const vm::Machine* machine) {
+ProgramError explain(const Input& input, const compiler::Target& target, int robot_line,
+                     BasicError code, const vm::Machine* machine) {
   const auto& program = input.program->parsed;
-  Fault fault;
+  ProgramError fault;
   fault.robot_line = static_cast<std::uint32_t>(robot_line);
   fault.numbered = input.program->compiled == nullptr;
   fault.code = code;

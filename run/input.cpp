@@ -13,18 +13,18 @@
 namespace orb::run {
 namespace {
 
-struct Ending {
+struct FileEnding {
   std::string_view text;
-  Form form;
+  Content content;
 };
 
-constexpr auto endings = std::to_array<Ending>({
-    {".bas", Form::Basic},
-    {".orbbas", Form::Basic},
-    {".orb", Form::Structured},
-    {".macro", Form::MacroSource},
-    {".sphero", Form::MacroBody},
-    {".bin", Form::MacroImage},
+constexpr auto endings = std::to_array<FileEnding>({
+    {".bas", Content::Basic},
+    {".orbbas", Content::Basic},
+    {".orb", Content::Structured},
+    {".macro", Content::MacroSource},
+    {".sphero", Content::MacroBody},
+    {".bin", Content::MacroImage},
 });
 
 bool is_built(std::string_view text) {
@@ -38,10 +38,10 @@ std::string stem(std::string_view name) {
   return std::string(dot == 0 ? name : name.substr(0, dot));
 }
 
-void read_program(Input& input, const compiler::Target& target, Findings findings) {
+void read_program(Input& input, const compiler::Target& target, Lint lint) {
   auto checked = compiler::check(input.source->text(), target);
   // A file that is not a program at all (empty, binary, huge) is of no use, linted or not.
-  if (findings == Findings::Lint || !checked.image_bytes)
+  if (lint == Lint::On || !checked.image_bytes)
     input.findings = std::move(checked.diagnostics);
   auto image = compiler::build_image(checked.program, compiler::Packing::Plain);
   if (is_built(input.source->text()))
@@ -50,7 +50,7 @@ void read_program(Input& input, const compiler::Target& target, Findings finding
   input.program = Program{std::move(checked.program), std::move(image), std::move(lines), nullptr};
 }
 
-void read_macro_source(Input& input, Findings findings) {
+void read_macro_source(Input& input, Lint lint) {
   auto assembly = assembler::assemble(*input.source);
   for (const auto& macro : assembly.macros) {
     Macro read{macro.name.empty() ? stem(input.source->name()) : macro.name,
@@ -61,8 +61,8 @@ void read_macro_source(Input& input, Findings findings) {
       read.command_lines.push_back(input.source->position(command.span.begin).line);
     input.macros.push_back(std::move(read));
   }
-  input.findings = findings == Findings::Lint ? assembler::check(*input.source)
-                                              : std::move(assembly.diagnostics);
+  input.findings =
+      lint == Lint::On ? assembler::check(*input.source) : std::move(assembly.diagnostics);
 }
 
 bool is_error(const Diagnostic& diagnostic) {
@@ -74,8 +74,8 @@ bool any_error(const std::vector<Diagnostic>& findings) {
 }
 
 /// Without the linter only what keeps a program from becoming lines is told.
-std::vector<Diagnostic> told(std::vector<Diagnostic> found, Findings findings) {
-  if (findings == Findings::None)
+std::vector<Diagnostic> told(std::vector<Diagnostic> found, Lint lint) {
+  if (lint == Lint::Off)
     std::erase_if(found, [](const Diagnostic& one) { return !is_error(one); });
   return found;
 }
@@ -84,23 +84,23 @@ std::vector<Diagnostic> told(std::vector<Diagnostic> found, Findings findings) {
 Input used_macros(const structured::MacroFile& file) {
   Input used;
   used.source = std::make_unique<Source>(file.path, file.text);
-  read_macro_source(used, Findings::None);
+  read_macro_source(used, Lint::Off);
   std::erase_if(used.macros, [](const Macro& macro) { return !macro.has_id; });
   return used;
 }
 
-void read_structured(Input& input, const compiler::Target& target, Findings findings,
+void read_structured(Input& input, const compiler::Target& target, Lint lint,
                      structured::Files& files) {
   const auto& name = input.source->name();
   auto compiled = std::make_unique<structured::Compiled>(
       structured::compile(name, name, input.source->text(), target, files));
   auto found = structured::findings_by_file(compiled->program);
-  input.findings = told(std::move(found.front()), findings);
+  input.findings = told(std::move(found.front()), lint);
   for (std::size_t i = 1; i < found.size(); ++i) {
     const auto& file = compiled->program.files[i];
     auto text = compiled->program.text.substr(file.begin, file.end - file.begin);
-    input.included.push_back({std::make_unique<Source>(file.name, std::move(text)),
-                              told(std::move(found[i]), findings)});
+    input.included.push_back(
+        {std::make_unique<Source>(file.name, std::move(text)), told(std::move(found[i]), lint)});
   }
   if (compiled->has_errors())
     return;
@@ -117,14 +117,14 @@ void read_structured(Input& input, const compiler::Target& target, Findings find
       Program{std::move(parsed), std::move(image), std::move(lines), std::move(compiled)};
 }
 
-tl::expected<void, Failure> read_macro_bytes(Input& input, Form form) {
+tl::expected<void, Failure> read_macro_bytes(Input& input, Content content) {
   const auto wrong = [&](const protocol::MacroError& error) {
     return tl::unexpected(Failure{ExitCode::BadInput, fmt::format("{}: {}", input.source->name(),
                                                                   protocol::to_string(error))});
   };
   const auto bytes = as_bytes(input.source->text());
-  Macro macro{stem(input.source->name()), {}, form == Form::MacroImage, {}};
-  if (form == Form::MacroImage) {
+  Macro macro{stem(input.source->name()), {}, content == Content::MacroImage, {}};
+  if (content == Content::MacroImage) {
     auto image = protocol::decode_macro(bytes);
     if (!image)
       return wrong(image.error());
@@ -142,32 +142,32 @@ tl::expected<void, Failure> read_macro_bytes(Input& input, Form form) {
 
 } // namespace
 
-std::optional<Form> form_of(std::string_view name, std::string_view language) {
+std::optional<Content> content_of(std::string_view name, std::string_view language) {
   const auto ending = std::find_if(endings.begin(), endings.end(),
-                                   [&](const Ending& row) { return name.ends_with(row.text); });
-  const bool macro_bytes = ending != endings.end() &&
-                           (ending->form == Form::MacroBody || ending->form == Form::MacroImage);
+                                   [&](const FileEnding& row) { return name.ends_with(row.text); });
+  const bool macro_bytes = ending != endings.end() && (ending->content == Content::MacroBody ||
+                                                       ending->content == Content::MacroImage);
   if (language == "basic")
-    return Form::Basic;
+    return Content::Basic;
   if (language == "structured")
-    return Form::Structured;
+    return Content::Structured;
   if (language == "macro" && !macro_bytes)
-    return Form::MacroSource;
-  return ending == endings.end() ? std::nullopt : std::optional(ending->form);
+    return Content::MacroSource;
+  return ending == endings.end() ? std::nullopt : std::optional(ending->content);
 }
 
 std::optional<Language> language_of(std::string_view name, std::string_view language) {
-  const auto form = form_of(name, language);
-  if (form == Form::Basic)
+  const auto content = content_of(name, language);
+  if (content == Content::Basic)
     return Language::Basic;
-  if (form == Form::Structured)
+  if (content == Content::Structured)
     return Language::Structured;
-  if (form == Form::MacroSource)
+  if (content == Content::MacroSource)
     return Language::Macro;
   return std::nullopt;
 }
 
-Failure unknown_form(std::string_view name) {
+Failure unknown_content(std::string_view name) {
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} by its name; give "
                                        "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};
@@ -193,23 +193,29 @@ bool Input::has_errors() const {
 
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Findings findings, structured::Files& files) {
-  const auto form = form_of(name, language);
-  if (!form && !is_built(text))
-    return tl::unexpected(unknown_form(name));
+                                        Lint lint, structured::Files& files) {
+  const auto content = content_of(name, language);
+  if (!content && !is_built(text))
+    return tl::unexpected(unknown_content(name));
   Input input;
   input.source = std::make_unique<Source>(std::move(name), std::move(text));
-  switch (form.value_or(Form::Basic)) {
-  case Form::Basic: read_program(input, target, findings); break;
-  case Form::Structured: read_structured(input, target, findings, files); break;
-  case Form::MacroSource: read_macro_source(input, findings); break;
-  case Form::MacroBody:
-  case Form::MacroImage:
-    if (auto read = read_macro_bytes(input, *form); !read)
+  switch (content.value_or(Content::Basic)) {
+  case Content::Basic: read_program(input, target, lint); break;
+  case Content::Structured: read_structured(input, target, lint, files); break;
+  case Content::MacroSource: read_macro_source(input, lint); break;
+  case Content::MacroBody:
+  case Content::MacroImage:
+    if (auto read = read_macro_bytes(input, *content); !read)
       return tl::unexpected(read.error());
     break;
   }
   return input;
+}
+
+const Input* first_with_program(std::span<const Input> inputs) {
+  const auto found = std::find_if(inputs.begin(), inputs.end(),
+                                  [](const Input& one) { return one.program.has_value(); });
+  return found == inputs.end() ? nullptr : &*found;
 }
 
 tl::expected<void, Failure> check_start_line(const std::vector<Input>& inputs,

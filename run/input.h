@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -26,7 +27,7 @@ namespace orb::run {
 enum class Language : std::uint8_t { Basic, Structured, Macro };
 
 /// What a file holds.
-enum class Form : std::uint8_t {
+enum class Content : std::uint8_t {
   Basic,       ///< an orbBasic program: source, or a built image with its final NUL
   Structured,  ///< a program in structured orbBasic
   MacroSource, ///< macro source
@@ -36,14 +37,14 @@ enum class Form : std::uint8_t {
 
 /// What the ending of `name` says, or `language` (`basic`, `structured`, `macro` or empty), which
 /// is stronger.
-std::optional<Form> form_of(std::string_view name, std::string_view language);
+std::optional<Content> content_of(std::string_view name, std::string_view language);
 
 /// The language of a source, by the same rule; nothing where the file holds bytes or cannot be
 /// told.
 std::optional<Language> language_of(std::string_view name, std::string_view language);
 
 /// That the form of `name` cannot be told: code 2, and what to add.
-Failure unknown_form(std::string_view name);
+Failure unknown_content(std::string_view name);
 
 /// A program as it goes to a ball.
 struct Program {
@@ -86,14 +87,17 @@ struct Input {
 };
 
 /// What is said about a source besides that it can be used at all.
-enum class Findings : std::uint8_t { Lint, None };
+enum class Lint : std::uint8_t { On, Off };
 
 /// Reads the content of the file `name`. Bytes that are not a macro are a failure; mistakes of a
 /// source are findings. A name that says nothing will do where the text is a built image. What a
 /// structured program names is read through `files`, its paths counting from `name`.
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Findings findings, structured::Files& files);
+                                        Lint lint, structured::Files& files);
+
+/// The first input that holds a program; null where none does.
+const Input* first_with_program(std::span<const Input> inputs);
 
 /// Refuses a line to start at where the program is structured: its lines have no numbers.
 tl::expected<void, Failure> check_start_line(const std::vector<Input>& inputs,

@@ -116,7 +116,7 @@ public:
            : expected_.seen() ? Sought::Expected
                               : Sought::Nothing;
   }
-  const std::vector<Fault>& faults() const { return faults_; }
+  const std::vector<ProgramError>& faults() const { return faults_; }
   std::optional<vm::event::End::Reason> end() const { return end_; }
   const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
   std::uint64_t lines() const { return lines_; }
@@ -155,7 +155,7 @@ private:
   }
 
   /// The error with what the source and the machine, which still stands there, say of it.
-  const Fault& add_fault(const vm::event::Error& error) {
+  const ProgramError& add_fault(const vm::event::Error& error) {
     const bool first = ball_->basic_area() == target_.area || load_.programs.size() < 2;
     return faults_.emplace_back(run::explain(*load_.programs[first ? 0 : 1].input, target_,
                                              error.line, error.code, &ball_->machine()));
@@ -185,7 +185,7 @@ private:
   report::Journey* journey_;
   Search expected_;
   Search forbidden_;
-  std::vector<Fault> faults_;
+  std::vector<ProgramError> faults_;
   std::optional<vm::event::End::Reason> end_;
   std::optional<vm::event::MacroEnd> macro_end_;
   std::uint64_t lines_ = 0;
@@ -300,13 +300,12 @@ Started start_program(const Program& program, const Options& options, vm::Ball& 
 }
 
 /// Why the ball does not start what it was given.
-Failure refusal(const Load& load, const Options& options, const vm::Ball& ball) {
+Failure refusal(const Load& load, const Options& options) {
   if (!load.programs.empty())
     return {ExitCode::Refused, fmt::format("the ball does not run the program: its firmware {} "
                                            "has no orbBasic; choose another with `--firmware`",
                                            spec::info(options.firmware).name)};
   const auto& macro = *load.macros.front();
-  static_cast<void>(ball);
   if (options.client == Client::Connected &&
       (macro.image.flags & static_cast<std::uint8_t>(spec::MacroFlag::InhIfConn)) != 0)
     return {ExitCode::Refused,
@@ -382,17 +381,11 @@ Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
   return Reason::End;
 }
 
-const Program& first_program(std::span<const Input> inputs) {
-  return *std::find_if(inputs.begin(), inputs.end(), [](const Input& input) {
-            return input.program.has_value();
-          })->program;
-}
-
 /// What a run that came to no end by itself waits for.
 std::string waits_for(Reason reason, std::span<const Input> inputs, const Options& options,
                       const vm::Ball& ball) {
   if (reason == Reason::Input)
-    return fmt::format("a number in {}", first_program(inputs).where(
+    return fmt::format("a number in {}", first_with_program(inputs)->program->where(
                                              static_cast<std::uint32_t>(ball.machine().line())));
   const auto found = reason == Reason::TimeLimit ? want(inputs, options) : std::nullopt;
   return found ? std::string(found->what) : std::string();
@@ -488,7 +481,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   if (started == Started::Yes)
     live(ball, watcher, listener, answer, limit, options.slice);
   if (started == Started::Refused || answer.refused())
-    return tl::unexpected(refusal(load, options, ball));
+    return tl::unexpected(refusal(load, options));
 
   Ending ending;
   ending.reason = reason_of(ball, watcher, limit);

@@ -50,7 +50,7 @@ struct Options {
 };
 
 /// A fault of the robot and where it is in the user's file.
-struct Fault {
+struct ProgramError {
   std::uint32_t robot_line = 0;
   bool numbered = true; ///< the source has such numbers
   spec::BasicError code{};
@@ -63,8 +63,8 @@ struct Fault {
 
 /// What is known of a fault in a program from its source, and from the machine that stopped there
 /// where that is not null.
-Fault explain(const Input& input, const compiler::Target& target, int robot_line,
-              spec::BasicError code, const vm::Machine* machine);
+ProgramError explain(const Input& input, const compiler::Target& target, int robot_line,
+                     spec::BasicError code, const vm::Machine* machine);
 
 /// Hears a run while it goes on. Times count from its start.
 class Listener {
@@ -72,7 +72,7 @@ public:
   virtual ~Listener() = default;
   virtual void on_event(Duration t, const vm::Event& event) = 0;
   /// The program stopped with an error; on_event() does not hear of it.
-  virtual void on_fault(Duration t, const Fault& fault) = 0;
+  virtual void on_fault(Duration t, const ProgramError& fault) = 0;
   /// The run has reached `t`, which for --realtime is the moment to wait.
   virtual void on_time(Duration) {}
   /// `input` waits and no number is left; nothing when there will be none.
@@ -103,7 +103,7 @@ struct Ending {
   Reason reason = Reason::End;
   Duration lasted{};
   std::uint64_t lines = 0;
-  std::vector<Fault> faults;
+  std::vector<ProgramError> faults;
   std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
   Sight sight;

@@ -15,7 +15,7 @@ bool is_one_of(const vm::Stimulus& event) {
 }
 
 /// A sensor that only the world or a client changes, and the line of a stimulus script that does.
-struct Cause {
+struct Sensor {
   spec::Variable variable;
   std::string_view what;
   std::string_view lack;
@@ -26,7 +26,7 @@ struct Cause {
 constexpr auto feels =
     is_one_of<vm::Wall, stimulus::Push, stimulus::Shake, stimulus::Toss, stimulus::Tilt>;
 
-constexpr auto causes = std::to_array<Cause>({
+constexpr auto sensors = std::to_array<Sensor>({
     {spec::Variable::Dshake, "a shake", "nobody shakes this ball", "at 2s shake",
      is_one_of<stimulus::Shake>},
     {spec::Variable::Cmdroll, "a roll of the client", "no client drives this ball",
@@ -78,15 +78,15 @@ std::optional<Want> sensor(const Program& of, const Options& options) {
   for (const auto& node : program.nodes) {
     if (node.kind != compiler::NodeKind::System)
       continue;
-    const auto cause = std::find_if(causes.begin(), causes.end(), [&](const auto& candidate) {
+    const auto read = std::find_if(sensors.begin(), sensors.end(), [&](const auto& candidate) {
       return node.what == static_cast<std::uint8_t>(candidate.variable);
     });
-    if (cause == causes.end() || comes(options, cause->brings))
+    if (read == sensors.end() || comes(options, read->brings))
       continue;
     const auto line = line_at(program, node.span.begin);
-    return Want{line, cause->what,
+    return Want{line, read->what,
                 fmt::format("{} reads `{}`, and {}; add `--stimulus '{}'`", of.where(line),
-                            program.text_of(node.span), cause->lack, cause->line)};
+                            program.text_of(node.span), read->lack, read->line)};
   }
   return std::nullopt;
 }
@@ -94,9 +94,8 @@ std::optional<Want> sensor(const Program& of, const Options& options) {
 } // namespace
 
 std::optional<Want> want(std::span<const Input> inputs, const Options& options) {
-  const auto input = std::find_if(inputs.begin(), inputs.end(),
-                                  [](const Input& one) { return one.program.has_value(); });
-  if (input == inputs.end())
+  const auto* input = first_with_program(inputs);
+  if (input == nullptr)
     return std::nullopt;
   const auto& program = *input->program;
   auto found = number(program, options);

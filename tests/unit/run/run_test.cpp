@@ -17,7 +17,7 @@ public:
     ran += std::holds_alternative<vm::event::Line>(event) ||
            std::holds_alternative<vm::event::Macro>(event);
   }
-  void on_fault(Duration, const Fault&) override {}
+  void on_fault(Duration, const ProgramError&) override {}
   int ran = 0;
 };
 
@@ -59,11 +59,11 @@ tl::expected<Input, Failure> random_input(Random& random, const compiler::Target
     style.lines = 1 + static_cast<int>(random.below(8));
     style.broken = 0.2;
     return read_input("a.bas", testing::RandomProgram(random.next(), style).write(), "", target,
-                      Findings::None, files);
+                      Lint::Off, files);
   }
-  case 1: return read_input("a.sphero", random_bytes(random), "", target, Findings::None, files);
-  case 2: return read_input("a.bin", random_bytes(random), "", target, Findings::None, files);
-  default: return read_input("a.macro", random_macros(random), "", target, Findings::None, files);
+  case 1: return read_input("a.sphero", random_bytes(random), "", target, Lint::Off, files);
+  case 2: return read_input("a.bin", random_bytes(random), "", target, Lint::Off, files);
+  default: return read_input("a.macro", random_macros(random), "", target, Lint::Off, files);
   }
 }
 

@@ -13,7 +13,7 @@ struct Watched {
 };
 
 /// Prints a fault of the robot to stderr: where it is, which value it was, the line to write.
-void print_fault(const Context& context, const run::Fault& fault);
+void print_fault(const Context& context, const run::ProgramError& fault);
 
 /// Where the faults of a program on a ball are looked up.
 struct Lookup {
