@@ -8,6 +8,7 @@
 #include "spec/firmware.h"
 
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 
 namespace orb::cli {
@@ -109,13 +110,14 @@ void add_ball(CLI::App& app, Context& context) {
   command
       ->add_option("--count", arguments->count,
                    "how many balls; ports count up, links and files get -1, -2, …")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->capture_default_str();
   command->add_option("--speed", arguments->speed, "seconds of the ball in a second")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
   command
       ->add_option("--seed", arguments->seed, "of everything random; the address follows from it")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
   command->add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
       ->check(one_of(firmware_names()))

@@ -214,7 +214,7 @@ void add_check(CLI::App& app, Context& context) {
   command
       ->add_option("--executive", options->macro.executive,
                    "version of the ball's macro executive, for macro source")
-      ->check(CLI::Range(int{spec::macro_executive_oldest}, int{spec::macro_executive_newest}))
+      ->check(whole_number(spec::macro_executive_oldest, spec::macro_executive_newest))
       ->capture_default_str();
   command->add_option("--format", options->format, "how findings are printed")
       ->check(one_of({"text", "json", "sarif", "gcc"}))

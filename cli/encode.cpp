@@ -7,6 +7,7 @@
 #include "protocol/payload.h"
 
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -92,7 +93,7 @@ void add_encode(CLI::App& app, Context& context) {
   command->add_option("ARGS", arguments->operands,
                       "its operands: numbers, 0x hex, named values, text or hex bytes");
   command->add_option("--seq", arguments->seq, "the sequence number")
-      ->check(CLI::Range(0, 255))
+      ->check(whole_number(0, std::numeric_limits<std::uint8_t>::max()))
       ->capture_default_str();
   command->add_flag("--no-answer", arguments->no_answer, "ask for no answer");
   command->add_flag("--v2", arguments->v2, "a packet of the newer robots: DID CID [HEX]");

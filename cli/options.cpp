@@ -1,12 +1,14 @@
 #include "cli/options.h"
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "cli/commands.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -132,6 +134,20 @@ CLI::Validator one_of(std::vector<std::string> words) {
                        meant ? fmt::format("; did you mean `{}`?", *meant) : "");
   };
   return CLI::Validator(std::move(check), list, mark);
+}
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
+  auto check = [=](std::string& value) -> std::string {
+    const auto number = value.starts_with("0x")
+                            ? parse_number<std::uint64_t>(std::string_view(value).substr(2), 16)
+                            : parse_number<std::uint64_t>(value);
+    return number && *number >= least && *number <= greatest
+               ? std::string()
+               : fmt::format("takes {} to {}, found `{}`", least, greatest, value);
+  };
+  const bool bounded = greatest < std::numeric_limits<std::uint64_t>::max();
+  return CLI::Validator(std::move(check),
+                        bounded ? fmt::format("{} to {}", least, greatest) : std::string());
 }
 
 bool is_hidden(const CLI::App& command) {

@@ -2,6 +2,7 @@
 
 #include "reference/command_line.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace orb::cli {
 /// A check that a value is one of `words`. A misspelt value is answered with the word that was
 /// probably meant; help, completion and man pages list the words.
 CLI::Validator one_of(std::vector<std::string> words);
+
+/// A check that a value is a whole number of that range, decimal or 0x hex; help lists the range.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest);
 
 /// Whether the command is for programs, not for people: left out of help, completion and manual.
 bool is_hidden(const CLI::App& command);

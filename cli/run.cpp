@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -390,9 +391,13 @@ void add_program_options(CLI::App& command, RunOptions& options) {
   add_language_option(command, options.language);
   command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")
       ->capture_default_str();
-  command.add_option("--line", options.run.line,
-                     "the line to start at; else the first of the file");
-  command.add_option("--seed", options.run.seed, "seeds all that is random")->capture_default_str();
+  command
+      .add_option("--line", options.run.line, "the line to start at; else the first of the file")
+      ->check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
+                           spec::value_of(spec::Limit::GreatestLineNumber)));
+  command.add_option("--seed", options.run.seed, "seeds all that is random")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
   command.add_option(
       "--input", options.input,
       "numbers for `input`, with commas between; @stdin reads them as they are asked");
@@ -415,7 +420,7 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
   command
       .add_option("--lines-per-second", options.run.lines_per_second,
                   "how fast the robot's interpreter is, 1 to 1000000000")
-      ->check(CLI::Range(1u, 1'000'000'000u))
+      ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str();
   command
       .add_option("--native", options.native,

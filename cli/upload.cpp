@@ -251,8 +251,7 @@ void add_upload(CLI::App& app, Context& context) {
   command->add_option("--as", options->as, "how macros are kept")
       ->check(one_of({"temp", "user", "stream"}));
   command->add_option("--id", options->id, "the id to save a macro under, 32 to 253")
-      ->check(CLI::Range(static_cast<int>(spec::macro_id_user_first),
-                         static_cast<int>(spec::macro_id_user_last)))
+      ->check(whole_number(spec::macro_id_user_first, spec::macro_id_user_last))
       ->type_name("N");
   command->add_flag("--clear-macros", options->clear_macros,
                     "make the ball forget all its user macros first");
@@ -263,7 +262,7 @@ void add_upload(CLI::App& app, Context& context) {
   constexpr int most_attempts = 1000;
   command
       ->add_option("--attempts", options->attempts, "how often a program is sent before giving up")
-      ->check(CLI::Range(1, most_attempts))
+      ->check(whole_number(1, most_attempts))
       ->type_name("N")
       ->capture_default_str();
   command->callback([&context, options] { upload(context, *options); });
