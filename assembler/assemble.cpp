@@ -184,12 +184,10 @@ private:
       return;
     }
     constexpr std::string_view attributes[] = {"id", "flags", "ext"};
-    const auto meant = closest(attribute, attributes);
     report(rules::Header, value.name.size() != 0 ? value.name : value.span,
            attribute.empty() ? "a macro has one name"
                              : fmt::format("`.macro` has no `{}=`", attribute),
-           meant ? fmt::format("did you mean `{}`?", *meant)
-                 : "there are `id=`, `flags=` and `ext=`");
+           did_you_mean(attribute, attributes, "there are `id=`, `flags=` and `ext=`"));
   }
 
   std::optional<std::uint8_t> header_byte(const Value& value, int minimum, std::string_view what) {
@@ -246,10 +244,8 @@ private:
           words[i] = spec::macro_flags[i].word;
           all += fmt::format("{}`{}`", i == 0 ? "" : ", ", words[i]);
         }
-        const auto meant = closest(word, words);
         report(rules::Header, value.span, fmt::format("`{}` is not a macro flag", word),
-               meant ? fmt::format("did you mean `{}`?", *meant)
-                     : fmt::format("there are {}", all));
+               did_you_mean(word, words, fmt::format("there are {}", all)));
         return;
       }
     }

@@ -202,12 +202,6 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
   return finding(rules::Syntax, span, fmt::format("{} does not belong here", found), help);
 }
 
-std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
-                         std::string otherwise) {
-  const auto meant = closest(word, candidates);
-  return meant ? fmt::format("did you mean `{}`?", *meant) : otherwise;
-}
-
 Diagnostic unknown_command(std::string_view word, Span span) {
   std::array<std::string_view, std::size(spec::macro_commands)> names;
   for (std::size_t i = 0; i < names.size(); ++i)

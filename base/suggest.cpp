@@ -1,11 +1,10 @@
 #include "base/suggest.h"
 
-#include "base/nearest.h"
 #include "base/text.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
-#include <vector>
 
 namespace orb {
 namespace {
@@ -56,6 +55,18 @@ std::optional<std::string> closest(std::string_view word,
     }
   }
   return best;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
+                         std::string_view otherwise) {
+  const auto meant = closest(word, candidates);
+  return meant ? fmt::format("did you mean `{}`?", *meant) : std::string(otherwise);
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates,
+                         std::string_view otherwise) {
+  const std::vector<std::string_view> views(candidates.begin(), candidates.end());
+  return did_you_mean(word, views, otherwise);
 }
 
 std::vector<std::string> nearest(std::string_view word,

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace orb {
 
@@ -12,5 +14,16 @@ namespace orb {
 /// the word's length and at least 1. Of equals the first wins.
 std::optional<std::string> closest(std::string_view word,
                                    std::span<const std::string_view> candidates);
+
+/// "did you mean `…`?" with the closest candidate, or `otherwise` where none is close.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
+                         std::string_view otherwise);
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates,
+                         std::string_view otherwise);
+
+/// The `count` candidates that are nearest to `word` by the distance of closest(), the nearest
+/// first, each once; fewer where more than half of the word would have to change.
+std::vector<std::string> nearest(std::string_view word,
+                                 std::span<const std::string_view> candidates, std::size_t count);
 
 } // namespace orb

@@ -101,12 +101,9 @@ tl::expected<std::vector<std::size_t>, std::string> select(const AsmOptions& opt
   }
   if (!all.empty())
     return all;
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  const auto meant = closest(options.macro, views);
-  return tl::unexpected(fmt::format("{} has no macro `{}`; {}", disk::display_name(options.file),
-                                    options.macro,
-                                    meant ? fmt::format("did you mean `{}`?", *meant)
-                                          : fmt::format("there are {}", fmt::join(names, ", "))));
+  return tl::unexpected(fmt::format(
+      "{} has no macro `{}`; {}", disk::display_name(options.file), options.macro,
+      did_you_mean(options.macro, names, fmt::format("there are {}", fmt::join(names, ", ")))));
 }
 
 ExitCode write_text(const Context& context, const std::string& path, const std::string& text) {
@@ -214,7 +211,7 @@ void add_asm(CLI::App& app, Context& context) {
     names.emplace_back(format.name);
   command
       ->add_option("--format", options->format,
-                   "what to write; the ending of OUT says it where this is not given, else sphero")
+                   "what to write; by default what the ending of OUT says, else sphero")
       ->check(one_of(names));
   command->add_option("--macro", options->macro, "the one macro of the file to write");
   command->add_flag("--listing", options->listing,

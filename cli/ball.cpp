@@ -112,11 +112,13 @@ void add_ball(CLI::App& app, Context& context) {
                    "how many balls; ports count up, links and files get -1, -2, …")
       ->check(whole_number(1, 1000))
       ->capture_default_str();
-  command->add_option("--speed", arguments->speed, "seconds of the ball in a second")
+  command
+      ->add_option("--speed", arguments->speed, "how many seconds of the ball pass in one second")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
   command
-      ->add_option("--seed", arguments->seed, "of everything random; the address follows from it")
+      ->add_option("--seed", arguments->seed,
+                   "seeds all random choices; the address follows from it")
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
   command->add_option("--firmware", arguments->firmware, "the firmware that the ball runs")

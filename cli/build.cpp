@@ -143,7 +143,7 @@ void add_build(CLI::App& app, Context& context) {
   command->add_option("-o,--output", options->out,
                       "where the bytes go; standard output if missing");
   command->add_flag("--pack", options->pack,
-                    "as small as it gets with the same behaviour; structured programs always are");
+                    "as small as possible with the same behaviour; structured programs always are");
   auto* map =
       command->add_option("--map", options->map, "write which source line became which robot line");
   auto* readable = command->add_flag("--readable", options->readable,

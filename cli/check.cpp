@@ -58,7 +58,7 @@ FileFindings check_basic(const Options& options, const Source& source) {
   return findings;
 }
 
-/// A structured program, and behind it each file that it includes and something is said about.
+/// A structured program, and after it each included file that something is said about.
 std::vector<FileFindings> check_structured(const Options& options, const Source& source,
                                            IncludedSources& included) {
   DiskFiles disk;

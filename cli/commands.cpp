@@ -69,7 +69,7 @@ void add_commands(CLI::App& app, Context& context) {
   app.set_version_flag(
       "--version", [&app] { return version(app); },
       "print the version and end; with -v, also what it was built with");
-  app.set_help_flag("-h,--help", "print this help and end");
+  app.set_help_flag("-h,--help", "print this help and exit");
   app.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   app.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");
   app.add_option("--color", context.color, "auto, always or never")

@@ -32,7 +32,7 @@ void add_commit(CLI::App& app, Context& context) {
                               "orb commit --port /dev/rfcomm0\norb commit --port @red --force");
   auto options = std::make_shared<Options>();
   add_port_options(*command, options->port);
-  command->add_flag("--force", options->force, "although the battery is low");
+  command->add_flag("--force", options->force, "commit even if the battery is low");
   command->callback([&context, options] {
     with_ball(context, options->port,
               [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {

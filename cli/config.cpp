@@ -1,7 +1,7 @@
 #include "cli/config.h"
 
-#include "base/suggest.h"
 #include "cli/context.h"
+#include "cli/options.h"
 #include "disk/disk.h"
 
 #include <CLI/CLI.hpp>
@@ -108,13 +108,6 @@ tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) 
   return {};
 }
 
-/// ` did you mean …`, or nothing.
-std::string hint(const std::string& word, const std::vector<std::string>& names) {
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  const auto meant = closest(word, views);
-  return meant ? fmt::format("; did you mean `{}`?", *meant) : std::string();
-}
-
 /// The commands that a setting of section `command` speaks to.
 std::vector<CLI::App*> addressed(CLI::App& app, const std::string& command) {
   return app.get_subcommands(
@@ -136,7 +129,7 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
       names.push_back(command->get_name());
     return tl::unexpected(
         problem(setting.file, fmt::format("`[{}]` is not a section{}", setting.command,
-                                          hint(setting.command, names))));
+                                          meant_instead(setting.command, names))));
   }
   const bool allowed = fs::path(setting.file).filename() != project_file ||
                        std::find(project_options.begin(), project_options.end(), setting.option) !=
@@ -164,13 +157,13 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
         problem(setting.file,
                 fmt::format("`{}` is not an option{}{}", setting.option,
                             setting.command.empty() ? "" : " of `orb " + setting.command + "`",
-                            hint(setting.option, names))));
+                            meant_instead(setting.option, names))));
   if (!allowed)
-    return tl::unexpected(problem(
-        setting.file,
-        fmt::format("`{0}` is not for a project's file to set; write `--{0}` on the command line, "
-                    "or `{0}` in {1}",
-                    setting.option, user_file().value_or("config.toml").string())));
+    return tl::unexpected(
+        problem(setting.file,
+                fmt::format("a project's file cannot set `{0}`; write `--{0}` on the command line, "
+                            "or `{0}` in {1}",
+                            setting.option, user_file().value_or("config.toml").string())));
   return {};
 }
 
@@ -207,7 +200,7 @@ tl::expected<std::string, ConfigError> resolve_port(const Config& config, const 
   return tl::unexpected(ConfigError{fmt::format(
       "no ball is called `{}`{}", name,
       names.empty() ? "; name balls in orb.toml: [balls] red = \"rfcomm://68:86:E7:00:11:22\""
-                    : hint(name, names))});
+                    : meant_instead(name, names))});
 }
 
 } // namespace orb::cli

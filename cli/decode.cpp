@@ -223,7 +223,7 @@ void decode(Context& context, const DecodeArguments& arguments) {
 } // namespace
 
 void add_decode(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "decode", "put packets into words",
+  auto* command = add_command(app, "decode", "explain packets in words",
                               "orb decode FF FF 00 01 52 01 AB\n"
                               "orb decode FFFE08000748656C6C6F0AF2\n"
                               "orb decode session.txt\norb decode --v2 8D0A11061FBFD8");
@@ -233,8 +233,9 @@ void add_decode(CLI::App& app, Context& context) {
   command->add_flag("--v2", arguments->v2, "packets of the newer robots");
   add_format_option(*command, arguments->format);
   command
-      ->add_option("--from", arguments->from,
-                   "who sent the bytes; auto: whoever's checksums are right; a recording says so")
+      ->add_option(
+          "--from", arguments->from,
+          "who sent the bytes; auto: the side whose checksums are right; a recording says so")
       ->check(one_of({"auto", "client", "ball"}))
       ->capture_default_str();
   command->callback([&context, arguments] { decode(context, *arguments); });

@@ -86,7 +86,7 @@ void check_bluetooth(Checkup& checkup) {
     return;
   }
   ::close(handle);
-  checkup.good("Bluetooth sockets are there");
+  checkup.good("Bluetooth sockets are available");
   std::error_code error;
   if (fs::is_empty(adapters_folder, error) || error)
     checkup.bad("there is no Bluetooth adapter", "plug one in; `bluetoothctl list` shows them");

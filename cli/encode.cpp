@@ -62,12 +62,11 @@ void encode_v1(Context& context, const EncodeArguments& arguments) {
     std::vector<std::string_view> names;
     for (const auto& command : spec::api_commands)
       names.push_back(command.name);
-    const auto meant = closest(arguments.name, names);
-    return fail(context,
-                fmt::format("`{}` is not a command; {}", arguments.name,
-                            meant ? fmt::format("did you mean `{}`?", *meant)
-                                  : "`orb spec api-commands` lists them"),
-                ExitCode::Usage);
+    return fail(
+        context,
+        fmt::format("`{}` is not a command; {}", arguments.name,
+                    did_you_mean(arguments.name, names, "`orb spec api-commands` lists them")),
+        ExitCode::Usage);
   }
   const auto payload = protocol::encode_operands(row->command, arguments.operands);
   if (!payload)

@@ -29,10 +29,8 @@ const spec::CommandInfo* find(const Context& context, const std::string& name) {
   std::vector<std::string_view> names;
   for (const auto& row : spec::api_commands)
     names.push_back(row.name);
-  const auto meant = closest(name, names);
-  print_error(context, fmt::format("`{}` is not a command of the API{}", name,
-                                   meant ? fmt::format("; did you mean `{}`?", *meant)
-                                         : "; `orb spec commands` lists them"));
+  print_error(context, fmt::format("`{}` is not a command of the API; {}", name,
+                                   did_you_mean(name, names, "`orb spec commands` lists them")));
   return nullptr;
 }
 
@@ -130,7 +128,7 @@ ExitCode print_answer(const Context& context, const Options& options, spec::ApiC
   }
   if (more == nullptr || message)
     return ExitCode::Done;
-  print_error(context, fmt::format("the answer announces {}, and none came", more->name));
+  print_error(context, fmt::format("the answer announces {}, but it never came", more->name));
   return ExitCode::LinkLost;
 }
 

@@ -1,4 +1,4 @@
-#include "base/nearest.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -71,7 +71,7 @@ void run(Context& context, const reference::CommandLine& line, const std::string
 
 void add_explain(CLI::App& app, Context& context) {
   auto* command = add_command(
-      app, "explain", "say all that the tables know about a word",
+      app, "explain", "explain a word: all that the tables know of it",
       "orb explain goroll\norb explain 08h\norb explain unknown-statement\norb explain -- --open");
   auto word = std::make_shared<std::string>();
   command

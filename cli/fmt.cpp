@@ -149,7 +149,7 @@ void format_all(Context& context, const Options& options) {
 } // namespace
 
 void add_fmt(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "fmt", "lay programs and macros out in one canonical way",
+  auto* command = add_command(app, "fmt", "format programs and macros",
                               "orb fmt square.bas\n"
                               "orb fmt -w *.bas *.orb\n"
                               "orb fmt --renumber=100:10 --diff square.bas");

@@ -11,7 +11,7 @@
 namespace orb::cli {
 
 void add_language_option(CLI::App& command, std::string& lang) {
-  command.add_option("--lang", lang, "the language, where a file's ending does not tell")
+  command.add_option("--lang", lang, "the language, if the file's ending does not tell")
       ->check(one_of({"basic", "structured", "macro"}));
 }
 

@@ -19,7 +19,8 @@ void add_format_option(CLI::App& command, std::string& format);
 /// The fields of a packet by name: numbers and texts; what numbers stand for is a second object.
 void put_fields(Json& json, const protocol::Parts& parts);
 
-/// One thing found on the wire: a packet with its fields, or what is no packet (docs/json.md).
+/// One thing found on the wire: a packet with its fields, or bytes that are not a packet
+/// (docs/json.md).
 Json packet_json(protocol::Describer& describer, const protocol::Item& item);
 
 /// Prints a value on a line of its own.

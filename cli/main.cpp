@@ -1,4 +1,3 @@
-#include "base/suggest.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_error.h"
@@ -56,12 +55,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-std::string meant_instead(const std::string& word, const std::vector<std::string>& names) {
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  const auto meant = orb::closest(word, views);
-  return meant ? fmt::format("; did you mean `{}`?", *meant) : "";
-}
-
 /// Why `word` has no place where it stands, and what was probably meant.
 std::string describe(const CLI::App& app, const std::string& word) {
   const auto* command = chosen_command(app);
@@ -69,14 +62,14 @@ std::string describe(const CLI::App& app, const std::string& word) {
   if (word.starts_with("-")) {
     const auto name = word.substr(0, word.find('='));
     return fmt::format("`{}` is not an option of {}{}", name, whom,
-                       meant_instead(name, option_names(app)));
+                       orb::cli::meant_instead(name, option_names(app)));
   }
   if (command != nullptr)
-    return fmt::format("`{}` is an extra word for {}", word, whom);
+    return fmt::format("`{}` is one word too many for {}", word, whom);
   if (orb::run::content_of(word, ""))
     return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
   return fmt::format("`{}` is not a command of orb{}", word,
-                     meant_instead(word, command_names(app)));
+                     orb::cli::meant_instead(word, command_names(app)));
 }
 
 /// Prints why the command line was not understood and what was probably meant.

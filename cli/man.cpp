@@ -34,10 +34,9 @@ void print_page(Context& context, const std::vector<reference::ManualPage>& page
     if (names.back().starts_with("orb-"))
       names.push_back(names.back().substr(4));
   }
-  const auto meant = closest(name, names);
-  fail(context, {ExitCode::Usage, fmt::format("there is no page `{}`{}", name,
-                                              meant ? fmt::format("; did you mean `{}`?", *meant)
-                                                    : "; `orb man orb` names them all")});
+  fail(context,
+       {ExitCode::Usage, fmt::format("there is no page `{}`; {}", name,
+                                     did_you_mean(name, names, "`orb man orb` lists them"))});
 }
 
 void write_pages(Context& context, const std::vector<reference::ManualPage>& pages,
@@ -61,7 +60,7 @@ void add_man(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   auto* page = command->add_option("PAGE", options->page,
                                    "a command, `orbbasic` or `orb-macro`; the page of orb itself "
-                                   "where none is named");
+                                   "if none is given");
   command
       ->add_option("--all", options->folder,
                    "write every page below this folder, as `MANPATH` wants it")

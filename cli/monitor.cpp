@@ -228,7 +228,7 @@ void add_monitor(CLI::App& app, Context& context) {
   add_format_option(*command, options->format);
   command
       ->add_option("--map", options->map,
-                   "a map of `orb build --map`: errors then point into the source")
+                   "a map written by `orb build --map`: errors then point into the source")
       ->type_name("FILE");
   command->callback([&context, options] { listen(context, *options); });
 }

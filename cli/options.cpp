@@ -122,16 +122,19 @@ reference::Command describe(const CLI::App& app) {
 
 } // namespace
 
+std::string meant_instead(const std::string& word, const std::vector<std::string>& names) {
+  const auto hint = did_you_mean(word, names, {});
+  return hint.empty() ? hint : "; " + hint;
+}
+
 CLI::Validator one_of(std::vector<std::string> words) {
   const auto list = fmt::format("{{{}}}", fmt::join(words, ","));
   auto known = std::make_shared<const std::vector<std::string>>(std::move(words));
   auto check = [known](std::string& value) -> std::string {
     if (std::find(known->begin(), known->end(), value) != known->end())
       return {};
-    const std::vector<std::string_view> views(known->begin(), known->end());
-    const auto meant = closest(value, views);
     return fmt::format("`{}` is not one of {}{}", value, fmt::join(*known, ", "),
-                       meant ? fmt::format("; did you mean `{}`?", *meant) : "");
+                       meant_instead(value, *known));
   };
   return CLI::Validator(std::move(check), list, mark);
 }

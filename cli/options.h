@@ -13,6 +13,9 @@ class Validator;
 
 namespace orb::cli {
 
+/// "; did you mean `…`?" for a word that is none of `names`, or nothing.
+std::string meant_instead(const std::string& word, const std::vector<std::string>& names);
+
 /// A check that a value is one of `words`. A misspelt value is answered with the word that was
 /// probably meant; help, completion and man pages list the words.
 CLI::Validator one_of(std::vector<std::string> words);

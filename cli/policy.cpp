@@ -45,15 +45,13 @@ bool check_rules(Context& context, const Policy& policy) {
   if (policy.deny.empty() && policy.warn.empty() && policy.allow.empty())
     return true;
   const auto ids = rule_ids();
-  const std::vector<std::string_view> views(ids.begin(), ids.end());
   for (const auto* list : {&policy.deny, &policy.warn, &policy.allow})
     for (const auto& id : *list) {
       if (names(ids, id) || (list == &policy.deny && id == "all"))
         continue;
-      const auto meant = closest(id, views);
-      fail(context, {ExitCode::Usage, fmt::format("there is no rule `{}`; {}", id,
-                                                  meant ? fmt::format("did you mean `{}`?", *meant)
-                                                        : "`orb spec rules` lists them")});
+      fail(context,
+           {ExitCode::Usage, fmt::format("there is no rule `{}`; {}", id,
+                                         did_you_mean(id, ids, "`orb spec rules` lists them"))});
       return false;
     }
   return true;

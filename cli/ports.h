@@ -13,7 +13,7 @@ struct Port {
   std::string what;
 };
 
-/// Named balls, then serial ports that a ball may be behind, by name.
+/// Named balls, then serial ports that may lead to a ball, by name.
 std::vector<Port> find_ports(const Config& config);
 
 } // namespace orb::cli

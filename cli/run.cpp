@@ -395,12 +395,12 @@ void add_program_options(CLI::App& command, RunOptions& options) {
       .add_option("--line", options.run.line, "the line to start at; else the first of the file")
       ->check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
                            spec::value_of(spec::Limit::GreatestLineNumber)));
-  command.add_option("--seed", options.run.seed, "seeds all that is random")
+  command.add_option("--seed", options.run.seed, "seeds all random choices")
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
   command.add_option(
       "--input", options.input,
-      "numbers for `input`, with commas between; @stdin reads them as they are asked");
+      "numbers for `input`, separated by commas; @stdin reads them as they are asked for");
   command.add_flag("--disconnected", options.disconnected, "no client is connected");
   command.add_option("--expect", options.run.expect,
                      "text that must be printed; ends the run, exit 0; never printed: exit 1");
@@ -423,9 +423,10 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str();
   command
-      .add_option("--native", options.native,
-                  "when programs become machine code: auto (once they have run for long), on (at "
-                  "once) or off")
+      .add_option(
+          "--native", options.native,
+          "when programs become machine code: auto (once they have run for a while), on (at "
+          "once) or off")
       ->check(one_of({"auto", "on", "off"}))
       ->capture_default_str();
   command.add_flag("--realtime", options.realtime, "takes as long as the robot would");

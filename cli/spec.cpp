@@ -45,10 +45,9 @@ bool select(std::vector<reference::Section>& sections, const std::string& id,
   std::erase_if(sections, [&](const reference::Section& section) { return section.id != id; });
   if (!sections.empty())
     return true;
-  const auto meant = closest(id, ids);
-  print_error(context, fmt::format("there is no section `{}`; {}", id,
-                                   meant ? fmt::format("did you mean `{}`?", *meant)
-                                         : fmt::format("one of {}", fmt::join(ids, ", "))));
+  print_error(context,
+              fmt::format("there is no section `{}`; {}", id,
+                          did_you_mean(id, ids, fmt::format("one of {}", fmt::join(ids, ", ")))));
   return false;
 }
 
@@ -97,7 +96,7 @@ void add_spec(CLI::App& app, Context& context) {
   auto* command = add_command(app, "spec", "print the tables of the robot and the tools",
                               "orb spec\norb spec statements\norb spec --json > spec.json");
   auto options = std::make_shared<Options>();
-  command->add_option("SECTION", options->section, "one table; all where none is named");
+  command->add_option("SECTION", options->section, "one table; all if none is given");
   auto* json = command->add_flag("--json", options->json, "as one JSON document");
   command->add_flag("--markdown", options->markdown, "as pages of docs/reference")->excludes(json);
   command->add_flag("--cheatsheet", options->cheatsheet, "the language on one page")

@@ -98,7 +98,7 @@ tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
     if (!input.program)
       continue;
     if (delivery.program)
-      return tl::unexpected(fmt::format("{}: a ball holds one program, and {} is one already",
+      return tl::unexpected(fmt::format("{}: a ball holds one program, and {} is already given",
                                         input.source->name(), delivery.program_name));
     delivery.program_name = input.source->name();
     const auto& bytes = input.program->image.bytes;
@@ -255,10 +255,10 @@ void add_upload(CLI::App& app, Context& context) {
       ->type_name("N");
   command->add_flag("--clear-macros", options->clear_macros,
                     "make the ball forget all its user macros first");
-  command->add_flag("--force", options->force, "write to flash although the battery is low");
+  command->add_flag("--force", options->force, "write to flash even if the battery is low");
   command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
   command->add_flag("--dry-run", options->dry_run, "print the packets and send nothing");
-  command->add_flag("--no-check", options->no_check, "send it although it has errors");
+  command->add_flag("--no-check", options->no_check, "send it even if it has errors");
   constexpr int most_attempts = 1000;
   command
       ->add_option("--attempts", options->attempts, "how often a program is sent before giving up")

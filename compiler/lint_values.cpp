@@ -373,8 +373,8 @@ private:
               : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
       if (index.first_set == nullptr)
         d.help = "`Z` is the list element that `Y` names; use another letter";
-    } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ &&
-               in_order_ && !before_y_) {
+    } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ && in_order_ &&
+               !before_y_) {
       before_y_ = true;
       findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",
                     "set `Y` to 1 … 25 first");
@@ -516,10 +516,10 @@ private:
       slot += other.access == spec::Access::ReadClears ? 1 : 0;
     }
     if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
-      findings_.add(
-          rules::ClearedByReading, node.span,
-          fmt::format("`{}` is read again, but the read before has already set it to 0", row.word),
-          "copy it into a variable and use that");
+      findings_.add(rules::ClearedByReading, node.span,
+                    fmt::format("`{}` is read again, but the previous read has already set it to 0",
+                                row.word),
+                    "copy it into a variable and use that");
     cleared_on_line_ |= bit(slot);
     if (!conditional_)
       cleared_ |= bit(slot);

@@ -566,7 +566,7 @@ private:
   /// `if A = 5 then` with its statement on the next line, and the `end if` that closes it.
   std::optional<Diagnostic> empty_branch() const {
     if (is(Reason::Trailing) && in(Statement::End) && equal_words(token(), "if")) {
-      auto d = finding(rules::SyntaxError, fault_.span, "an `if` ends with its line",
+      auto d = finding(rules::SyntaxError, fault_.span, "an `if` ends at the end of its line",
                        "leave this line out");
       leave_out(d);
       return d;
@@ -656,7 +656,7 @@ private:
     if (!is(Reason::Trailing) || token() != ";" || skip_blanks(end()) != code_end())
       return std::nullopt;
     auto d = finding(rules::SyntaxError, fault_.span,
-                     "a statement ends with its line, not with `;`", "leave it out");
+                     "a statement ends at the end of its line, not with `;`", "leave it out");
     offer(d, "remove `;`", {{fault_.span, ""}});
     return d;
   }

@@ -437,18 +437,18 @@ void suggest_targets(Suggestions& out, const Program& program) {
 void suggest_line_number(Suggestions& out, const Program& program, std::uint32_t offset) {
   constexpr std::uint32_t step = 10;
   std::uint32_t before = 0;
-  std::uint32_t behind = most_line_number + 1;
+  std::uint32_t after = most_line_number + 1;
   for (const auto& line : program.lines) {
     if (!line.has_number() || touches(line.span, offset))
       continue;
     if (line.span.begin < offset)
       before = line.number;
     else
-      behind = std::min(behind, line.number);
+      after = std::min(after, line.number);
   }
-  if (before + 1 >= behind)
+  if (before + 1 >= after)
     return;
-  const auto number = before + step < behind ? before + step : before + (behind - before) / 2;
+  const auto number = before + step < after ? before + step : before + (after - before) / 2;
   if (number >= 1 && number <= most_line_number)
     out.items.push_back({fmt::format("{}", number), SuggestionKind::Line, "a new line here", ""});
 }

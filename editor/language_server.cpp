@@ -425,7 +425,7 @@ void LanguageServer::State::did_change(const Json& params) {
     if (!member(change, "range").is_null()) {
       const auto place = span(document.source, member(change, "range"));
       if (!place) {
-        log("a change with a range that is none is left out");
+        log("ignored a change whose range is not in the text");
         continue;
       }
       std::string whole(document.source.text());

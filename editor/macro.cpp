@@ -162,7 +162,7 @@ tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::u
     return tl::unexpected(std::string("there is no name of a macro or constant here"));
   if (!is_name(name))
     return tl::unexpected(
-        std::string("a name is letters, digits and `_`, and begins with no digit"));
+        std::string("a name is letters, digits and `_`, and does not begin with a digit"));
   const auto old = source.text(here->span);
   std::vector<Edit> edits;
   bool defined = false;

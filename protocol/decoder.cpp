@@ -117,10 +117,10 @@ bool Decoder::is_stray(ByteView bytes) const {
   const auto run = static_cast<std::size_t>(other - bytes.begin());
   if (run < spec::sop_size)
     return false;
-  Item behind;
+  Item after;
   // The packet's SOP1 and SOP2 are the last two of the run, or SOP2 is another byte after it.
   for (const auto start : {run - 2, run - 1})
-    if (start > 0 && match_command(bytes.subspan(start), behind) == Match::Whole)
+    if (start > 0 && match_command(bytes.subspan(start), after) == Match::Whole)
       return true;
   return false;
 }

@@ -61,7 +61,7 @@ std::size_t size_of(const FieldValue& value) {
                                             : value.bytes.size();
 }
 
-/// Bytes as text: without the NULs behind it, others that are no ASCII as U+0080 to U+00FF.
+/// Bytes as text: without the NULs at its end, others beyond ASCII as U+0080 to U+00FF.
 std::string plain_text(ByteView bytes) {
   std::string out;
   while (!bytes.empty() && bytes.back() == 0)

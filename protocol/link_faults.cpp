@@ -22,7 +22,7 @@ constexpr Duration merge_raster = 20ms;
 constexpr auto storm_message = static_cast<std::uint8_t>(spec::AsyncId::SensorData);
 constexpr std::uint64_t storm_most_messages = 8;
 constexpr std::uint64_t storm_most_payload = 80; // bytes; a full sensor frame has up to 64
-constexpr double percents = 100; // are the whole
+constexpr double percents = 100;                 // are the whole
 constexpr std::uint64_t stray_most_bytes = 3;    // real balls were seen to send one or two
 
 constexpr std::array<std::string_view, 14> words = {
@@ -121,10 +121,9 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
     (item == "split" ? plan.split : plan.merge) = true;
     return {};
   }
-  const auto meant = closest(name, words);
-  return wrong(
-      item, fmt::format("unknown; {}", meant ? fmt::format("did you mean `{}`?", *meant)
-                                             : fmt::format("there are {}", fmt::join(words, " "))));
+  return wrong(item, fmt::format("unknown; {}",
+                                 did_you_mean(name, words,
+                                              fmt::format("there are {}", fmt::join(words, " ")))));
 }
 
 void add_rate(std::string& out, std::string_view name, double rate) {

@@ -119,7 +119,7 @@ tl::expected<Bytes, EncodeError> parse_hex(const Field& field, std::string_view 
   if (auto bytes = from_hex(word))
     return *std::move(bytes);
   return tl::unexpected(
-      EncodeError{fmt::format("`{}` is hex bytes, found `{}`", field.name, word)});
+      EncodeError{fmt::format("`{}` takes hex bytes, found `{}`", field.name, word)});
 }
 
 EncodeError out_of_range(const Field& field, std::int64_t value) {

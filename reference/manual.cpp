@@ -314,7 +314,7 @@ constexpr std::string_view basic_intro =
     "orbBasic is the programming language inside Sphero robots of the first generation. "
     "A program is a list of lines, and each line is a number from 1 to 65535, at least one blank, "
     "and one statement. The lines run in the order of the text, about 3000 in a second. Keywords "
-    "and system variables are written exactly as in this page: `RGB` is a statement, `rgb` is "
+    "and system variables are written exactly as on this page: `RGB` is a statement, `rgb` is "
     "none. A single quote begins a comment, which never reaches the robot.";
 constexpr std::string_view basic_values =
     "Values are whole numbers of 32 bits. The variables are `A` to `Y`, the same as `a` to `y`; "

@@ -343,7 +343,7 @@ private:
     return fmt::format("write `{} {}{}{}`", line_.number, before, expression, after);
   }
 
-  /// The line behind a condition; empty where the language has no place for one.
+  /// The line after a condition; empty where the language has no place for one.
   std::string guarded(std::string_view condition) const {
     if (spec::info(statement_.kind).in_then == spec::InThen::Refused ||
         spec::info(statement_.kind).form == spec::Form::Loop)

@@ -38,7 +38,7 @@ std::string length(std::uint64_t cm) {
 std::string way(const Sight& sight) {
   if (sight.way_cm == 0) {
     if (sight.motion == Sight::Motion::Driven)
-      return "only setting off";
+      return "only just starting to move";
     return sight.turned ? "turned on the spot" : sight.told_to_move ? "did not move" : "";
   }
   const auto verb = [&] {

@@ -80,7 +80,7 @@ struct Input {
   std::optional<Program> program;
   std::vector<Macro> macros;
   std::vector<Diagnostic> findings;
-  std::vector<Included> included; ///< in the order of Program::lines.files, behind the source
+  std::vector<Included> included; ///< in the order of Program::lines.files, after the source
   std::vector<Input> used;        ///< the macro files that go along with the program
 
   bool has_errors() const;

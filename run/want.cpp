@@ -29,9 +29,9 @@ constexpr auto feels =
 constexpr auto sensors = std::to_array<Sensor>({
     {spec::Variable::Dshake, "a shake", "nobody shakes this ball", "at 2s shake",
      is_one_of<stimulus::Shake>},
-    {spec::Variable::Cmdroll, "a roll of the client", "no client drives this ball",
+    {spec::Variable::Cmdroll, "a roll from the client", "no client drives this ball",
      "at 2s roll 90 128", is_one_of<stimulus::ClientRoll>},
-    {spec::Variable::Cmdrgb, "a colour of the client", "no client colours this ball",
+    {spec::Variable::Cmdrgb, "a colour from the client", "no client sets a colour here",
      "at 2s rgb 255 0 0", is_one_of<stimulus::ClientColor>},
     {spec::Variable::Accelone, "a blow or a fall", "nothing shakes or throws this ball",
      "at 2s toss 500ms", feels},

@@ -86,9 +86,10 @@ tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place)
   if (auto opened = tcp->listen(place.host, place.port == 0 ? 0 : place.port + index_); !opened)
     return opened;
   if (tcp->is_exposed() && index_ == 0)
-    options_.warn(fmt::format("whoever reaches {} from the network can drive and change this ball; "
-                              "127.0.0.1 keeps it to this machine",
-                              tcp->address()));
+    options_.warn(
+        fmt::format("anyone who reaches {} over the network can drive and change this ball; "
+                    "127.0.0.1 keeps it to this machine",
+                    tcp->address()));
   links_.push_back(std::move(tcp));
   return {};
 }

@@ -17,7 +17,8 @@ tl::expected<void, IoError> TcpLink::listen(const std::string& host, int port) {
                             "machine such as 127.0.0.1",
                             host, error.message())});
   if (port > UINT16_MAX)
-    return tl::unexpected(IoError{fmt::format("port {} does not exist; begin lower", port)});
+    return tl::unexpected(
+        IoError{fmt::format("port {} is above the highest, 65535; start with a lower one", port)});
   auto endpoint = found.begin()->endpoint();
   endpoint.port(static_cast<std::uint16_t>(port));
   acceptor_.open(endpoint.protocol(), error);

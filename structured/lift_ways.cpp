@@ -266,7 +266,7 @@ private:
                   fmt::format("this `next` can be reached when the innermost loop does not count "
                               "in `{}`; the robot then stops with `{}`",
                               name, spec::info(BasicError::NextWithoutFor).text),
-                  "jump neither into a loop nor out of one");
+                  "do not jump into or out of loops");
     if (step.loop != none && step.loop != loop)
       return stop(state,
                   fmt::format("this `next` belongs to the loop of line {} one time and to that of "

@@ -84,7 +84,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                    "choose another name");
   case Reason::NameTooLong:
     return finding(rules::ReservedName, found,
-                   fmt::format("the name has {} characters; 31 are the most", found.size()));
+                   fmt::format("the name has {} characters; the limit is 31", found.size()));
   case Reason::BadNumber:
     return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
                    "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");

@@ -94,7 +94,7 @@ private:
                              Diagnostic& told) const {
     const auto& program = compiled_.program;
     if (found.rule == &robot::BusyLoop)
-      told.message = "the loop runs for ever and never waits";
+      told.message = "the loop runs forever and never waits";
     if (found.rule == &robot::IndexRange)
       told.message = "the index lies outside of the array";
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
@@ -125,7 +125,7 @@ private:
                         spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
     const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
     told.message =
-        fmt::format("`{}` is a heading and grows for ever; headings end at {}", name, turn - 1);
+        fmt::format("`{}` is a heading and grows forever; headings end at {}", name, turn - 1);
     told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
   }
 

@@ -40,7 +40,7 @@ inline constexpr auto wider_words = std::to_array<WordInfo>({
 });
 
 enum class WordKind : std::uint8_t {
-  Name,      ///< no word of the language
+  Name,      ///< not a word of the language
   Keyword,   ///< `index` is a Keyword
   Statement, ///< `index` is a spec::Statement
   Function,  ///< `index` is a spec::Function

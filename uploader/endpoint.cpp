@@ -111,9 +111,7 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
   }
   const auto colon = url.find("://");
   const auto word = colon == url.npos ? url : url.substr(0, colon + 3);
-  if (const auto meant = closest(word, schemes))
-    return wrong(url, fmt::format("did you mean `{}`?", *meant));
-  return wrong(url, fmt::format("it is written {}", forms));
+  return wrong(url, did_you_mean(word, schemes, fmt::format("it is written {}", forms)));
 }
 
 std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& address,

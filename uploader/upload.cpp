@@ -38,7 +38,7 @@ std::string describe(Content content, Route route) {
     case Content::Erased: return "the ball's macros have been cleared";
     case Content::Incomplete: return "the ball may hold a part of the macro";
     case Content::Uncommitted:
-    case Content::Unconfirmed: return "the macro may be there or not";
+    case Content::Unconfirmed: return "the macro may or may not be there";
     case Content::Stored: return "the macro is stored";
     }
   }

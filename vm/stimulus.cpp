@@ -175,9 +175,7 @@ std::string event_help(std::string_view word) {
   std::vector<std::string_view> names;
   for (const auto& row : events)
     names.push_back(row.word);
-  if (const auto meant = closest(word, names))
-    return fmt::format("did you mean `{}`?", *meant);
-  return fmt::format("the events are {}", fmt::join(names, ", "));
+  return did_you_mean(word, names, fmt::format("the events are {}", fmt::join(names, ", ")));
 }
 
 void read_line(const Source& source, std::uint32_t line, StimulusScript& script) {

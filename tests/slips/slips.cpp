@@ -1,7 +1,7 @@
 // slips ROOT [--update]: plants beginners' slips into every program of ROOT/examples, one at a
 // time, and counts how many are explained on their line with the right words, and how many `--fix`
 // takes back. Prints docs/slips.md; fails when that page says something else, when too few are
-// explained or taken back, or when a fix leaves more errors or others than there were.
+// explained or fixed, or when a fix leaves more errors or others than there were.
 
 #include "compiler/check.h"
 #include "compiler/parse.h"
@@ -310,7 +310,7 @@ std::string page(const std::vector<Count>& counts, std::size_t programs) {
       "What beginners write who know another language, planted one at a time into {} programs of\n"
       "[examples](../examples). *Explained* counts the slips for which `orb check` has a finding "
       "on their\n"
-      "line that names the line to write; *taken back* those after which `orb check --fix` leaves "
+      "line that names the line to write; *fixed* those after which `orb check --fix` leaves "
       "no error.\n"
       "No fix ever leaves more errors, or others. The page is printed by a test "
       "(`build/dev/bin/slips . "
@@ -319,8 +319,8 @@ std::string page(const std::vector<Count>& counts, std::size_t programs) {
       "`goto 9999` mean, nor where the block of a `while` ends; a `wait` of up to 15 may have been "
       "meant in\n"
       "seconds; and a word without quotes that is also a misspelt variable may be either.\n\n"
-      "**{} of {} explained: {}; {} taken back: {}.**\n\n"
-      "| slip | planted | explained | taken back |\n|---|--:|--:|--:|\n{}",
+      "**{} of {} explained: {}; {} fixed: {}.**\n\n"
+      "| slip | planted | explained | fixed |\n|---|--:|--:|--:|\n{}",
       programs, all.explained, all.planted, share(all.explained), all.mended, share(all.mended),
       rows);
 }

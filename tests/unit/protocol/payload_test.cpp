@@ -138,7 +138,7 @@ TEST(Payload, SaysWhatIsWrong) {
   EXPECT_EQ(message(ApiCommand::Roll, "fast 0"), "`speed` is a number, found `fast`");
   EXPECT_EQ(message(ApiCommand::Roll, "1"),
             "`roll` takes 2 to 4 operands, found 1; write `roll SPEED HEADING [GO] [PADDING]`");
-  EXPECT_EQ(message(ApiCommand::SaveMacro, "20 01 zz"), "`macro` is hex bytes, found `zz`");
+  EXPECT_EQ(message(ApiCommand::SaveMacro, "20 01 zz"), "`macro` takes hex bytes, found `zz`");
 }
 
 TEST(Payload, TakesNamesForValues) {
