@@ -26,6 +26,7 @@ struct BallArguments {
   std::string firmware{spec::info(spec::default_firmware).name};
   std::string fault;
   std::vector<std::string> stimuli;
+  std::string course;
   std::string state;
   std::string log;
 };
@@ -76,6 +77,13 @@ void run_ball(Context& context, const BallArguments& arguments) {
   if (!stimulus)
     return fail(context, stimulus.error());
   options.stimulus = *std::move(stimulus);
+  if (!arguments.course.empty()) {
+    const auto course = read_course(context, arguments.course);
+    if (!course)
+      return fail(context, course.error());
+    const auto walls = course->stimuli();
+    options.stimulus.insert(options.stimulus.begin(), walls.begin(), walls.end());
+  }
   options.announce = print_out;
   options.warn = [&context](std::string_view message) {
     print_err(
@@ -129,6 +137,7 @@ void add_ball(CLI::App& app, Context& context) {
                    "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
       ->type_name("PLAN");
   add_stimulus_option(*command, arguments->stimuli);
+  add_course_option(*command, arguments->course);
   command->add_option("--state", arguments->state, "keeps flash and settings across runs")
       ->type_name("FILE");
   command->add_option("--log", arguments->log, "records every byte, as `replay://` reads it")

@@ -38,6 +38,14 @@ using Sources = std::deque<SourceFile>;
 tl::expected<Sources, Failure> read_sources(const Options& options) {
   Sources sources;
   for (const auto& path : options.files) {
+    if (report::is_course(path)) {
+      auto drawing = read_text(path);
+      if (!drawing)
+        return tl::unexpected(drawing.error());
+      sources.push_back({path, Language::Basic, // of no language; is_course() comes first
+                         Source(disk::display_name(path), *std::move(drawing))});
+      continue;
+    }
     auto source = read_source(path, options.lang);
     if (!source)
       return tl::unexpected(source.error());
@@ -102,6 +110,10 @@ std::vector<FileFindings> check_all(const Options& options, const Sources& input
   std::vector<FileFindings> files;
   std::size_t next_macro = 0;
   for (const auto& input : inputs) {
+    if (report::is_course(input.path)) {
+      files.push_back({&input.source, report::read_course(input.source).findings, {}});
+      continue;
+    }
     switch (input.language) {
     case Language::Basic: files.push_back(check_basic(options, input.source)); break;
     case Language::Structured:
@@ -120,6 +132,8 @@ std::vector<FileFindings> check_all(const Options& options, const Sources& input
 std::vector<Diagnostic> findings_of(const Options& options, const SourceFile& input) {
   IncludedSources included;
   auto found = [&] {
+    if (report::is_course(input.path))
+      return report::read_course(input.source).findings;
     switch (input.language) {
     case Language::Basic: return check_basic(options, input.source).diagnostics;
     case Language::Structured:
@@ -201,10 +215,11 @@ void check(Context& context, const Options& options) {
 } // namespace
 
 void add_check(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "check", "find the mistakes in programs and macros",
+  auto* command = add_command(app, "check", "find the mistakes in programs, macros and courses",
                               "orb check square.bas\n"
                               "orb check --target 1.2 --ram 1024 *.bas\n"
                               "orb check --fix patrol.orb\n"
+                              "orb check parking.svg\n"
                               "orb check --watch square.bas\n"
                               "orb check --format sarif *.bas *.macro > findings.sarif");
   auto options = std::make_shared<Options>();

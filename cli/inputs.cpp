@@ -90,6 +90,25 @@ read_stimuli(const Context& context, const std::vector<std::string>& given) {
   return events;
 }
 
+void add_course_option(CLI::App& command, std::string& path) {
+  command
+      .add_option("--course", path,
+                  "what the ball drives through: walls, zones and a start, as SVG")
+      ->type_name("FILE.svg");
+}
+
+tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path) {
+  auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  const Source drawing(disk::display_name(path), *std::move(text));
+  auto reading = report::read_course(drawing);
+  if (print_findings(context, drawing, reading.findings))
+    return tl::unexpected(
+        Failure{ExitCode::BadInput, fmt::format("the course {} has mistakes", drawing.name())});
+  return std::move(reading.course);
+}
+
 bool print_findings(const Context& context, const Source& source,
                     const std::vector<Diagnostic>& findings) {
   bool errors = false;

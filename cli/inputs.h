@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/context.h"
+#include "report/course.h"
 #include "run/input.h"
 #include "vm/stimulus.h"
 
@@ -51,6 +52,12 @@ bool is_stimulus_line(const std::string& given);
 /// Reads what `--stimulus` was given. Its mistakes go to stderr.
 tl::expected<std::vector<vm::TimedStimulus>, Failure>
 read_stimuli(const Context& context, const std::vector<std::string>& given);
+
+/// Adds `--course`, the drawing of what the ball drives through.
+void add_course_option(CLI::App& command, std::string& path);
+
+/// Reads that drawing. What is said about it goes to stderr.
+tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path);
 
 /// Prints findings to stderr: errors always, warnings unless -q, the rest with -v. True when there
 /// is an error among them.

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string folder;
   bool structured = false;
+  bool course = false;
 };
 
 struct Starter {
@@ -68,6 +69,28 @@ while not dshake
 end while
 print "shaken, goodbye"
 macrun wink
+)"};
+
+// A room of 2 m by 2 m in which the starters drive their square.
+constexpr Starter course{"course.svg",
+                         R"(<?xml version="1.0" encoding="UTF-8"?>
+<!-- What the ball of % drives through, in centimetres; open it in Inkscape or a browser.
+     A class says what an element is: wall, start, or zone with an id. docs/courses.md has the rest. -->
+<svg xmlns="http://www.w3.org/2000/svg" width="200cm" height="200cm" viewBox="0 0 200 200">
+  <style>
+    .wall { fill: none; stroke: #14212b; stroke-width: 3 }
+    .zone { fill: #1d5fd1; fill-opacity: .15; stroke: #1d5fd1 }
+    .start { fill: none; stroke: #15803d; stroke-width: 1.5 }
+    text { font: 600 7px sans-serif; fill: #536472 }
+  </style>
+  <rect class="wall" x="5" y="5" width="190" height="190"/>
+  <path class="wall" d="M90 110V85H115"/>
+  <circle class="zone" id="home" cx="50" cy="150" r="20"/>
+  <text x="40" y="182">home</text>
+  <rect class="zone" id="corner" x="120" y="20" width="60" height="60"/>
+  <text x="124" y="75">corner</text>
+  <circle class="start" cx="50" cy="150" r="4"/>
+</svg>
 )"};
 
 constexpr auto starters = std::to_array<Starter>({
@@ -134,6 +157,8 @@ void make(Context& context, const Options& options) {
   const auto ending = program.name.substr(2);
   std::vector<Starter> files{program};
   files.insert(files.end(), starters.begin(), starters.end());
+  if (options.course)
+    files.push_back(course);
   for (const auto& starter : files) {
     const auto file = (path / filled(starter.name, name, ending)).lexically_normal().string();
     const auto text = filled(starter.text, name, ending);
@@ -142,16 +167,17 @@ void make(Context& context, const Options& options) {
     print_out(fmt::format("{}\n", file));
   }
   const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", folder);
-  print_note(context, fmt::format("now try:\n{}  orb run {}.{} --stimulus world.stimulus "
-                                  "--report report.html",
-                                  step, name, ending));
+  print_note(context,
+             fmt::format("now try:\n{}  orb run {}.{} --stimulus world.stimulus "
+                         "{}--report report.html",
+                         step, name, ending, options.course ? "--course course.svg " : ""));
 }
 
 } // namespace
 
 void add_new(CLI::App& app, Context& context) {
   auto* command = add_command(app, "new", "make a folder with a working starter project",
-                              "orb new dance\norb new dance --structured\norb new .");
+                              "orb new dance\norb new dance --structured --course\norb new .");
   auto options = std::make_shared<Options>();
   command
       ->add_option("NAME", options->folder,
@@ -162,6 +188,8 @@ void add_new(CLI::App& app, Context& context) {
       });
   command->add_flag("--structured", options->structured,
                     "the program has names and blocks in place of line numbers (.orb)");
+  command->add_flag("--course", options->course,
+                    "also a course: a drawing of walls, zones and a start");
   command->callback([&context, options] { make(context, *options); });
 }
 

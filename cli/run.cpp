@@ -41,6 +41,7 @@ struct RunOptions {
   std::string native = "auto";
   std::string firmware = std::string(spec::info(spec::default_firmware).name);
   std::vector<std::string> stimuli;
+  std::string course;
   std::string trace;
   std::string trace_out;
   std::string report;
@@ -292,6 +293,20 @@ tl::expected<std::string, Failure> temporary_report(const std::string& program) 
   return fmt::format("{}/{}.html", own, name);
 }
 
+/// Reads the course, where one is given, into `course`, which the options refer to from then on.
+tl::expected<void, Failure> take_course(const Context& context, const std::string& path,
+                                        std::optional<report::Course>& course,
+                                        run::Options& options) {
+  if (path.empty())
+    return {};
+  auto read = read_course(context, path);
+  if (!read)
+    return tl::unexpected(read.error());
+  course = *std::move(read);
+  options.course = &*course;
+  return {};
+}
+
 tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
   auto options = read_options(context, given);
   if (!options)
@@ -309,6 +324,9 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     return tl::unexpected(before.error());
   if (auto numbered = run::check_start_line(*inputs, options->line); !numbered)
     return tl::unexpected(numbered.error());
+  std::optional<report::Course> course;
+  if (auto done = take_course(context, given.course, course, *options); !done)
+    return done;
   if (const auto want = run::want(*inputs, *options))
     print_note(context, "hint: " + want->advice);
   Console console(given, *inputs);
@@ -350,6 +368,8 @@ void run_and_watch(Context& context, const RunOptions& options) {
   for (const auto& stimulus : options.stimuli)
     if (!is_stimulus_line(stimulus))
       files.push_back(stimulus);
+  if (!options.course.empty())
+    files.push_back(options.course);
   const auto written = [&] {
     std::error_code absent;
     return std::filesystem::last_write_time(options.report, absent);
@@ -417,6 +437,7 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
       ->check(one_of(std::move(names)))
       ->capture_default_str();
   add_stimulus_option(command, options.stimuli);
+  add_course_option(command, options.course);
   command
       .add_option("--lines-per-second", options.run.lines_per_second,
                   "how fast the robot's interpreter is, 1 to 1000000000")
@@ -455,7 +476,8 @@ void add_run(CLI::App& app, Context& context) {
                   "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
                   "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
                   "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
-                  "maze.svg\norb run dance.bas waltz.sphero --expect done");
+                  "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
+                  "waltz.sphero --expect done");
   auto options = std::make_shared<RunOptions>();
   add_program_options(*command, *options);
   add_robot_options(*command, *options);

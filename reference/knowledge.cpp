@@ -42,6 +42,7 @@ std::vector<Section> knowledge() {
           macro_limits_section(),
           macro_rules_section(),
           stimulus_rules_section(),
+          course_rules_section(),
           api_commands_section(),
           api_messages_section(),
           responses_section(),

@@ -195,6 +195,8 @@ std::string_view fence(std::string_view section, std::string_view caption) {
     return "macro";
   if (section.starts_with("structured-"))
     return "orb";
+  if (section.starts_with("course-"))
+    return "svg";
   return section.starts_with("stimulus-") ? "stimulus" : "basic";
 }
 

@@ -3,6 +3,7 @@
 #include "assembler/rules.h"
 #include "compiler/rules.h"
 #include "reference/sections.h"
+#include "report/rules.h"
 #include "spec/basic.h"
 #include "structured/rules.h"
 #include "vm/rules.h"
@@ -54,6 +55,10 @@ Section macro_rules_section() {
 Section stimulus_rules_section() {
   return with_rules({"stimulus-rules", "Rules for stimulus scripts", "stimulus rule", {}},
                     vm::rules::all());
+}
+
+Section course_rules_section() {
+  return with_rules({"course-rules", "Rules for courses", "course rule", {}}, report::rules::all());
 }
 
 } // namespace orb::reference

@@ -26,6 +26,7 @@ Section macro_flags_section();
 Section macro_limits_section();
 Section macro_rules_section();
 Section stimulus_rules_section();
+Section course_rules_section();
 Section api_commands_section();
 Section api_messages_section();
 Section responses_section();

@@ -126,14 +126,18 @@ void Journey::add(Duration t, const vm::Event& event) {
           totals_.lines = std::max(totals_.lines, seen.lines);
         } else if constexpr (std::is_same_v<Seen, of::Bump>) {
           happen(t, Kind::Bump,
-                 fmt::format("ran into the wall {}={:g} at speed {}",
-                             seen.wall.axis == vm::Wall::Axis::X ? 'x' : 'y', seen.wall.at_cm,
+                 fmt::format("ran into the wall {} at speed {}", vm::to_string(seen.wall),
                              seen.speed));
         } else {
           static_assert(std::is_same_v<Seen, of::MacroEnd>); // its last command says it
         }
       },
       event);
+}
+
+void Journey::set_course(Course course) {
+  walls_.insert(walls_.begin(), course.walls.begin(), course.walls.end());
+  course_ = std::move(course);
 }
 
 void Journey::explain(const std::string& why) {

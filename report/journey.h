@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "report/course.h"
 #include "vm/observer.h"
 
 #include <array>
@@ -125,6 +126,8 @@ public:
   void tell_places(Told told) { told_ = told; }
   void map_command(int macro, int command, Place place);
   void add_wall(const vm::Wall& wall) { walls_.push_back(wall); }
+  /// What the ball drives through; its walls come before those that were added.
+  void set_course(Course course);
 
   // During the run: `t` counts from the start of the program.
   void add(Duration t, const vm::Event& event);
@@ -139,6 +142,7 @@ public:
   const Totals& totals() const { return totals_; }
   const End& end() const { return end_; }
   const std::vector<vm::Wall>& walls() const { return walls_; }
+  const std::optional<Course>& course() const { return course_; }
   const Series<vm::Pose>& poses() const { return poses_; }
   const Series<vm::Color>& led() const { return led_; }
   const Series<int>& back_led() const { return back_led_; }
@@ -163,6 +167,7 @@ private:
 
   std::vector<File> files_;
   std::vector<vm::Wall> walls_;
+  std::optional<Course> course_;
   std::map<int, Place> lines_;
   Told told_ = Told::RobotLine;
   std::map<std::pair<int, int>, Place> commands_;

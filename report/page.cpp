@@ -250,11 +250,43 @@ ordered_json counts(const Journey& journey) {
   return counts;
 }
 
+ordered_json place(vm::Point point) {
+  constexpr double digits = 1000; // of a centimetre
+  return ordered_json::array(
+      {std::round(point.x * digits) / digits, std::round(point.y * digits) / digits});
+}
+
 ordered_json walls(const Journey& journey) {
   auto list = ordered_json::array();
-  for (const auto& wall : journey.walls())
-    list.push_back({{"axis", wall.axis == vm::Wall::Axis::X ? "x" : "y"}, {"at", wall.at_cm}});
+  for (const auto& wall : journey.walls()) {
+    if (wall.axis == vm::Wall::Axis::None)
+      list.push_back({{"from", place(wall.from)}, {"to", place(wall.to)}});
+    else
+      list.push_back({{"axis", wall.axis == vm::Wall::Axis::X ? "x" : "y"}, {"at", wall.at_cm}});
+  }
   return list;
+}
+
+/// The zones, each with the rings that draw it; the walls are among those of the run.
+ordered_json course(const Course& course) {
+  auto zones = ordered_json::array();
+  for (const auto& zone : course.zones) {
+    auto rings = ordered_json::array();
+    for (const auto& ring : zone.rings) {
+      auto points = ordered_json::array();
+      for (const auto& point : ring)
+        points.push_back(place(point));
+      rings.push_back(std::move(points));
+    }
+    zones.push_back({{"id", to_valid_utf8(zone.id)},
+                     {"evenodd", zone.fill == Zone::Fill::EvenOdd},
+                     {"rings", std::move(rings)}});
+  }
+  const auto box = course.box();
+  return {{"name", to_valid_utf8(course.name)},
+          {"low", place(box.low)},
+          {"high", place(box.high)},
+          {"zones", std::move(zones)}};
 }
 
 std::string thinned_words(const Journey& journey, const Journey::Listed& listed) {
@@ -270,27 +302,30 @@ std::string outcome(const Journey::End& end) {
 
 ordered_json run_data(const Journey& journey, std::string_view title) {
   const auto listed = journey.listed();
-  return {{"schema", schema},
-          {"title", to_valid_utf8(title)},
-          {"end",
-           {{"t", microseconds(journey.end().t)},
-            {"reason", journey.end().reason},
-            {"text", outcome(journey.end())}}},
-          {"totals", totals(journey)},
-          {"counts", counts(journey)},
-          {"thinned", thinned_words(journey, listed)},
-          {"files", files(journey)},
-          {"words", words()},
-          {"walls", walls(journey)},
-          {"pose", poses(journey)},
-          {"led", lamps(journey)},
-          {"backled",
-           {{"t", times(journey.back_led().entries())},
-            {"value",
-             plain(journey.back_led().entries(), [](const auto& entry) { return entry.value; })}}},
-          {"line", places(journey)},
-          {"sensors", sensors(journey)},
-          {"events", happenings(listed)}};
+  ordered_json data = {{"schema", schema},
+                       {"title", to_valid_utf8(title)},
+                       {"end",
+                        {{"t", microseconds(journey.end().t)},
+                         {"reason", journey.end().reason},
+                         {"text", outcome(journey.end())}}},
+                       {"totals", totals(journey)},
+                       {"counts", counts(journey)},
+                       {"thinned", thinned_words(journey, listed)},
+                       {"files", files(journey)},
+                       {"words", words()},
+                       {"walls", walls(journey)},
+                       {"pose", poses(journey)},
+                       {"led", lamps(journey)},
+                       {"backled",
+                        {{"t", times(journey.back_led().entries())},
+                         {"value", plain(journey.back_led().entries(),
+                                         [](const auto& entry) { return entry.value; })}}},
+                       {"line", places(journey)},
+                       {"sensors", sensors(journey)},
+                       {"events", happenings(listed)}};
+  if (journey.course())
+    data["course"] = course(*journey.course());
+  return data;
 }
 
 /// JSON that may stand in a script element: no `<`, so no end tag and no comment can be in it.

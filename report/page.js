@@ -144,14 +144,19 @@ show_theme();
 
 // ---- the maps: of the run, and of the one before it ----
 const view = { zoom: 1, x: 0, y: 0, follow: false };
+const least = list => list.reduce((a, b) => Math.min(a, b), list[0] ?? 0);
+const most = list => list.reduce((a, b) => Math.max(a, b), list[0] ?? 0);
 const box = (() => {
-  const x = runs.flatMap(one => one.pose.x), y = runs.flatMap(one => one.pose.y);
-  const least = list => list.reduce((a, b) => Math.min(a, b), list[0] ?? 0);
-  const most = list => list.reduce((a, b) => Math.max(a, b), list[0] ?? 0);
+  const corners = runs.flatMap(one => one.run.course ? [one.run.course.low, one.run.course.high] : []);
+  const x = runs.flatMap(one => one.pose.x).concat(corners.map(corner => corner[0]));
+  const y = runs.flatMap(one => one.pose.y).concat(corners.map(corner => corner[1]));
   const [left, right, low, high] = [least(x), most(x), least(y), most(y)];
   return { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
 })();
-const moved = box.right - box.left > 1 || box.high - box.low > 1;
+const spread = axis => { const list = runs.flatMap(one => one.pose[axis]); return most(list) - least(list); };
+const moved = spread("x") > 1 || spread("y") > 1;
+/** A map has a scale where something lies on it; else it shows the ball alone. */
+const mapped = moved || runs.some(one => one.run.course);
 const length_words = cm => cm >= 100 ? `${trim(cm / 100, 2)} m` : `${trim(cm, 2)} cm`;
 const hit_path = "M-5 -5L5 5M-5 5L5 -5";
 const mark_art = {
@@ -209,7 +214,30 @@ function make_map(map, of) {
         shape("text", { x: 8, y: y - 4, class: "grid-word" }, words).textContent = trim(n * grid, 3);
     }
   }
+  const point = ([x, y]) => `${px(x).toFixed(1)} ${py(y).toFixed(1)}`;
+  function draw_zones(parent) {
+    for (const zone of run.course?.zones ?? []) {
+      const d = zone.rings.map(ring => `M${ring.map(point).join("L")}z`).join("");
+      shape("path", { d, class: "zone", "fill-rule": zone.evenodd ? "evenodd" : "nonzero", "data-zone": zone.id }, parent);
+      const x = zone.rings.flat().map(place => px(place[0])), y = zone.rings.flat().map(place => py(place[1]));
+      const middle = list => (Math.min(...list) + Math.max(...list)) / 2;
+      shape("text", { x: middle(x), y: middle(y) + 4, "text-anchor": "middle", class: "zone-word" }, parent).textContent = zone.id;
+    }
+  }
+  const segments = () => run.walls.filter(wall => wall.from).map(({ from, to }) => [px(from[0]), py(from[1]), px(to[0]), py(to[1])]);
+  /** Whether a line meets a rectangle. */
+  function meets([x1, y1, x2, y2], left, right, high, low) {
+    let enter = 0, leave = 1;
+    for (const [start, way, least, most] of [[x1, x2 - x1, left, right], [y1, y2 - y1, high, low]]) {
+      if (way === 0) { if (start < least || start > most) return false; continue; }
+      const a = (least - start) / way, b = (most - start) / way;
+      enter = Math.max(enter, Math.min(a, b));
+      leave = Math.min(leave, Math.max(a, b));
+    }
+    return enter <= leave;
+  }
   function draw_walls(parent) {
+    for (const wall of run.walls) if (wall.from) shape("path", { d: `M${point(wall.from)}L${point(wall.to)}`, class: "wall" }, parent);
     for (const x of wall_pixels("x")) shape("path", { d: `M${x} 0V${pixels.height}`, class: "wall" }, parent);
     for (const y of wall_pixels("y")) shape("path", { d: `M0 ${y}H${pixels.width}`, class: "wall" }, parent);
   }
@@ -224,6 +252,7 @@ function make_map(map, of) {
       for (let i = 0; i < pose.t.length; ++i) if (inside(px(pose.x[i]), py(pose.y[i]))) ++sum;
       for (const wall of wall_pixels("x")) if (wall > left - 3 && wall < right + 3) sum += 500;
       for (const wall of wall_pixels("y")) if (wall > high - 3 && wall < low + 3) sum += 500;
+      for (const wall of segments()) if (meets(wall, left, right, high, low)) sum += 500;
       for (const one of taken) if (one.left < right && one.right > left && one.high < low && one.low > high) sum += 1000;
       return sum;
     };
@@ -275,8 +304,8 @@ function make_map(map, of) {
     shape("stop", { offset: .45, "stop-color": "#fff", "stop-opacity": .12 }, shine);
     shape("stop", { offset: 1, "stop-color": "#000", "stop-opacity": .28 }, shine);
     const ball = shape("g", { class: "ball", ...of === main ? { id: "ball" } : {} }, parent);
-    const halo = shape("circle", { r: moved ? 40 : 90, fill: `url(#${map.id}-glow)` }, ball);
-    const r = moved ? 13 : 34;
+    const halo = shape("circle", { r: mapped ? 40 : 90, fill: `url(#${map.id}-glow)` }, ball);
+    const r = mapped ? 13 : 34;
     shape("ellipse", { cx: 2, cy: 4, rx: r, ry: r, class: "ball-shadow" }, ball);
     shape("circle", { r, class: "ball-body" }, ball);
     const lamp = shape("circle", { ...of === main ? { id: "ball-lamp" } : {}, r: r - .7 }, ball);
@@ -291,6 +320,8 @@ function make_map(map, of) {
     for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
     map.setAttribute("viewBox", `0 0 ${pixels.width} ${pixels.height}`);
     const grid = shape("g", {}, map);
+    const floor = shape("g", {}, map); // zones lie on the grid
+    draw_zones(floor);
     draw_walls(shape("g", {}, map));
     draw_grid(grid, shape("g", {}, map));
     const ahead = shape("g", { class: "ahead" }, map);
@@ -404,7 +435,7 @@ for (const [kind, words] of Object.entries(legend_words)) {
   item.append(words);
   $("legend").append(item);
 }
-for (const [sign, words, seen] of [["wall", "wall", runs.some(one => one.run.walls.length)], ["run unlit", "LED off", runs.some(one => one.stretches.some(stretch => !stretch.color))]]) {
+for (const [sign, words, seen] of [["wall", "wall", runs.some(one => one.run.walls.length)], ["zone", "zone", runs.some(one => one.run.course?.zones.length)], ["run unlit", "LED off", runs.some(one => one.stretches.some(stretch => !stretch.color))]]) {
   if (!seen) continue;
   const item = element("li", { "data-sign": sign.split(" ").pop() });
   shape("path", { d: "M-9 0H9", class: sign, "stroke-width": 2.5 }, shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));

@@ -1,5 +1,7 @@
 #include "report/svg.h"
 
+#include "base/utf8.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -25,9 +27,10 @@ struct Frame {
   Point origin; ///< where 0,0 lies on the card
   double height = card_width;
 
-  Point operator()(const vm::Pose& pose) const {
-    return {origin.x + pose.x_cm * scale, origin.y - pose.y_cm * scale};
+  Point operator()(vm::Point place) const {
+    return {origin.x + place.x * scale, origin.y - place.y * scale};
   }
+  Point operator()(const vm::Pose& pose) const { return (*this)(vm::Point{pose.x_cm, pose.y_cm}); }
 };
 
 /// A tenth of a unit, without a sign before zero: enough for a drawing, and the same everywhere.
@@ -90,6 +93,13 @@ Extent extent(const Journey& journey) {
   return box;
 }
 
+/// With all of the course around it.
+Extent with_course(Extent box, const Course& course) {
+  const auto around = course.box();
+  return {std::min(box.left, around.low.x), std::max(box.right, around.high.x),
+          std::min(box.low, around.low.y), std::max(box.high, around.high.y)};
+}
+
 bool moved(const Extent& box) {
   return box.right - box.left > 1 || box.high - box.low > 1;
 }
@@ -144,12 +154,42 @@ std::string grid(const Frame& frame) {
 std::string walls(const Journey& journey, const Frame& frame) {
   std::string out;
   for (const auto& wall : journey.walls()) {
-    if (wall.axis == vm::Wall::Axis::X)
+    if (wall.axis == vm::Wall::Axis::None)
+      out += fmt::format("<path class=\"wall\" d=\"M{}L{}\"/>\n", at(frame(wall.from)),
+                         at(frame(wall.to)));
+    else if (wall.axis == vm::Wall::Axis::X)
       out += fmt::format("<path class=\"wall\" d=\"M{} 0V{}\"/>\n",
                          number(frame.origin.x + wall.at_cm * frame.scale), number(frame.height));
     else
       out += fmt::format("<path class=\"wall\" d=\"M0 {}H{}\"/>\n",
                          number(frame.origin.y - wall.at_cm * frame.scale), number(card_width));
+  }
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : to_valid_utf8(text))
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+  return out;
+}
+
+std::string zones(const Course& course, const Frame& frame) {
+  std::string out;
+  for (const auto& zone : course.zones) {
+    std::string d;
+    for (const auto& ring : zone.rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        d += (i == 0 ? "M" : "L") + at(frame(ring[i]));
+      d += "z";
+    }
+    const auto middle = frame(
+        vm::Point{(zone.box.low.x + zone.box.high.x) / 2, (zone.box.low.y + zone.box.high.y) / 2});
+    out += fmt::format("<path class=\"zone\"{} d=\"{}\"/>\n"
+                       "<text class=\"zone-name\" x=\"{}\" y=\"{}\" "
+                       "text-anchor=\"middle\">{}</text>\n",
+                       zone.fill == Zone::Fill::EvenOdd ? " fill-rule=\"evenodd\"" : "", d,
+                       number(middle.x), number(middle.y + 4), escaped(zone.id));
   }
   return out;
 }
@@ -262,32 +302,39 @@ constexpr std::string_view style = R"(<style>
 text{font:600 11px system-ui,sans-serif;fill:#14212b}.wall{stroke:#536472;stroke-width:4}
 .path,.outline{fill:none;stroke-linecap:round;stroke-linejoin:round;stroke-width:3.5}
 .outline{stroke:#14212b;stroke-opacity:.5;stroke-width:5.5}.unlit{stroke:#8c9ba7}
+.zone{fill:#1d5fd1;fill-opacity:.1;stroke:#1d5fd1;stroke-dasharray:5 4}.zone-name{fill:#1d5fd1}
 .start{fill:none;stroke:#14212b;stroke-width:2}.hit{stroke:#b3261e;stroke-width:2.4;fill:none}
 .marker{fill:#fbfdfe;stroke:#14212b;stroke-width:1.6}.fault{fill:#b3261e}
 .ball{fill:#d9e2e8;stroke:#5d6e7b;stroke-width:1.5}.ring,.arc{fill:none;stroke-width:16}.ring{stroke:#dfe8ee}
 @media (prefers-color-scheme:dark){.card{fill:#10171d}.grid,.ring{stroke:#1e2a34}.scale,.start{stroke:#e4ecf1}
 text{fill:#e4ecf1}.wall{stroke:#91a2af}.outline{stroke:#000}.unlit{stroke:#586a77}.hit{stroke:#ff8a7f}
+.zone{fill:#7db0ff;stroke:#7db0ff}.zone-name{fill:#7db0ff}
 .marker{fill:#10171d;stroke:#e4ecf1}.fault{fill:#ff8a7f}.ball{fill:#26333d;stroke:#7b8d9a}}
 </style>
 <defs><radialGradient id="shine" cx=".36" cy=".3" r=".75"><stop offset="0" stop-color="#fff" stop-opacity=".85"/><stop offset=".45" stop-color="#fff" stop-opacity=".1"/><stop offset="1" stop-color="#000" stop-opacity=".25"/></radialGradient></defs>
 )";
 
 std::string picture(const Journey& journey, double* height) {
-  const auto box = extent(journey);
+  auto box = extent(journey);
   const auto& poses = journey.poses().entries();
   const auto last = last_lit(journey);
-  if (!moved(box)) {
+  const auto& course = journey.course();
+  if (course)
+    box = with_course(box, *course);
+  else if (!moved(box)) {
     *height = 240;
     const Point center{card_width / 2, *height / 2};
     return ring(journey, center, 78) + ball(center, 44, last);
   }
   const auto frame = frame_for(box);
   *height = frame.height;
-  const auto start = frame(poses.front().value);
-  return grid(frame) + walls(journey, frame) + path(journey, frame) +
+  const auto start = poses.empty() ? frame(vm::Point{}) : frame(poses.front().value);
+  const auto end = poses.empty() ? start : frame(poses.back().value);
+  return grid(frame) + (course ? zones(*course, frame) : std::string()) + walls(journey, frame) +
+         path(journey, frame) +
          fmt::format("<circle class=\"start\" cx=\"{}\" cy=\"{}\" r=\"8\"/>\n", number(start.x),
                      number(start.y)) +
-         marks(journey, frame) + ball(frame(poses.back().value), 10, last);
+         marks(journey, frame) + ball(end, 10, last);
 }
 
 } // namespace

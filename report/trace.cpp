@@ -172,6 +172,8 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
           [&](const e::End&) { return std::string(); },
           [&](const e::MacroEnd&) { return std::string(); },
           [&](const e::Bump& x) {
+            if (x.wall.axis == vm::Wall::Axis::None)
+              return line("bump", {{"wall", vm::to_string(x.wall)}, {"speed", n(x.speed)}});
             return line("bump",
                         {{"wall", std::string(x.wall.axis == vm::Wall::Axis::X ? "x" : "y")},
                          {"at", x.wall.at_cm},

@@ -4,6 +4,7 @@
 #include "assembler/lint.h"
 #include "compiler/check.h"
 #include "compiler/parse.h"
+#include "report/course.h"
 
 #include <algorithm>
 #include <array>
@@ -168,6 +169,8 @@ std::optional<Language> language_of(std::string_view name, std::string_view lang
 }
 
 Failure unknown_content(std::string_view name) {
+  if (report::is_course(name))
+    return {ExitCode::Usage, fmt::format("{0} is a course; give it with `--course {0}`", name)};
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} by its name; give "
                                        "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};

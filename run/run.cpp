@@ -415,6 +415,8 @@ void describe(std::span<const Input> inputs, const Options& options, report::Jou
         journey.map_command(macro.image.id, static_cast<int>(k) + 1,
                             {file, static_cast<int>(macro.command_lines[k])});
   }
+  if (options.course != nullptr)
+    journey.set_course(*options.course);
   for (const auto& event : options.stimuli)
     if (const auto* wall = std::get_if<vm::Wall>(&event.stimulus))
       journey.add_wall(*wall);
@@ -470,6 +472,8 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   watcher.begin(ball, streams ? Watcher::From::FirstCommand : Watcher::From::Now);
   if (journey != nullptr)
     describe(inputs, options, *journey);
+  if (options.course != nullptr)
+    ball.schedule(options.course->stimuli());
   ball.schedule(options.stimuli);
   for (const auto number : options.numbers)
     ball.queue_input(number);

@@ -2,6 +2,7 @@
 
 #include "base/exit_code.h"
 #include "base/time.h"
+#include "report/course.h"
 #include "report/journey.h"
 #include "run/cause.h"
 #include "run/input.h"
@@ -45,8 +46,9 @@ struct Options {
   bool trace_lines = false;             ///< the listener hears every line
   Duration slice = 1s;                  ///< how often the listener hears of the time
   std::vector<vm::TimedStimulus> stimuli;
-  std::string expect;    ///< printed: the run stops well; empty for none
-  std::string fail_text; ///< printed: the run stops as a failure; empty for none
+  const report::Course* course = nullptr; ///< what it drives through; must outlive the run
+  std::string expect;                     ///< printed: the run stops well; empty for none
+  std::string fail_text;                  ///< printed: the run stops as a failure; empty for none
 };
 
 /// A fault of the robot and where it is in the user's file.

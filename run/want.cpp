@@ -46,6 +46,8 @@ constexpr auto sensors = std::to_array<Sensor>({
 });
 
 bool comes(const Options& options, bool (*brings)(const vm::Stimulus&)) {
+  if (options.course != nullptr && !options.course->walls.empty() && brings(vm::Wall{}))
+    return true;
   return std::any_of(options.stimuli.begin(), options.stimuli.end(),
                      [&](const auto& event) { return brings(event.stimulus); });
 }

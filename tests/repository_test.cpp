@@ -42,7 +42,7 @@ const std::vector<Room> rooms = {
     {4, "uploader", {"protocol"}},
     {4, "vm", {"protocol", "bytecode"}},
     {5, "report", {"vm"}},
-    {6, "reference", {"structured", "vm"}},
+    {6, "reference", {"structured", "report"}},
     {6, "run", {"report", "structured", "uploader"}},
     {7, "editor", {"reference", "run"}},
     {7, "serve", {"vm", "disk"}},
@@ -163,6 +163,10 @@ TEST(Floors, OnlyParsersSeePegtl) {
   expect_only({"compiler", "assembler", "structured"}, {"tao/pegtl"});
 }
 
+TEST(Floors, OnlyCoursesSeeXml) {
+  expect_only({"report"}, {"pugixml"});
+}
+
 // The browser links everything but the edge.
 TEST(Floors, OnlyTheEdgeSeesFilesSocketsAndTheConsole) {
   expect_only({"cli", "serve", "disk", "uploader"},
@@ -177,7 +181,8 @@ TEST(Golden, EveryExampleIsCheckedAndRun) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(root / "examples")) {
     const auto name = "examples/" + entry.path().filename().string();
-    if (!name.ends_with(".bas") && !name.ends_with(".orb") && !name.ends_with(".macro"))
+    if (!name.ends_with(".bas") && !name.ends_with(".orb") && !name.ends_with(".macro") &&
+        !name.ends_with(".svg"))
       continue;
     ++count;
     const std::regex checked("orb check [^\n]*" + name);
@@ -193,7 +198,8 @@ TEST(Golden, EveryRuleIsShown) {
   for (const auto& file : files_below(root / "tests" / "golden", {".txt"}))
     shown += read_all(file);
   const std::regex row(R"re(ORB_RULE\(\w+,\s*"([a-z-]+)")re");
-  for (const auto* table : {"compiler/rules.def", "structured/rules.def", "assembler/rules.def"}) {
+  for (const auto* table :
+       {"compiler/rules.def", "structured/rules.def", "assembler/rules.def", "report/rules.def"}) {
     const auto text = read_all(root / table);
     const std::sregex_iterator end;
     std::size_t rows = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace orb::vm {
@@ -43,6 +44,26 @@ Instant grid_after(Instant now) {
 }
 
 } // namespace
+
+std::string to_string(const Wall& wall) {
+  switch (wall.axis) {
+  case Wall::Axis::X: return fmt::format("x={:g}", wall.at_cm);
+  case Wall::Axis::Y: return fmt::format("y={:g}", wall.at_cm);
+  case Wall::Axis::None: break;
+  }
+  return fmt::format("{:g},{:g} to {:g},{:g}", wall.from.x, wall.from.y, wall.to.x, wall.to.y);
+}
+
+Point nearest_point(const Wall& wall, Point place) {
+  const Point along{wall.to.x - wall.from.x, wall.to.y - wall.from.y};
+  const double length_squared = along.x * along.x + along.y * along.y;
+  if (length_squared == 0)
+    return wall.from;
+  const double share =
+      ((place.x - wall.from.x) * along.x + (place.y - wall.from.y) * along.y) / length_squared;
+  const double inside = std::clamp(share, 0.0, 1.0);
+  return {wall.from.x + inside * along.x, wall.from.y + inside * along.y};
+}
 
 Body::Body(std::uint64_t seed)
     : seed_(seed), rotation_rate_(default_rotation_rate), battery_v_(full_battery) {}
@@ -179,13 +200,20 @@ void Body::travel() {
   const auto& going = course();
   double x = world_x_ + going.vx * dt;
   double y = world_y_ + going.vy * dt;
+  const double speed = going.speed; // before a wall changes it
   if (!walls_.empty())
     hit_walls(x, y, going.vx, going.vy);
+  if (!segments_.empty()) {
+    Point place{x, y};
+    hit_segments(place);
+    x = place.x;
+    y = place.y;
+  }
 
   // The locator sees the same way, turned into its own axes.
   const double dx = x - world_x_;
   const double dy = y - world_y_;
-  rolled_cm_ += walls_.empty() ? going.speed * dt : std::hypot(dx, dy);
+  rolled_cm_ += walls_.empty() && segments_.empty() ? speed * dt : std::hypot(dx, dy);
   world_x_ = x;
   world_y_ = y;
   const double turned = tare_deg_ - world_offset_deg_;
@@ -198,7 +226,7 @@ void Body::travel() {
     locator_x_ += dx * cosine + dy * sine;
     locator_y_ += dy * cosine - dx * sine;
   }
-  battery_v_ -= motion_drain / hour_s * dt * std::min(1.0, going.speed / full_speed);
+  battery_v_ -= motion_drain / hour_s * dt * std::min(1.0, speed / full_speed);
 }
 
 void Body::hit_walls(double& x, double& y, double vx, double vy) {
@@ -224,6 +252,67 @@ void Body::hit_walls(double& x, double& y, double vx, double vy) {
     if (std::abs(speed) < least_blow)
       (across_x ? drift_x_ : drift_y_) = 0;
   }
+}
+
+void Body::hit_segments(Point& place) {
+  const double way = std::hypot(place.x - world_x_, place.y - world_y_);
+  if (way < clear_cm_) {
+    clear_cm_ -= way;
+    return;
+  }
+  // In pieces so short that none of them jumps over a wall.
+  const double pieces = std::ceil(way / (radius / 2));
+  const Point piece{(place.x - world_x_) / pieces, (place.y - world_y_) / pieces};
+  place = {world_x_, world_y_};
+  for (double done = 0; done < pieces; ++done) {
+    place = {place.x + piece.x, place.y + piece.y};
+    if (push_out(place))
+      break; // what is left of the step is lost in the blow
+  }
+}
+
+/// Moves a ball that reaches into walls out of them. True where it touched one.
+bool Body::push_out(Point& place) {
+  constexpr int most_rounds = 4; // out of one wall of a corner, it may be in the other
+  constexpr double touch = radius - 1e-9;
+  bool touched = false;
+  for (int round = 0; round < most_rounds; ++round) {
+    double nearest = HUGE_VAL;
+    for (const auto& wall : segments_) {
+      const auto foot = nearest_point(wall, place);
+      const double distance = std::hypot(place.x - foot.x, place.y - foot.y);
+      nearest = std::min(nearest, distance);
+      if (distance >= touch || distance == 0)
+        continue;
+      touched = true;
+      const Point normal{(place.x - foot.x) / distance, (place.y - foot.y) / distance};
+      place = {foot.x + normal.x * radius, foot.y + normal.y * radius};
+      bounce(wall, normal);
+    }
+    clear_cm_ = std::max(0.0, nearest - radius);
+    if (nearest >= touch)
+      return touched;
+  }
+  place = {world_x_, world_y_}; // a corner too narrow for the ball: it stays where it was
+  return true;
+}
+
+/// What a wall leaves of a speed into it: the way along it, and a share of the way back. `normal`
+/// points from the wall to the ball.
+void Body::bounce(const Wall& wall, Point normal) {
+  const auto going = course();
+  const double into = going.vx * normal.x + going.vy * normal.y;
+  if (into >= 0)
+    return;
+  const bool blow = -into >= least_blow;
+  if (blow) {
+    strike(into * normal.x, into * normal.y);
+    impact_->wall = wall;
+  }
+  const double taken = into * (blow ? 1 + restitution : 1);
+  drift_x_ = going.vx - taken * normal.x;
+  drift_y_ = going.vy - taken * normal.y;
+  forward_ = left_wheel_ = right_wheel_ = 0;
 }
 
 void Body::strike(double vx, double vy) {
@@ -372,6 +461,11 @@ void Body::set_tare_correction(Switch correct_on_set_heading) {
 }
 
 void Body::add_wall(const Wall& wall) {
+  if (wall.axis == Wall::Axis::None) {
+    segments_.push_back(wall);
+    clear_cm_ = 0;
+    return;
+  }
   const double place = wall.axis == Wall::Axis::X ? world_x_ : world_y_;
   walls_.push_back({wall, place < wall.at_cm ? -1.0 : 1.0});
 }

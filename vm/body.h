@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -101,15 +102,31 @@ struct Pose {
   double speed_cm_s = 0;
 };
 
-/// A straight wall of the stimulus script, in centimetres of the world in which the ball woke up at
-/// 0,0 facing +Y.
-struct Wall {
-  enum class Axis : std::uint8_t { X, Y };
-  Axis axis = Axis::X;
-  double at_cm = 0;
+/// A place in centimetres of the world in which the ball woke up at 0,0 facing +Y.
+struct Point {
+  double x = 0;
+  double y = 0;
 
+  friend constexpr bool operator==(Point, Point) = default;
+};
+
+/// A straight wall: endless at `x=` or `y=`, or between two points.
+struct Wall {
+  enum class Axis : std::uint8_t { X, Y, None };
+  Axis axis = Axis::X;
+  double at_cm = 0; ///< of an endless one
+  Point from{};     ///< of one along no axis
+  Point to{};
+
+  static constexpr Wall between(Point from, Point to) { return {Axis::None, 0, from, to}; }
   friend constexpr bool operator==(const Wall&, const Wall&) = default;
 };
+
+/// `x=70`, or `-30,50 to 30,50` of a wall between two points.
+std::string to_string(const Wall& wall);
+
+/// The point of a wall between two points that is nearest to `place`.
+Point nearest_point(const Wall& wall, Point place);
 
 /// A blow as the accelerometer sees it: positive y is a blow on the front, positive x one on the
 /// right (Source: LL §Collision Detection).
@@ -226,6 +243,9 @@ private:
   void drive();
   void travel();
   void hit_walls(double& new_x, double& new_y, double vx, double vy);
+  void hit_segments(Point& place);
+  bool push_out(Point& place);
+  void bounce(const Wall& wall, Point normal);
   void strike(double vx, double vy);
   double noise(std::uint32_t channel) const;
 
@@ -283,7 +303,9 @@ private:
     Wall wall;
     double side; ///< +1 or -1: where the ball was when the wall appeared
   };
-  std::vector<Obstacle> walls_;
+  std::vector<Obstacle> walls_; ///< endless ones
+  std::vector<Wall> segments_;  ///< those between two points
+  double clear_cm_ = 0;         ///< so far it can go before it may touch one of these
 };
 
 } // namespace orb::vm

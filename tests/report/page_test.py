@@ -6,6 +6,7 @@ Exits 77 (skipped, to ctest) where no Chromium is installed."""
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -394,6 +395,40 @@ class Report(unittest.TestCase):
                 return walls.some(wall => wall.left < box.right && wall.right > box.left && wall.top < box.bottom && wall.bottom > box.top);
               }).map(word => word.textContent);
             })()"""), [])
+
+    def test_a_course_is_drawn_to_scale_with_its_names(self):
+        page = self.open(Run(self.folder.name, "course", example("hall.orb"), "--course", example("hall.svg")))
+        self.assertEqual(page.evaluate("[...document.querySelectorAll('#map .zone-word')].map(one => one.textContent)"),
+                         ["goal", "island", "puddle"])
+        self.assertEqual(page.evaluate("[...document.querySelectorAll('#legend [data-sign]')].map(one => one.dataset.sign)"),
+                         ["start", "end", "wall", "zone"])
+        # All of it is in view, and the goal is 5 by 9 in the drawing, turned upright.
+        boxes = page.evaluate("""(() => {
+          const box = one => { const { left, right, top, bottom } = one.getBoundingClientRect(); return { left, right, top, bottom }; };
+          return { map: box(document.getElementById('map')), goal: box(document.querySelector('[data-zone=goal]')),
+                   walls: [...document.querySelectorAll('#map .wall')].map(box) };
+        })()""")
+        self.assertEqual(len(boxes["walls"]), 4 + 4 + 2 + 8)
+        for wall in boxes["walls"]:
+            self.assertGreater(wall["left"], boxes["map"]["left"])
+            self.assertGreater(wall["top"], boxes["map"]["top"])
+            self.assertLess(wall["right"], boxes["map"]["right"])
+            self.assertLess(wall["bottom"], boxes["map"]["bottom"])
+        goal = boxes["goal"]
+        self.assertAlmostEqual((goal["right"] - goal["left"]) / (goal["bottom"] - goal["top"]), 9 / 5, delta=.05)
+
+    def test_a_course_prints_in_real_centimetres(self):
+        drawing = example("parking.svg")
+        out = os.path.join(self.folder.name, "parking.pdf")
+        subprocess.run([chromium.find(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
+                        f"--user-data-dir={self.folder.name}/print", f"--print-to-pdf={out}", "file://" + drawing],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
+        with open(out, "rb") as file:
+            pages = re.findall(rb"/MediaBox \[([0-9. ]+)\]", file.read())
+        self.assertEqual(len(pages), 1)
+        left, low, right, high = (float(number) * 2.54 / 72 for number in pages[0].split())
+        self.assertAlmostEqual(right - left, 42, delta=.05)
+        self.assertAlmostEqual(high - low, 29.7, delta=.05)
 
     def test_paper_shows_the_whole_path_and_the_whole_program(self):
         page = self.open(Run(self.folder.name, "paper", example("conductor.bas"), example("orchestra.macro")))

@@ -1,3 +1,4 @@
+#include "base/random.h"
 #include "compiler/load.h"
 #include "protocol/decoder.h"
 #include "vm/ball.h"
@@ -114,6 +115,73 @@ TEST_F(TheBall, AWallStopsItAndIsACollision) {
     told |= message.id == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
             message.data.size() == 16;
   EXPECT_TRUE(told);
+}
+
+TEST_F(TheBall, AWallBetweenTwoPointsStopsItLikeAnEndlessOne) {
+  const auto drive = [&](const Wall& wall) {
+    Ball one(options());
+    one.connect();
+    one.apply(wall);
+    one.drive(Roll{20, 200, Go::Drive});
+    std::vector<Pose> way;
+    for (int i = 0; i < 100; ++i) {
+      one.advance_to(one.now() + 20ms);
+      way.push_back(one.body().pose());
+    }
+    return way;
+  };
+  const auto endless = drive({Wall::Axis::Y, 50});
+  const auto between = drive(Wall::between({-1000, 50}, {1000, 50}));
+  for (std::size_t i = 0; i < endless.size(); ++i) {
+    ASSERT_NEAR(endless[i].x_cm, between[i].x_cm, 1e-6) << i;
+    ASSERT_NEAR(endless[i].y_cm, between[i].y_cm, 1e-6) << i;
+  }
+  EXPECT_LT(between.back().y_cm, 50);
+  EXPECT_GT(between.back().x_cm, 10) << "it slides along the wall";
+}
+
+TEST_F(TheBall, PassesBesideTheEndOfAWall) {
+  const double radius = spec::ball::radius;
+  ball.apply(Wall::between({radius + 0.1, 30}, {50, 30}));
+  ball.drive(Roll{0, 200, Go::Drive});
+  ball.advance_to(ball.now() + 2s);
+  EXPECT_GT(ball.body().pose().y_cm, 100);
+  EXPECT_TRUE(notebook.all<event::Bump>().empty());
+}
+
+TEST_F(TheBall, HitsTheEndOfAWallAndIsTurnedAside) {
+  const auto wall = Wall::between({1, 30}, {50, 30});
+  ball.apply(wall);
+  ball.drive(Roll{0, 100, Go::Drive});
+  ball.advance_to(ball.now() + 5s);
+  const auto bumps = notebook.all<event::Bump>();
+  ASSERT_FALSE(bumps.empty());
+  EXPECT_EQ(bumps[0].wall, wall);
+  EXPECT_EQ(to_string(bumps[0].wall), "1,30 to 50,30");
+  EXPECT_LT(ball.body().pose().x_cm, 0) << "past the end, to the left of it";
+}
+
+TEST_F(TheBall, NeverLeavesARoomOfWalls) {
+  // A triangle with narrow corners, pushed about as hard as a script can.
+  const Point corners[] = {{-80, -30}, {80, -30}, {0, 60}};
+  for (int i = 0; i < 3; ++i)
+    ball.apply(Wall::between(corners[i], corners[(i + 1) % 3]));
+  Random random{7};
+  for (int i = 0; i < 400; ++i) {
+    const auto heading = static_cast<int>(random.next() % 360);
+    ball.apply(stimulus::Push{heading, 255});
+    if (i % 3 == 0)
+      ball.apply(stimulus::Push{heading, 255});
+    ball.drive(Roll{heading, 255, Go::FastTurn});
+    ball.advance_to(ball.now() + 90ms);
+    const auto pose = ball.body().pose();
+    for (int side = 0; side < 3; ++side) {
+      const auto from = corners[side], to = corners[(side + 1) % 3];
+      const double inside =
+          (to.x - from.x) * (pose.y_cm - from.y) - (pose.x_cm - from.x) * (to.y - from.y);
+      ASSERT_GT(inside, 0) << i << ": " << pose.x_cm << "," << pose.y_cm;
+    }
+  }
 }
 
 TEST_F(TheBall, TellsThatItRanIntoAWallEvenUnasked) {

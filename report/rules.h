@@ -1,0 +1,11 @@
+#pragma once
+
+#include "base/rules.h"
+
+/// The rules about courses: `rules::CourseStart`.
+namespace orb::report::rules {
+
+#define ORB_RULES "report/rules.def"
+#include "base/rules.inc"
+
+} // namespace orb::report::rules
