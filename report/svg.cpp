@@ -302,16 +302,21 @@ constexpr std::string_view style = R"(<style>
 text{font:600 11px system-ui,sans-serif;fill:#14212b}.wall{stroke:#536472;stroke-width:4}
 .path,.outline{fill:none;stroke-linecap:round;stroke-linejoin:round;stroke-width:3.5}
 .outline{stroke:#14212b;stroke-opacity:.5;stroke-width:5.5}.unlit{stroke:#8c9ba7}
-.zone{fill:#1d5fd1;fill-opacity:.1;stroke:#1d5fd1;stroke-dasharray:5 4}.zone-name{fill:#1d5fd1}
 .start{fill:none;stroke:#14212b;stroke-width:2}.hit{stroke:#b3261e;stroke-width:2.4;fill:none}
 .marker{fill:#fbfdfe;stroke:#14212b;stroke-width:1.6}.fault{fill:#b3261e}
 .ball{fill:#d9e2e8;stroke:#5d6e7b;stroke-width:1.5}.ring,.arc{fill:none;stroke-width:16}.ring{stroke:#dfe8ee}
 @media (prefers-color-scheme:dark){.card{fill:#10171d}.grid,.ring{stroke:#1e2a34}.scale,.start{stroke:#e4ecf1}
 text{fill:#e4ecf1}.wall{stroke:#91a2af}.outline{stroke:#000}.unlit{stroke:#586a77}.hit{stroke:#ff8a7f}
-.zone{fill:#7db0ff;stroke:#7db0ff}.zone-name{fill:#7db0ff}
 .marker{fill:#10171d;stroke:#e4ecf1}.fault{fill:#ff8a7f}.ball{fill:#26333d;stroke:#7b8d9a}}
 </style>
 <defs><radialGradient id="shine" cx=".36" cy=".3" r=".75"><stop offset="0" stop-color="#fff" stop-opacity=".85"/><stop offset=".45" stop-color="#fff" stop-opacity=".1"/><stop offset="1" stop-color="#000" stop-opacity=".25"/></radialGradient></defs>
+)";
+
+/// Of a picture with a course.
+constexpr std::string_view zone_style = R"(<style>
+.wall{stroke-linecap:round}.zone{fill:#1d5fd1;fill-opacity:.1;stroke:#1d5fd1;stroke-dasharray:5 4}.zone-name{fill:#1d5fd1}
+@media (prefers-color-scheme:dark){.zone{fill:#7db0ff;stroke:#7db0ff}.zone-name{fill:#7db0ff}}
+</style>
 )";
 
 std::string picture(const Journey& journey, double* height) {
@@ -345,9 +350,9 @@ std::string path_svg(const Journey& journey) {
   const auto width = number(card_width);
   const auto tall = number(height);
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
-                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}"
+                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}{4}"
                      "<rect class=\"card\" width=\"{0}\" height=\"{1}\" rx=\"10\"/>\n{3}</svg>\n",
-                     width, tall, style, body);
+                     width, tall, style, body, journey.course() ? zone_style : "");
 }
 
 } // namespace orb::report
