@@ -61,6 +61,7 @@ private:
   std::vector<std::uint32_t> spread(std::uint32_t start, std::vector<std::uint8_t>& marks,
                                     Calls calls) const {
     std::vector<std::uint32_t> found;
+    found.reserve(size_);
     const auto visit = [&](std::uint32_t to) {
       if (to < size_ && marks[to] == 0) {
         marks[to] = 1;

@@ -129,12 +129,13 @@ private:
 
   void check_jumps() {
     for (std::uint32_t i = 0; i < size_; ++i) {
-      auto pair = innermost_[i];
+      const auto jumps = flow_.jumps_of(flow_.code[i]);
+      auto pair = jumps.empty() ? none : innermost_[i];
       while (pair != none && (pairs_[pair].end == none || i > pairs_[pair].end))
         pair = pairs_[pair].outer;
       if (pair == none)
         continue;
-      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+      for (const auto& jump : jumps)
         if (!jump.call && jump.to != none &&
             (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end)) {
           auto& d = findings_.add(
@@ -159,6 +160,9 @@ private:
   /// loops with which it is called. What differs between two ways is unknown.
   void follow() {
     first_state_.assign(size_, none);
+    ahead_.assign(size_ + 1, size_);
+    for (std::uint32_t i = size_; i-- > 0;)
+      ahead_[i] = is_plain(i) ? ahead_[i + 1] : i;
     calls_.push_back({});
     reach(0, 0, {});
     while (!work_.empty()) {
@@ -168,8 +172,19 @@ private:
     }
   }
 
+  /// Whether a line only leads to the next one, with the same loops open.
+  bool is_plain(std::uint32_t i) const {
+    const auto& code = flow_.code[i];
+    const auto whole = program_.whole(statement(i));
+    return code.falls && flow_.jumps_of(code).empty() &&
+           std::none_of(whole.begin(), whole.end(), [](const auto& node) {
+             return is_loop_part(node) || is(node, spec::Statement::Return);
+           });
+  }
+
   void reach(std::uint32_t call, std::uint32_t code, const Loops& loops) {
-    if (code >= size_)
+    code = ahead_[std::min(code, size_)];
+    if (code == size_)
       return;
     auto at = first_state_[code];
     while (at != none && states_[at].call != call)
@@ -364,6 +379,7 @@ private:
   std::vector<Call> calls_;              ///< the first is the main program
   std::vector<State> states_;
   std::vector<std::uint32_t> first_state_; ///< by line of code
+  std::vector<std::uint32_t> ahead_;       ///< by line of code: from there on the first not plain
   std::vector<std::uint32_t> work_;        ///< states to go on from
 };
 
