@@ -26,7 +26,7 @@ using spec::Statement;
 
 /// Registers of constants get their final number when the temporaries have been counted.
 constexpr std::uint16_t constant_mark = 0x8000;
-/// Of temporaries, of constants and of texts.
+/// Of constants and of texts.
 constexpr std::size_t most_registers = 0x7F00;
 
 /// The row of a relation among the four that begin with the one for `=`.
@@ -171,10 +171,6 @@ private:
 
   /// The temporary that belongs to a place on the stack: a value is in nobody's way there.
   std::uint16_t temporary(std::size_t place) {
-    if (place >= most_registers) {
-      overflow_ = true;
-      return bytecode::first_temporary;
-    }
     chunk_.temporaries = std::max(chunk_.temporaries, static_cast<std::uint16_t>(place + 1));
     return static_cast<std::uint16_t>(bytecode::first_temporary + place);
   }
@@ -277,12 +273,15 @@ private:
   bool value_into(std::uint32_t root, std::uint16_t to) {
     if (!value(root))
       return false;
-    const std::uint16_t from = pop();
+    move(to, pop());
+    return true;
+  }
+
+  void move(std::uint16_t to, std::uint16_t from) {
     if (is_temporary(from))
       chunk_.code.back().a = to; // what was emitted last computed it
     else
       emit(Op::Copy, to, from);
-    return true;
   }
 
   /// Computes expressions into temporaries side by side: the first one; nothing when one traps.
@@ -346,10 +345,10 @@ private:
     }
   }
 
-  /// Sets a variable to a register.
+  /// Sets a variable to a value.
   void store(const Item& variable, std::uint16_t from) {
     if (variable.kind == ItemKind::Letter)
-      emit(Op::Copy, static_cast<std::uint16_t>(variable.value), from);
+      move(static_cast<std::uint16_t>(variable.value), from);
     else if (variable.kind == ItemKind::Indexed)
       emit(Op::StoreElement, from);
     else
@@ -357,40 +356,15 @@ private:
   }
 
   void assign(const LetView& let) {
-    if (let.variable.kind == ItemKind::Letter) {
-      if (!value_into(let.expression.value, static_cast<std::uint16_t>(let.variable.value)))
-        return;
-    } else {
-      const auto from = value(let.expression.value);
-      if (!from)
-        return;
-      store(let.variable, *from);
-    }
+    const auto from = value(let.expression.value);
+    if (!from)
+      return;
+    store(let.variable, *from);
     end_line();
   }
 
-  /// Whether evaluating can neither fail nor be noticed: numbers, A to Y, and what cannot go wrong.
-  bool harmless(std::uint32_t root) const {
-    if (too_deep(root) != none)
-      return false;
-    for (std::uint32_t i = program_.nodes[root].first; i <= root; ++i) {
-      const auto& node = program_.nodes[i];
-      if (node.kind == NodeKind::Indexed || node.kind == NodeKind::System ||
-          node.kind == NodeKind::Call)
-        return false;
-      const auto op = static_cast<Operator>(node.what);
-      if (node.kind != NodeKind::Binary || folded(op, 0, 0))
-        continue;
-      const auto& right = program_.nodes[i - 1];
-      const bool by_constant = right.kind == NodeKind::Number && right.value > 1;
-      if (!by_constant || (op != Operator::Divide && op != Operator::Remainder))
-        return false;
-    }
-    return true;
-  }
-
-  /// `if … then v = x else v = y` where x and y are harmless: both are computed and one is taken,
-  /// so that the processor has no jump to guess.
+  /// `if … then v = x else v = y` where x and y can neither fail nor be noticed: both are computed
+  /// and one is taken, so that the processor has no jump to guess.
   bool select(const StatementNode& node, Relation relation, std::uint16_t left,
               std::uint16_t right) {
     if (node.else_branch == none)
@@ -403,14 +377,22 @@ private:
     const auto x = program_.as<LetView>(then);
     const auto y = program_.as<LetView>(otherwise);
     if (x.variable.kind != ItemKind::Letter || y.variable.kind != ItemKind::Letter ||
-        x.variable.value != y.variable.value || !harmless(x.expression.value) ||
-        !harmless(y.expression.value))
+        x.variable.value != y.variable.value)
       return false;
     const Item values[] = {x.expression, y.expression};
+    const std::uint32_t begin = here();
     const auto pair = side_by_side(values);
-    emit(with_relation(Op::SelectEqual, relation), static_cast<std::uint16_t>(x.variable.value),
-         left, right, *pair);
-    return true;
+    const bool harmless =
+        std::all_of(chunk_.code.begin() + begin, chunk_.code.end(), [](const auto& made) {
+          return info(made.op).compiled == bytecode::Compiled::Wholly;
+        });
+    stack_.resize(2); // left and right
+    if (harmless)
+      emit(with_relation(Op::SelectEqual, relation), static_cast<std::uint16_t>(x.variable.value),
+           left, right, *pair);
+    else
+      chunk_.code.resize(begin);
+    return harmless;
   }
 
   void branch(Op op, std::uint32_t number) {
@@ -456,10 +438,8 @@ private:
   }
 
   void end_loop(const Item& variable) {
-    if (variable.kind == ItemKind::Letter)
-      emit(Op::Next, static_cast<std::uint16_t>(variable.value));
-    else
-      emit(Op::NextElement);
+    const bool letter = variable.kind == ItemKind::Letter;
+    emit(letter ? Op::Next : Op::NextElement, static_cast<std::uint16_t>(variable.value));
   }
 
   static Relation relation_of(const Comparison& comparison) {
@@ -588,12 +568,8 @@ private:
 
   void read(std::span<const Item> items) {
     for (const auto& item : items) {
-      if (item.kind == ItemKind::Letter) {
-        emit(Op::ReadData, static_cast<std::uint16_t>(item.value));
-      } else {
-        compute(Op::ReadData);
-        store(item, pop());
-      }
+      compute(Op::ReadData);
+      store(item, pop());
     }
     end_line();
   }

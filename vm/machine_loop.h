@@ -168,12 +168,16 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
     pc = pc->target();
     NEXT_LINE();
   }
+
+#define CALL(first)                                                                                \
+  if (core.frames.call_depth == core.frames.calls.size())                                          \
+    FAULT(BasicError::GosubDepthExceeded);                                                         \
+  core.frames.calls[core.frames.call_depth++] = core.index_of(pc->following_line());               \
+  pc = first;                                                                                      \
+  NEXT_LINE()
+
   OP(Gosub) {
-    if (core.frames.call_depth == core.frames.calls.size())
-      FAULT(BasicError::GosubDepthExceeded);
-    core.frames.calls[core.frames.call_depth++] = core.index_of(pc->following_line());
-    pc = pc->target();
-    NEXT_LINE();
+    CALL(pc->target());
   }
   OP(Return) {
     if (core.frames.call_depth == 0)
@@ -197,11 +201,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   }
   OP(OnGosub) {
     CHOSEN(row);
-    if (core.frames.call_depth == core.frames.calls.size())
-      FAULT(BasicError::GosubDepthExceeded);
-    core.frames.calls[core.frames.call_depth++] = core.index_of(pc->following_line());
-    pc = row->target();
-    NEXT_LINE();
+    CALL(row->target());
   }
 
 // The innermost loop may begin again.

@@ -28,4 +28,10 @@ Engine switch_engine() {
   return {handlers.data(), run};
 }
 
+#if !defined(__GNUC__) // machine_threaded.cpp
+Engine threaded_engine() {
+  return switch_engine();
+}
+#endif
+
 } // namespace orb::vm

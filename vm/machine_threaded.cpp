@@ -49,14 +49,4 @@ Engine threaded_engine() {
 
 #pragma GCC diagnostic pop
 
-#else
-
-namespace orb::vm {
-
-Engine threaded_engine() {
-  return switch_engine();
-}
-
-} // namespace orb::vm
-
 #endif

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -56,38 +57,39 @@ const x86::Gp budget = x86::rbp;
 const std::array homes{x86::esi,  x86::edi,  x86::r8d,  x86::r9d,  x86::r10d,
                        x86::r11d, x86::r12d, x86::r13d, x86::r14d, x86::r15d};
 const std::array saved{x86::rbx, x86::rbp, x86::r12, x86::r13, x86::r14, x86::r15};
-const x86::Mem frames_at = x86::qword_ptr(x86::rsp);
-const x86::Mem budget_at = x86::qword_ptr(x86::rsp, 8);
-const x86::Mem loop_at = x86::qword_ptr(x86::rsp, 16); ///< Frames::loop
-constexpr int stack_bytes = 24;
+const x86::Mem loop_at = x86::qword_ptr(x86::rsp); ///< Frames::loop
+const x86::Mem frames_at = x86::qword_ptr(x86::rsp, 8);
 
 using Entry = std::uint32_t (*)(std::int32_t* registers, Frames* frames, std::int64_t* budget,
                                 const void* line);
 
-constexpr std::size_t most_instructions = 65536; // no area of the robot makes as many
+constexpr std::size_t most_instructions = 4096; // no area of the robot has as many characters
 constexpr std::string_view too_large = "the program is too large for machine code";
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// What is decided about a program before its code is written.
 class Plan {
 public:
-  explicit Plan(const Chunk& chunk) : chunk_(chunk), loops_(chunk.code.size()) {
+  explicit Plan(const Chunk& chunk) : chunk_(chunk), heads_(chunk.code.size(), none) {
     match_loops();
+    follow_ways();
     form_blocks();
     choose_homes();
   }
 
-  struct KnownLoop {
-    std::uint32_t head = none; ///< the `for`
-    std::uint32_t body = none; ///< the first line behind it
+  /// A line where it is written: in its place or, of a short subroutine, behind a call of it.
+  struct Step {
+    std::size_t line = 0;
+    std::vector<std::uint32_t> calls; ///< where the calls return to that led here
+    /// How many lines of its block are left, with this one: they are counted together. 0 where the
+    /// line is left to the loop.
+    int rest = 0;
   };
-
-  /// How many lines of its block are left, with this one: they are counted together. 0 where the
-  /// line is left to the loop.
-  int rest(std::size_t line) const { return rest_[line]; }
-  bool begins_block(std::size_t line) const { return line == 0 || rest_[line - 1] <= 1; }
-  /// The loop that a `next` steps, unless the program jumps about.
-  const KnownLoop& loop_of(std::uint32_t next) const { return loops_[next]; }
+  const std::vector<Step>& steps() const { return steps_; }
+  bool begins_block(std::size_t step) const { return step == 0 || steps_[step - 1].rest <= 1; }
+  bool is_called(std::size_t step) const { return !steps_[step].calls.empty(); }
+  /// The `for` of the loop that a `next` steps, unless the program jumps about.
+  std::uint32_t head_of(std::uint32_t next) const { return heads_[next]; }
   /// The registers that live in those of the processor, one for each of `homes`.
   std::span<const std::uint16_t> housed() const { return housed_; }
 
@@ -95,19 +97,18 @@ private:
   /// A `next` belongs to the last `for` of its variable above it. A loop is known by its first
   /// line, so that must be nobody else's, and by a step that is a number.
   void match_loops() {
-    std::array<KnownLoop, bytecode::first_temporary> last;
+    std::array<std::uint32_t, bytecode::first_temporary> last;
+    last.fill(none);
     for (std::size_t i = 0; i < chunk_.lines.size(); ++i) {
-      const auto begun = std::ranges::count_if(chunk_.instructions(i), [](const auto& instruction) {
-        return instruction.op == Op::For || instruction.op == Op::ForElement;
+      const bool tests = std::ranges::any_of(chunk_.instructions(i), [](const auto& instruction) {
+        return bytecode::info(instruction.op).has_target();
       });
       for (std::uint32_t at = chunk_.begin(i); at < chunk_.begin(i + 1); ++at) {
         const auto& instruction = chunk_.code[at];
         if (instruction.op == Op::For)
-          last[instruction.a] = begun == 1 && instruction.d >= chunk_.first_constant()
-                                    ? KnownLoop{at, chunk_.begin(i + 1)}
-                                    : KnownLoop{};
+          last[instruction.a] = tests || instruction.d < chunk_.first_constant() ? none : at;
         else if (instruction.op == Op::Next)
-          loops_[at] = last[instruction.a];
+          heads_[at] = last[instruction.a];
       }
     }
   }
@@ -120,7 +121,7 @@ private:
       const auto& instruction = chunk_.code[at];
       const auto& row = bytecode::info(instruction.op);
       if (row.compiled == Compiled::Never || (row.compiled == Compiled::Mostly && changed) ||
-          (instruction.op == Op::Next && loops_[at].head == none))
+          (instruction.op == Op::Next && heads_[at] == none))
         return false;
       changed = changed || instruction.op == Op::StoreElement ||
                 (row.operands[0] == 'w' && instruction.a < bytecode::first_temporary);
@@ -130,51 +131,80 @@ private:
     return true;
   }
 
-  /// Blocks end where the program may go elsewhere, and before a line that it may come to.
-  void form_blocks() {
-    std::vector<bool> entered(chunk_.code.size());
-    std::vector<bool> leads_away(chunk_.lines.size());
+  /// Where lines lead and come from.
+  void follow_ways() {
+    entered_.resize(chunk_.code.size());
+    leads_away_.resize(chunk_.lines.size());
+    leads_away_.push_back(true);
     for (std::size_t i = 0; i < chunk_.lines.size(); ++i)
       for (const auto& instruction : chunk_.instructions(i)) {
         const bool jumps = (instruction.ends_line && instruction.target != chunk_.begin(i + 1)) ||
                            instruction.op == Op::Target || instruction.op == Op::Gosub;
         if (jumps && bytecode::info(instruction.op).has_target())
-          entered[instruction.target] = leads_away[i] = true;
+          entered_[instruction.target] = leads_away_[i] = true;
         if (instruction.op == Op::For || instruction.op == Op::Next || instruction.op == Op::Return)
-          leads_away[i] = true;
+          leads_away_[i] = true;
       }
-    rest_.assign(chunk_.lines.size() + 1, 0);
-    for (std::size_t i = chunk_.lines.size(); i-- > 0;) {
-      const bool last = leads_away[i] || entered[chunk_.begin(i + 1)] ||
-                        rest_[i + 1] == NativeCode::longest_block;
-      if (can_be_machine_code(i))
-        rest_[i] = last ? 1 : rest_[i + 1] + 1;
+  }
+
+  Op first_op(std::size_t line) const { return chunk_.code[chunk_.begin(line)].op; }
+
+  /// Writes down the subroutine that a line calls, with those that it calls. False where the way to
+  /// its `return` is not certain, or too long.
+  bool put_called_by(std::size_t line, std::vector<std::uint32_t> calls, std::size_t most) {
+    calls.push_back(chunk_.begin(line + 1));
+    const auto target = chunk_.code[chunk_.begin(line)].target;
+    const auto first = std::ranges::lower_bound(chunk_.lines, target, {}, &bytecode::Line::begin);
+    line = static_cast<std::size_t>(first - chunk_.lines.begin());
+    for (; calls.size() <= Frames::gosub_depth && steps_.size() < most; ++line) {
+      steps_.push_back({line, calls});
+      if (first_op(line) == Op::Return)
+        return true;
+      const bool calls_on = first_op(line) == Op::Gosub && put_called_by(line, calls, most);
+      if (!can_be_machine_code(line) || (leads_away_[line] && !calls_on))
+        return false;
+    }
+    return false;
+  }
+
+  /// Blocks end where the program may go elsewhere, and before a line that it may come to.
+  void form_blocks() {
+    for (std::size_t i = 0; i < chunk_.lines.size(); ++i) {
+      steps_.push_back({i, {}});
+      const std::size_t size = steps_.size();
+      const std::size_t most = std::min(size + NativeCode::longest_block, 4 * chunk_.lines.size());
+      if (first_op(i) == Op::Gosub && !put_called_by(i, {}, most))
+        steps_.resize(size);
+    }
+    steps_.push_back({chunk_.lines.size(), {}}); // behind the program
+    for (std::size_t i = steps_.size() - 1; i-- > 0;) {
+      auto& step = steps_[i];
+      const auto& next = steps_[i + 1];
+      const bool away = next.calls.empty() && (entered_[chunk_.begin(next.line)] ||
+                                               (step.calls.empty() && leads_away_[step.line]));
+      if (can_be_machine_code(step.line))
+        step.rest = away || next.rest == NativeCode::longest_block ? 1 : next.rest + 1;
     }
   }
 
   /// The registers that are used most, by a guess: in a loop eight times as often as around it.
   void choose_homes() {
     const std::size_t size = chunk_.code.size();
-    std::vector<int> deeper(size + 1);
+    std::vector<int> depth(size);
     for (std::uint32_t at = 0; at < size; ++at) {
       const auto& instruction = chunk_.code[at];
       const bool jumps = bytecode::info(instruction.op).has_target();
-      const auto back = jumps ? instruction.target : loops_[at].body;
-      if (back <= at) {
-        ++deeper[back];
-        --deeper[at + 1];
-      }
+      for (auto inside = jumps ? instruction.target : heads_[at]; inside <= at; ++inside)
+        ++depth[inside];
     }
     std::vector<std::uint64_t> uses(chunk_.register_count() + std::size_t{1});
-    int depth = 0;
     for (std::uint32_t at = 0; at < size; ++at) {
-      depth += deeper[at];
       const auto& instruction = chunk_.code[at];
       const auto& row = bytecode::info(instruction.op);
-      const std::uint64_t weight = std::uint64_t{1} << 3 * std::clamp(depth, 0, 6);
+      const std::uint64_t weight = std::uint64_t{1} << 3 * std::min(depth[at], 6);
       const std::array values{instruction.a, instruction.b, instruction.c, instruction.d};
       for (std::size_t i = 0; i < values.size() && row.compiled != Compiled::Never; ++i) {
-        if (row.operands[i] != '-')
+        if (row.operands[i] != '-' && row.operands[i] != 'n')
           uses[values[i]] += weight;
         if (row.operands[i] == 'p')
           uses[values[i] + 1u] += weight;
@@ -191,8 +221,10 @@ private:
   }
 
   const Chunk& chunk_;
-  std::vector<KnownLoop> loops_; ///< by instruction, of `next`
-  std::vector<int> rest_;        ///< by line
+  std::vector<std::uint32_t> heads_; ///< by instruction, of `next`
+  std::vector<bool> entered_;        ///< by instruction
+  std::vector<bool> leads_away_;     ///< by line, and of the end
+  std::vector<Step> steps_;
   std::vector<std::uint16_t> housed_;
 };
 
@@ -203,6 +235,10 @@ public:
       : chunk_(chunk), plan_(plan), a_(assembler), homes_(chunk.register_count()) {
     for (std::size_t i = 0; i < chunk.code.size(); ++i)
       labels_.push_back(a_.newLabel());
+    for (std::size_t i = 0; i < plan.steps().size(); ++i) {
+      ins_.push_back(plan.is_called(i) || !plan.begins_block(i) ? a_.newLabel() : line_of(i));
+      outs_.push_back(a_.newLabel());
+    }
     for (std::size_t i = 0; i < plan.housed().size(); ++i)
       homes_[plan.housed()[i]] = homes[i];
     exit_ = a_.newLabel();
@@ -216,24 +252,22 @@ public:
   };
 
   /// Returns where the way in begins, then each line, then the way out, then where that ends.
-  std::vector<Place> program(const asmjit::StringLogger& log) {
+  std::vector<Place> program(const asmjit::StringLogger* log) {
     std::vector<Place> places;
-    const auto mark = [&] { places.push_back({a_.offset(), log.dataSize()}); };
+    const auto mark = [&] { places.push_back({a_.offset(), log ? log->dataSize() : 0}); };
     mark();
     enter();
-    for (std::size_t line = 0; line < chunk_.lines.size(); ++line) {
-      mark();
-      write_line(line);
+    for (std::size_t i = 0; i < plan_.steps().size(); ++i) {
+      if (!plan_.is_called(i))
+        mark();
+      write_step(i);
     }
-    mark();
-    a_.bind(labels_.back());
-    a_.mov(x86::eax, labels_.size() - 1);
-    a_.jmp(exit_);
-    for (const auto& door : doors_)
-      write_door(door);
+    for (std::size_t i = 0; i < plan_.steps().size(); ++i)
+      if (plan_.steps()[i].rest > 0)
+        write_door(i);
     leave();
     mark();
-    write_table();
+    write_tables();
     return places;
   }
 
@@ -245,11 +279,9 @@ private:
   void enter() {
     for (const auto& one : saved)
       a_.push(one);
-    a_.sub(x86::rsp, stack_bytes);
-    a_.mov(frames_at, x86::rsi);
-    a_.mov(budget_at, x86::rdx);
-    a_.mov(x86::rax, x86::qword_ptr(x86::rsi, offsetof(Frames, loop)));
-    a_.mov(loop_at, x86::rax);
+    a_.push(x86::rdx);
+    a_.push(x86::rsi);
+    a_.push(x86::qword_ptr(x86::rsi, offsetof(Frames, loop)));
     a_.mov(r, x86::rdi);
     a_.mov(budget, x86::qword_ptr(x86::rdx));
     for (const auto index : plan_.housed())
@@ -264,60 +296,53 @@ private:
     for (const auto index : plan_.housed())
       if (index < bytecode::first_temporary)
         a_.mov(memory(index), *homes_[index]);
-    a_.mov(x86::rcx, frames_at);
-    a_.mov(x86::rdx, loop_at);
+    a_.pop(x86::rdx);
+    a_.pop(x86::rcx);
     a_.mov(x86::qword_ptr(x86::rcx, offsetof(Frames, loop)), x86::rdx);
-    a_.mov(x86::rcx, budget_at);
+    a_.pop(x86::rcx);
     a_.mov(x86::qword_ptr(x86::rcx), budget);
-    a_.add(x86::rsp, stack_bytes);
     for (auto one = saved.rbegin(); one != saved.rend(); ++one)
       a_.pop(*one);
     a_.ret();
   }
 
-  /// Where the line of an instruction begins, from the table on.
-  void write_table() {
-    a_.align(asmjit::AlignMode::kData, 4);
+  void write_tables() {
+    a_.align(asmjit::AlignMode::kData, sizeof(void*));
     a_.bind(table_);
     for (const auto& label : labels_)
       if (a_.code()->isLabelBound(label))
-        a_.embedLabelDelta(label, table_, 4);
+        a_.embedLabel(label);
       else
-        a_.embedUInt32(0);
+        a_.embedUInt64(0);
+    for (const auto& [label, reciprocal] : reciprocals_) {
+      a_.bind(label);
+      a_.embedInt64(reciprocal);
+    }
   }
 
   // Lines.
 
-  /// How a line is left, and entered if it does not begin its block.
-  struct Door {
-    std::uint32_t begin = 0;
-    int rest = 0;
-    Label out;
-    std::optional<Label> in;
-  };
+  const Label& line_of(std::size_t step) const {
+    return labels_[chunk_.begin(plan_.steps()[step].line)];
+  }
 
-  void write_line(std::size_t line) {
-    const auto begin = chunk_.begin(line);
-    const int rest = plan_.rest(line);
-    if (rest == 0) {
-      a_.bind(labels_[begin]);
-      a_.mov(x86::eax, begin);
-      a_.jmp(exit_);
+  void write_step(std::size_t number) {
+    const auto& step = plan_.steps()[number];
+    const auto begin = chunk_.begin(step.line);
+    a_.bind(ins_[number]);
+    if (step.rest == 0) {
+      leave_before(begin);
       return;
     }
-    const auto from_above = next_;
-    leave_ = a_.newLabel();
-    following_ = chunk_.begin(line + 1);
-    next_ = plan_.begins_block(line + 1) ? labels_[following_] : a_.newLabel();
-    doors_.push_back({begin, rest, leave_, {}});
-    if (plan_.begins_block(line)) {
-      a_.bind(labels_[begin]);
-      a_.sub(budget, rest);
+    step_ = number;
+    following_ = chunk_.begin(step.line + 1);
+    leave_ = outs_[number];
+    if (plan_.begins_block(number)) {
+      a_.sub(budget, step.rest);
       a_.jc(leave_);
-    } else {
-      doors_.back().in = from_above;
-      a_.bind(from_above);
     }
+    for (std::uint32_t at = begin + 1; at < following_; ++at)
+      labels_[at] = a_.newLabel();
     for (std::uint32_t at = begin; at < following_; ++at) {
       if (at != begin)
         a_.bind(labels_[at]);
@@ -325,17 +350,27 @@ private:
     }
   }
 
-  /// A line that is left has not been executed, and neither has the rest of its block.
-  void write_door(const Door& door) {
-    if (door.in) {
-      a_.bind(labels_[door.begin]);
-      a_.sub(budget, door.rest);
-      a_.jnc(*door.in);
-    }
-    a_.bind(door.out);
-    a_.add(budget, door.rest);
-    a_.mov(x86::eax, door.begin);
+  void leave_before(std::uint32_t at) {
+    a_.mov(x86::eax, at);
     a_.jmp(exit_);
+  }
+
+  /// How a line is entered if it does not begin its block, and how it is left: it has not been
+  /// executed then, and neither has the rest of its block.
+  void write_door(std::size_t number) {
+    const auto& step = plan_.steps()[number];
+    if (!plan_.is_called(number) && !plan_.begins_block(number)) {
+      a_.bind(line_of(number));
+      a_.sub(budget, step.rest);
+      a_.jnc(ins_[number]);
+    }
+    a_.bind(outs_[number]);
+    a_.add(budget, step.rest);
+    if (plan_.is_called(number)) {
+      load_calls();
+      open_calls(step.calls);
+    }
+    leave_before(chunk_.begin(step.line));
   }
 
   void write(std::uint32_t at, const Instruction& i) {
@@ -348,7 +383,7 @@ private:
     case Op::Or: calculate(x86::Inst::kIdOr, i.a, i.b, i.c); break;
     case Op::Divide: divide(i, x86::eax); break;
     case Op::Remainder: divide(i, x86::edx); break;
-    case Op::MultiplyAdd: multiply_add(i); break;
+    case Op::MultiplyAdd: multiply(i, i.d); break;
     case Op::DivideBy: divide_by(i); break;
     case Op::RemainderBy: remainder_by(i); break;
     case Op::DivideByPower: divide_by_power(i); break;
@@ -454,27 +489,22 @@ private:
     store(to, place);
   }
 
-  /// The product of two registers of the program.
-  void product(const x86::Gp& to, std::uint16_t left, std::uint16_t right) {
-    if (is_constant(left) || operand(right) == to)
-      std::swap(left, right);
-    if (is_constant(right)) {
-      a_.emit(x86::Inst::kIdImul, to, operand(left), Imm(constant(right)));
+  void multiply(const Instruction& i, std::optional<std::uint16_t> summand = std::nullopt) {
+    const auto place = summand ? apart(i.a, *summand) : place_of(i.a);
+    const bool swaps = is_constant(i.b) || operand(i.c) == place;
+    const auto [left, right] = swaps ? std::pair(i.c, i.b) : std::pair(i.b, i.c);
+    const auto by = is_constant(right) ? constant(right) : 0;
+    if (by == 3 || by == 5 || by == 9) {
+      const auto x = loaded(left, x86::edx).r64();
+      a_.lea(place, x86::ptr(x, x, static_cast<std::uint32_t>(std::countr_zero(by - 1u))));
+    } else if (is_constant(right)) {
+      a_.emit(x86::Inst::kIdImul, place, operand(left), Imm(constant(right)));
     } else {
-      load(to, left);
-      a_.emit(x86::Inst::kIdImul, to, operand(right));
+      load(place, left);
+      a_.emit(x86::Inst::kIdImul, place, operand(right));
     }
-  }
-
-  void multiply(const Instruction& i) {
-    product(place_of(i.a), i.b, i.c);
-    store(i.a, place_of(i.a));
-  }
-
-  void multiply_add(const Instruction& i) {
-    const auto place = apart(i.a, i.d);
-    product(place, i.b, i.c);
-    a_.emit(x86::Inst::kIdAdd, place, operand(i.d));
+    if (summand)
+      a_.emit(x86::Inst::kIdAdd, place, operand(*summand));
     store(i.a, place);
   }
 
@@ -493,12 +523,11 @@ private:
   /// bytecode::divide_by() in edx; spoils eax, returns where b is, which is neither.
   x86::Gp quotient(const Instruction& i) {
     const auto x = loaded(i.b, x86::ecx);
-    a_.mov(x86::rax, bytecode::reciprocal(constant(i.c)));
-    a_.movsxd(x86::rdx, x);
-    a_.imul(x86::rdx);
-    a_.mov(x86::eax, x);
-    a_.sar(x86::eax, 31);
-    a_.sub(x86::edx, x86::eax);
+    a_.movsxd(x86::rax, x);
+    reciprocals_.emplace_back(a_.newLabel(), bytecode::reciprocal(constant(i.c)));
+    a_.imul(x86::qword_ptr(reciprocals_.back().first));
+    a_.bt(x, 31);
+    a_.adc(x86::edx, 0);
     return x;
   }
 
@@ -544,20 +573,18 @@ private:
   }
 
   void shift(InstId op, const Instruction& i) {
-    if (!is_constant(i.c)) {
+    if (is_constant(i.c) && bytecode::is_shift_count(constant(i.c))) {
+      const auto place = place_of(i.a);
+      load(place, i.b);
+      a_.emit(op, place, Imm(constant(i.c)));
+      store(i.a, place);
+    } else {
       load(x86::ecx, i.c);
       a_.cmp(x86::ecx, spec::value_of(spec::Limit::GreatestShift));
       a_.ja(leave_);
       load(x86::eax, i.b);
       a_.emit(op, x86::eax, x86::cl);
       store(i.a, x86::eax);
-    } else if (bytecode::is_shift_count(constant(i.c))) {
-      const auto place = place_of(i.a);
-      load(place, i.b);
-      a_.emit(op, place, Imm(constant(i.c)));
-      store(i.a, place);
-    } else {
-      a_.jmp(leave_);
     }
   }
 
@@ -590,15 +617,7 @@ private:
   // Decisions.
 
   void compare(std::uint16_t left, std::uint16_t right) {
-    if (homes_[left] && is_constant(right) && constant(right) == 0) {
-      a_.test(*homes_[left], *homes_[left]);
-      return;
-    }
-    const bool direct =
-        homes_[left] || (!is_constant(left) && (is_constant(right) || homes_[right]));
-    if (!direct)
-      load(x86::eax, left);
-    a_.emit(x86::Inst::kIdCmp, direct ? operand(left) : Operand(x86::eax), operand(right));
+    a_.emit(x86::Inst::kIdCmp, loaded(left, x86::eax), operand(right));
   }
 
   void test(const Instruction& i, x86::CondCode jumps) {
@@ -624,7 +643,7 @@ private:
 
   /// Within a block the following line has been counted.
   const Label& way_to(std::uint32_t target) const {
-    return target == following_ ? next_ : labels_[target];
+    return target == following_ ? ins_[step_ + 1] : labels_[target];
   }
 
   void begin_loop(std::uint32_t at, const Instruction& i) {
@@ -652,43 +671,56 @@ private:
 
   /// The loop that runs is most probably that of the `for` above: its first line tells.
   void end_loop(std::uint32_t at, const Instruction& i) {
-    const auto& [head, body] = plan_.loop_of(at);
+    const auto head = plan_.head_of(at);
     const auto end = chunk_.code[head].c;
     const std::int32_t step = constant(chunk_.code[head].d);
     a_.mov(x86::rax, loop_at);
-    a_.cmp(x86::dword_ptr(x86::rax, offsetof(Loop, body)), body);
+    a_.cmp(x86::dword_ptr(x86::rax, offsetof(Loop, body)), head + 1);
     a_.jne(leave_);
     a_.emit(x86::Inst::kIdAdd, operand(i.a), Imm(step));
     if (!is_constant(end))
       a_.mov(x86::edx, x86::dword_ptr(x86::rax, offsetof(Loop, end)));
     a_.emit(x86::Inst::kIdCmp, operand(i.a), is_constant(end) ? operand(end) : Operand(x86::edx));
-    a_.j(step > 0 ? x86::CondCode::kLE : x86::CondCode::kGE, labels_[body]);
+    a_.j(step > 0 ? x86::CondCode::kLE : x86::CondCode::kGE, labels_[head + 1]);
     a_.sub(loop_at, sizeof(Loop));
     jump(at, following_);
   }
 
-  void call(std::uint32_t at, const Instruction& i) {
+  /// The frames into rcx, the number of calls that are open into eax.
+  void load_calls() {
     a_.mov(x86::rcx, frames_at);
     a_.mov(x86::eax, x86::dword_ptr(x86::rcx, offsetof(Frames, call_depth)));
-    a_.cmp(x86::eax, Frames::gosub_depth);
-    a_.je(leave_);
-    a_.mov(x86::dword_ptr(x86::rcx, x86::rax, 2, offsetof(Frames, calls)), following_);
-    a_.add(x86::eax, 1);
+  }
+
+  void open_calls(const std::vector<std::uint32_t>& places) {
+    for (const auto place : places) {
+      a_.mov(x86::dword_ptr(x86::rcx, x86::rax, 2, offsetof(Frames, calls)), place);
+      a_.add(x86::eax, 1);
+    }
     a_.mov(x86::dword_ptr(x86::rcx, offsetof(Frames, call_depth)), x86::eax);
+  }
+
+  /// A subroutine that is written behind its call is in no frame until it is left.
+  void call(std::uint32_t at, const Instruction& i) {
+    load_calls();
+    a_.cmp(x86::eax, Frames::gosub_depth - plan_.steps()[step_].calls.size());
+    a_.jae(leave_);
+    if (plan_.is_called(step_ + 1))
+      return;
+    open_calls({following_});
     jump(at, i.target);
   }
 
   void come_back() {
-    a_.mov(x86::rcx, frames_at);
-    a_.mov(x86::eax, x86::dword_ptr(x86::rcx, offsetof(Frames, call_depth)));
+    if (plan_.is_called(step_))
+      return;
+    load_calls();
     a_.sub(x86::eax, 1);
     a_.jc(leave_);
     a_.mov(x86::dword_ptr(x86::rcx, offsetof(Frames, call_depth)), x86::eax);
     a_.mov(x86::eax, x86::dword_ptr(x86::rcx, x86::rax, 2, offsetof(Frames, calls)));
     a_.lea(x86::rdx, x86::ptr(table_));
-    a_.movsxd(x86::rax, x86::dword_ptr(x86::rdx, x86::rax, 2));
-    a_.add(x86::rax, x86::rdx);
-    a_.jmp(x86::rax);
+    a_.jmp(x86::qword_ptr(x86::rdx, x86::rax, 3));
   }
 
   const Chunk& chunk_;
@@ -696,12 +728,14 @@ private:
   x86::Assembler& a_;
   std::vector<std::optional<x86::Gp>> homes_; ///< by register of the program
   std::vector<Label> labels_;                 ///< by instruction
-  std::vector<Door> doors_;
+  std::vector<Label> ins_;                    ///< by step
+  std::vector<Label> outs_;                   ///< by step
+  std::vector<std::pair<Label, std::int64_t>> reciprocals_;
   Label exit_;
   Label table_;
   // Of the line that is being written.
+  std::size_t step_ = 0;
   Label leave_;
-  Label next_; ///< the way to the line behind it
   std::uint32_t following_ = 0;
 };
 
@@ -714,8 +748,7 @@ struct Draft final : asmjit::ErrorHandler {
     x86::Assembler assembler(&code);
     const Plan plan(chunk);
     Writer writer(chunk, plan, assembler);
-    const asmjit::StringLogger nothing;
-    places = writer.program(log ? *log : nothing);
+    places = writer.program(log);
     code.flatten();
     code.resolveUnresolvedLinks();
     failed = failed || code.hasUnresolvedLinks();
@@ -756,7 +789,7 @@ NativeCode::compile(const Chunk& chunk) {
   if (memory::protect(made->memory_, made->size_, memory::MemoryFlags::kAccessRX) != 0)
     return tl::unexpected(denied);
   char* const base = static_cast<char*>(made->memory_);
-  made->table_ = reinterpret_cast<const std::int32_t*>(base + draft.table);
+  made->table_ = reinterpret_cast<const void* const*>(base + draft.table);
   for (std::size_t i = 0; i + 1 < draft.places.size(); ++i) {
     const bool is_line = i > 0 && i <= chunk.lines.size();
     made->pieces_.push_back({is_line ? chunk.lines[i - 1].number : 0, base + draft.places[i].code,
@@ -772,7 +805,7 @@ NativeCode::~NativeCode() {
 
 void NativeCode::run(Core& core) const {
   const auto enter = reinterpret_cast<Entry>(memory_);
-  const char* const line = reinterpret_cast<const char*>(table_) + table_[core.index_of(core.pc)];
+  const void* const line = table_[core.index_of(core.pc)];
   core.pc = core.code.data() + enter(core.registers.data(), &core.frames, &core.budget, line);
 }
 

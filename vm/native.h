@@ -49,14 +49,14 @@ public:
   const std::vector<Piece>& pieces() const { return pieces_; }
 
   /// Lines that are counted together. Where the budget is smaller, the loop does the rest.
-  static constexpr int longest_block = 8;
+  static constexpr int longest_block = 16;
 
 private:
   NativeCode() = default;
 
   void* memory_ = nullptr;
   std::size_t size_ = 0;
-  const std::int32_t* table_ = nullptr; ///< by first instruction of a line: its place behind here
+  const void* const* table_ = nullptr; ///< by first instruction of a line: where it begins
   std::vector<Piece> pieces_;
 };
 

@@ -3,6 +3,7 @@
 #include "random_lines.h"
 #include "tests/random_program.h"
 
+#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -226,6 +227,28 @@ TEST(Agreement, DivisionByConstantsIsExact) {
         while (all.goes_on() && !::testing::Test::HasFailure())
           all.run(longest_slice, counts);
       }
+}
+
+/// Machine code has short subroutines behind their calls, without a frame: wherever one is left,
+/// the frames must be those of the loop.
+TEST(Agreement, SubroutinesCanBeLeftAnywhere) {
+  constexpr std::array statements{"B=A/D",   "Z=A",       "B=C%D",
+                                  "print A", "gosub 400", "delay 1",
+                                  "return",  "goto 330",  "if A%3=0 then return"};
+  SliceCounts counts{};
+  for (const std::string outer : statements)
+    for (const std::string inner : statements) {
+      const auto text = fmt::format(
+          "10 for A=1 to 6\n20 D=4-A\n30 Y=A*5\n40 gosub 100\n50 next A\n60 end\n"
+          "100 gosub 200\n110 C=C+1\n120 return\n200 gosub 300\n210 E=E+1\n220 return\n"
+          "300 F=F+1\n310 {}\n320 gosub 400\n330 return\n400 G=G+1\n410 {}\n420 return\n",
+          outer, inner);
+      for (std::int64_t slice = 1; slice <= 24 && !::testing::Test::HasFailure(); ++slice) {
+        SideBySide all(text, 1);
+        while (all.goes_on() && !::testing::Test::HasFailure())
+          all.run(slice, counts);
+      }
+    }
 }
 
 /// A program of which some bytes have been changed, lost or doubled.

@@ -67,7 +67,7 @@ TEST_F(NativeCodeTest, GoesBackWhereItDoesNotPay) {
 }
 
 TEST_F(NativeCodeTest, IsListedForEveryLine) {
-  const auto chunk = compiler::load("10 A=B*3\n20 print A\n30 goto 10\n");
+  const auto chunk = compiler::load("10 A=B*7\n20 print A\n30 goto 10\n");
   const auto listing = native_listing(chunk);
   ASSERT_EQ(listing.lines.size(), 3u);
   EXPECT_NE(listing.lines[0].find("imul"), std::string::npos) << listing.lines[0];
