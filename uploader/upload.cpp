@@ -430,7 +430,7 @@ private:
     return tl::unexpected(report);
   }
 
-  // Behind the content.
+  // After the content.
 
   Ended start(const Step& step) {
     show(Stage::Starting);

@@ -190,24 +190,26 @@ TEST(Upload, GoesOnWithABallThatDoesNotCountAsItDoes) {
 }
 
 TEST(Upload, ForgetsWhatTheProgramBeforeSaid) {
-  ModelBall ball;
-  ball.mischief = [&](int, const protocol::Command& command) -> std::optional<Bytes> {
-    if (!is(command, ApiCommand::AbortOrbbasicProgram))
-      return std::nullopt;
-    ball.carry_out(command);
-    return encode(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::BasicError), {0, 20}});
-  };
-  ball.print_at_start = "mine";
-  Session session(ball, Budgets{}, 0);
-  const auto greeting = greet(session);
-  NullProgress progress;
-  EXPECT_EQ(upload(session, {sixty_lines(), Area::Ram, std::uint16_t{10}}, *greeting,
-                   BatteryPolicy::Refuse, progress)
-                .kind,
-            Kind::Done);
-  (void)session.listen(session.now() + 1s);
-  ASSERT_EQ(session.inbox().size(), 1U);
-  EXPECT_EQ(as_string(session.inbox().front().data), "mine");
+  for (const auto last : {ApiCommand::AbortOrbbasicProgram, ApiCommand::AppendOrbbasicFragment}) {
+    ModelBall ball;
+    ball.mischief = [&](int, const protocol::Command& command) -> std::optional<Bytes> {
+      if (!is(command, last))
+        return std::nullopt;
+      ball.carry_out(command);
+      return encode(protocol::Async{static_cast<std::uint8_t>(spec::AsyncId::BasicError), {0, 20}});
+    };
+    ball.print_at_start = "mine";
+    Session session(ball, Budgets{}, 0);
+    const auto greeting = greet(session);
+    NullProgress progress;
+    EXPECT_EQ(upload(session, {sixty_lines(), Area::Ram, std::uint16_t{10}}, *greeting,
+                     BatteryPolicy::Refuse, progress)
+                  .kind,
+              Kind::Done);
+    (void)session.listen(session.now() + 1s);
+    ASSERT_EQ(session.inbox().size(), 1U);
+    EXPECT_EQ(as_string(session.inbox().front().data), "mine");
+  }
 }
 
 TEST(Upload, SaysWhatIsOnABallThatFallsSilent) {
