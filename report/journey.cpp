@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <type_traits>
 
 namespace orb::report {
 namespace {
@@ -70,69 +69,75 @@ std::string Journey::where(int robot_line) const {
 }
 
 void Journey::add(Duration t, const vm::Event& event) {
-  namespace of = vm::event;
-  using Kind = Happening::Kind;
-  std::visit(
-      [&](const auto& seen) {
-        using Seen = std::decay_t<decltype(seen)>;
-        if constexpr (std::is_same_v<Seen, of::Print>) {
-          print(t, seen.text);
-        } else if constexpr (std::is_same_v<Seen, of::Error>) {
-          const auto found = lines_.find(seen.line);
-          if (found != lines_.end())
-            files_[static_cast<std::size_t>(found->second.file)].failed.push_back(
-                found->second.line);
-          end_.fault = fmt::format("{}: {}", where(seen.line), spec::info(seen.code).text);
-          happen(t, Kind::Error, end_.fault);
-        } else if constexpr (std::is_same_v<Seen, of::Led>) {
-          led_.push(t, seen.color);
-        } else if constexpr (std::is_same_v<Seen, of::BackLed>) {
-          back_led_.push(t, seen.value);
-        } else if constexpr (std::is_same_v<Seen, of::Drive>) {
-          // What it leads to is seen in the poses.
-        } else if constexpr (std::is_same_v<Seen, of::Position>) {
-          if (pose_)
-            totals_.distance_cm +=
-                std::hypot(seen.pose.x_cm - pose_->x_cm, seen.pose.y_cm - pose_->y_cm);
-          totals_.top_speed_cm_s = std::max(totals_.top_speed_cm_s, seen.pose.speed_cm_s);
-          pose_ = seen.pose;
-          poses_.push(t, seen.pose);
-        } else if constexpr (std::is_same_v<Seen, of::Marker>) {
-          happen(t, Kind::Marker,
-                 fmt::format("marker {} (macro {}, command {})", seen.marker, seen.macro,
-                             seen.command),
-                 std::to_string(seen.marker));
-        } else if constexpr (std::is_same_v<Seen, of::Macro>) {
-          ++totals_.commands;
-          const auto found = commands_.find(std::pair{seen.id, seen.command});
-          if (found != commands_.end())
-            visit(t, found->second);
-          if (seen.command == 1)
-            happen(t, Kind::Macro, fmt::format("macro {} starts", seen.id));
-        } else if constexpr (std::is_same_v<Seen, of::Line>) {
-          ++totals_.lines;
-          const auto found = lines_.find(seen.line);
-          if (found != lines_.end())
-            visit(t, found->second);
-        } else if constexpr (std::is_same_v<Seen, of::Collision>) {
-          happen(t, Kind::Collision,
-                 fmt::format("collision: x {}, y {}, speed {}", seen.x_magnitude, seen.y_magnitude,
-                             seen.speed));
-        } else if constexpr (std::is_same_v<Seen, of::Sleep>) {
-          happen(t, Kind::Sleep,
-                 seen.seconds == 0 ? std::string("sleeps until it is woken")
-                                   : fmt::format("sleeps for {} s", seen.seconds));
-        } else if constexpr (std::is_same_v<Seen, of::End>) {
-          totals_.lines = std::max(totals_.lines, seen.lines);
-        } else if constexpr (std::is_same_v<Seen, of::Bump>) {
-          happen(t, Kind::Bump,
-                 fmt::format("ran into the wall {} at speed {}", vm::to_string(seen.wall),
-                             seen.speed));
-        } else {
-          static_assert(std::is_same_v<Seen, of::MacroEnd>); // its last command says it
-        }
-      },
-      event);
+  std::visit([&](const auto& seen) { see(t, seen); }, event);
+}
+
+void Journey::see(Duration t, const vm::event::Print& seen) {
+  print(t, seen.text);
+}
+
+void Journey::see(Duration t, const vm::event::Error& seen) {
+  if (const auto found = lines_.find(seen.line); found != lines_.end())
+    files_[static_cast<std::size_t>(found->second.file)].failed.push_back(found->second.line);
+  end_.fault = fmt::format("{}: {}", where(seen.line), spec::info(seen.code).text);
+  happen(t, Happening::Kind::Error, end_.fault);
+}
+
+void Journey::see(Duration t, const vm::event::Led& seen) {
+  led_.push(t, seen.color);
+}
+
+void Journey::see(Duration t, const vm::event::BackLed& seen) {
+  back_led_.push(t, seen.value);
+}
+
+void Journey::see(Duration t, const vm::event::Position& seen) {
+  if (pose_)
+    totals_.distance_cm += std::hypot(seen.pose.x_cm - pose_->x_cm, seen.pose.y_cm - pose_->y_cm);
+  totals_.top_speed_cm_s = std::max(totals_.top_speed_cm_s, seen.pose.speed_cm_s);
+  pose_ = seen.pose;
+  poses_.push(t, seen.pose);
+}
+
+void Journey::see(Duration t, const vm::event::Marker& seen) {
+  happen(t, Happening::Kind::Marker,
+         fmt::format("marker {} (macro {}, command {})", seen.marker, seen.macro, seen.command),
+         std::to_string(seen.marker));
+}
+
+void Journey::see(Duration t, const vm::event::Macro& seen) {
+  ++totals_.commands;
+  if (const auto found = commands_.find({seen.id, seen.command}); found != commands_.end())
+    visit(t, found->second);
+  if (seen.command == 1)
+    happen(t, Happening::Kind::Macro, fmt::format("macro {} starts", seen.id));
+}
+
+void Journey::see(Duration t, const vm::event::Line& seen) {
+  ++totals_.lines;
+  if (const auto found = lines_.find(seen.line); found != lines_.end())
+    visit(t, found->second);
+}
+
+void Journey::see(Duration t, const vm::event::Collision& seen) {
+  happen(t, Happening::Kind::Collision,
+         fmt::format("collision: x {}, y {}, speed {}", seen.x_magnitude, seen.y_magnitude,
+                     seen.speed));
+}
+
+void Journey::see(Duration t, const vm::event::Bump& seen) {
+  happen(t, Happening::Kind::Bump,
+         fmt::format("ran into the wall {} at speed {}", vm::to_string(seen.wall), seen.speed));
+}
+
+void Journey::see(Duration t, const vm::event::Sleep& seen) {
+  happen(t, Happening::Kind::Sleep,
+         seen.seconds == 0 ? std::string("sleeps until it is woken")
+                           : fmt::format("sleeps for {} s", seen.seconds));
+}
+
+void Journey::see(Duration, const vm::event::End& seen) {
+  totals_.lines = std::max(totals_.lines, seen.lines);
 }
 
 void Journey::set_course(Course course) {

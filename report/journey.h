@@ -160,6 +160,21 @@ public:
   bool thinned() const;
 
 private:
+  void see(Duration t, const vm::event::Print& seen);
+  void see(Duration t, const vm::event::Error& seen);
+  void see(Duration t, const vm::event::Led& seen);
+  void see(Duration t, const vm::event::BackLed& seen);
+  void see(Duration, const vm::event::Drive&) {} // what it leads to is seen in the poses
+  void see(Duration t, const vm::event::Position& seen);
+  void see(Duration t, const vm::event::Marker& seen);
+  void see(Duration t, const vm::event::Macro& seen);
+  void see(Duration, const vm::event::MacroEnd&) {} // its last command says it
+  void see(Duration t, const vm::event::Line& seen);
+  void see(Duration t, const vm::event::Collision& seen);
+  void see(Duration t, const vm::event::Bump& seen);
+  void see(Duration t, const vm::event::Sleep& seen);
+  void see(Duration t, const vm::event::End& seen);
+
   void happen(Duration t, Happening::Kind kind, std::string text, std::string label = {});
   void visit(Duration t, Place place);
   void print(Duration t, std::string_view text);
