@@ -220,8 +220,7 @@ function make_map(map, of) {
       const d = zone.rings.map(ring => `M${ring.map(point).join("L")}z`).join("");
       shape("path", { d, class: "zone", "fill-rule": zone.evenodd ? "evenodd" : "nonzero", "data-zone": zone.id }, parent);
       const x = zone.rings.flat().map(place => px(place[0])), y = zone.rings.flat().map(place => py(place[1]));
-      const middle = list => (Math.min(...list) + Math.max(...list)) / 2;
-      shape("text", { x: middle(x), y: middle(y) + 4, "text-anchor": "middle", class: "zone-word" }, parent).textContent = zone.id;
+      shape("text", { x: (Math.min(...x) + Math.max(...x)) / 2, y: Math.min(...y) + 15, "text-anchor": "middle", class: "zone-word" }, parent).textContent = zone.id;
     }
   }
   const segments = () => run.walls.filter(wall => wall.from).map(({ from, to }) => [px(from[0]), py(from[1]), px(to[0]), py(to[1])]);

@@ -183,13 +183,12 @@ std::string zones(const Course& course, const Frame& frame) {
         d += (i == 0 ? "M" : "L") + at(frame(ring[i]));
       d += "z";
     }
-    const auto middle = frame(
-        vm::Point{(zone.box.low.x + zone.box.high.x) / 2, (zone.box.low.y + zone.box.high.y) / 2});
+    const auto top = frame(vm::Point{(zone.box.low.x + zone.box.high.x) / 2, zone.box.high.y});
     out += fmt::format("<path class=\"zone\"{} d=\"{}\"/>\n"
                        "<text class=\"zone-name\" x=\"{}\" y=\"{}\" "
                        "text-anchor=\"middle\">{}</text>\n",
                        zone.fill == Zone::Fill::EvenOdd ? " fill-rule=\"evenodd\"" : "", d,
-                       number(middle.x), number(middle.y + 4), escaped(zone.id));
+                       number(top.x), number(top.y + 15), escaped(zone.id));
   }
   return out;
 }
