@@ -16,10 +16,12 @@ namespace {
 constexpr std::uint64_t most_lines = 300;
 constexpr std::uint32_t speed = 3000;
 
+constexpr std::uint64_t enough_for_a_second = 2000;
+
 /// How many programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second.
 std::uint64_t how_many() {
   const char* wanted = std::getenv("ORB_PROGRAMS");
-  return wanted ? std::strtoull(wanted, nullptr, 10) : 2000;
+  return wanted ? std::strtoull(wanted, nullptr, 10) : enough_for_a_second;
 }
 
 void prepare(NotebookHost& host) {
@@ -208,6 +210,8 @@ TEST(Agreement, EnginesAgreeAfterEverySlice) {
     while (all.goes_on() && !::testing::Test::HasFailure())
       all.run(1 + static_cast<std::int64_t>(random.below(longest_slice)), counts);
   }
+  if (how_many() < enough_for_a_second) // fewer, as under valgrind, miss a length
+    return;
   for (std::size_t lines = 1; lines <= longest_slice && !::testing::Test::HasFailure(); ++lines)
     EXPECT_GT(counts[lines], 0u) << "no slice had " << lines << " lines";
 }
