@@ -396,12 +396,13 @@ private:
   }
 
   /// Which known numbers take the place of their variables. Negative ones are printed in
-  /// parentheses, and so can be deeper than a variable.
-  enum class Known : std::uint8_t { All, Positive };
+  /// parentheses, and so can be deeper than a variable; so can what folding makes of a term. With
+  /// neither, a term is as deep as before: a variable that vanishes never has to stay.
+  enum class Known : std::uint8_t { All, Positive, PositiveUnfolded };
 
   /// A term with numbers in place of variables that are known.
   std::uint32_t replaced(std::uint32_t term, const State& state) {
-    for (const auto known : {Known::All, Known::Positive})
+    for (const auto known : {Known::All, Known::Positive, Known::PositiveUnfolded})
       if (const auto result = replaced(term, state, known); !is_too_deep(result))
         return result;
     return term;
@@ -431,8 +432,9 @@ private:
       const auto right = replaced(node.right, state, known);
       auto result = term;
       if (left != node.left || right != node.right) {
-        result = code_.binary(op, left, right);
-        if (is_too_deep(result))
+        if (known != Known::PositiveUnfolded)
+          result = code_.binary(op, left, right);
+        if (known == Known::PositiveUnfolded || is_too_deep(result))
           result = unfolded(node, left, right);
       }
       improve(result, state);

@@ -155,6 +155,15 @@ TEST(Limits, AConstantThatIsDeeperThanItsVariableStaysAVariable) {
             "1 X = 0-8\n2 print ((abs (speed & X)) - 26) * 3\n");
 }
 
+TEST(Limits, AConstantWhoseFoldingIsTooDeepStandsAsItIs) {
+  const auto text = lines(
+      "input y\na = yaw\nb = speed\nsense()\nprint a, b, y\n"
+      "sub sense()\n  local v\n"
+      "  input y, 5, 9 - a - (v + 1 / (sqrt(y) + 9 * (4 - b))) } (sqrt(a) - v * 8) - rnd(7)\n"
+      "end sub\n");
+  EXPECT_EQ(text.find('V'), std::string::npos) << text;
+}
+
 TEST(Limits, PrintsOf32And33Bytes) {
   EXPECT_EQ(lines("print \"12345678901234567890123456789012\"\n"),
             "1 print \"12345678901234567890123456789012\"\n");
