@@ -44,21 +44,19 @@ void find_blocks(const Code& code, Flow& flow) {
   for (std::uint32_t i = 0; i < size;) {
     Block block;
     block.begin = i;
+    bool empty = true; // of lines that do something
     const auto index = static_cast<std::uint32_t>(flow.blocks.size());
     for (; i < size; ++i) {
       const auto& line = code.lines[i];
       if (line.kind == LineKind::Label) {
-        // Only labels and removed lines may stand before it in its block.
-        const bool first = std::all_of(
-            code.lines.begin() + block.begin, code.lines.begin() + i, [](const CodeLine& before) {
-              return before.kind == LineKind::Label || before.kind == LineKind::Nothing;
-            });
-        if (!first)
+        if (!empty)
           break;
         flow.block_of_label[line.label] = index;
       } else if (ends_block(line)) {
         ++i;
         break;
+      } else {
+        empty = empty && line.kind == LineKind::Nothing;
       }
     }
     block.end = i;
@@ -98,6 +96,8 @@ void find_touched(const Code& code, Flow& flow) {
   flow.touched = VariableSets(routines, code.variables.size());
   flow.sets_elements.assign(routines, false);
   for (const auto& line : code.lines) {
+    if (line.routine == 0)
+      continue; // nobody calls the main program
     each_write(code, line, [&](std::uint32_t v) {
       insert(flow.written[line.routine], v);
       insert(flow.touched[line.routine], v);
@@ -168,46 +168,111 @@ void step_back(const Code& code, const Flow& flow, const Liveness& liveness, con
   each_line_read(code, line, [&](std::uint32_t v) { insert(live, v); });
 }
 
-Liveness read_liveness(const Code& code, const Flow& flow) {
-  const auto variables = code.variables.size();
-  const auto routines = code.routines.size();
-  Liveness liveness;
-  liveness.in = VariableSets(flow.blocks.size(), variables);
-  liveness.out = VariableSets(flow.blocks.size(), variables);
-  liveness.across = VariableSets(routines, variables);
-  liveness.at_return = VariableSets(routines, variables);
-  std::vector<std::uint64_t> live(liveness.in.words());
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (auto b = flow.blocks.size(); b-- > 0;) {
-      const auto& block = flow.blocks[b];
-      const auto out = liveness.out[b];
-      for (const auto next : flow.successors_of(block))
-        unite(out, liveness.in[next]);
-      const auto& last = code.lines[block.end - 1];
-      if (last.kind == LineKind::Return)
-        unite(out, liveness.at_return[last.routine]);
-      std::copy(out.begin(), out.end(), live.begin());
-      for (auto i = block.end; i-- > block.begin;) {
-        const auto& line = code.lines[i];
-        each_callee(code, line, [&](std::uint32_t callee) {
-          const auto touched = flow.touched[callee];
-          std::vector<std::uint64_t> behind(live.size());
-          std::vector<std::uint64_t> beside(live.size());
-          for (std::size_t w = 0; w < live.size(); ++w) {
-            behind[w] = live[w] & touched[w];
-            beside[w] = live[w] & ~touched[w];
-          }
-          changed = unite(liveness.at_return[callee], behind) || changed;
-          changed = unite(liveness.across[callee], beside) || changed;
-          changed = unite(liveness.across[callee], liveness.across[line.routine]) || changed;
-        });
-        step_back(code, flow, liveness, line, live);
+namespace {
+
+/// Goes back through the blocks until no set of live variables grows any more. What a block without
+/// calls does to a set is known beforehand; the others are walked line by line.
+class LivenessReader {
+public:
+  LivenessReader(const Code& code, const Flow& flow, Counting counting)
+      : code_(code), flow_(flow), counting_(counting), read_(flow.blocks.size(), variables()),
+        written_(flow.blocks.size(), variables()), calls_(flow.blocks.size(), false) {
+    liveness_.in = VariableSets(flow.blocks.size(), variables());
+    liveness_.out = VariableSets(flow.blocks.size(), variables());
+    liveness_.across = VariableSets(code.routines.size(), variables());
+    liveness_.at_return = VariableSets(code.routines.size(), variables());
+    live_.resize(liveness_.in.words());
+  }
+
+  Liveness run() {
+    for (std::size_t b = 0; b < flow_.blocks.size(); ++b)
+      sum_up(b);
+    do {
+      changed_ = false;
+      for (auto b = flow_.blocks.size(); b-- > 0;)
+        read_block(b);
+    } while (changed_);
+    return std::move(liveness_);
+  }
+
+private:
+  std::size_t variables() const { return code_.variables.size(); }
+
+  void step(const CodeLine& line, std::span<std::uint64_t> live) const {
+    step_back(code_, flow_, liveness_, line, live);
+    if (counting_ == Counting::SettingsToo && line.kind == LineKind::Let &&
+        code_.is_number(line.term))
+      insert(live, line.variable);
+  }
+
+  void sum_up(std::size_t b) {
+    const auto& block = flow_.blocks[b];
+    for (auto i = block.end; i-- > block.begin;) {
+      const auto& line = code_.lines[i];
+      if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub) {
+        calls_[b] = true;
+        return;
       }
-      changed = unite(liveness.in[b], live) || changed;
+      step(line, read_[b]);
+      each_write(code_, line, [&](std::uint32_t v) { insert(written_[b], v); });
     }
   }
-  return liveness;
+
+  void read_block(std::size_t b) {
+    const auto& block = flow_.blocks[b];
+    const auto out = liveness_.out[b];
+    for (const auto next : flow_.successors_of(block))
+      unite(out, liveness_.in[next]);
+    const auto& last = code_.lines[block.end - 1];
+    if (last.kind == LineKind::Return)
+      unite(out, liveness_.at_return[last.routine]);
+    if (calls_[b])
+      walk(block, out);
+    else
+      for (std::size_t w = 0; w < live_.size(); ++w)
+        live_[w] = (out[w] & ~written_[b][w]) | read_[b][w];
+    changed_ = unite(liveness_.in[b], live_) || changed_;
+  }
+
+  void walk(const Block& block, std::span<const std::uint64_t> out) {
+    live_.assign(out.begin(), out.end());
+    for (auto i = block.end; i-- > block.begin;) {
+      const auto& line = code_.lines[i];
+      each_callee(code_, line, [&](std::uint32_t callee) { call(line.routine, callee); });
+      step(line, live_);
+    }
+  }
+
+  /// What is live after a call is live at the callee's returns, or all through it.
+  void call(std::uint32_t caller, std::uint32_t callee) {
+    const auto touched = flow_.touched[callee];
+    const auto at_return = liveness_.at_return[callee];
+    const auto across = liveness_.across[callee];
+    for (std::size_t w = 0; w < live_.size(); ++w) {
+      const auto inside = live_[w] & touched[w];
+      const auto beside = live_[w] & ~touched[w];
+      changed_ = changed_ || (inside & ~at_return[w]) != 0 || (beside & ~across[w]) != 0;
+      at_return[w] |= inside;
+      across[w] |= beside;
+    }
+    changed_ = unite(across, liveness_.across[caller]) || changed_;
+  }
+
+  const Code& code_;
+  const Flow& flow_;
+  Counting counting_;
+  Liveness liveness_;
+  VariableSets read_;    ///< of each block without calls: what is live before it, whatever follows
+  VariableSets written_; ///< of each block without calls
+  std::vector<bool> calls_;
+  std::vector<std::uint64_t> live_;
+  bool changed_ = false;
+};
+
+} // namespace
+
+Liveness read_liveness(const Code& code, const Flow& flow, Counting counting) {
+  return LivenessReader(code, flow, counting).run();
 }
 
 } // namespace orb::structured

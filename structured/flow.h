@@ -2,6 +2,7 @@
 
 #include "structured/code.h"
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,12 @@ inline void remove(std::span<std::uint64_t> set, std::uint32_t variable) {
 inline bool contains(std::span<const std::uint64_t> set, std::uint32_t variable) {
   return (set[variable / 64] >> (variable % 64) & 1) != 0;
 }
+template <typename Visit>
+void each_member(std::span<const std::uint64_t> set, Visit visit) {
+  for (std::uint32_t word = 0; word < set.size(); ++word)
+    for (auto bits = set[word]; bits != 0; bits &= bits - 1)
+      visit(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
+}
 /// Adds all of `from`; true where that changed something.
 bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> from);
 
@@ -54,9 +61,9 @@ struct Flow {
   std::vector<std::uint32_t> successors;     ///< blocks
   std::vector<std::uint32_t> block_of_label; ///< or none
   std::vector<std::uint32_t> entries;        ///< of each routine: its first block, or none
-  VariableSets written;                      ///< of each routine, with all that it calls
+  VariableSets written;                      ///< of each sub and function, with all that it calls
   VariableSets touched;                      ///< the same, read or written
-  std::vector<bool> sets_elements;           ///< of each routine
+  std::vector<bool> sets_elements;           ///< the same
 
   std::span<const std::uint32_t> successors_of(const Block& block) const {
     return {successors.data() + block.successors_begin, successors.data() + block.successors_end};
@@ -102,7 +109,11 @@ struct Liveness {
   VariableSets at_return; ///< of each routine: what is read after its calls
 };
 
-Liveness read_liveness(const Code& code, const Flow& flow);
+/// What counts as a read: reads; or also where a variable is set to a number, so that what it held
+/// before is known and a number that it holds already need not be set.
+enum class Counting : std::uint8_t { Reads, SettingsToo };
+
+Liveness read_liveness(const Code& code, const Flow& flow, Counting counting = Counting::Reads);
 
 /// Takes `line` out of `live`, the variables that are live after it: afterwards those before it.
 void step_back(const Code& code, const Flow& flow, const Liveness& liveness, const CodeLine& line,

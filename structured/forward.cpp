@@ -12,13 +12,23 @@ namespace {
 constexpr std::uint32_t reach = 40; ///< lines that a value is followed
 constexpr std::uint16_t largest_term = 64;
 
+/// Whether a line only sets what nobody reads, or a variable to itself.
+bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64_t> live) {
+  if (line.kind != LineKind::Let)
+    return false;
+  const auto& term = code.terms[line.term];
+  if (term.kind == TermKind::Variable && term.left == line.variable)
+    return true;
+  return !contains(live, line.variable) && (term.effects & (effect::faults | effect::clears)) == 0;
+}
+
 class Forwarder {
 public:
   explicit Forwarder(Code& code)
       : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)) {}
 
   void run() {
-    find_last_reads();
+    go_back();
     count_reads();
     const auto size = static_cast<std::uint32_t>(code_.lines.size());
     for (auto i = size; i-- > 0;)
@@ -32,34 +42,27 @@ public:
 private:
   // ---- facts about lines
 
-  /// Of each line: the variables that it reads and nothing after it.
-  void find_last_reads() {
-    last_reads_.assign(code_.lines.size(), {});
+  /// Removes what nobody reads, and finds of each line the variables that it reads and nothing
+  /// after it.
+  void go_back() {
+    last_reads_ = VariableSets(code_.lines.size(), code_.variables.size());
     std::vector<std::uint64_t> live;
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
       const auto out = liveness_.out[b];
       live.assign(out.begin(), out.end());
       for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
-        const auto& line = code_.lines[i];
+        auto& line = code_.lines[i];
+        if (is_dead(code_, line, live))
+          line.kind = LineKind::Nothing;
         each_line_read(code_, line, [&](std::uint32_t v) {
           bool set = false;
           each_write(code_, line, [&](std::uint32_t w) { set = set || w == v; });
           if ((set && line.kind != LineKind::Next) || !contains(live, v))
-            add_last_read(i, v);
+            insert(last_reads_[i], v);
         });
         step_back(code_, flow_, liveness_, line, live);
       }
     }
-  }
-
-  void add_last_read(std::uint32_t line, std::uint32_t v) {
-    auto& list = last_reads_[line];
-    if (std::find(list.begin(), list.end(), v) == list.end())
-      list.push_back(v);
-  }
-  bool is_last_read(std::uint32_t line, std::uint32_t v) const {
-    const auto& list = last_reads_[line];
-    return std::find(list.begin(), list.end(), v) != list.end();
   }
 
   void count_reads() {
@@ -167,7 +170,7 @@ private:
       std::uint32_t count = 0;
       each_line_read(code_, line, [&](std::uint32_t v) { count += v == variable ? 1 : 0; });
       if (count > 0)
-        return count == 1 && is_last_read(j, variable) && substitute(i, j, variable, term);
+        return count == 1 && contains(last_reads_[j], variable) && substitute(i, j, variable, term);
       if (touches(line, variable) || ends_text(line) || !passes(line, term))
         return false;
       if (line.kind == LineKind::If && live_at(line.label, variable))
@@ -212,11 +215,11 @@ private:
     each_read(code_, term, [&](std::uint32_t v) {
       bool last = false;
       for (auto k = i; k <= j; ++k) {
-        auto& list = last_reads_[k];
-        last = std::erase(list, v) > 0 || last;
+        last = last || contains(last_reads_[k], v);
+        remove(last_reads_[k], v);
       }
       if (last)
-        add_last_read(j, v);
+        insert(last_reads_[j], v);
     });
     return true;
   }
@@ -299,7 +302,7 @@ private:
     reads_[variable] = 0;
     code_.lines[i].kind = LineKind::Nothing;
     for (auto k = i; k <= readers.back(); ++k)
-      std::erase(last_reads_[k], original);
+      remove(last_reads_[k], original);
   }
 
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
@@ -361,7 +364,7 @@ private:
   Code& code_;
   Flow flow_;
   Liveness liveness_;
-  std::vector<std::vector<std::uint32_t>> last_reads_;
+  VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
 };
 
@@ -380,12 +383,7 @@ void remove_dead(Code& code) {
     live.assign(out.begin(), out.end());
     for (auto i = flow.blocks[b].end; i-- > flow.blocks[b].begin;) {
       auto& line = code.lines[i];
-      const bool idle = line.kind == LineKind::Let && !contains(live, line.variable) &&
-                        (code.terms[line.term].effects & (effect::faults | effect::clears)) == 0;
-      const bool self = line.kind == LineKind::Let &&
-                        code.terms[line.term].kind == TermKind::Variable &&
-                        code.terms[line.term].left == line.variable;
-      if (idle || self)
+      if (is_dead(code, line, live))
         line.kind = LineKind::Nothing;
       step_back(code, flow, liveness, line, live);
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
 namespace orb::structured {
@@ -72,13 +73,10 @@ private:
                  std::span<const std::uint64_t> live) {
     const auto& term = line.kind == LineKind::Let ? code_.terms[line.term] : Term{};
     const auto source = term.kind == TermKind::Variable ? term.left : none;
-    for (std::size_t word = 0; word < live.size(); ++word)
-      for (auto bits = live[word]; bits != 0; bits &= bits - 1) {
-        const auto other = static_cast<std::uint32_t>(word * 64) +
-                           static_cast<std::uint32_t>(std::countr_zero(bits));
-        if (other != source)
-          add_edge(variable, other);
-      }
+    each_member(live, [&](std::uint32_t other) {
+      if (other != source)
+        add_edge(variable, other);
+    });
   }
 
   void add_edge(std::uint32_t a, std::uint32_t b) {
@@ -93,11 +91,10 @@ private:
 class Classes {
 public:
   explicit Classes(VariableSets edges, std::size_t count)
-      : edges_(std::move(edges)), parent_(count) {
+      : edges_(std::move(edges)), members_(count, count), parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0U);
-    members_.resize(count);
     for (std::uint32_t v = 0; v < count; ++v)
-      members_[v].push_back(v);
+      insert(members_[v], v);
   }
 
   std::uint32_t find(std::uint32_t v) const {
@@ -107,8 +104,10 @@ public:
   }
 
   bool meet(std::uint32_t a, std::uint32_t b) const {
-    for (const auto member : members_[b])
-      if (contains(edges_[a], member))
+    const auto edges = edges_[a];
+    const auto members = members_[b];
+    for (std::size_t w = 0; w < edges.size(); ++w)
+      if ((edges[w] & members[w]) != 0)
         return true;
     return false;
   }
@@ -122,16 +121,16 @@ public:
       std::swap(a, b);
     parent_[b] = a;
     unite(edges_[a], edges_[b]);
-    members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
+    unite(members_[a], members_[b]);
   }
 
-  const std::vector<std::uint32_t>& members(std::uint32_t root) const { return members_[root]; }
-  const VariableSets& edges() const { return edges_; }
+  std::span<const std::uint64_t> members(std::uint32_t root) const { return members_[root]; }
+  std::span<const std::uint64_t> edges(std::uint32_t root) const { return edges_[root]; }
 
 private:
   VariableSets edges_;
+  VariableSets members_;
   std::vector<std::uint32_t> parent_;
-  std::vector<std::vector<std::uint32_t>> members_;
 };
 
 /// Colours the classes; false where the letters do not suffice.
@@ -143,11 +142,11 @@ public:
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       bool any = false;
       if (classes.find(v) == v)
-        for (const auto member : classes.members(v))
-          any = any || used[member];
+        each_member(classes.members(v), [&](std::uint32_t member) { any = any || used[member]; });
       if (any && v != index_variable)
         roots_.push_back(v);
     }
+    find_neighbours(used.size());
     letter_.assign(used.size(), no_letter);
     if (index_used)
       letter_[index_variable] = index_letter;
@@ -163,34 +162,36 @@ public:
   std::uint8_t letter(std::uint32_t v) const { return letter_[classes_.find(v)]; }
 
 private:
-  bool meet(std::uint32_t a, std::uint32_t b) const {
-    return classes_.meet(a, b) || classes_.meet(b, a);
+  void find_neighbours(std::size_t variables) {
+    neighbours_.resize(variables);
+    std::vector<std::uint32_t> last(variables, none); // that a class was found to be next to
+    for (const auto root : roots_)
+      each_member(classes_.edges(root), [&](std::uint32_t v) {
+        const auto other = classes_.find(v);
+        if (other == root || other == index_variable || last[other] == root)
+          return;
+        last[other] = root;
+        neighbours_[root].push_back(other);
+      });
   }
 
   /// Those with few neighbours last: they find a letter whatever the others have.
   std::vector<std::uint32_t> order() const {
-    const auto count = roots_.size();
-    std::vector<std::vector<std::uint32_t>> neighbours(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-      for (std::uint32_t j = i + 1; j < count; ++j)
-        if (meet(roots_[i], roots_[j])) {
-          neighbours[i].push_back(j);
-          neighbours[j].push_back(i);
-        }
-    std::vector<std::size_t> degree(count);
-    for (std::size_t i = 0; i < count; ++i)
-      degree[i] = neighbours[i].size();
-    std::vector<bool> gone(count, false);
+    constexpr auto gone = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> degree(neighbours_.size());
+    for (const auto root : roots_)
+      degree[root] = neighbours_[root].size();
     std::vector<std::uint32_t> ordered;
-    for (std::size_t n = 0; n < count; ++n) {
-      std::size_t least = count;
-      for (std::size_t i = 0; i < count; ++i)
-        if (!gone[i] && (least == count || degree[i] < degree[least]))
-          least = i;
-      gone[least] = true;
-      ordered.push_back(roots_[least]);
-      for (const auto neighbour : neighbours[least])
-        --degree[neighbour];
+    for (std::size_t n = 0; n < roots_.size(); ++n) {
+      const auto least =
+          *std::min_element(roots_.begin(), roots_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return degree[a] < degree[b];
+          });
+      degree[least] = gone;
+      ordered.push_back(least);
+      for (const auto neighbour : neighbours_[least])
+        if (degree[neighbour] != gone)
+          --degree[neighbour];
     }
     std::reverse(ordered.begin(), ordered.end());
     return ordered;
@@ -198,28 +199,28 @@ private:
 
   bool colour(std::uint32_t root) {
     std::uint32_t taken = 0;
-    for (const auto other : roots_)
-      if (letter_[other] != no_letter && meet(root, other))
+    for (const auto other : neighbours_[root])
+      if (letter_[other] != no_letter)
         taken |= std::uint32_t{1} << letter_[other];
-    for (const auto member : classes_.members(root)) {
-      const auto wish = wishes_[member];
-      if (wish != no_letter && wish < letters_ && (taken >> wish & 1) == 0) {
-        letter_[root] = wish;
-        return true;
-      }
-    }
-    for (std::uint8_t letter = 0; letter < letters_; ++letter)
-      if ((taken >> letter & 1) == 0) {
-        letter_[root] = letter;
-        return true;
-      }
-    return false;
+    const auto is_free = [&](std::uint8_t letter) {
+      return letter < letters_ && (taken >> letter & 1) == 0;
+    };
+    auto& letter = letter_[root];
+    each_member(classes_.members(root), [&](std::uint32_t member) {
+      if (letter == no_letter && wishes_[member] != no_letter && is_free(wishes_[member]))
+        letter = wishes_[member];
+    });
+    for (std::uint8_t any = 0; letter == no_letter && any < letters_; ++any)
+      if (is_free(any))
+        letter = any;
+    return letter != no_letter;
   }
 
   const Classes& classes_;
   const std::vector<std::uint8_t>& wishes_;
   std::uint32_t letters_;
   std::vector<std::uint32_t> roots_;
+  std::vector<std::vector<std::uint32_t>> neighbours_; ///< of each root: roots
   std::vector<std::uint8_t> letter_;
 };
 
@@ -240,11 +241,11 @@ Letters choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes
   letters.of.assign(count, no_letter);
   letters.available = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DirectVariables)) -
                       (index_used ? 1 : 0);
-  Classes joined(interference.edges, count);
-  join_copies(code, joined);
-  const Classes apart(interference.edges, count);
-  for (const Classes* classes : {static_cast<const Classes*>(&joined), &apart}) {
-    Colouring colouring(*classes, interference.used, wishes, letters.available, index_used);
+  for (const bool together : {true, false}) {
+    Classes classes(interference.edges, count);
+    if (together)
+      join_copies(code, classes);
+    Colouring colouring(classes, interference.used, wishes, letters.available, index_used);
     if (!colouring.run())
       continue;
     for (std::uint32_t v = 0; v < count; ++v)

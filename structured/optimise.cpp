@@ -28,14 +28,12 @@ void optimise(Code& code) {
   clean_jumps(code);
   write_switches(code);
   clean_jumps(code);
-  constexpr int rounds = 2;
-  for (int round = 0; round < rounds; ++round) {
-    remove_dead(code);
-    forward_values(code);
-    remove_dead(code);
-    use_values(code);
-    clean_jumps(code);
-  }
+  forward_values(code);
+  use_values(code);
+  clean_jumps(code);
+  forward_values(code);
+  remove_dead(code);
+  clean_jumps(code);
   cut_prints(code);
 }
 
