@@ -6,6 +6,7 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <vector>
 
@@ -274,11 +275,17 @@ std::string range(std::int64_t least, std::int64_t greatest) {
                                : fmt::format("{} to {}", least, greatest);
 }
 
+/// Of each letter the variable that the source has in its place; empty where it has none.
+using LetterNames =
+    std::array<std::string, static_cast<std::size_t>(spec::value_of(spec::Limit::DirectVariables))>;
+
 class Teller {
 public:
-  Teller(const Program& program, const compiler::Line& line, const vm::Machine* machine)
+  /// `names` are those of a structured program; null where letters are the names.
+  Teller(const Program& program, const compiler::Line& line, const vm::Machine* machine,
+         const LetterNames* names)
       : program_(program), line_(line), statement_(program.statements[line.statement]),
-        machine_(machine) {}
+        machine_(machine), names_(names) {}
 
   Cause value(BasicError error) const {
     auto suspects = Places(program_).of(statement_);
@@ -294,8 +301,33 @@ public:
   }
 
 private:
-  std::string_view text(std::uint32_t root) const {
-    return program_.text_of(program_.nodes[root].span);
+  std::string name_of_letter(std::size_t letter) const {
+    return names_ == nullptr ? std::string(1, static_cast<char>('A' + letter)) : (*names_)[letter];
+  }
+
+  /// An expression as the source may have it; empty where it holds what the source does not name,
+  /// or writes otherwise.
+  std::string text(std::uint32_t root) const {
+    if (root == none)
+      return "";
+    const auto span = program_.nodes[root].span;
+    if (names_ == nullptr)
+      return std::string(program_.text_of(span));
+    std::string said;
+    auto at = span.begin;
+    for (std::uint32_t i = program_.nodes[root].first; i <= root; ++i) {
+      const auto& node = program_.nodes[i];
+      if (node.kind == NodeKind::Call || node.kind == NodeKind::Indexed)
+        return "";
+      if (node.kind != NodeKind::Letter)
+        continue;
+      if ((*names_)[node.what].empty())
+        return "";
+      said += program_.text.substr(at, node.span.begin - at);
+      said += (*names_)[node.what];
+      at = node.span.end;
+    }
+    return said + std::string(program_.text.substr(at, span.end - at));
   }
 
   bool is_written_out(const Suspect& suspect) const {
@@ -314,8 +346,9 @@ private:
           std::find(told.begin(), told.end(), node.what) != told.end())
         continue;
       told.push_back(node.what);
-      list += fmt::format("{}{} is {}", list.empty() ? "" : ", ",
-                          static_cast<char>('A' + node.what), machine_->variable(node.what));
+      if (const auto name = name_of_letter(node.what); !name.empty())
+        list += fmt::format("{}{} is {}", list.empty() ? "" : ", ", name,
+                            machine_->variable(node.what));
     }
     return list;
   }
@@ -325,10 +358,9 @@ private:
     const auto& node = program_.nodes[suspect.root];
     const bool simple = node.kind != NodeKind::Binary && node.kind != NodeKind::Call &&
                         node.kind != NodeKind::Negate;
-    const auto once = fmt::format("{} % {}",
-                                  simple ? std::string(text(suspect.root))
-                                         : fmt::format("({})", text(suspect.root)),
-                                  suspect.greatest + 1);
+    const auto once = fmt::format(
+        "{} % {}", simple ? text(suspect.root) : fmt::format("({})", text(suspect.root)),
+        suspect.greatest + 1);
     return negative
                ? fmt::format("({} + {}) % {}", once, suspect.greatest + 1, suspect.greatest + 1)
                : once;
@@ -366,9 +398,9 @@ private:
     Cause cause;
     cause.variables = letters(suspect);
     if (suspect.kind == Kind::Divisor || suspect.kind == Kind::Step) {
-      cause.seen = is_written_out(suspect)
-                       ? fmt::format("{} is 0", suspect.name)
-                       : fmt::format("{} `{}` is 0", suspect.name, text(suspect.root));
+      const auto expression = is_written_out(suspect) ? "" : text(suspect.root);
+      cause.seen = expression.empty() ? fmt::format("{} is 0", suspect.name)
+                                      : fmt::format("{} `{}` is 0", suspect.name, expression);
       cause.help = remedy(suspect, value);
       return cause;
     }
@@ -378,7 +410,7 @@ private:
     cause.greatest = suspect.greatest;
     cause.seen = fmt::format("{} is {}, {} allowed", suspect.name, value,
                              range(suspect.least, suspect.greatest));
-    if (suspect.turns && !is_written_out(suspect)) {
+    if (suspect.turns && !is_written_out(suspect) && !text(suspect.root).empty()) {
       const auto use = turned(suspect, value < 0);
       cause.seen += fmt::format("; use {}", use);
       cause.help = with(suspect, use);
@@ -422,9 +454,10 @@ private:
     });
     Cause cause;
     for (const auto& suspect : suspects) {
-      const auto what = suspect.root == none
-                            ? fmt::format("`{}`", suspect.name)
-                            : fmt::format("{} `{}`", suspect.name, text(suspect.root));
+      const auto expression = text(suspect.root);
+      const auto what = suspect.root == none ? fmt::format("`{}`", suspect.name)
+                        : expression.empty() ? suspect.name
+                                             : fmt::format("{} `{}`", suspect.name, expression);
       cause.seen += cause.seen.empty() ? "" : ", or ";
       cause.seen +=
           suspect.kind == Kind::Divisor || suspect.kind == Kind::Step
@@ -434,7 +467,7 @@ private:
     if (suspects.size() != 1)
       return cause;
     const auto& only = suspects.front();
-    if (only.turns && !is_written_out(only)) {
+    if (only.turns && !is_written_out(only) && !text(only.root).empty()) {
       cause.seen += fmt::format("; use {}", turned(only, false));
       cause.help = with(only, turned(only, false));
     } else {
@@ -481,7 +514,7 @@ public:
                                    [&](const auto& one) { return one.number == start; });
     if (line == program_.lines.end())
       return cause;
-    if (const auto before = Teller(program_, *line, nullptr).free_number())
+    if (const auto before = Teller(program_, *line, nullptr, names_).free_number())
       cause.help = fmt::format("end the program before the subroutine: write `{} end`", *before);
     return cause;
   }
@@ -532,13 +565,12 @@ private:
   const compiler::Line& line_;
   const StatementNode& statement_;
   const vm::Machine* machine_;
+  const LetterNames* names_;
 };
 
-} // namespace
-
 Cause cause_of(const compiler::Program& program, const compiler::Line& line, BasicError error,
-               const vm::Machine* machine) {
-  const Teller teller(program, line, machine);
+               const vm::Machine* machine, const LetterNames* names) {
+  const Teller teller(program, line, machine, names);
   switch (error) {
   case BasicError::BadNumericParameter:
   case BasicError::DivideByZero:
@@ -558,6 +590,13 @@ Cause cause_of(const compiler::Program& program, const compiler::Line& line, Bas
   return {};
 }
 
+} // namespace
+
+Cause cause_of(const compiler::Program& program, const compiler::Line& line, BasicError error,
+               const vm::Machine* machine) {
+  return cause_of(program, line, error, machine, nullptr);
+}
+
 namespace {
 
 /// Takes over what the linter says of the line, where it knows that it stops the program so.
@@ -575,24 +614,14 @@ void add_finding(ProgramError& fault, const Source& source, std::string_view tex
   fault.help = found->help;
 }
 
-/// Of a program whose source has names in place of letters: what needs neither.
-Cause without_letters(const Cause& cause) {
-  if (cause.parameter.empty())
-    return {};
-  Cause kept = cause;
-  kept.variables.clear();
-  kept.help.clear();
-  kept.seen = fmt::format("{} is {}, {} allowed", cause.parameter, *cause.value,
-                          range(*cause.least, *cause.greatest));
-  return kept;
-}
-
 const compiler::Line* find_line(const compiler::Program& program, std::uint32_t number) {
   const auto line = std::find_if(program.lines.begin(), program.lines.end(), [&](const auto& one) {
     return one.number == number && one.has_statement();
   });
   return line == program.lines.end() ? nullptr : &*line;
 }
+
+// --- structured programs ------------------------------------------------------------------------
 
 /// Where a fault is in a structured program.
 void put_place(ProgramError& fault, const LineMap& lines) {
@@ -602,6 +631,57 @@ void put_place(ProgramError& fault, const LineMap& lines) {
     return;
   fault.file = lines.files[place->second.file];
   fault.place = {place->second.line, place->second.column};
+}
+
+/// The array that a statement uses; null where it uses none or several.
+const structured::Symbol* only_array(const structured::Compiled& compiled,
+                                     const structured::Statement& statement) {
+  const structured::Symbol* found = nullptr;
+  for (std::size_t n = 0; n < compiled.program.nodes.size(); ++n) {
+    const auto span = compiled.program.nodes[n].span;
+    const auto symbol = compiled.names.of_node[n];
+    if (span.begin < statement.span.begin || span.end > statement.span.end ||
+        symbol == structured::none)
+      continue;
+    const auto& one = compiled.names.symbols[symbol];
+    if (one.kind != structured::SymbolKind::Array)
+      continue;
+    if (found != nullptr && found != &one)
+      return nullptr;
+    found = &one;
+  }
+  return found;
+}
+
+/// The robot has one array, and a wrong index is 0 when it gets there.
+Cause wrong_index(const structured::Compiled& compiled, const structured::Statement& statement) {
+  const auto* array = only_array(compiled, statement);
+  if (array == nullptr)
+    return {.seen = "an index is outside of its array"};
+  const auto name = compiled.program.name(array->name);
+  return {.seen =
+              fmt::format("the index is outside of `{0}[1]` to `{0}[{1}]`", name, array->value)};
+}
+
+/// The cause of a fault in the words of a structured program: with its names, and without lines of
+/// the robot to write.
+Cause structured_cause(const structured::Compiled& compiled, const compiler::Program& program,
+                       const compiler::Line& line, BasicError code, const vm::Machine* machine) {
+  const auto& robot = compiled.robot;
+  const auto found = std::lower_bound(
+      robot.lines.begin(), robot.lines.end(), line.number,
+      [](const structured::RobotLine& one, std::uint32_t number) { return one.number < number; });
+  if (found == robot.lines.end())
+    return {};
+  if (code == BasicError::IllegalIndex)
+    return wrong_index(compiled, compiled.program.statements[found->statement]);
+  LetterNames names;
+  for (auto n = found->names_begin; n < found->names_end; ++n)
+    names[robot.names[n].letter] =
+        compiled.program.name(compiled.names.symbols[robot.names[n].symbol].name);
+  auto cause = cause_of(program, line, code, machine, &names);
+  cause.help = code == BasicError::OutOfData ? "`rstr` begins with the first value again" : "";
+  return cause;
 }
 
 } // namespace
@@ -615,17 +695,17 @@ ProgramError explain(const Input& input, const compiler::Target& target, int rob
   fault.code = code;
   fault.file = input.source->name();
   const auto* line = find_line(program, fault.robot_line);
-  if (line != nullptr)
-    fault.cause = cause_of(program, *line, code, machine);
   if (!fault.numbered) {
     put_place(fault, input.program->lines);
-    fault.cause = without_letters(fault.cause);
+    if (line != nullptr)
+      fault.cause = structured_cause(*input.program->compiled, program, *line, code, machine);
     return fault;
   }
   if (line == nullptr) {
     fault.cause.seen = fmt::format("the program has no line {}", robot_line);
     return fault;
   }
+  fault.cause = cause_of(program, *line, code, machine);
   fault.place = input.source->position(program.statements[line->statement].span.begin);
   add_finding(fault, *input.source, program.text, target);
   return fault;

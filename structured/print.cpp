@@ -30,12 +30,14 @@ public:
         continue;
       if (comments != nullptr)
         result_.text += comments->before(line);
-      result_.lines.push_back(
-          {number, line.origin, line.routine, static_cast<std::uint32_t>(result_.text.size())});
+      const auto names = static_cast<std::uint32_t>(result_.names.size());
+      result_.lines.push_back({number, line.origin, line.routine,
+                               static_cast<std::uint32_t>(result_.text.size()), names, names});
       put(number);
       put(' ');
       line_text(line);
       put('\n');
+      result_.lines.back().names_end = static_cast<std::uint32_t>(result_.names.size());
       number += numbering_.step;
     }
     const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber));
@@ -74,6 +76,8 @@ private:
   void put_variable(std::uint32_t variable) {
     const auto letter = letters_.of[variable];
     put(static_cast<char>('A' + (letter == no_letter ? 0 : letter)));
+    if (const auto symbol = code_.variables[variable].symbol; symbol != none)
+      result_.names.push_back({letter, symbol});
   }
 
   void line_text(const CodeLine& line) {

@@ -16,19 +16,28 @@ struct Numbering {
   std::uint32_t step = 1;
 };
 
+/// A letter in a line of the robot and the variable of the source that it holds there.
+struct NamedLetter {
+  std::uint8_t letter = 0; ///< 0 for A
+  std::uint32_t symbol = none;
+};
+
 /// A line of the robot and what it is for.
 struct RobotLine {
   std::uint32_t number = 0;
-  std::uint32_t statement = 0; ///< of the structured program
-  std::uint32_t routine = 0;   ///< the sub that it stands in; 0 is the main program
-  std::uint32_t offset = 0;    ///< into the text
+  std::uint32_t statement = 0;   ///< of the structured program
+  std::uint32_t routine = 0;     ///< the sub that it stands in; 0 is the main program
+  std::uint32_t offset = 0;      ///< into the text
+  std::uint32_t names_begin = 0; ///< in RobotText::names
+  std::uint32_t names_end = 0;
 };
 
 /// Plain orbBasic, one line each.
 struct RobotText {
   std::string text;
   std::vector<RobotLine> lines;
-  bool numbers_suffice = true; ///< false: beyond line 65535
+  std::vector<NamedLetter> names; ///< line after line; temporaries have none
+  bool numbers_suffice = true;    ///< false: beyond line 65535
 };
 
 /// Numbers the lines in their order, which gives each the shortest number that it can have, and
