@@ -239,7 +239,9 @@ void add_check(CLI::App& app, Context& context) {
   command->add_flag("--watch", options->watch, "check again whenever a file changes");
   command->callback([&context, options] {
     if (options->watch)
-      watch(context, options->files, [&] { check(context, *options); });
+      watch(
+          context, [&] { return files_of(options->files, options->lang); },
+          [&] { check(context, *options); });
     else
       check(context, *options);
   });

@@ -1,5 +1,8 @@
 #include "cli/watch.h"
 
+#include "cli/inputs.h"
+#include "structured/read.h"
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -92,12 +95,39 @@ private:
   pid_t process_ = 0;
 };
 
+/// Reads from the disk and keeps in mind what was asked for, there or not.
+class NotedFiles final : public structured::Files {
+public:
+  std::optional<std::string> read(const std::string& path) override {
+    asked.push_back(path);
+    return disk_.read(path);
+  }
+  std::vector<std::string> asked;
+
+private:
+  DiskFiles disk_;
+};
+
 } // namespace
 
-void watch(Context& context, const std::vector<std::string>& files,
+std::vector<std::string> files_of(const std::vector<std::string>& files, std::string_view lang) {
+  auto all = files;
+  for (const auto& file : files) {
+    if (run::language_of(file, lang) != run::Language::Structured)
+      continue;
+    NotedFiles noted;
+    if (const auto text = noted.read(file))
+      structured::read(file, file, *text, noted);
+    all.insert(all.end(), noted.asked.begin() + 1, noted.asked.end());
+  }
+  return all;
+}
+
+void watch(Context& context, const std::function<std::vector<std::string>()>& list,
            const std::function<void()>& once, const std::function<void()>& ended) {
   context.exit = ExitCode::Done;
   Held held;
+  auto files = list();
   auto seen = stamps(files);
   std::optional<Run> run;
   run.emplace(context, held, once);
@@ -112,8 +142,9 @@ void watch(Context& context, const std::vector<std::string>& files,
     if (now == seen)
       continue;
     const auto changed = std::mismatch(now.begin(), now.end(), seen.begin()).first - now.begin();
-    seen = now;
     print_note(context, fmt::format("--- {} changed", files[static_cast<std::size_t>(changed)]));
+    files = list();
+    seen = stamps(files);
     run.reset();
     run.emplace(context, held, once);
   }
