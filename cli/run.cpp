@@ -14,6 +14,7 @@
 #include "report/trace.h"
 #include "run/want.h"
 #include "spec/firmware.h"
+#include "structured/words.h"
 
 #include <charconv>
 #include <chrono>
@@ -224,7 +225,11 @@ tl::expected<std::string, Failure> read_before(const RunOptions& options) {
 tl::expected<void, IoError>
 write_pictures(const RunOptions& options, const report::Journey& journey, std::string_view before) {
   if (!options.report.empty()) {
-    auto page = report::report_page(journey, disk::display_name(options.files.front()), before);
+    std::vector<std::string_view> keywords;
+    for (const auto& row : structured::keywords)
+      keywords.push_back(row.word);
+    auto page =
+        report::report_page(journey, disk::display_name(options.files.front()), before, keywords);
     if (options.watch)
       page = report::reloading(std::move(page));
     if (auto done = disk::write(options.report, as_bytes(page)); !done)
@@ -364,12 +369,15 @@ void run_and_report(Context& context, const RunOptions& options) {
 }
 
 void run_and_watch(Context& context, const RunOptions& options) {
-  auto files = options.files;
-  for (const auto& stimulus : options.stimuli)
-    if (!is_stimulus_line(stimulus))
-      files.push_back(stimulus);
-  if (!options.course.empty())
-    files.push_back(options.course);
+  const auto files = [&] {
+    auto all = files_of(options.files, options.language);
+    for (const auto& stimulus : options.stimuli)
+      if (!is_stimulus_line(stimulus))
+        all.push_back(stimulus);
+    if (!options.course.empty())
+      all.push_back(options.course);
+    return all;
+  };
   const auto written = [&] {
     std::error_code absent;
     return std::filesystem::last_write_time(options.report, absent);

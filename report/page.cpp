@@ -199,7 +199,7 @@ ordered_json sensors(const Journey& journey) {
 }
 
 /// The words of the robot's languages, by the kind that a page colours them as.
-ordered_json words() {
+ordered_json words(std::span<const std::string_view> keywords) {
   auto statements = plain(spec::statements, [](const auto& row) { return row.word; });
   for (const auto word : spec::particles)
     statements.push_back(word);
@@ -209,6 +209,7 @@ ordered_json words() {
        {{"statement", statements},
         {"function", plain(spec::functions, word_of)},
         {"sensor", plain(spec::variables, word_of)}}},
+      {"structured", {{"statement", plain(keywords, [](auto word) { return word; })}}},
       {"macro",
        {{"statement", plain(spec::macro_commands, [](const auto& row) { return row.mnemonic; })}}}};
 }
@@ -216,7 +217,7 @@ ordered_json words() {
 std::string thousands(std::uint64_t value) {
   auto digits = std::to_string(value);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<std::size_t>(at), ",");
+    digits.insert(static_cast<std::size_t>(at), 1, ',');
   return digits;
 }
 
@@ -300,7 +301,8 @@ std::string outcome(const Journey::End& end) {
   return end.fault.empty() ? end.words : fmt::format("{}; {}", end.fault, end.words);
 }
 
-ordered_json run_data(const Journey& journey, std::string_view title) {
+ordered_json run_data(const Journey& journey, std::string_view title,
+                      std::span<const std::string_view> keywords) {
   const auto listed = journey.listed();
   ordered_json data = {{"schema", schema},
                        {"title", to_valid_utf8(title)},
@@ -312,7 +314,7 @@ ordered_json run_data(const Journey& journey, std::string_view title) {
                        {"counts", counts(journey)},
                        {"thinned", thinned_words(journey, listed)},
                        {"files", files(journey)},
-                       {"words", words()},
+                       {"words", words(keywords)},
                        {"walls", walls(journey)},
                        {"pose", poses(journey)},
                        {"led", lamps(journey)},
@@ -356,7 +358,8 @@ std::optional<std::string> run_of_page(std::string_view page) {
   return script_safe(run);
 }
 
-std::string report_page(const Journey& journey, std::string_view title, std::string_view before) {
+std::string report_page(const Journey& journey, std::string_view title, std::string_view before,
+                        std::span<const std::string_view> keywords) {
   std::string_view rest = page_html;
   std::string page;
   const auto fill = [&](std::string_view place, std::string_view with) {
@@ -366,7 +369,7 @@ std::string report_page(const Journey& journey, std::string_view title, std::str
     rest.remove_prefix(at + place.size());
   };
   fill("/*{style}*/", page_css);
-  fill("/*{run}*/", script_safe(run_data(journey, title)));
+  fill("/*{run}*/", script_safe(run_data(journey, title, keywords)));
   fill("/*{before}*/", before.empty() ? "null" : before);
   fill("/*{script}*/", page_js);
   return page += rest;

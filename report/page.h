@@ -3,16 +3,18 @@
 #include "report/journey.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace orb::report {
 
 /// One self-contained page that plays the run back: no network, no other file. `title` stands on
-/// top; `before`, from run_of_page(), is a run to show beside it. The same journey makes the same
-/// bytes.
+/// top; `before`, from run_of_page(), is a run to show beside it; `keywords` are the words that
+/// `.orb` sources have besides the robot's. The same journey makes the same bytes.
 std::string report_page(const Journey& journey, std::string_view title,
-                        std::string_view before = {});
+                        std::string_view before = {},
+                        std::span<const std::string_view> keywords = {});
 
 /// The run that a page of report_page() plays back; nothing where `page` is something else.
 std::optional<std::string> run_of_page(std::string_view page);

@@ -489,9 +489,10 @@ for (const [name, words] of [["position", "at"], ["speed", "speed"], ["heading",
 readings.led.append(element("span", { class: "swatch" }), document.createTextNode(""));
 
 // ---- program text ----
-const kinds_of = words => new Map(Object.entries(words).flatMap(([kind, list]) => list.map(word => [word, kind])));
+const kinds_of = (...words) => new Map(words.flatMap(Object.entries).flatMap(([kind, list]) => list.map(word => [word.toLowerCase(), kind])));
 const languages = {
   basic: { words: kinds_of(run.words.basic), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>\d+)|(?<name>[A-Za-z_]\w*)|[^'"\dA-Za-z_]+/g },
+  orb: { words: kinds_of(run.words.basic, run.words.structured), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>#[\da-f]{6}\b|\d\w*(?:\.\d\w*)?)|(?<name>[a-z_]\w*)|[^'"#\da-z_]+|#/gi },
   macro: { words: kinds_of(run.words.macro), tokens: /(?<comment>[#;].*)|(?<string>"(?:\\.|[^"\\])*"?)|(?<directive>\.\w+)|(?<number>-?\b\d\w*(?:\.\d+\w*)?)|(?<name>[A-Za-z_]\w*)|[^#;"\dA-Za-z_]/g },
 };
 /** A line in the colours of its language; what no rule knows stays as it is. */
@@ -500,7 +501,7 @@ function colored(text, { words, tokens }) {
   let first = true;
   for (const token of text.matchAll(tokens)) {
     const found = Object.entries(token.groups).find(([, part]) => part !== undefined);
-    const kind = !found ? "" : found[0] === "name" ? words.get(token[0]) ?? "" : found[0] === "number" && first ? "label" : found[0];
+    const kind = !found ? "" : found[0] === "name" ? words.get(token[0].toLowerCase()) ?? "" : found[0] === "number" && first ? "label" : found[0];
     if (kind) cell.append(element("span", { class: `is-${kind}` }, token[0]));
     else cell.append(token[0]);
     if (token[0].trim()) first = false;
@@ -525,7 +526,8 @@ function show_file(index) {
 function source_rows(file) {
   const ran = new Map(file.counts.map(([line, count, first]) => [line, { count, first }]));
   const most = file.counts.reduce((sum, [, count]) => Math.max(sum, count), 1);
-  const language = file.name.endsWith(".macro") ? languages.macro : languages.basic;
+  const ending = file.name.split(".").pop();
+  const language = ending === "macro" ? languages.macro : ending === "orb" ? languages.orb : languages.basic;
   return file.text.replace(/\r\n?/g, "\n").replace(/\n$/, "").split("\n").map((text, i) => {
     const line = i + 1, entry = ran.get(line);
     const row = element("tr", { "data-line": line });

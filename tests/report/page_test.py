@@ -328,6 +328,15 @@ class Report(unittest.TestCase):
         self.assertEqual(of("number"), ["1", "3"])
         self.assertEqual(of("label"), ["10", "20", "30", "40"])
         self.assertEqual(of("sensor"), ["xpos"])
+        text = "' counts\nconst pause = 1.5s\nfor a = 1 to 3 ' up\n  Print \"for 5 \" a, xpos\n  RGB #FF8000\nnext a\ndelay pause\n"
+        page = self.open(Run(self.folder.name, "orb-colours", self.file("colours.orb", text)))
+        rows = page.evaluate("[...document.querySelectorAll('#source tr')].map(row => row.lastChild.textContent)")
+        self.assertEqual(rows, text.rstrip("\n").split("\n"))
+        self.assertEqual(of("comment"), ["' counts", "' up"])
+        self.assertEqual(of("statement"), ["const", "for", "to", "Print", "RGB", "next", "delay"])
+        self.assertEqual(of("number"), ["1.5s", "1", "3", "#FF8000"])
+        self.assertEqual(of("label"), [])
+        self.assertEqual(of("sensor"), ["xpos"])
         page = self.open(Run(self.folder.name, "macro-colours", example("square.macro")))
         self.assertIn("wait_until_stopped", page.evaluate("[...document.querySelectorAll('#source .is-statement')].map(one => one.textContent)"))
 
