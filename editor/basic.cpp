@@ -175,7 +175,7 @@ const compiler::Line* find_line(const Program& program, std::uint32_t number) {
   return nullptr;
 }
 
-Occurrences occurrences(const Source& source, std::uint32_t offset) {
+Occurrences occurrences(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto program = compiler::parse(source.text());
   Occurrences found;
   const auto lines = line_names(program);
@@ -312,7 +312,7 @@ std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_
                            rule->summary, rule->explanation)};
 }
 
-std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
+std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto tokens = tokens_at(source, offset);
   const auto* token = token_at(tokens, offset);
   if (token == nullptr)
@@ -459,7 +459,7 @@ void suggest_rules(Suggestions& out) {
                          std::string(rule.explanation)});
 }
 
-Suggestions suggest(const Source& source, std::uint32_t offset) {
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto text = source.text();
   offset = std::min(offset, static_cast<std::uint32_t>(text.size()));
   Suggestions out{{offset, offset}, {}};
@@ -603,8 +603,8 @@ tl::expected<std::vector<Edit>, std::string> rename_line(const Program& program,
   return edits;
 }
 
-tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::uint32_t offset,
-                                                    std::string_view name) {
+tl::expected<std::vector<Edit>, std::string>
+edits_of_renaming(const Source& source, std::uint32_t offset, std::string_view name) {
   const auto program = compiler::parse(source.text());
   const auto lines = line_names(program);
   if (const auto* here = name_at(lines, offset))
@@ -613,6 +613,14 @@ tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::u
   if (const auto* here = name_at(letters, offset))
     return rename_letter(letters, here->letter, name);
   return tl::unexpected(std::string("here is neither a line number nor a variable"));
+}
+
+tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t offset,
+                                           std::string_view name, const LanguageOptions&) {
+  auto edits = edits_of_renaming(source, offset, name);
+  if (!edits)
+    return tl::unexpected(std::move(edits.error()));
+  return Renaming{*std::move(edits), {}};
 }
 
 compiler::Target target_of(const LanguageOptions& options) {

@@ -9,6 +9,7 @@
 #include "structured/files.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,10 +18,11 @@
 
 namespace orb::editor {
 
-/// What programs are checked for.
+/// What programs are checked for, and the files around them.
 struct LanguageOptions {
   spec::BasicVersion target = spec::BasicVersion::V1_6;
   structured::Files* files = nullptr; ///< what programs include; null: no file at all
+  std::vector<const Source*> open;    ///< structured programs, which may include each other
 };
 
 struct Hover {
@@ -50,10 +52,24 @@ struct Symbol {
   Span selection; ///< its name
 };
 
+/// A place in another file, which the text includes or which includes it.
+struct FarPlace {
+  std::shared_ptr<const Source> source; ///< its name is a path, or the name of an open text
+  Span span;
+  bool defines = false;
+};
+
 /// A name in a text: a line number, a variable, a macro.
 struct Occurrences {
   std::vector<Span> definitions;
   std::vector<Span> uses;
+  std::vector<FarPlace> elsewhere;
+};
+
+/// What gives a name another one: the edits of the text, and places elsewhere that get the name.
+struct Renaming {
+  std::vector<Edit> edits;
+  std::vector<FarPlace> elsewhere;
 };
 
 /// A change of the whole text that a user may ask for.
@@ -73,14 +89,18 @@ struct Hint {
 /// One language. Every function is pure and takes any text, however broken.
 struct LanguageService {
   std::vector<Diagnostic> (*check)(const Source& source, const LanguageOptions& options);
-  std::optional<Hover> (*hover)(const Source& source, std::uint32_t offset);
-  Suggestions (*suggest)(const Source& source, std::uint32_t offset);
+  std::optional<Hover> (*hover)(const Source& source, std::uint32_t offset,
+                                const LanguageOptions& options);
+  Suggestions (*suggest)(const Source& source, std::uint32_t offset,
+                         const LanguageOptions& options);
   std::vector<Symbol> (*outline)(const Source& source);
   /// Everything that is the same name as what stands at `offset`.
-  Occurrences (*occurrences)(const Source& source, std::uint32_t offset);
-  /// The edits that give the name at `offset` another one, or why that cannot be.
-  tl::expected<std::vector<Edit>, std::string> (*rename)(const Source& source, std::uint32_t offset,
-                                                         std::string_view name);
+  Occurrences (*occurrences)(const Source& source, std::uint32_t offset,
+                             const LanguageOptions& options);
+  /// What gives the name at `offset` another one, or why that cannot be.
+  tl::expected<Renaming, std::string> (*rename)(const Source& source, std::uint32_t offset,
+                                                std::string_view name,
+                                                const LanguageOptions& options);
   /// The canonical layout; nothing where the text cannot be laid out.
   std::optional<std::string> (*format)(const Source& source);
   /// Only those that change something.

@@ -201,8 +201,10 @@ struct LanguageServer::State final : structured::Files {
   Answer initialize(const Json& params);
   Answer hover(const Document& document, std::uint32_t at) const;
   Answer completion(const Document& document, std::uint32_t at) const;
-  Answer locations(const std::string& uri, const Document& document,
-                   const std::vector<Span>& spans) const;
+  Answer locations(const std::string& uri, const Document& document, const Occurrences& names,
+                   bool definitions, bool uses) const;
+  LanguageOptions surroundings() const;
+  std::string uri_of(const Source& source) const;
   Answer highlight(const Document& document, std::uint32_t at) const;
   Answer prepare_rename(const Document& document, std::uint32_t at) const;
   Answer rename(const std::string& uri, const Document& document, std::uint32_t at,
@@ -313,16 +315,12 @@ Answer LanguageServer::State::request(const std::string& method, const Json& par
     return hover(document, *at);
   if (method == "textDocument/completion")
     return completion(document, *at);
-  if (method == "textDocument/definition")
-    return locations(uri, document,
-                     document.language->occurrences(document.source, *at).definitions);
-  if (method == "textDocument/references") {
-    const auto names = document.language->occurrences(document.source, *at);
-    auto spans = names.uses;
+  if (method == "textDocument/definition" || method == "textDocument/references") {
+    const auto names = document.language->occurrences(document.source, *at, surroundings());
     const auto& declared = member(member(params, "context"), "includeDeclaration");
-    if (!declared.is_boolean() || declared.get<bool>())
-      spans.insert(spans.begin(), names.definitions.begin(), names.definitions.end());
-    return locations(uri, document, spans);
+    const bool uses = method == "textDocument/references";
+    const bool definitions = !uses || !declared.is_boolean() || declared.get<bool>();
+    return locations(uri, document, names, definitions, uses);
   }
   if (method == "textDocument/documentHighlight")
     return highlight(document, *at);
@@ -473,7 +471,7 @@ void LanguageServer::State::publish(const std::string& uri, const Document& docu
 }
 
 Answer LanguageServer::State::hover(const Document& document, std::uint32_t at) const {
-  const auto found = document.language->hover(document.source, at);
+  const auto found = document.language->hover(document.source, at, surroundings());
   if (!found)
     return Json();
   return Json{{"contents", {{"kind", "markdown"}, {"value", found->markdown}}},
@@ -481,7 +479,7 @@ Answer LanguageServer::State::hover(const Document& document, std::uint32_t at) 
 }
 
 Answer LanguageServer::State::completion(const Document& document, std::uint32_t at) const {
-  const auto found = document.language->suggest(document.source, at);
+  const auto found = document.language->suggest(document.source, at, surroundings());
   const auto place = range(document.source, found.replaces);
   auto list = Json::array();
   for (std::size_t i = 0; i < found.items.size(); ++i) {
@@ -499,18 +497,43 @@ Answer LanguageServer::State::completion(const Document& document, std::uint32_t
   return Json{{"isIncomplete", false}, {"items", std::move(list)}};
 }
 
+LanguageOptions LanguageServer::State::surroundings() const {
+  auto all = options;
+  for (const auto& [uri, document] : documents)
+    if (document.language == &structured_service)
+      all.open.push_back(&document.source);
+  return all;
+}
+
+/// A program's file is named by its path; an open text by its URI.
+std::string LanguageServer::State::uri_of(const Source& source) const {
+  for (const auto& [uri, document] : documents)
+    if (uri == source.name() || path_of_uri(uri) == source.name())
+      return uri;
+  return uri_of_path(source.name());
+}
+
 Answer LanguageServer::State::locations(const std::string& uri, const Document& document,
-                                        const std::vector<Span>& spans) const {
+                                        const Occurrences& names, bool definitions,
+                                        bool uses) const {
   auto list = Json::array();
-  for (const auto span : spans)
-    list.push_back({{"uri", uri}, {"range", range(document.source, span)}});
+  const auto add = [&](bool wanted, const std::vector<Span>& spans) {
+    if (wanted)
+      for (const auto span : spans)
+        list.push_back({{"uri", uri}, {"range", range(document.source, span)}});
+  };
+  add(definitions, names.definitions);
+  add(uses, names.uses);
+  for (const auto& place : names.elsewhere)
+    if (place.defines ? definitions : uses)
+      list.push_back({{"uri", uri_of(*place.source)}, {"range", range(*place.source, place.span)}});
   return list;
 }
 
 Answer LanguageServer::State::highlight(const Document& document, std::uint32_t at) const {
   constexpr int read = 2;
   constexpr int write = 3;
-  const auto names = document.language->occurrences(document.source, at);
+  const auto names = document.language->occurrences(document.source, at, surroundings());
   auto list = Json::array();
   for (const auto span : names.definitions)
     list.push_back({{"range", range(document.source, span)}, {"kind", write}});
@@ -520,7 +543,7 @@ Answer LanguageServer::State::highlight(const Document& document, std::uint32_t 
 }
 
 Answer LanguageServer::State::prepare_rename(const Document& document, std::uint32_t at) const {
-  const auto names = document.language->occurrences(document.source, at);
+  const auto names = document.language->occurrences(document.source, at, surroundings());
   for (const auto* spans : {&names.definitions, &names.uses})
     for (const auto span : *spans)
       if (span.begin <= at && at <= span.end)
@@ -532,10 +555,13 @@ Answer LanguageServer::State::prepare_rename(const Document& document, std::uint
 Answer LanguageServer::State::rename(const std::string& uri, const Document& document,
                                      std::uint32_t at, const Json& params) const {
   const auto name = text_of(member(params, "newName"));
-  const auto changes = document.language->rename(document.source, at, name);
-  if (!changes)
-    return refuse(RpcError::RequestFailed, changes.error());
-  return workspace_edit(uri, edits(document.source, *changes));
+  const auto renaming = document.language->rename(document.source, at, name, surroundings());
+  if (!renaming)
+    return refuse(RpcError::RequestFailed, renaming.error());
+  auto changed = workspace_edit(uri, edits(document.source, renaming->edits));
+  for (const auto& place : renaming->elsewhere)
+    changed["changes"][uri_of(*place.source)].push_back(edit(*place.source, {place.span, name}));
+  return changed;
 }
 
 Answer LanguageServer::State::symbols(const Document& document) const {

@@ -134,7 +134,7 @@ std::optional<Span> macro_of_id(const Source& source, const Program& program,
   return std::nullopt;
 }
 
-Occurrences occurrences(const Source& source, std::uint32_t offset) {
+Occurrences occurrences(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto program = assembler::parse(source.text());
   const auto names = names_in(source, program);
   Occurrences found;
@@ -153,8 +153,8 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), is_word_part);
 }
 
-tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::uint32_t offset,
-                                                    std::string_view name) {
+tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t offset,
+                                           std::string_view name, const LanguageOptions&) {
   const auto program = assembler::parse(source.text());
   const auto names = names_in(source, program);
   const auto* here = name_at(names, offset);
@@ -177,7 +177,7 @@ tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::u
   }
   if (!defined)
     return tl::unexpected(fmt::format("`{}` is defined nowhere in this file", old));
-  return edits;
+  return Renaming{std::move(edits), {}};
 }
 
 // ---- hover
@@ -211,7 +211,7 @@ std::string_view line_text(const Source& source, std::uint32_t offset) {
   return source.line(source.position(offset).line);
 }
 
-std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
+std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto program = assembler::parse(source.text());
   for (const auto& statement : program.statements) {
     if (!touches(statement.head, offset))
@@ -364,7 +364,7 @@ void suggest_operands(Suggestions& out, const Source& source, const Program& pro
           {fmt::format("{}=", operand.name), SuggestionKind::Value, range_text(operand), ""});
 }
 
-Suggestions suggest(const Source& source, std::uint32_t offset) {
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto text = source.text();
   offset = std::min(offset, static_cast<std::uint32_t>(text.size()));
   const auto start = source.line_start(source.position(offset).line);

@@ -39,17 +39,30 @@ constexpr std::string_view language_id = "orbstructured";
 constexpr std::string_view allow_mark = "orb: allow";
 constexpr std::size_t longest_name = 31;
 
-/// A program as far as its own file tells: what it includes is not read.
+/// A program with all that it includes.
 struct Reading {
   Program program;
   Names names;
+  std::vector<std::shared_ptr<const Source>> sources; ///< of its files
+
+  /// The file and the place in it; nothing for what stands in no file, such as a macro's name.
+  std::optional<FarPlace> place(Span span) const {
+    const auto at = structured::place_of(program, span);
+    if (at.file >= sources.size() || at.span.size() != span.size())
+      return std::nullopt;
+    return FarPlace{sources[at.file], at.span, false};
+  }
 };
 
-Reading read(const Source& source) {
-  structured::NoFiles files;
+Reading read(const Source& source, const LanguageOptions& options) {
+  structured::NoFiles no_files;
   Reading reading;
-  reading.program = structured::read(source.name(), source.name(), source.text(), files);
+  reading.program = structured::read(source.name(), path_of_uri(source.name()), source.text(),
+                                     options.files != nullptr ? *options.files : no_files);
   reading.names = structured::resolve(reading.program);
+  for (const auto& file : reading.program.files)
+    reading.sources.push_back(std::make_shared<const Source>(
+        file.path, reading.program.text.substr(file.begin, file.end - file.begin)));
   return reading;
 }
 
@@ -59,6 +72,10 @@ Compiled compile(const Source& source, const LanguageOptions& options) {
   target.version = options.target;
   return structured::compile(source.name(), path_of_uri(source.name()), source.text(), target,
                              options.files != nullptr ? *options.files : no_files);
+}
+
+std::string_view file_name_of(std::string_view path) {
+  return path.substr(path.rfind('/') + 1); // all of it where there is no `/`
 }
 
 // ---- names
@@ -83,10 +100,7 @@ public:
   explicit NameUses(const Reading& reading) : program_(reading.program), names_(reading.names) {}
 
   std::vector<NameUse> collect() {
-    if (program_.files.empty())
-      return {};
-    const auto& file = program_.files.front();
-    for (auto i = file.statements_begin; i < file.statements_end; ++i)
+    for (std::uint32_t i = 0; i < program_.statements.size(); ++i)
       add_statement(i);
     std::sort(uses_.begin(), uses_.end(),
               [](const NameUse& a, const NameUse& b) { return a.span.begin < b.span.begin; });
@@ -159,14 +173,71 @@ const NameUse* use_at(const std::vector<NameUse>& uses, std::uint32_t offset) {
   return found;
 }
 
-Occurrences occurrences(const Source& source, std::uint32_t offset) {
-  const auto reading = read(source);
-  const auto uses = NameUses(reading).collect();
+/// A program in which a text takes part, and the name of it that is asked about.
+struct Part {
+  Reading reading;
+  std::vector<NameUse> uses;
+  const NameUse* here = nullptr; ///< null where there is no name
+  std::uint32_t file = 0;        ///< the text among the program's files
+};
+
+Part part_of(const Source& root, const std::string& path, std::uint32_t offset,
+             const LanguageOptions& options) {
+  Part part{read(root, options), {}, nullptr, 0};
+  const auto& files = part.reading.program.files;
+  while (part.file < files.size() && files[part.file].path != path)
+    ++part.file;
+  if (part.file == files.size())
+    return part;
+  part.uses = NameUses(part.reading).collect();
+  part.here = use_at(part.uses, files[part.file].begin + offset);
+  return part;
+}
+
+/// The programs that share the name at `offset`: the text itself, and the open ones that include
+/// it.
+std::vector<Part> parts_with(const Source& source, std::uint32_t offset,
+                             const LanguageOptions& options) {
+  const auto path = path_of_uri(source.name());
+  std::vector<Part> parts;
+  const auto add = [&](const Source& root) {
+    auto part = part_of(root, path, offset, options);
+    if (part.here != nullptr)
+      parts.push_back(std::move(part));
+  };
+  add(source);
+  for (const auto* other : options.open)
+    if (other->name() != source.name())
+      add(*other);
+  return parts;
+}
+
+void add_once(std::vector<FarPlace>& places, FarPlace place) {
+  for (const auto& known : places)
+    if (known.source->name() == place.source->name() && known.span == place.span)
+      return;
+  places.push_back(std::move(place));
+}
+
+Occurrences occurrences(const Source& source, std::uint32_t offset,
+                        const LanguageOptions& options) {
+  std::vector<FarPlace> places;
   Occurrences found;
-  if (const auto* here = use_at(uses, offset))
-    for (const auto& use : uses)
-      if (use.meaning == here->meaning)
-        (use.is_set ? found.definitions : found.uses).push_back(use.span);
+  for (const auto& part : parts_with(source, offset, options))
+    for (const auto& use : part.uses) {
+      auto place = use.meaning == part.here->meaning ? part.reading.place(use.span) : std::nullopt;
+      if (!place)
+        continue;
+      place->defines = use.is_set;
+      if (place->source == part.reading.sources[part.file])
+        place->source = std::make_shared<const Source>(source);
+      add_once(places, *std::move(place));
+    }
+  for (auto& place : places)
+    if (place.source->name() != source.name())
+      found.elsewhere.push_back(std::move(place));
+    else
+      (place.defines ? found.definitions : found.uses).push_back(place.span);
   return found;
 }
 
@@ -218,13 +289,21 @@ std::vector<Token> tokens_at(const Source& source, std::uint32_t offset) {
 
 // ---- hover
 
-std::string lines_where(const Source& source, const std::vector<NameUse>& uses,
-                        const Meaning& meaning, bool is_set) {
-  std::vector<std::uint32_t> lines;
-  for (const auto& use : uses) {
-    const auto line = source.position(use.span.begin).line;
-    if (use.meaning == meaning && use.is_set == is_set && (lines.empty() || lines.back() != line))
-      lines.push_back(line);
+/// `in lines 2, 5`; a line of another file with its name: `in lines 2, lib.orb:5`.
+std::string lines_where(const Part& part, bool is_set) {
+  std::vector<std::string> lines;
+  for (const auto& use : part.uses) {
+    if (!(use.meaning == part.here->meaning) || use.is_set != is_set)
+      continue;
+    const auto place = part.reading.place(use.span);
+    if (!place)
+      continue;
+    const auto line = place->source->position(place->span.begin).line;
+    const bool own = place->source == part.reading.sources[part.file];
+    auto words = own ? fmt::format("{}", line)
+                     : fmt::format("{}:{}", file_name_of(place->source->name()), line);
+    if (lines.empty() || lines.back() != words)
+      lines.push_back(std::move(words));
   }
   return lines.empty()
              ? "nowhere"
@@ -244,9 +323,9 @@ std::map<std::uint32_t, char> letters_of(const Compiled& compiled) {
   return letters;
 }
 
-std::string variable_markdown(const Source& source, const Reading& reading,
-                              const std::vector<NameUse>& uses, const Meaning& meaning) {
-  const auto& symbol = reading.names.symbols[meaning.symbol];
+std::string variable_markdown(const Source& source, const Part& part,
+                              const LanguageOptions& options) {
+  const auto& symbol = part.reading.names.symbols[part.here->meaning.symbol];
   const auto kind = symbol.kind == SymbolKind::Local       ? "local variable"
                     : symbol.kind == SymbolKind::Parameter ? "parameter"
                                                            : "variable";
@@ -254,41 +333,48 @@ std::string variable_markdown(const Source& source, const Reading& reading,
                       : symbol.kind == SymbolKind::Parameter ? "a copy of what the caller gives"
                                                              : "0 when the program begins";
   auto text = fmt::format("**`{}`** ({}): a whole number of 32 bits, {}\n\n- set: {}\n- read: {}\n",
-                          reading.program.name(symbol.name), kind, begins,
-                          lines_where(source, uses, meaning, true),
-                          lines_where(source, uses, meaning, false));
-  const auto letters = letters_of(compile(source, {}));
+                          part.reading.program.name(symbol.name), kind, begins,
+                          lines_where(part, true), lines_where(part, false));
+  if (part.file != 0)
+    return text; // its letter is one of the program that includes it
+  const auto letters = letters_of(compile(source, options));
   if (const auto letter = letters.find(symbol.span.begin); letter != letters.end())
     text += fmt::format("- the robot's `{}`\n", letter->second);
   return text;
 }
 
-std::string declaration_markdown(const Source& source, const structured::Symbol& symbol) {
-  const auto line = source.position(symbol.span.begin).line;
+std::string declaration_markdown(const Part& part, const structured::Symbol& symbol) {
+  const auto place = part.reading.place(symbol.span);
+  if (!place)
+    return fmt::format("**`{}`**: a macro\n", part.reading.program.name(symbol.name));
+  const auto& source = *place->source;
+  const auto line = source.position(place->span.begin).line;
   auto text = fmt::format("```{}\n{}\n```\n", language_id, trim(source.line(line)));
   const auto above = line > 1 ? trim(source.line(line - 1)) : std::string_view();
   if (above.starts_with("'"))
     text += fmt::format("{}\n", trim(above.substr(1)));
+  if (place->source != part.reading.sources[part.file])
+    text += fmt::format("\nin `{}`\n", file_name_of(source.name()));
   return text;
 }
 
-std::string name_markdown(const Source& source, const Reading& reading,
-                          const std::vector<NameUse>& uses, const Meaning& meaning) {
+std::string name_markdown(const Source& source, const Part& part, const LanguageOptions& options) {
+  const auto& meaning = part.here->meaning;
   if (meaning.symbol == none)
-    return fmt::format("**`{}`** (label): jumped to {}\n", reading.program.name(meaning.name),
-                       lines_where(source, uses, meaning, false));
-  const auto& symbol = reading.names.symbols[meaning.symbol];
+    return fmt::format("**`{}`** (label): jumped to {}\n", part.reading.program.name(meaning.name),
+                       lines_where(part, false));
+  const auto& symbol = part.reading.names.symbols[meaning.symbol];
   switch (symbol.kind) {
   case SymbolKind::Variable:
   case SymbolKind::Local:
-  case SymbolKind::Parameter: return variable_markdown(source, reading, uses, meaning);
+  case SymbolKind::Parameter: return variable_markdown(source, part, options);
   case SymbolKind::Constant:
-    return declaration_markdown(source, symbol) +
+    return declaration_markdown(part, symbol) +
            fmt::format("the number {}{}\n", symbol.value, symbol.duration ? " (ms)" : "");
   case SymbolKind::Array:
-    return declaration_markdown(source, symbol) + fmt::format("elements 1 to {}\n", symbol.value);
+    return declaration_markdown(part, symbol) + fmt::format("elements 1 to {}\n", symbol.value);
   case SymbolKind::Sub:
-  case SymbolKind::Function: return declaration_markdown(source, symbol);
+  case SymbolKind::Function: return declaration_markdown(part, symbol);
   }
   return {};
 }
@@ -337,7 +423,8 @@ std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_
                fmt::format("**{}**: {}\n\n{}\n", rule->id, rule->summary, rule->explanation)};
 }
 
-std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
+std::optional<Hover> hover(const Source& source, std::uint32_t offset,
+                           const LanguageOptions& options) {
   for (const auto& token : tokens_at(source, offset)) {
     if (offset < token.span.begin || offset > token.span.end)
       continue;
@@ -347,10 +434,8 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
       return std::nullopt;
     if (token.kind != TokenKind::Word)
       continue;
-    const auto reading = read(source);
-    const auto uses = NameUses(reading).collect();
-    if (const auto* use = use_at(uses, token.span.begin); use != nullptr)
-      return Hover{use->span, name_markdown(source, reading, uses, use->meaning)};
+    if (const auto parts = parts_with(source, token.span.begin, options); !parts.empty())
+      return Hover{token.span, name_markdown(source, parts.back(), options)};
     if (auto found = word_markdown(source.text(token.span)))
       return Hover{token.span, *std::move(found)};
   }
@@ -376,8 +461,9 @@ Context context_after(const Source& source, const std::vector<Token>& before) {
 
 class Suggester {
 public:
-  Suggester(const Source& source, std::uint32_t offset, Suggestions& out)
-      : reading_(read(source)), offset_(offset), out_(out) {}
+  Suggester(const Source& source, std::uint32_t offset, const LanguageOptions& options,
+            Suggestions& out)
+      : reading_(read(source, options)), offset_(offset), out_(out) {}
 
   void suggest(Context context) {
     switch (context) {
@@ -512,7 +598,7 @@ void suggest_rules(const Source& source, Span comment, Suggestions& out) {
                            std::string(rule.explanation)});
 }
 
-Suggestions suggest(const Source& source, std::uint32_t offset) {
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions& options) {
   offset = std::min(offset, static_cast<std::uint32_t>(source.text().size()));
   Suggestions out{{offset, offset}, {}};
   std::vector<Token> before;
@@ -531,14 +617,14 @@ Suggestions suggest(const Source& source, std::uint32_t offset) {
     }
     before.push_back(token);
   }
-  Suggester(source, offset, out).suggest(context_after(source, before));
+  Suggester(source, offset, options, out).suggest(context_after(source, before));
   return out;
 }
 
 // ---- outline
 
 std::vector<Symbol> outline(const Source& source) {
-  const auto reading = read(source);
+  const auto reading = read(source, {});
   const auto& program = reading.program;
   std::vector<Symbol> symbols;
   if (program.files.empty())
@@ -575,28 +661,39 @@ std::optional<std::string> why_no_name(std::string_view name) {
   return std::nullopt;
 }
 
-tl::expected<std::vector<Edit>, std::string> rename(const Source& source, std::uint32_t offset,
-                                                    std::string_view name) {
-  const auto reading = read(source);
-  const auto uses = NameUses(reading).collect();
-  const auto* here = use_at(uses, offset);
-  if (here == nullptr)
+/// Why the name cannot become another one in one of its programs; nothing where it can.
+std::optional<std::string> why_no_renaming(const Part& part, std::string_view name) {
+  const auto old = part.reading.program.text_of(part.here->span);
+  bool is_declared = false;
+  for (const auto& use : part.uses) {
+    if (use.meaning == part.here->meaning)
+      is_declared = is_declared || use.is_set;
+    else if (equal_words(part.reading.program.text_of(use.span), name))
+      return fmt::format("`{}` is in use already", name);
+  }
+  if (!is_declared)
+    return fmt::format("`{}` is declared in another file", old);
+  return std::nullopt;
+}
+
+tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t offset,
+                                           std::string_view name, const LanguageOptions& options) {
+  const auto parts = parts_with(source, offset, options);
+  if (parts.empty())
     return tl::unexpected(std::string("this is not a name of the program"));
   if (auto why = why_no_name(name))
     return tl::unexpected(*std::move(why));
-  std::vector<Edit> edits;
-  bool is_declared = false;
-  for (const auto& use : uses) {
-    if (use.meaning == here->meaning) {
-      edits.push_back({use.span, std::string(name)});
-      is_declared = is_declared || use.is_set;
-    } else if (equal_words(source.text(use.span), name)) {
-      return tl::unexpected(fmt::format("`{}` is in use already", name));
-    }
-  }
-  if (!is_declared)
-    return tl::unexpected(fmt::format("`{}` is declared in another file", source.text(here->span)));
-  return edits;
+  for (const auto& part : parts)
+    if (auto why = why_no_renaming(part, name))
+      return tl::unexpected(*std::move(why));
+  auto found = occurrences(source, offset, options);
+  found.uses.insert(found.uses.end(), found.definitions.begin(), found.definitions.end());
+  std::sort(found.uses.begin(), found.uses.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  Renaming renaming;
+  for (const auto span : found.uses)
+    renaming.edits.push_back({span, std::string(name)});
+  renaming.elsewhere = std::move(found.elsewhere);
+  return renaming;
 }
 
 std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {

@@ -1,9 +1,11 @@
 #include "editor/text.h"
 
+#include "base/text.h"
 #include "base/utf8.h"
 
 #include <algorithm>
 #include <charconv>
+#include <fmt/format.h>
 #include <string_view>
 
 namespace orb::editor {
@@ -69,6 +71,21 @@ std::string path_of_uri(std::string_view uri) {
     i += is_code ? 2 : 0;
   }
   return path;
+}
+
+std::string uri_of_path(std::string_view path) {
+  if (!path.starts_with('/'))
+    return std::string(path);
+  std::string uri = "file://";
+  for (const char c : path) {
+    const bool plain =
+        is_letter(c) || is_digit(c) || std::string_view("/-._~").find(c) != path.npos;
+    if (plain)
+      uri += c;
+    else
+      uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri;
 }
 
 } // namespace orb::editor

@@ -29,4 +29,7 @@ TextPosition position_of(const Source& source, std::uint32_t offset, PositionEnc
 /// The path in a `file:` URI; anything else stays as it is.
 std::string path_of_uri(std::string_view uri);
 
+/// The `file:` URI of a path; of what does not begin with `/` the same text.
+std::string uri_of_path(std::string_view path);
+
 } // namespace orb::editor

@@ -149,6 +149,68 @@ TEST(Structured, OpenDocumentsAreIncluded) {
   EXPECT_TRUE(client.codes().empty());
 }
 
+/// `name:line:from-to` for each place of an answer.
+std::string far_places(const nlohmann::json& locations) {
+  std::string text;
+  for (const auto& one : locations) {
+    const auto uri = one["uri"].get<std::string>();
+    text += (text.empty() ? "" : " ") + uri.substr(uri.rfind('/') + 1) + ":" +
+            LspClient::places(nlohmann::json::array({one}));
+  }
+  return text;
+}
+
+class TwoFiles : public ::testing::Test {
+protected:
+  TwoFiles() : client("utf-8") {
+    client.open("' goes a way\nsub leg(way)\n  turns += way\nend sub\n", lib);
+    client.open("include \"a lib.orb\"\nturns = 1\nleg(turns)\n", main);
+  }
+  static inline const std::string lib = "file:///robot/a%20lib.orb";
+  static inline const std::string main = "file:///robot/main.orb";
+  LspClient client;
+};
+
+TEST_F(TwoFiles, DefinitionsAndReferencesAreFoundInBoth) {
+  EXPECT_EQ(far_places(client.at("definition", 2, 1, nlohmann::json::object(), main)),
+            "a%20lib.orb:1:4-7");
+  EXPECT_EQ(far_places(client.at("references", 1, 5, nlohmann::json::object(), lib)),
+            "a%20lib.orb:1:4-7 main.orb:2:0-3");
+  EXPECT_EQ(far_places(client.at("references", 2, 4, nlohmann::json::object(), main)),
+            far_places(client.at("references", 2, 6, nlohmann::json::object(), main)));
+}
+
+TEST_F(TwoFiles, ANameGetsAnotherInBoth) {
+  const auto rename = [&](const std::string& uri, int line, int character, const char* to) {
+    return client.request("textDocument/rename",
+                          {{"textDocument", {{"uri", uri}}},
+                           {"position", {{"line", line}, {"character", character}}},
+                           {"newName", to}});
+  };
+  for (const auto& changes : {rename(main, 1, 1, "course")["result"]["changes"],
+                              rename(lib, 2, 3, "course")["result"]["changes"]}) {
+    EXPECT_EQ(LspClient::places(changes[main]), "1:0-5 2:4-9") << changes;
+    EXPECT_EQ(LspClient::places(changes[lib]), "2:2-7") << changes;
+  }
+  EXPECT_EQ(rename(main, 1, 1, "way")["error"]["message"], "`way` is in use already");
+}
+
+TEST_F(TwoFiles, HoverSaysWhatTheOtherFileSays) {
+  const auto hover = [&](const std::string& uri, int line, int character) {
+    return client.at("hover", line, character, nlohmann::json::object(), uri)["contents"]["value"]
+        .get<std::string>();
+  };
+  EXPECT_EQ(hover(main, 2, 1),
+            "```orbstructured\nsub leg(way)\n```\ngoes a way\n\nin `a lib.orb`\n");
+  EXPECT_NE(hover(main, 1, 1).find("set: in lines 2, a lib.orb:3\n"), std::string::npos);
+  EXPECT_NE(hover(lib, 2, 3).find("set: in lines main.orb:2, 3\n"), std::string::npos);
+}
+
+TEST_F(TwoFiles, NamesOfTheOtherFileAreSuggested) {
+  client.document = main;
+  EXPECT_TRUE(client.suggests(2, 0, "leg"));
+}
+
 TEST(Structured, AnyTextIsAnswered) {
   for (const auto* text : {"", "\n", "sub", "sub a(\nend", "a[", "goto\n", "\"", "next\n",
                            "end if\n", "10 print 1\n", "x = y(\n", "select\ncase\n"}) {
