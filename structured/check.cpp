@@ -327,10 +327,10 @@ private:
     const auto variable = variable_of(statement);
     for (const auto opener : open_)
       if (variable != none && at(opener).kind == Kind::For && variable_of(at(opener)) == variable) {
+        const auto name = program_.text_of(item(statement, 0).span);
         auto& d = report(rules::LoopVariable, item(statement, 0).span,
-                         fmt::format("the loop around this one counts in `{}` already",
-                                     program_.text_of(item(statement, 0).span)));
-        d.notes.emplace_back(Note{at(opener).span, "the loop around it"});
+                         fmt::format("the loop around this one counts in `{}` already", name));
+        d.notes.push_back({at(opener).span, fmt::format("this loop counts in `{}`", name)});
       }
     if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
       report(rules::WrongUse, item(statement, 0).span, "a loop counts in a variable");

@@ -5,6 +5,7 @@
 #include "structured/words.h"
 
 #include <fmt/format.h>
+#include <optional>
 
 namespace orb::structured {
 namespace {
@@ -40,10 +41,48 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   return malformed(program, found, "the arguments of a call stand in parentheses");
 }
 
+/// Whether `=` or `+=` and the like stand at a place.
+bool assigns(std::string_view text, std::size_t at) {
+  if (at < text.size() && std::string_view("+-*/%").find(text[at]) != std::string_view::npos)
+    ++at;
+  return at < text.size() && text[at] == '=';
+}
+
+/// A word of the language where the line makes sense only with a name: `heading = 90`.
+std::optional<Span> word_for_name(const Program& program, Reason reason, Span found) {
+  const std::string_view text = program.text;
+  const auto kind = find_word(program.text_of(found)).kind;
+  if (reason == Reason::ExpectedExpression && kind == WordKind::Statement)
+    return found;
+  if (reason == Reason::NotAStatement && kind != WordKind::Name)
+    return assigns(text, text.find_first_not_of(" \t", found.end)) ? std::optional(found)
+                                                                   : std::nullopt;
+  if (!assigns(text, found.begin))
+    return std::nullopt;
+  auto end = found.begin;
+  while (end > 0 && is_blank(text[end - 1]))
+    --end;
+  auto begin = end;
+  while (begin > 0 && is_name_char(text[begin - 1]))
+    --begin;
+  const auto before = find_word(program.text_of({begin, end})).kind;
+  if (before != WordKind::Statement && before != WordKind::Keyword)
+    return std::nullopt;
+  return Span{begin, end};
+}
+
+Diagnostic reserved(const Program& program, Span word) {
+  return finding(rules::ReservedName, word,
+                 fmt::format("`{}` is a word of the language", program.text_of(word)),
+                 "choose another name");
+}
+
 } // namespace
 
 Diagnostic explain(const Program& program, Reason reason, Span found) {
   const auto text = std::string(program.text_of(found));
+  if (const auto word = word_for_name(program, reason, found))
+    return reserved(program, *word);
   switch (reason) {
   case Reason::Trailing:
     if (text == ":")
@@ -79,9 +118,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::ReadOnly:
     return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text),
                    "the three timers and `ctrl` can be set");
-  case Reason::Reserved:
-    return finding(rules::ReservedName, found, fmt::format("`{}` is a word of the language", text),
-                   "choose another name");
+  case Reason::Reserved: return reserved(program, found);
   case Reason::NameTooLong:
     return finding(rules::ReservedName, found,
                    fmt::format("the name has {} characters; the limit is 31", found.size()));

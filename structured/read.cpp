@@ -29,7 +29,7 @@ public:
   void main(std::string name, std::string path, std::string_view text) {
     if (auto refused = compiler::refuse_text(text)) {
       program_.files.push_back({std::move(name), std::move(path), 0, 0, 0, 0});
-      program_.text = "\n";
+      program_.text += '\n';
       program_.diagnostics.push_back(std::move(*refused));
       return;
     }

@@ -35,6 +35,10 @@ public:
                             [](const Diagnostic& d) { return d.severity == Severity::Error; })) {}
 
   Names run() {
+    incomplete_ = std::any_of(
+        program_.diagnostics.begin(), program_.diagnostics.end(), [](const Diagnostic& one) {
+          return one.rule == &rules::MissingFile || one.rule == &rules::BadMacroFile;
+        });
     names_.routines.emplace_back();
     names_.of_node.assign(program_.nodes.size(), none);
     names_.of_statement.assign(program_.statements.size(), none);
@@ -498,6 +502,8 @@ private:
   }
 
   void suggest(Span span, const std::vector<std::string_view>& candidates, std::string_view what) {
+    if (incomplete_)
+      return;
     constexpr std::size_t most = 64; // a suggestion for each of very many would take too long
     const auto name = std::string(program_.text_of(span));
     auto& d = report(rules::UnknownName, span, fmt::format("`{}` {}", name, what));
@@ -547,6 +553,7 @@ private:
   std::vector<std::uint32_t> rank_;       ///< of each statement: its place in the order
   std::vector<std::uint32_t> inconstant_; ///< items that are not constant so far
   std::size_t unknown_ = 0;
+  bool incomplete_ = false; ///< a file that may declare what is unknown could not be read
   bool broken_ = false;
 };
 
