@@ -169,7 +169,7 @@ private:
       misplaced(statement, "a statement stands between `select` and its first `case`");
   }
 
-  /// The first part of the innermost block where it lies behind statement `i`.
+  /// The first part of the innermost block where it lies after statement `i`.
   std::uint32_t none_yet(std::uint32_t i) const {
     const auto next = at(open_.back()).next;
     return next != none && next > i ? next : none - 1;

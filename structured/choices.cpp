@@ -147,7 +147,7 @@ private:
         at_[code_.lines[i].label] = i;
   }
 
-  /// Whether a line may stand behind `then` and `else`.
+  /// Whether a line may stand after `then` and `else`.
   static bool fits_branch(const CodeLine& line) {
     switch (line.kind) {
     case LineKind::Let:
@@ -184,7 +184,7 @@ private:
     return line;
   }
 
-  /// Whether a statement behind `then` may stop the program.
+  /// Whether a statement after `then` may stop the program.
   bool may_fault(const CodeLine& line) const {
     if (line.kind == LineKind::SetElement || line.kind == LineKind::SetSystem ||
         line.kind == LineKind::On || line.kind == LineKind::OnGosub)

@@ -42,7 +42,7 @@ private:
   }
 
   /// The first line after a label that does something; none at the end of the text.
-  std::uint32_t behind(std::uint32_t line) const {
+  std::uint32_t after(std::uint32_t line) const {
     while (line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
                                          code_.lines[line].kind == LineKind::Nothing))
       ++line;
@@ -54,7 +54,7 @@ private:
     for (int steps = 0; steps < 16; ++steps) {
       if (at_[label] == none)
         return label;
-      const auto line = behind(at_[label]);
+      const auto line = after(at_[label]);
       if (line != none && code_.lines[line].kind == LineKind::Goto &&
           code_.lines[line].label != label) {
         label = code_.lines[line].label;
@@ -140,14 +140,14 @@ private:
       const bool jumps = line.kind == LineKind::Goto;
       if (!jumps && line.kind != LineKind::If)
         continue;
-      const auto next = behind(i + 1);
-      const auto target = at_[line.label] == none ? none : behind(at_[line.label]);
+      const auto next = after(i + 1);
+      const auto target = at_[line.label] == none ? none : after(at_[line.label]);
       if (next == target && (jumps || !has_effects(line))) {
         line.kind = LineKind::Nothing;
         changed_ = true;
       } else if (line.kind == LineKind::If && code_.conditions[line.condition].glue == Glue::None &&
                  next != none && code_.lines[next].kind == LineKind::Goto && next == i + 1 &&
-                 behind(next + 1) == target) {
+                 after(next + 1) == target) {
         auto& relation = code_.conditions[line.condition].first;
         relation.comparison = opposite(relation.comparison);
         line.guard = false;

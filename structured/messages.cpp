@@ -71,6 +71,31 @@ std::optional<Span> word_for_name(const Program& program, Reason reason, Span fo
   return Span{begin, end};
 }
 
+bool is_foreign(char c) {
+  return static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// What typing and copying bring in place of `"` and of letters.
+Diagnostic foreign_character(const Program& program, Span found) {
+  const std::string_view text = program.text;
+  const auto sign = program.text_of(found);
+  for (const std::string_view quote : {"“", "”", "„", "«", "»"})
+    if (sign.starts_with(quote))
+      return finding(rules::MalformedLine, found, fmt::format("`{}` does not quote a text", sign),
+                     "write `\"` before the text and after it");
+  const auto is_part = [&](std::uint32_t at) {
+    return is_name_char(text[at]) || is_foreign(text[at]);
+  };
+  auto word = found;
+  while (word.begin > 0 && is_part(word.begin - 1))
+    --word.begin;
+  while (word.end < text.size() && is_part(word.end))
+    ++word.end;
+  return finding(rules::MalformedLine, word,
+                 fmt::format("`{}` is no name: `{}` cannot be in one", program.text_of(word), sign),
+                 "names have the letters a to z, digits and `_`");
+}
+
 Diagnostic reserved(const Program& program, Span word) {
   return finding(rules::ReservedName, word,
                  fmt::format("`{}` is a word of the language", program.text_of(word)),
@@ -81,6 +106,8 @@ Diagnostic reserved(const Program& program, Span word) {
 
 Diagnostic explain(const Program& program, Reason reason, Span found) {
   const auto text = std::string(program.text_of(found));
+  if (!text.empty() && is_foreign(text.front()))
+    return foreign_character(program, found);
   if (const auto word = word_for_name(program, reason, found))
     return reserved(program, *word);
   switch (reason) {

@@ -957,9 +957,9 @@ private:
     while (ahead != end_ && is_blank(*ahead))
       ++ahead;
     const char next = ahead == end_ ? '\n' : *ahead;
-    const char behind = ahead == end_ || ahead + 1 == end_ ? '\n' : ahead[1];
+    const char after = ahead == end_ || ahead + 1 == end_ ? '\n' : ahead[1];
     const bool signs = std::string_view("+-*/%").find(next) != std::string_view::npos;
-    if (next == '=' || next == '[' || (signs && behind == '=')) {
+    if (next == '=' || next == '[' || (signs && after == '=')) {
       assignment(in);
       return;
     }

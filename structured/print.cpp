@@ -13,7 +13,7 @@ namespace {
 using spec::Operator;
 
 /// Whether something follows in the same bracket, which a function would take for its operand.
-enum class Behind : std::uint8_t { Nothing, Something };
+enum class After : std::uint8_t { Nothing, Something };
 
 class Printer {
 public:
@@ -239,17 +239,17 @@ private:
       const auto sign = op == Operator::Add ? 1 : -1;
       if ((op == Operator::Add || op == Operator::Subtract) &&
           code_.terms[node.right].value == -added * sign) {
-        expression(node.left, Behind::Nothing);
+        expression(node.left, After::Nothing);
         return;
       }
     }
-    operand(term, Operator::Add, Side::Left, Behind::Something);
+    operand(term, Operator::Add, Side::Left, After::Something);
     put(added > 0 ? " + 1" : " - 1");
   }
 
   // ---- terms
 
-  void whole(std::uint32_t term) { expression(term, Behind::Nothing); }
+  void whole(std::uint32_t term) { expression(term, After::Nothing); }
 
   void number(std::int32_t value) {
     if (value >= 0) {
@@ -262,7 +262,7 @@ private:
     }
   }
 
-  void expression(std::uint32_t index, Behind behind) {
+  void expression(std::uint32_t index, After after) {
     const auto& term = code_.terms[index];
     switch (term.kind) {
     case TermKind::Number: number(term.value); return;
@@ -275,30 +275,30 @@ private:
       const bool bracket = function_needs_parentheses(code_, term.left);
       if (bracket)
         put('(');
-      expression(term.left, bracket ? Behind::Nothing : behind);
+      expression(term.left, bracket ? After::Nothing : after);
       if (bracket)
         put(')');
       return;
     }
     case TermKind::Binary: {
       const auto op = static_cast<Operator>(term.what);
-      operand(term.left, op, Side::Left, Behind::Something);
+      operand(term.left, op, Side::Left, After::Something);
       put(' ');
       put(spec::info(op).symbol);
       put(' ');
-      operand(term.right, op, Side::Right, behind);
+      operand(term.right, op, Side::Right, after);
       return;
     }
     }
   }
 
-  void operand(std::uint32_t index, Operator op, Side side, Behind behind) {
+  void operand(std::uint32_t index, Operator op, Side side, After after) {
     const auto& term = code_.terms[index];
     const bool bracket = needs_parentheses(term, op, side) ||
-                         (ends_in_function(code_, index) && behind == Behind::Something);
+                         (ends_in_function(code_, index) && after == After::Something);
     if (bracket)
       put('(');
-    expression(index, bracket ? Behind::Nothing : behind);
+    expression(index, bracket ? After::Nothing : after);
     if (bracket)
       put(')');
   }

@@ -109,7 +109,7 @@ private:
   std::optional<std::string> read(const std::string& path, std::uint32_t i) {
     auto text = files_.read(path);
     if (!text)
-      report(rules::MissingFile, i, fmt::format("cannot read `{}`", path));
+      report(rules::MissingFile, i, fmt::format("cannot read `{}`", path.empty() ? "." : path));
     return text;
   }
 

@@ -298,7 +298,7 @@ private:
 
   // ---- variables
 
-  /// Whether a statement sets the Place behind its word and does not read it.
+  /// Whether a statement sets the Place after its word and does not read it.
   static bool sets(const Statement& statement) {
     return statement.kind == Kind::Assign || statement.kind == Kind::For ||
            statement.kind == Kind::Robot;

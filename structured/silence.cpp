@@ -28,7 +28,7 @@ Span line_from(std::string_view text, std::uint32_t begin) {
   return {begin, end};
 }
 
-/// The line behind one, whichever characters end it.
+/// The line after one, whichever characters end it.
 Span line_behind(std::string_view text, Span line) {
   const bool pair = text.substr(line.end).starts_with("\r\n");
   const auto begin = line.end + (pair ? 2 : 1);

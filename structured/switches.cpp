@@ -56,7 +56,7 @@ private:
     std::vector<Case> cases;
   };
 
-  std::uint32_t behind(std::uint32_t line) const {
+  std::uint32_t after(std::uint32_t line) const {
     while (line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
                                          code_.lines[line].kind == LineKind::Nothing))
       ++line;
@@ -69,14 +69,14 @@ private:
     std::vector<Part> calls;
     for (auto n = line.parts_begin; n < line.parts_end; ++n) {
       const auto at = at_[code_.parts[n].value];
-      const auto first = at == none ? code_.lines.size() : behind(at);
+      const auto first = at == none ? code_.lines.size() : after(at);
       if (first + 1 >= code_.lines.size() || code_.lines[first].kind != LineKind::Gosub)
         return;
       const auto& jump = code_.lines[first + 1];
       const auto there =
-          jump.kind == LineKind::Goto && at_[jump.label] != none ? behind(at_[jump.label])
+          jump.kind == LineKind::Goto && at_[jump.label] != none ? after(at_[jump.label])
           : jump.kind == LineKind::Goto                          ? none
-                                        : behind(static_cast<std::uint32_t>(first) + 1);
+                                        : after(static_cast<std::uint32_t>(first) + 1);
       if (there == none || there >= code_.lines.size() || (next != none && next != there))
         return;
       next = there;
@@ -88,10 +88,10 @@ private:
     }
     // The first target comes right after, so the way on is a jump from there.
     const auto index = static_cast<std::uint32_t>(&line - code_.lines.data());
-    if (behind(index + 1) >= code_.lines.size() ||
-        code_.lines[behind(index + 1)].kind != LineKind::Gosub)
+    if (after(index + 1) >= code_.lines.size() ||
+        code_.lines[after(index + 1)].kind != LineKind::Gosub)
       return;
-    auto& first_call = code_.lines[behind(index + 1)];
+    auto& first_call = code_.lines[after(index + 1)];
     first_call.kind = LineKind::Goto;
     first_call.label = code_.labels++;
     at_.push_back(next);

@@ -195,7 +195,7 @@ private:
     add_lines();
   }
 
-  /// What no values come to never runs, behind a sub that always ends the program, say.
+  /// What no values come to never runs, after a sub that always ends the program, say.
   void cut_unreached(const std::vector<bool>& reached) {
     for (const auto& block : ranges_.flow().blocks) {
       bool cut = false;
