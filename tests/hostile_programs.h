@@ -34,12 +34,18 @@ inline auto hostile_programs(std::size_t size) {
   std::string sum = "1 A=B";
   while (sum.size() + 8 < size)
     sum += fmt::format("+B%{}", 3 + sum.size());
+  std::string called;
+  for (int line = 9001; line < 9014; ++line)
+    called += fmt::format("{} A=A*3+B%7\n", line);
+  called += "9014 return\n";
   return std::array{
       HostileProgram{"divisions", filled_with("{0} A=A*{2}+B/{2}", size)},
       HostileProgram{"divisions by variables", filled_with("{0} A=B/C+B%C", size)},
       HostileProgram{"jumps", filled_with("{0} goto {1}", size)},
       HostileProgram{"tests that jump", filled_with("{0} if A%2<B%3 then goto {1}", size)},
       HostileProgram{"calls", filled_with("{0} gosub {1}", size)},
+      HostileProgram{"calls of 14 lines",
+                     filled_with("{0} gosub 9001", size - called.size()) + called},
       HostileProgram{"returns", filled_with("{0} return", size)},
       HostileProgram{"loops", filled_with("{0} for A=B to C step D", size)},
       HostileProgram{"the shortest lines", filled_with("{0} A=Z", size)},

@@ -104,7 +104,7 @@ TEST_F(NativeCodeTest, TakesBoundedMemoryForHostilePrograms) {
     const auto bytes =
         std::accumulate(pieces.begin(), pieces.end(), std::size_t{0},
                         [](std::size_t sum, const auto& piece) { return sum + piece.size; });
-    EXPECT_LT(bytes, 16 * size);
+    EXPECT_LT(bytes, 24 * size);
   }
 }
 
