@@ -7,10 +7,9 @@
 #include <utility>
 
 namespace orb {
-namespace {
 
-/// Optimal string alignment distance, without regard to case.
-std::size_t distance(std::string_view a, std::string_view b) {
+// Optimal string alignment distance, without regard to case.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> above(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -32,6 +31,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
+namespace {
+
 constexpr std::size_t longest_word =
     64; // longer ones are not misspellings, and the table is square
 
@@ -48,7 +49,7 @@ std::optional<std::string> closest(std::string_view word,
   // A word of which nothing would be left is not misspelt: `x` never becomes `y`.
   auto limit = std::min(std::max<std::size_t>(1, word.size() / 3) + 1, word.size());
   for (const auto candidate : candidates) {
-    const auto d = distance(word, candidate);
+    const auto d = edit_distance(word, candidate);
     if (d < limit) {
       limit = d;
       best = std::string(candidate);
@@ -76,7 +77,7 @@ std::vector<std::string> nearest(std::string_view word,
   const std::size_t limit = std::max<std::size_t>(1, word.size() / 2);
   std::vector<std::pair<std::size_t, std::string_view>> near;
   for (const auto candidate : candidates)
-    if (const auto d = distance(word, candidate); d <= limit)
+    if (const auto d = edit_distance(word, candidate); d <= limit)
       near.emplace_back(d, candidate);
   std::stable_sort(near.begin(), near.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

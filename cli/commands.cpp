@@ -99,6 +99,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_ports(app, context);
   add_run(app, context);
   add_spec(app, context);
+  add_test(app, context);
   add_upload(app, context);
 }
 

@@ -37,6 +37,7 @@ void add_new(CLI::App& app, Context& context);
 void add_ports(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_spec(CLI::App& app, Context& context);
+void add_test(CLI::App& app, Context& context);
 void add_upload(CLI::App& app, Context& context);
 
 /// Adds a command. `examples` are pasted lines, one per line, printed first in its help.

@@ -60,12 +60,14 @@ public:
       return section.id == "other-languages" || section.id == "colours";
     };
     // A word of several languages leads to the one that the page is about. Only pages about
-    // structured programs lead to their words: elsewhere `sub` and `end` are something else.
+    // structured programs, and about tests, lead to their words: elsewhere `sub` and `end` are
+    // something else.
     const auto own = language_of(here);
     for (const bool own_language : {true, false})
       for (const auto& section : sections)
         if ((language_of(section) == own) == own_language && !is_alone(section) &&
-            (own_language || language_of(section) != Language::Structured))
+            (own_language || (language_of(section) != Language::Structured &&
+                              language_of(section) != Language::Test)))
           add(section, here);
   }
 
@@ -95,10 +97,13 @@ public:
   }
 
 private:
-  enum class Language { Basic, Structured, Macro };
+  enum class Language { Basic, Structured, Macro, Test };
   static Language language_of(const Section& section) {
     return section.id.starts_with("macro")        ? Language::Macro
            : section.id.starts_with("structured") ? Language::Structured
+           : section.id.starts_with("stimul") || section.id.starts_with("test-") ||
+                   section.id == "expectations"
+               ? Language::Test
                                                   : Language::Basic;
   }
 
@@ -187,7 +192,7 @@ std::string contents(const Section& section, const Links& links) {
 
 /// What a fence holds (tests/docs/page.h). A mistake, or a line out of a program, is only text.
 std::string_view fence(std::string_view section, std::string_view caption) {
-  if (caption == "bad" || section == "statements" || section == "words" || section == "functions")
+  if (caption == "bad" || section.starts_with("test-") || section == "statements" || section == "words" || section == "functions")
     return "text";
   if (section.starts_with("api-"))
     return "sh";

@@ -6,6 +6,7 @@
 #include "report/rules.h"
 #include "spec/basic.h"
 #include "structured/rules.h"
+#include "testing/rules.h"
 #include "vm/rules.h"
 
 #include <fmt/format.h>
@@ -59,6 +60,10 @@ Section stimulus_rules_section() {
 
 Section course_rules_section() {
   return with_rules({"course-rules", "Rules for courses", "course rule", {}}, report::rules::all());
+}
+
+Section test_rules_section() {
+  return with_rules({"test-rules", "Rules for tests", "test rule", {}}, testing::rules::all());
 }
 
 } // namespace orb::reference

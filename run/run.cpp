@@ -61,11 +61,11 @@ private:
 };
 
 /// Sees everything that happens from the start of the program to its end, and hands it on.
-class Watcher final : public vm::Observer {
+class Watcher final : public vm::Observer, public vm::StepObserver {
 public:
   Watcher(const Load& load, const Options& options, Listener& listener, report::Journey* journey)
-      : load_(load), target_(options.target), listener_(listener), journey_(journey),
-        expected_(options.expect), forbidden_(options.fail_text) {}
+      : load_(load), target_(options.target), until_(options.until), listener_(listener),
+        journey_(journey), expected_(options.expect), forbidden_(options.fail_text) {}
 
   /// From when on the ball's events are those of the run.
   enum class From : std::uint8_t {
@@ -79,8 +79,10 @@ public:
   }
 
   void on_event(Instant at, const vm::Event& event) override {
-    if (ball_ == nullptr || over_)
+    if (ball_ == nullptr || enough_)
       return;
+    if (over_)
+      return roll_out(at, event);
     if (from_ == From::FirstCommand) {
       if (!std::holds_alternative<vm::event::Macro>(event))
         return;
@@ -90,24 +92,22 @@ public:
     const bool was_idle = ball_->idle(); // of what goes on afterwards only how it ended counts
     if (!take(event) && was_idle) {
       over_ = at;
+      roll_out(at, event);
       return;
     }
     if (std::holds_alternative<vm::event::End>(event) && was_idle)
       over_ = at;
-    const Duration t = at - start_;
-    look(event);
-    const auto* error = std::get_if<vm::event::Error>(&event);
-    if (error == nullptr)
-      listener_.on_event(t, event);
-    else
-      listener_.on_fault(t, add_fault(*error));
-    if (journey_ == nullptr)
-      return;
-    journey_->add(t, event);
-    if (error != nullptr)
-      journey_->explain(faults_.back().cause.seen);
-    journey_->sample(t, ball_->body());
+    tell(at - start_, event);
   }
+
+  void on_step(Instant at, const vm::Body& body) override {
+    if (ball_ == nullptr || from_ == From::FirstCommand)
+      return;
+    listener_.on_step(at - start_, body);
+    stop_if_enough();
+  }
+
+  bool is_enough() const { return enough_; }
 
   Instant start() const { return start_; }
   std::optional<Instant> over() const { return over_; } ///< since then nothing runs any more
@@ -133,6 +133,36 @@ public:
   }
 
 private:
+  /// After the end of the program only what the ball's motion leads to counts.
+  void roll_out(Instant at, const vm::Event& event) {
+    if (until_ == Until::Rest && (std::holds_alternative<vm::event::Bump>(event) ||
+                                  std::holds_alternative<vm::event::Position>(event)))
+      tell(at - start_, event);
+  }
+
+  void stop_if_enough() {
+    if (!listener_.enough())
+      return;
+    enough_ = true;
+    ball_->interrupt();
+  }
+
+  void tell(Duration t, const vm::Event& event) {
+    look(event);
+    const auto* error = std::get_if<vm::event::Error>(&event);
+    if (error == nullptr)
+      listener_.on_event(t, event);
+    else
+      listener_.on_fault(t, add_fault(*error));
+    stop_if_enough();
+    if (journey_ == nullptr)
+      return;
+    journey_->add(t, event);
+    if (error != nullptr)
+      journey_->explain(faults_.back().cause.seen);
+    journey_->sample(t, ball_->body());
+  }
+
   /// Notes what the ending is made of; whether the event is part of it even after the program.
   bool take(const vm::Event& event) {
     if (const auto* print = std::get_if<vm::event::Print>(&event)) {
@@ -181,6 +211,8 @@ private:
   Instant start_{};
   const Load& load_;
   const compiler::Target& target_;
+  Until until_;
+  bool enough_ = false;
   Listener& listener_;
   report::Journey* journey_;
   Search expected_;
@@ -202,7 +234,9 @@ vm::BallOptions ball_options(const Options& options, Watcher& watcher,
   ball.ram_bytes = options.ram_bytes.value_or(spec::info(options.firmware).ram_bytes());
   ball.loader = compiler::load;
   ball.native = options.native;
+  ball.native_programs = options.native_programs;
   ball.observer = &watcher;
+  ball.steps = options.steps == Steps::Heard ? &watcher : nullptr;
   ball.trace_lines = options.trace_lines || journey != nullptr;
   return ball;
 }
@@ -321,7 +355,7 @@ void live(vm::Ball& ball, const Watcher& watcher, Listener& listener, Answer& an
   while (ball.now() < limit) {
     ball.advance_until_quiet(std::min(limit, ball.now() + slice));
     answer.take(ball.take_output());
-    if (watcher.seen() != Sought::Nothing)
+    if (watcher.seen() != Sought::Nothing || watcher.is_enough())
       return;
     if (ball.machine().waits_for_input() && !ball.input_queued()) {
       if (const auto value = listener.ask_number()) {
@@ -331,6 +365,16 @@ void live(vm::Ball& ball, const Watcher& watcher, Listener& listener, Answer& an
     }
     if (ball.quiet())
       return;
+    listener.on_time(ball.now() - watcher.start());
+  }
+}
+
+/// Lets the ball roll until it rests, or something that it runs into starts a macro.
+void roll_out(vm::Ball& ball, const Watcher& watcher, Listener& listener, Instant limit,
+              Duration slice) {
+  constexpr Duration glance = 100ms; // it is looked at that often
+  while (ball.quiet() && ball.body().moving() && !watcher.is_enough() && ball.now() < limit) {
+    ball.advance_to(std::min({limit, ball.now() + slice, ball.now() + glance}));
     listener.on_time(ball.now() - watcher.start());
   }
 }
@@ -361,7 +405,7 @@ std::string how_aborted(const std::optional<vm::event::MacroEnd>& end) {
 Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
   if (!watcher.faults().empty())
     return Reason::Error;
-  if (watcher.seen() != Sought::Nothing)
+  if (watcher.seen() != Sought::Nothing || watcher.is_enough())
     return Reason::Abort;
   if (ball.basic_running() && ball.quiet())
     return Reason::Input;
@@ -469,6 +513,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
     ball.disconnect();
   const bool streams =
       load.programs.empty() && job_of(*load.macros.front()).kind == uploader::MacroKind::Stream;
+  listener.on_start(ball);
   watcher.begin(ball, streams ? Watcher::From::FirstCommand : Watcher::From::Now);
   if (journey != nullptr)
     describe(inputs, options, *journey);
@@ -482,8 +527,14 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
                            : start_program(*load.programs.front().program, options, ball);
   const Instant limit = options.bound == Duration{} ? never - 1h : watcher.start() + options.bound;
   Answer answer;
-  if (started == Started::Yes)
+  if (started == Started::Yes) {
     live(ball, watcher, listener, answer, limit, options.slice);
+    while (options.until == Until::Rest && ball.quiet() && ball.body().moving() &&
+           !watcher.is_enough() && ball.now() < limit) {
+      roll_out(ball, watcher, listener, limit, options.slice);
+      live(ball, watcher, listener, answer, limit, options.slice);
+    }
+  }
   if (started == Started::Refused || answer.refused())
     return tl::unexpected(refusal(load, options));
 
@@ -491,6 +542,9 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   ending.reason = reason_of(ball, watcher, limit);
   ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
   ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
+  ending.seen_to = options.until == Until::Rest
+                       ? std::max(ending.lasted, ball.now() - watcher.start())
+                       : ending.lasted;
   ending.seen = watcher.seen();
   ending.only_interpreted = ball.machine().only_interpreted();
   if (const auto* code = ball.machine().machine_code())
@@ -499,8 +553,9 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   ending.sight = watcher.sight();
   ending.waits_for = waits_for(ending.reason, inputs, options, ball);
   ending.faults = watcher.faults();
+  listener.on_end(ending);
   if (journey != nullptr)
-    journey->finish(ending.lasted, std::string(to_string(ending.reason)), to_string(ending));
+    journey->finish(ending.seen_to, std::string(to_string(ending.reason)), to_string(ending));
   return ending;
 }
 

@@ -27,6 +27,15 @@ namespace orb::run {
 /// Whether a client is connected while the program runs.
 enum class Client : std::uint8_t { Connected, Absent };
 
+/// What a run goes on for after nothing runs any more.
+enum class Until : std::uint8_t {
+  Quiet, ///< nothing: motion is not awaited
+  Rest,  ///< until the ball rests, or the bound is reached
+};
+
+/// Whether the listener hears of every step of the body.
+enum class Steps : std::uint8_t { Ignored, Heard };
+
 /// Whether the listener has numbers for `input`.
 enum class Asks : std::uint8_t { No, Yes };
 
@@ -42,9 +51,12 @@ struct Options {
   std::optional<std::size_t> ram_bytes; ///< else what the firmware has
   std::uint32_t lines_per_second =
       static_cast<std::uint32_t>(spec::value_of(spec::Limit::LinesPerSecond));
-  vm::Native native = vm::Native::Auto; ///< when programs become machine code
-  bool trace_lines = false;             ///< the listener hears every line
-  Duration slice = 1s;                  ///< how often the listener hears of the time
+  vm::Native native = vm::Native::Auto;          ///< when programs become machine code
+  vm::NativePrograms* native_programs = nullptr; ///< machine code that runs share; may be null
+  bool trace_lines = false;                      ///< the listener hears every line
+  Steps steps = Steps::Ignored;
+  Until until = Until::Quiet;
+  Duration slice = 1s; ///< how often the listener hears of the time
   std::vector<vm::TimedStimulus> stimuli;
   const report::Course* course = nullptr; ///< what it drives through; must outlive the run
   std::string expect;                     ///< printed: the run stops well; empty for none
@@ -68,15 +80,25 @@ struct ProgramError {
 ProgramError explain(const Input& input, const compiler::Target& target, int robot_line,
                      spec::BasicError code, const vm::Machine* machine);
 
+struct Ending;
+
 /// Hears a run while it goes on. Times count from its start.
 class Listener {
 public:
   virtual ~Listener() = default;
+  /// The run begins. The ball is there until after on_end().
+  virtual void on_start(const vm::Ball&) {}
   virtual void on_event(Duration t, const vm::Event& event) = 0;
   /// The program stopped with an error; on_event() does not hear of it.
   virtual void on_fault(Duration t, const ProgramError& fault) = 0;
+  /// The body has taken a step; only with Steps::Heard.
+  virtual void on_step(Duration, const vm::Body&) {}
   /// The run has reached `t`, which for --realtime is the moment to wait.
   virtual void on_time(Duration) {}
+  /// The run is over; the ball is as the run left it.
+  virtual void on_end(const Ending&) {}
+  /// Asked after each event and step: whether the run may end here.
+  virtual bool enough() const { return false; }
   /// `input` waits and no number is left; nothing when there will be none.
   virtual std::optional<std::int32_t> ask_number() { return std::nullopt; }
 };
@@ -103,7 +125,8 @@ struct Sight {
 
 struct Ending {
   Reason reason = Reason::End;
-  Duration lasted{};
+  Duration lasted{};  ///< until nothing ran any more
+  Duration seen_to{}; ///< the same, or longer with Until::Rest
   std::uint64_t lines = 0;
   std::vector<ProgramError> faults;
   std::string aborted; ///< how a macro aborted by itself; empty where none did

@@ -25,7 +25,9 @@ Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), body_(options.seed),
       link_(options.wire), drive_(body_, settings_), power_(settings_),
       programs_(options, options.seed), macros_(asks_->of_macro),
-      dispatcher_(asks_->of_client, options.seed, options.firmware) {}
+      dispatcher_(asks_->of_client, options.seed, options.firmware) {
+  body_.observe(options.steps);
+}
 
 Ball::~Ball() = default;
 

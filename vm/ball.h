@@ -29,7 +29,8 @@ struct BallOptions : ProgramOptions {
   std::uint64_t seed = 1;
   spec::Firmware firmware = spec::default_firmware;
   Wire wire = Wire::Paced;
-  Observer* observer = nullptr; ///< must outlive the ball
+  Observer* observer = nullptr;  ///< must outlive the ball
+  StepObserver* steps = nullptr; ///< the same; sees every step of the body
 };
 
 /// A ball. A discrete-event simulation that is handed the time: it jumps from one thing that can

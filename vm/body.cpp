@@ -86,6 +86,8 @@ Instant Body::advance_to(Instant now) {
       break;
     now_ = next;
     single_step();
+    if (observer_ != nullptr)
+      observer_->on_step(now_, *this);
     if (impact_)
       return now_;
   }
@@ -549,6 +551,10 @@ double Body::speed_cm_s() const {
 
 Pose Body::pose() const {
   return {locator_x_, locator_y_, yaw_deg_, speed_cm_s()};
+}
+
+Pose Body::world_pose() const {
+  return {world_x_, world_y_, wrap_360(yaw_deg_ + world_offset_deg_), course().speed};
 }
 
 int Body::speed() const {

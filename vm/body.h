@@ -137,6 +137,15 @@ struct Impact {
   std::optional<Wall> wall; ///< what it ran into; nothing for a push
 };
 
+class Body;
+
+/// Sees a body after each step in which it moved, or strove to.
+class StepObserver {
+public:
+  virtual ~StepObserver() = default;
+  virtual void on_step(Instant at, const Body& body) = 0;
+};
+
 /// The ball as matter: set-points in, sensor values out. It knows no program, no packet and no
 /// client. It moves in steps of the control system (400 Hz) on a grid that starts at its power-on,
 /// and only while something moves: at rest, advancing costs nothing. docs/ball.md lists the model;
@@ -146,6 +155,9 @@ public:
   static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 
   explicit Body(std::uint64_t seed);
+
+  /// `observer` sees every step; null: nobody. It must outlive the body.
+  void observe(StepObserver* observer) { observer_ = observer; }
 
   // Time.
   /// Moves on to `now`. Stops at the step in which a blow occurs, so that the caller can tell its
@@ -199,6 +211,9 @@ public:
   double acceleration_total_g() const;
   Quaternion attitude() const;
   Pose pose() const;
+  /// The same in the world in which the ball woke up at 0,0 facing +Y, whatever the program calls
+  /// its place and its heading since.
+  Pose world_pose() const;
   Vector3 velocity_cm_s() const; ///< locator axes; z is 0
   double heading_setpoint_deg() const { return target_deg_; }
   int speed_setpoint() const { return target_speed_; }
@@ -212,6 +227,7 @@ public:
   /// When the voltage falls to `volts` at rest; `never` while charging or below already.
   Instant battery_reaches(double volts) const;
   /// The length of its way since it was made.
+  double way_cm() const { return rolled_cm_; }
   std::uint64_t rolled_cm() const { return static_cast<std::uint64_t>(rolled_cm_); }
   bool charging() const { return charger_ == Switch::On; }
 
@@ -251,6 +267,7 @@ private:
 
   Instant now_{};
   std::uint64_t seed_;
+  StepObserver* observer_ = nullptr;
 
   // Set-points.
   bool stabilized_ = true;

@@ -71,6 +71,8 @@ public:
   std::uint64_t lines() const { return lines_; }
   /// The number of the line that waits, or of the one that runs next.
   int line() const;
+  /// The number of the line that asked the host for something last, as `print` does.
+  int asking_line() const { return line_of(core_.at); }
   /// The value of A to Y (0 to 24) or of an element of Z (from bytecode::first_element); 0 before
   /// the first program.
   std::int32_t variable(std::size_t index) const;

@@ -125,6 +125,7 @@ private:
   std::optional<Span> where_;
 };
 
+/// One for each row of vm/stimulus.def, in its order.
 struct EventRow {
   std::string_view word;
   Stimulus (*read)(Arguments&);
@@ -170,6 +171,13 @@ constexpr std::array events{
     EventRow{"noise", [](Arguments& a) -> Stimulus { return stimulus::Noise{a.on_off("state")}; }},
 };
 // clang-format on
+static_assert(events.size() == stimulus_words.size());
+static_assert([] {
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (events[i].word != stimulus_words[i].word)
+      return false;
+  return true;
+}());
 
 std::string event_help(std::string_view word) {
   std::vector<std::string_view> names;
@@ -178,7 +186,9 @@ std::string event_help(std::string_view word) {
   return did_you_mean(word, names, fmt::format("the events are {}", fmt::join(names, ", ")));
 }
 
-void read_line(const Source& source, std::uint32_t line, StimulusScript& script) {
+} // namespace
+
+void read_stimulus_line(const Source& source, std::uint32_t line, StimulusScript& script) {
   const auto words = words_of(source, line);
   if (words.empty())
     return;
@@ -225,12 +235,10 @@ void read_line(const Source& source, std::uint32_t line, StimulusScript& script)
   script.events.push_back({at, stimulus});
 }
 
-} // namespace
-
 StimulusScript parse_stimulus(const Source& source) {
   StimulusScript script;
   for (std::uint32_t line = 1; line <= source.line_count(); ++line)
-    read_line(source, line, script);
+    read_stimulus_line(source, line, script);
   std::stable_sort(script.events.begin(), script.events.end(),
                    [](const auto& a, const auto& b) { return a.at < b.at; });
   return script;

@@ -5,7 +5,9 @@
 #include "base/time.h"
 #include "vm/body.h"
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -65,6 +67,21 @@ struct TimedStimulus {
   Stimulus stimulus;
 };
 
+/// A word of a stimulus script.
+struct StimulusInfo {
+  std::string_view word;
+  std::string_view operands; ///< empty where it takes none
+  std::string_view summary;
+  std::string_view example; ///< a whole line
+};
+
+/// All words, in the order of vm/stimulus.def.
+inline constexpr auto stimulus_words = std::to_array<StimulusInfo>({
+#define ORB_STIMULUS(name, word, operands, summary, example) {word, operands, summary, example},
+#include "vm/stimulus.def"
+#undef ORB_STIMULUS
+});
+
 /// A script and what is wrong with it: lines that could not be read are left out.
 struct StimulusScript {
   std::vector<TimedStimulus> events; ///< in the order of their times; equals as written
@@ -72,5 +89,8 @@ struct StimulusScript {
 };
 
 StimulusScript parse_stimulus(const Source& source);
+
+/// Reads one line (from 1) of a text that may hold other lines, too, and adds to `script`.
+void read_stimulus_line(const Source& source, std::uint32_t line, StimulusScript& script);
 
 } // namespace orb::vm

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "base/source.h"
+#include "base/time.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace orb::testing {
+
+/// Reads one line of a test file from left to right. The first thing that is wrong is told; after
+/// that every function returns a value that does no harm and says nothing more.
+class Cursor {
+public:
+  Cursor(const Source& source, std::uint32_t line, std::vector<Diagnostic>& diagnostics);
+
+  bool failed() const { return failed_; }
+  /// Whether nothing is left but blanks and a comment.
+  bool at_end();
+  /// The text from `from` to here, without blanks at its ends.
+  Span span_from(std::uint32_t from) const;
+  std::uint32_t offset();
+  /// What stands here up to the next blank, without taking it.
+  std::string_view peek();
+  Span peek_span();
+  char peek_char();
+
+  std::string_view word();
+  /// What stands here up to the next blank, where `#` and six hexadecimal digits are a colour.
+  std::string_view color_word();
+  /// Takes so many bytes.
+  void skip(std::size_t bytes) { at_ += bytes; }
+  /// Takes the character, or tells that it is missing.
+  void character(char wanted, std::string_view help);
+  bool take(char wanted);
+  bool take_word(std::string_view wanted);
+  /// A text in quotes, without them.
+  std::string quoted(std::string_view what);
+  /// What stands between slashes; `\/` is a slash.
+  std::string slashed();
+  /// A file's name: a word, or a text in quotes.
+  std::string file_name();
+
+  double number(std::string_view what);
+  std::int64_t whole(std::string_view what, std::int64_t least, std::int64_t greatest);
+  /// `12cm`, in centimetres.
+  double length();
+  struct Range {
+    double least = 0;
+    double most = 0;
+  };
+  /// `90cm..110cm` or `90..110cm`.
+  Range lengths();
+  /// The same in cm/s.
+  Range speeds();
+  Range numbers(std::string_view what, std::int64_t least, std::int64_t greatest);
+  Duration time();
+  std::pair<Duration, Duration> times();
+
+  /// Tells what is wrong with what stands here.
+  void fail(const Rule& rule, std::string message, std::string help = {});
+  void fail_at(Span span, const Rule& rule, std::string message, std::string help = {});
+
+private:
+  struct Unit {
+    std::string_view word;
+    double factor;
+  };
+  std::optional<double> digits();
+  std::string_view unit_word();
+  Range range(std::span<const Unit> units, std::string_view what, std::string_view example);
+  void skip_blanks();
+
+  std::string_view text_;
+  std::uint32_t begin_;
+  std::size_t at_ = 0;
+  std::vector<Diagnostic>* diagnostics_;
+  bool failed_ = false;
+};
+
+} // namespace orb::testing

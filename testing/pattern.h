@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace orb::testing {
+
+/// A regular expression in the syntax of ECMAScript, searched for in lines. The steps of a search
+/// are counted and bounded, so that no pattern and no line takes long; the bound is the same on
+/// every machine. May be used by several threads at once.
+class Pattern {
+public:
+  struct Problem {
+    std::size_t at = 0; ///< byte of the pattern
+    std::string message;
+  };
+
+  enum class Found : std::uint8_t { No, Yes, GaveUp };
+
+  static tl::expected<Pattern, Problem> compile(std::string_view text);
+  Pattern(Pattern&&) noexcept;
+  Pattern& operator=(Pattern&&) noexcept;
+  ~Pattern();
+
+  Found search(std::string_view line) const;
+
+private:
+  struct Code;
+  explicit Pattern(std::unique_ptr<Code> code);
+
+  std::unique_ptr<Code> code_;
+};
+
+} // namespace orb::testing

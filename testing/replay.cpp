@@ -1,0 +1,105 @@
+#include "testing/replay.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::testing {
+namespace {
+
+// With more of them the command is longer than what it repeats.
+constexpr std::size_t most_stimuli = 6;
+
+/// A word as a shell takes it.
+std::string shell(std::string_view word) {
+  const auto is_plain = [](char c) {
+    return is_letter(c) || is_digit(c) ||
+           std::string_view("/._-+=:,@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain))
+    return std::string(word);
+  std::string out = "'";
+  for (const char c : word)
+    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string seconds(Duration t) {
+  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(t).count();
+  return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000) : fmt::format("{}ms", ms);
+}
+
+std::string stem(std::string_view name) {
+  name = name.substr(name.rfind('/') + 1);
+  const auto dot = name.rfind('.');
+  return std::string(dot == 0 ? name : name.substr(0, dot));
+}
+
+std::string with_line(const run::LinePlace& place, const std::string& file, std::string_view text) {
+  return fmt::format("{}:{}: {}", file, place.line, trim(text));
+}
+
+std::string line_of_source(const run::Input& input, const std::string& file, std::uint32_t line) {
+  if (input.source->name() == file)
+    return std::string(input.source->line(line));
+  for (const auto& other : input.included)
+    if (other.source->name() == file)
+      return std::string(other.source->line(line));
+  return {};
+}
+
+} // namespace
+
+std::string place_of(const Prepared& program, const Running& running) {
+  if (running.line > 0) {
+    const auto* input = run::first_with_program(program.inputs);
+    if (input == nullptr)
+      return {};
+    const auto& lines = input->program->lines;
+    const auto at = lines.places.find(static_cast<std::uint32_t>(running.line));
+    if (at == lines.places.end())
+      return {};
+    const auto& file = lines.files[at->second.file];
+    return with_line(at->second, file, line_of_source(*input, file, at->second.line));
+  }
+  if (running.command <= 0)
+    return {};
+  const auto index = static_cast<std::size_t>(running.command) - 1;
+  for (const auto& input : program.inputs)
+    for (const auto& macro : input.macros)
+      if (macro.image.id == running.macro && index < macro.command_lines.size())
+        return with_line({0, macro.command_lines[index], 1, {}}, input.source->name(),
+                         input.source->line(macro.command_lines[index]));
+  return {};
+}
+
+std::string replay_command(const Suite& suite, const Group& group, std::uint64_t seed,
+                           bool rolls_out) {
+  const auto& file = suite.files[group.file];
+  const auto& test = suite.test_of(group);
+  const auto& program = suite.programs[group.program];
+  if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
+    auto command = fmt::format("orb test {} --only {} --seeds {}..{}", shell(file.source->name()),
+                               shell(test.name.text), seed, seed);
+    return fmt::format("{} --program {} --report report", command, shell(program.name));
+  }
+  std::string command = "orb run " + shell(program.name);
+  for (const auto& with : file.file.with)
+    command += " " + shell(structured::resolve_path(file.source->name(), with.text));
+  if (test.bound != default_bound)
+    command += " --for " + seconds(test.bound);
+  if (seed != 1)
+    command += fmt::format(" --seed {}", seed);
+  if (!file.file.target_word.empty())
+    command += " --target " + file.file.target_word;
+  if (file.file.target.area == spec::Area::Flash)
+    command += " --area flash";
+  if (file.file.firmware != spec::default_firmware)
+    command += fmt::format(" --firmware {}", spec::info(file.file.firmware).name);
+  for (const auto& line : test.stimulus_lines)
+    command += " --stimulus " + shell(line);
+  return command + fmt::format(" --report {}", shell(stem(program.name) + ".html"));
+}
+
+} // namespace orb::testing

@@ -1,0 +1,256 @@
+#include "spec/firmware.h"
+#include "testing/replay.h"
+#include "testing/run_suite.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::testing {
+namespace {
+
+// A line that a program prints is taken up to here; the robot's own are a few dozen characters.
+constexpr std::size_t longest_line = 4096;
+
+/// Hears a run, and tells its judges.
+class Court final : public run::Listener {
+public:
+  Court(const Test& test, const Group& group, const report::Journey* journey)
+      : keeps_on_(journey != nullptr) {
+    judges_.reserve(test.expectations.size());
+    for (std::size_t i = 0; i < test.expectations.size(); ++i) {
+      const auto& one = test.expectations[i];
+      judges_.push_back(make_judge(one, group.meanings[i]));
+      if (one.line == 0)
+        silent_ = judges_.back().get();
+    }
+  }
+
+  const std::vector<std::unique_ptr<Judge>>& judges() const { return judges_; }
+
+  void on_start(const vm::Ball& ball) override {
+    ball_ = &ball;
+    sighting_.color = ball.led();
+    look(ball.body());
+  }
+
+  void on_event(Duration t, const vm::Event& event) override {
+    move_on(t);
+    std::visit([&](const auto& seen) { take(t, seen); }, event);
+    settle();
+  }
+
+  void on_fault(Duration t, const run::ProgramError& fault) override {
+    move_on(t);
+    const auto at = moment(t, static_cast<int>(fault.robot_line));
+    for (const auto& judge : judges_)
+      judge->on_error(at, fault);
+    settle();
+  }
+
+  void on_step(Duration t, const vm::Body& body) override {
+    move_on(t);
+    look(body);
+  }
+
+  void on_time(Duration t) override {
+    move_on(t);
+    for (const auto& judge : judges_)
+      judge->on_time(t);
+    settle();
+  }
+
+  void on_end(const run::Ending& ending) override {
+    if (!line_.empty())
+      print_line(ending.lasted);
+    move_on(std::max(ending.seen_to, since_));
+    const auto at = moment(since_, 0);
+    for (const auto& judge : judges_)
+      judge->see(at, Duration::max(), sighting_);
+    const Outcome outcome{&ending, ball_, ending.lasted, ball_->body().way_cm(), ending.lines};
+    for (const auto& judge : judges_)
+      judge->on_end(at, outcome);
+  }
+
+  /// Whether nothing that is still to come can change a verdict. That no error happens is certain
+  /// only at the end; a run that failed anyway does not go on for it.
+  bool enough() const override { return enough_ && !keeps_on_; }
+
+private:
+  template <class Other>
+  void take(Duration, const Other&) {}
+
+  void take(Duration t, const vm::event::Print& print) {
+    std::string_view text = print.text;
+    for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
+         text.remove_prefix(end + 1)) {
+      line_ += text.substr(0, std::min(end, longest_line - line_.size()));
+      print_line(t);
+    }
+    line_ += text.substr(0, longest_line - line_.size());
+  }
+  void take(Duration, const vm::event::Led& led) { sighting_.color = led.color; }
+  void take(Duration, const vm::event::BackLed& back) { sighting_.back = back.value; }
+  void take(Duration, const vm::event::Position&) { look(ball_->body()); }
+  void take(Duration t, const vm::event::Marker& marker) {
+    const auto at = moment(t);
+    for (const auto& judge : judges_)
+      judge->on_marker(at, marker);
+  }
+  void take(Duration t, const vm::event::Bump& bump) {
+    const auto at = moment(t);
+    for (const auto& judge : judges_)
+      judge->on_bump(at, bump);
+  }
+  void take(Duration, const vm::event::Macro& macro) { macro_ = macro; }
+  void take(Duration t, const vm::event::Sleep&) {
+    sighting_.asleep = true;
+    slept_at_ = t;
+  }
+
+  void print_line(Duration t) {
+    if (line_.ends_with('\r'))
+      line_.pop_back();
+    const auto at = moment(t, ball_->basic_running() ? ball_->machine().asking_line() : 0);
+    for (const auto& judge : judges_)
+      judge->on_print(at, {line_});
+    line_.clear();
+  }
+
+  void look(const vm::Body& body) {
+    const auto pose = body.world_pose();
+    sighting_.x = pose.x_cm;
+    sighting_.y = pose.y_cm;
+    sighting_.heading = pose.heading_deg;
+    sighting_.speed = pose.speed_cm_s;
+    sighting_.moving = !body.stopped();
+  }
+
+  /// Tells what was seen until `t`.
+  void move_on(Duration t) {
+    if (!uncertain_states_)
+      return;
+    // A ball that fell asleep is asleep from the event on; when it wakes is seen later.
+    const Moment from{since_, running_};
+    bool open = false;
+    for (const auto& judge : judges_) {
+      if (judge->certain())
+        continue;
+      judge->see(from, t, sighting_);
+      open = true;
+    }
+    uncertain_states_ = open;
+    since_ = t;
+    running_ = running();
+    if (sighting_.asleep && t > slept_at_)
+      sighting_.asleep = ball_->asleep();
+  }
+
+  /// What runs now. While a line waits, as in `delay`, it stays the same.
+  Running running() {
+    if (!ball_->basic_running())
+      return macro_ && ball_->macros().running() ? Running{0, macro_->id, macro_->command}
+                                                 : Running{};
+    if (const auto lines = ball_->machine().lines(); lines != looked_at_) {
+      looked_at_ = lines;
+      line_running_ = ball_->machine().line();
+    }
+    return {line_running_, 0, 0};
+  }
+
+  Moment moment(Duration t) { return {t, running()}; }
+  Moment moment(Duration t, int line) {
+    auto at = moment(t);
+    if (line != 0)
+      at.running = {line, 0, 0};
+    return at;
+  }
+
+  void settle() {
+    bool missed = false;
+    bool open = false;
+    for (const auto& judge : judges_) {
+      missed = missed || judge->verdict() == Judge::Verdict::Missed;
+      open = open || (!judge->certain() && judge.get() != silent_);
+    }
+    enough_ = !open && (missed || silent_ == nullptr || silent_->certain());
+  }
+
+  std::vector<std::unique_ptr<Judge>> judges_;
+  const Judge* silent_ = nullptr;
+  const vm::Ball* ball_ = nullptr;
+  bool keeps_on_;
+  bool enough_ = false;
+  bool uncertain_states_ = true;
+  Sighting sighting_;
+  Duration since_{};
+  Running running_;
+  std::uint64_t looked_at_ = UINT64_MAX;
+  int line_running_ = 0;
+  std::optional<vm::event::Macro> macro_;
+  Duration slept_at_{};
+  std::string line_;
+};
+
+run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed) {
+  run::Options options;
+  options.bound = test.bound;
+  options.seed = seed;
+  options.target = file.file.target;
+  options.firmware = file.file.firmware;
+  options.stimuli = test.stimuli;
+  options.until = run::Until::Rest;
+  if (std::any_of(test.expectations.begin(), test.expectations.end(), watches_steps))
+    options.steps = run::Steps::Heard;
+  return options;
+}
+
+/// The text of an expectation as it is written.
+std::string expected(const SuiteFile& file, const Expectation& one) {
+  return one.line == 0 ? "never error" : std::string(file.source->text(one.span));
+}
+
+Miss miss_of(const Suite& suite, const Group& group, const Expectation& one, const Judge& judge) {
+  const auto& file = suite.files[group.file];
+  Miss miss{
+      one.line == 0 ? suite.test_of(group).line : one.line, expected(file, one), judge.seen(), {}};
+  if (judge.moment())
+    miss.where = place_of(suite.programs[group.program], judge.moment()->running);
+  return miss;
+}
+
+} // namespace
+
+CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
+                    vm::NativePrograms* native, report::Journey* journey) {
+  const auto& file = suite.files[group.file];
+  const auto& test = suite.test_of(group);
+  const auto& program = suite.programs[group.program];
+  CaseResult result;
+  result.seed = seed;
+  const auto fail = [&](std::string problem) {
+    result.verdict = Verdict::Error;
+    result.problem = std::move(problem);
+    return result;
+  };
+  if (!program.problem.empty())
+    return fail(program.problem);
+  auto options = options_of(file, test, seed);
+  options.native_programs = native;
+  Court court(test, group, journey);
+  const auto ending = run::run(program.inputs, options, court, journey);
+  if (!ending)
+    return fail(ending.error().message + "\n");
+  result.lasted = ending->lasted;
+  result.lines = ending->lines;
+  for (std::size_t i = 0; i < test.expectations.size(); ++i)
+    if (const auto& judge = *court.judges()[i]; judge.verdict() == Judge::Verdict::Missed)
+      result.misses.push_back(miss_of(suite, group, test.expectations[i], judge));
+  if (!result.misses.empty()) {
+    result.verdict = Verdict::Failed;
+    constexpr Duration little = 250ms; // that it rolls on, nobody sees
+    result.again = replay_command(suite, group, seed, ending->seen_to - ending->lasted > little);
+  }
+  return result;
+}
+
+} // namespace orb::testing

@@ -1,0 +1,95 @@
+#include "testing/run_suite.h"
+
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+namespace orb::testing {
+namespace {
+
+/// A case and the place for its result.
+struct Task {
+  const Group* group;
+  CaseResult* result;
+};
+
+/// Runs tasks, the next one whenever it is done with one, until none is left.
+class Worker {
+public:
+  Worker(const Suite& suite, const std::vector<Task>& tasks, vm::NativePrograms& native,
+         std::atomic<std::size_t>& next, std::atomic<std::size_t>& done)
+      : suite_(suite), tasks_(tasks), native_(native), next_(next), done_(done) {}
+
+  /// Runs one; false where none is left.
+  bool run_one() {
+    const auto index = next_.fetch_add(1);
+    if (index >= tasks_.size())
+      return false;
+    const auto& task = tasks_[index];
+    *task.result = run_case(suite_, *task.group, task.result->seed, &native_, nullptr);
+    done_.fetch_add(1);
+    return true;
+  }
+
+private:
+  const Suite& suite_;
+  const std::vector<Task>& tasks_;
+  vm::NativePrograms& native_;
+  std::atomic<std::size_t>& next_;
+  std::atomic<std::size_t>& done_;
+};
+
+/// The groups as they will be told, with an empty result for each case that runs here.
+std::vector<GroupResult> empty_results(const Suite& suite, const Shard& shard) {
+  std::vector<GroupResult> groups;
+  for (const auto& group : suite.groups) {
+    const auto& test = suite.test_of(group);
+    auto& made = groups.emplace_back();
+    made.file = suite.files[group.file].source->name();
+    made.test = test.name.text;
+    made.line = test.line;
+    made.points = test.points;
+    made.program = suite.programs[group.program].name;
+    made.first = group.first;
+    made.count = group.seeds.count();
+    for (std::uint64_t k = 0; k < made.count; ++k)
+      if (shard.takes(group.first + k)) {
+        made.cases.emplace_back();
+        made.cases.back().seed = group.seeds.first + k;
+      }
+  }
+  return groups;
+}
+
+} // namespace
+
+Results run_suite(const Suite& suite, const RunOptions& options, Progress& progress) {
+  Results results{suite.cases, {}, empty_results(suite, options.shard)};
+  if (options.shard.count > 1)
+    results.shards.push_back(options.shard);
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < suite.groups.size(); ++i)
+    for (auto& one : results.groups[i].cases)
+      tasks.push_back({&suite.groups[i], &one});
+
+  vm::NativePrograms native;
+  std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> done{0};
+  std::vector<std::thread> others;
+  const auto wanted = std::min<std::size_t>(options.jobs, tasks.size());
+  for (std::size_t i = 1; i < wanted; ++i)
+    others.emplace_back([&] {
+      Worker worker(suite, tasks, native, next, done);
+      while (worker.run_one()) {
+      }
+    });
+  Worker worker(suite, tasks, native, next, done);
+  while (worker.run_one())
+    progress.on_cases(done, tasks.size());
+  for (auto& other : others)
+    other.join();
+  progress.on_cases(tasks.size(), tasks.size());
+  return results;
+}
+
+} // namespace orb::testing

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "report/journey.h"
+#include "testing/results.h"
+#include "testing/suite.h"
+
+#include <atomic>
+#include <cstdint>
+
+namespace orb::testing {
+
+struct RunOptions {
+  unsigned jobs = 1; ///< threads, this one included; 1 starts none
+  Shard shard;
+};
+
+/// Hears how a run of a suite goes on, on the thread that called run_suite().
+class Progress {
+public:
+  virtual ~Progress() = default;
+  virtual void on_cases(std::uint64_t done, std::uint64_t all) = 0;
+};
+
+/// Runs the cases of a suite without errors. What comes out does not depend on `jobs`.
+Results run_suite(const Suite& suite, const RunOptions& options, Progress& progress);
+
+/// Runs one case. Where `journey` is not null, it is gathered and the run goes on to its end.
+CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
+                    vm::NativePrograms* native, report::Journey* journey);
+
+} // namespace orb::testing

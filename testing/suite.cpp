@@ -1,0 +1,317 @@
+#include "testing/suite.h"
+
+#include "base/render.h"
+#include "base/suggest.h"
+#include "compiler/image.h"
+#include "testing/rules.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+#include <utility>
+
+namespace orb::testing {
+namespace {
+
+constexpr std::size_t letters = 25; // A to Y; Z is a row of elements
+
+bool is_error(const Diagnostic& one) {
+  return one.severity == Severity::Error;
+}
+
+/// What keeps a source from becoming a program at all, as text.
+std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings) {
+  std::string text;
+  for (const auto& one : findings)
+    if (is_error(one))
+      text += render_text(source, one, {});
+  return text;
+}
+
+/// Why an input cannot be run; empty where it can.
+std::string problem_of(const run::Input& input) {
+  auto text = errors_of(*input.source, input.findings);
+  for (const auto& file : input.included)
+    text += errors_of(*file.source, file.findings);
+  if (!text.empty() || !input.program || input.program->compiled)
+    return text;
+  // The robot finds a line that it cannot read when it gets there; a test does not wait for that.
+  const auto& parsed = input.program->parsed;
+  const auto line_of = [&](Span span) { return input.source->position(span.begin).line; };
+  std::set<std::uint32_t> unread;
+  for (const auto& fault : parsed.faults)
+    unread.insert(line_of(fault.span));
+  if (unread.empty())
+    return text;
+  for (const auto& one : compiler::lint(parsed, {}))
+    if (is_error(one) && unread.contains(line_of(one.span)))
+      text += render_text(*input.source, one, {});
+  return text;
+}
+
+class Reader {
+public:
+  Reader(Suite& suite, structured::Files& files) : suite_(suite), files_(files) {}
+
+  /// The index of a program with the files of `file`; an unreadable one is a problem of its own.
+  std::size_t program(const std::string& path, const SuiteFile& file) {
+    const auto& target = file.file.target;
+    std::string key = fmt::format("{}\n{}\n{}\n{}", path, static_cast<int>(target.version),
+                                  static_cast<int>(target.area), file.source->name());
+    if (file.file.with.empty())
+      key.resize(key.rfind('\n'));
+    const auto [at, fresh] = known_.try_emplace(key, suite_.programs.size());
+    if (fresh)
+      suite_.programs.push_back(prepare(path, file));
+    return at->second;
+  }
+
+private:
+  Prepared prepare(const std::string& path, const SuiteFile& file) {
+    Prepared made;
+    made.name = path;
+    made.target = file.file.target;
+    std::vector<run::Input> rest;
+    read(path, made, made.inputs);
+    for (const auto& with : file.file.with)
+      read(structured::resolve_path(file.source->name(), with.text), made, rest);
+    for (auto& one : rest)
+      run::add_input(made.inputs, std::move(one));
+    if (!made.problem.empty())
+      return made;
+    if (const auto* first = run::first_with_program(made.inputs))
+      made.packed_bytes =
+          compiler::build_image(first->program->parsed, compiler::Packing::Packed).bytes.size();
+    for (const auto& input : made.inputs)
+      for (const auto& macro : input.macros)
+        made.macros.emplace(macro.name, macro.image.id);
+    return made;
+  }
+
+  void read(const std::string& path, Prepared& made, std::vector<run::Input>& inputs) {
+    auto text = files_.read(path);
+    if (!text) {
+      made.problem += fmt::format("cannot read {}\n", path);
+      return;
+    }
+    auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_);
+    if (!input) {
+      made.problem += input.error().message + "\n";
+      return;
+    }
+    made.problem += problem_of(*input);
+    run::add_input(inputs, *std::move(input));
+  }
+
+  Suite& suite_;
+  structured::Files& files_;
+  std::map<std::string, std::size_t> known_;
+};
+
+std::string beside(const std::string& name, std::string_view ending) {
+  const auto dot = name.rfind('.');
+  return name.substr(0, dot) + std::string(ending);
+}
+
+constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
+
+/// Where the program of a test file is; nothing, and a finding, where there is none.
+std::optional<std::string> program_path(SuiteFile& file, structured::Files& files) {
+  const auto& name = file.source->name();
+  auto& findings = file.file.diagnostics;
+  if (const auto& given = file.file.program) {
+    auto path = structured::resolve_path(name, given->text);
+    if (files.read(path))
+      return path;
+    findings.push_back(finding(rules::File, given->span, fmt::format("cannot read {}", path),
+                               "paths count from the folder of the test file"));
+    return std::nullopt;
+  }
+  for (const auto ending : endings)
+    if (auto path = beside(name, ending); files.read(path))
+      return path;
+  findings.push_back(finding(rules::File, {0, 0},
+                             fmt::format("there is no program to test: neither {}, {} nor {}",
+                                         beside(name, endings[0]), beside(name, endings[1]),
+                                         beside(name, endings[2])),
+                             "name one: `program corner.bas`"));
+  return std::nullopt;
+}
+
+std::string meant(std::string_view word, const std::vector<std::string_view>& known,
+                  std::string_view what) {
+  return did_you_mean(word, known,
+                      known.empty() ? fmt::format("it has no {}", what)
+                                    : fmt::format("it has {}", fmt::join(known, ", ")));
+}
+
+/// What a name means in a program, or why it means nothing.
+struct Lookup {
+  Meaning meaning;
+  const Rule* rule = nullptr; ///< of the finding, where there is a problem
+  std::string help;
+};
+
+/// The letter of a variable of a program with line numbers.
+void find_variable(const Expectation& one, const Prepared& program, Lookup& found) {
+  const auto& name = one.name.text;
+  const auto* first = run::first_with_program(program.inputs);
+  if (first == nullptr) {
+    found.meaning.problem = "there is no program, only macros: no variable";
+  } else if (name.size() == 1 && name[0] >= 'A' && name[0] < static_cast<char>('A' + letters)) {
+    found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
+  } else {
+    found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
+    found.help = "a program with line numbers has A to Y";
+  }
+  if (!found.meaning.problem.empty())
+    found.rule = &rules::Variable;
+}
+
+void find_macro(const Expectation& one, const Prepared& program, Lookup& found) {
+  const auto at = program.macros.find(one.name.text);
+  if (at != program.macros.end()) {
+    found.meaning.macro = at->second;
+    return;
+  }
+  std::vector<std::string_view> known;
+  for (const auto& row : program.macros)
+    known.push_back(row.first);
+  found.meaning.problem = fmt::format("no macro `{}` is loaded", one.name.text);
+  found.help = meant(one.name.text, known, "macro");
+  found.rule = &rules::Macro;
+}
+
+void find_zone(const Expectation& one, const CourseOf& course, Lookup& found) {
+  const auto at = course.zones.find(one.name.text);
+  if (at != course.zones.end()) {
+    found.meaning.zone = at->second.get();
+    return;
+  }
+  found.rule = &rules::Zone;
+  if (!course.named) {
+    found.meaning.problem =
+        fmt::format("`{}` is a zone, and the file names no course", one.name.text);
+    found.help = "write `course hall.svg` at its beginning";
+    return;
+  }
+  std::vector<std::string_view> known;
+  for (const auto& row : course.zones)
+    known.push_back(row.first);
+  found.meaning.problem = fmt::format("the course has no zone `{}`", one.name.text);
+  found.help = meant(one.name.text, known, "zone");
+}
+
+Lookup look_up(const Expectation& one, const SuiteFile& file, const Prepared& program) {
+  Lookup found;
+  found.meaning.packed_bytes = program.packed_bytes;
+  if (one.word == Word::Inside || one.word == Word::Stay)
+    find_zone(one, file.course, found);
+  else if (one.word == Word::Marker && !one.name.text.empty())
+    find_macro(one, program, found);
+  else if (one.word == Word::Variable)
+    find_variable(one, program, found);
+  return found;
+}
+
+/// Tells what is wrong with the names of a file, taken in the program that it names itself.
+void check_names(SuiteFile& file, const Prepared* own) {
+  static const Prepared none;
+  for (const auto& test : file.file.tests)
+    for (const auto& one : test.expectations) {
+      const bool of_course = one.word == Word::Inside || one.word == Word::Stay;
+      if (!of_course && (own == nullptr || !own->problem.empty()))
+        continue;
+      const auto found = look_up(one, file, own == nullptr ? none : *own);
+      if (found.rule != nullptr)
+        file.file.diagnostics.push_back(
+            finding(*found.rule, one.name.span, found.meaning.problem, found.help));
+    }
+  sort_by_place(file.file.diagnostics);
+}
+
+void check_files(SuiteFile& file, structured::Files& files) {
+  for (const auto& with : file.file.with)
+    if (const auto path = structured::resolve_path(file.source->name(), with.text);
+        !with.text.empty() && !files.read(path))
+      file.file.diagnostics.push_back(finding(rules::File, with.span,
+                                              fmt::format("cannot read {}", path),
+                                              "paths count from the folder of the test file"));
+}
+
+/// Adds the groups of one file, for the given programs or its own.
+void add_groups(Suite& suite, std::size_t index, const SuiteOptions& options,
+                const std::vector<std::size_t>& programs) {
+  const auto& file = suite.files[index];
+  for (std::size_t t = 0; t < file.file.tests.size(); ++t) {
+    const auto& test = file.file.tests[t];
+    if (!options.only.empty() && test.name.text != options.only)
+      continue;
+    for (const auto program : programs) {
+      Group group{index, t, program, options.seeds.value_or(test.seeds), suite.cases, {}};
+      for (const auto& one : test.expectations)
+        group.meanings.push_back(look_up(one, file, suite.programs[program]).meaning);
+      suite.cases += group.seeds.count();
+      suite.groups.push_back(std::move(group));
+    }
+  }
+}
+
+/// That no test has the name that was asked for.
+Failure no_such_test(const Suite& suite, const std::string& name) {
+  std::vector<std::string_view> known;
+  for (const auto& file : suite.files)
+    for (const auto& test : file.file.tests)
+      known.push_back(test.name.text);
+  const auto meant = closest(name, known);
+  return {ExitCode::Usage, fmt::format("no test is called \"{}\"{}", name,
+                                       meant ? fmt::format("; did you mean \"{}\"?", *meant) : "")};
+}
+
+} // namespace
+
+bool SuiteFile::has_errors() const {
+  return std::any_of(file.diagnostics.begin(), file.diagnostics.end(), is_error);
+}
+
+bool Suite::has_errors() const {
+  return std::any_of(files.begin(), files.end(),
+                     [](const SuiteFile& file) { return file.has_errors(); });
+}
+
+tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
+                                        structured::Files& files) {
+  Suite suite;
+  Reader reader(suite, files);
+  std::vector<std::vector<std::size_t>> programs;
+  for (auto& one : given) {
+    SuiteFile file;
+    file.source = std::make_unique<Source>(std::move(one.name), std::move(one.text));
+    file.file = parse(*file.source);
+    file.course.named = file.file.course.has_value();
+    check_files(file, files);
+    auto& own = programs.emplace_back();
+    if (options.programs.empty())
+      if (const auto path = program_path(file, files))
+        own.push_back(reader.program(*path, file));
+    for (const auto& path : options.programs)
+      own.push_back(reader.program(path, file));
+    const bool named = options.programs.empty() && !own.empty();
+    check_names(file, named ? &suite.programs[own.front()] : nullptr);
+    suite.files.push_back(std::move(file));
+  }
+  for (std::size_t i = 0; i < suite.files.size(); ++i)
+    add_groups(suite, i, options, programs[i]);
+  if (!options.only.empty() && suite.groups.empty() && !suite.has_errors())
+    return tl::unexpected(no_such_test(suite, options.only));
+  return suite;
+}
+
+std::vector<Diagnostic> check(const Source& source, structured::Files& files) {
+  auto suite = make_suite({{source.name(), std::string(source.text())}}, {}, files);
+  return suite ? std::move(suite->files.front().file.diagnostics) : std::vector<Diagnostic>();
+}
+
+} // namespace orb::testing

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "base/exit_code.h"
+#include "run/input.h"
+#include "testing/judge.h"
+#include "testing/test_file.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Test files with what they name: programs read and compiled once, names looked up, and the list of
+// cases that is to be run.
+
+namespace orb::testing {
+
+/// A program with all that goes along, ready to be run many times and by several threads.
+struct Prepared {
+  std::string name; ///< as the user wrote it, or as it was found
+  std::vector<run::Input> inputs;
+  compiler::Target target;
+  std::string problem; ///< why it cannot be run: its findings, or a sentence; else empty
+  std::size_t packed_bytes = 0;
+  std::map<std::string, int> macros; ///< ids by name
+};
+
+/// A course with its names.
+struct CourseOf {
+  bool named = false; ///< the file names a course
+  std::map<std::string, std::unique_ptr<Zone>> zones;
+};
+
+/// A test file that has been read.
+struct SuiteFile {
+  std::unique_ptr<Source> source;
+  TestFile file; ///< its findings hold those about names, too
+  CourseOf course;
+
+  bool has_errors() const;
+};
+
+/// One test with one program: as many cases as it has seeds.
+struct Group {
+  std::size_t file = 0; ///< index into Suite::files
+  std::size_t test = 0;
+  std::size_t program = 0; ///< index into Suite::programs
+  Seeds seeds;
+  std::uint64_t first = 0;       ///< the number of its first case
+  std::vector<Meaning> meanings; ///< one for each expectation
+};
+
+/// What is to be run: cases are numbered over file, test, program and seed, in that order.
+struct Suite {
+  std::vector<SuiteFile> files;
+  std::vector<Prepared> programs;
+  std::vector<Group> groups;
+  std::uint64_t cases = 0;
+
+  bool has_errors() const;
+  const Test& test_of(const Group& group) const { return files[group.file].file.tests[group.test]; }
+};
+
+struct SuiteOptions {
+  std::vector<std::string> programs; ///< in place of those that the files name
+  std::optional<Seeds> seeds;        ///< in place of theirs
+  std::string only;                  ///< the one test to run, by its exact name; empty for all
+};
+
+/// A file as it was found: what findings call it, and its text.
+struct GivenFile {
+  std::string name;
+  std::string text;
+};
+
+/// Reads test files and what they name, through `files`. A file that does not name a program is
+/// tested with the one beside it. Fails where no test has the name `only`.
+tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
+                                        structured::Files& files);
+
+/// Everything that is to be said about a test file.
+std::vector<Diagnostic> check(const Source& source, structured::Files& files);
+
+} // namespace orb::testing

@@ -1,0 +1,101 @@
+// One mutant for each word of the vocabulary: a program that meets the expectation, and one that
+// fails it just so. Each must be told apart, and what was seen instead must be named.
+
+#include "base/text.h"
+#include "testing/run_suite.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+namespace orb::testing {
+namespace {
+
+class OneFile final : public structured::Files {
+public:
+  explicit OneFile(std::map<std::string, std::string> files) : files_(std::move(files)) {}
+  std::optional<std::string> read(const std::string& path) override {
+    const auto at = files_.find(path);
+    return at == files_.end() ? std::nullopt : std::optional(at->second);
+  }
+
+private:
+  std::map<std::string, std::string> files_;
+};
+
+struct Mutant {
+  std::string_view word;
+  std::string_view expectation; ///< the lines of the test
+  std::string_view good;
+  std::string_view bad;
+  std::string_view seen; ///< what is said of the bad one
+};
+
+constexpr std::string_view drive =
+    "10 goroll 90,100,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n";
+
+// clang-format off
+constexpr auto mutants = std::to_array<Mutant>({
+    {"print", "expect print \"bump\" within 1s\n", "10 print \"bump\"\n", "10 print \"bumb\"\n", "nearest \"bumb\" at 0.3 ms"},
+    {"print", "expect print \"a\" 2 to 3 times\n", "10 print \"a\"\n20 print \"a\"\n", "10 print \"a\"\n", "once: at 0.3 ms"},
+    {"print", "expect print /^side [1-6]$/\n", "10 print \"side\", 6\n", "10 print \"side\", 7\n", "nearest \"side 7\" at 0.3 ms"},
+    {"print", "expect print ~\"ump\"\n", "10 print \"bumper\"\n", "10 print \"bunper\"\n", "nearest \"bunper\" at 0.3 ms"},
+    {"print", "never print \"x\"\n", "10 print \"y\"\n", "10 print \"x\"\n", "\"x\" at 0.3 ms"},
+    {"prints", "expect prints\n\"a\"\n\"b\"\n", "10 print \"a\"\n20 print \"b\"\n", "10 print \"a\"\n20 print \"c\"\n", "line 2 is \"c\" at 0.7 ms, not \"b\""},
+    {"near", "expect near 65,0 by 5cm at end\n", drive, "10 goroll 90,86,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "8.0 cm from 65,0 at the end, 2 s"},
+    {"beyond", "expect beyond x>62\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "nearest x 59.7 at 1.24 s"},
+    {"heading", "expect heading 90 by 5 at 1s\n", drive, "10 goroll 84,100,1\n20 delay 1000\n", "heading 84 at 1 s"},
+    {"speed", "expect speed 50..60cm/s\n", "10 goroll 0,66,1\n20 delay 1000\n", "10 goroll 0,58,1\n20 delay 1000\n", "nearest 45.5 cm/s at 0.3 s"},
+    {"moving", "expect moving at 500ms\n", drive, "10 delay 1000\n", "resting at 0.5 s"},
+    {"resting", "expect resting at end\n", drive, "10 goroll 90,100,1\n20 delay 1000\n", "moving at 78.4 cm/s at the end, 5 s"},
+    {"distance", "expect distance 65cm..75cm\n", drive, "10 goroll 90,80,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "it drove 56.2 cm"},
+    {"color", "expect color red by 3 during 100ms..200ms\n", "10 RGB 252,0,0\n20 delay 500\n", "10 RGB 251,0,0\n20 delay 500\n", "#FB0000 at 0.1 s"},
+    {"backled", "expect backled 200..255\n", "10 backLED 200\n20 delay 100\n", "10 backLED 199\n20 delay 100\n", "nearest back LED 199 at 0.3 ms"},
+    {"marker", "expect marker 3 macro wink\n", "10 macrun 40\n20 delay 100\n", "10 macrun 41\n20 delay 100\n", "marker 3 of macro 41 at 0.3 ms"},
+    {"collision", "wall x=60\nexpect collision within 2s\n", drive, "10 goroll 90,60,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "it ran into nothing until 2 s"},
+    {"error", "expect error \"Divide by zero\"\n", "10 A = 0\n20 A = 1 / A\n", "10 goroll 400,1,1\n", "Bad numeric parameter at 0.3 ms"},
+    {"error", "never moving\n", "10 A = 1\n", "10 A = 0\n20 A = 1 / A\n", "Divide by zero"},
+    {"asleep", "expect asleep within 1s\n", "10 sleep 10,0,0\n", "10 delay 1000\n", "nearest awake at 0 s"},
+    {"end", "expect end within 1s\n", "10 delay 900\n", "10 delay 1100\n", "it ended at 1.1 s"},
+    {"lines", "expect lines < 3\n", "10 A = 1\n20 A = 2\n", "10 A = 1\n20 A = 2\n30 A = 3\n", "3 lines"},
+    {"bytes", "expect bytes < 9\n", "10 A=1\n", "10 A=1000\n", "11 bytes"},
+    {"variable", "expect A = 5 at end\n", "10 A = 5\n", "10 A = 6\n", "A = 6"},
+});
+// clang-format on
+
+constexpr std::string_view macros = ".macro wink id=40\nmarker 3\n.macro nod id=41\nmarker 3\n";
+
+CaseResult judge(const Mutant& mutant, std::string_view program) {
+  OneFile files({{"m.bas", std::string(program)}, {"m.macro", std::string(macros)}});
+  auto suite = make_suite(
+      {{"m.test", fmt::format("program m.bas\nwith m.macro\nfor 5s\n{}", mutant.expectation)}}, {},
+      files);
+  EXPECT_TRUE(suite.has_value());
+  EXPECT_FALSE(suite->has_errors()) << suite->files[0].file.diagnostics[0].message;
+  return run_case(*suite, suite->groups.front(), 1, nullptr, nullptr);
+}
+
+TEST(Mutants, EachWordTellsAGoodProgramFromABadOne) {
+  for (const auto& mutant : mutants) {
+    const auto good = judge(mutant, mutant.good);
+    EXPECT_EQ(good.verdict, Verdict::Passed)
+        << mutant.expectation << (good.misses.empty() ? good.problem : good.misses[0].seen);
+    const auto bad = judge(mutant, mutant.bad);
+    ASSERT_EQ(bad.verdict, Verdict::Failed) << mutant.expectation << bad.problem;
+    EXPECT_TRUE(bad.misses.front().seen.starts_with(mutant.seen))
+        << mutant.expectation << bad.misses.front().seen;
+    EXPECT_FALSE(bad.again.empty());
+  }
+}
+
+TEST(Mutants, EveryWordHasOne) {
+  std::set<std::string_view> tried{"inside", "stay"}; // those of a course: course_test.cpp
+  for (const auto& mutant : mutants)
+    tried.insert(mutant.word);
+  for (const auto& row : expectations)
+    EXPECT_TRUE(tried.contains(row.word)) << row.word;
+}
+
+} // namespace
+} // namespace orb::testing
