@@ -106,4 +106,30 @@ void ProgressBar::print_line(const Status& status, Instant now) {
                         describe_progress(status, now - sending_since_.value_or(now))));
 }
 
+CountBar::CountBar(const Context& context, std::string_view noun)
+    : noun_(noun), animated_(!context.quiet && can_animate()) {}
+
+CountBar::~CountBar() {
+  if (drawn_)
+    print_err(clear_line);
+}
+
+void CountBar::show(std::uint64_t done, std::uint64_t all) {
+  using namespace std::chrono;
+  constexpr auto pause = milliseconds{100}; // more often nobody sees
+  const auto now = steady_clock::now();
+  if (!animated_ || all == 0 || now - drawn_at_ < pause)
+    return;
+  drawn_at_ = now;
+  drawn_ = true;
+  const auto full = static_cast<std::size_t>(done * bar_width / all);
+  auto text = fmt::format("{}[{}{}] {} of {} {}", clear_line, std::string(full, '#'),
+                          std::string(bar_width - full, '-'), done, all, noun_);
+  const auto seconds = duration<double>(now - start_).count();
+  if (done > 0 && done < all && seconds >= least_seconds)
+    text += fmt::format(", {:.0f} s left",
+                        seconds * static_cast<double>(all - done) / static_cast<double>(done));
+  print_err(text);
+}
+
 } // namespace orb::cli

@@ -3,8 +3,11 @@
 #include "cli/context.h"
 #include "uploader/upload.h"
 
+#include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace orb::cli {
 
@@ -34,6 +37,24 @@ private:
   std::optional<Instant> sending_since_;
   int attempt_ = 1;
   int told_quarter_ = 0;
+};
+
+/// The same for things that are counted: drawn on a terminal a few times a second, else nothing.
+class CountBar {
+public:
+  CountBar(const Context& context, std::string_view noun);
+  ~CountBar();
+  CountBar(const CountBar&) = delete;
+  CountBar& operator=(const CountBar&) = delete;
+
+  void show(std::uint64_t done, std::uint64_t all);
+
+private:
+  std::string noun_;
+  bool animated_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point drawn_at_ = start_;
 };
 
 /// The bar, the numbers and what is left, without the name: what is drawn and printed.

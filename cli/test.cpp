@@ -2,8 +2,11 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/options.h"
+#include "cli/progress_bar.h"
 #include "disk/disk.h"
+#include "testing/merge.h"
 #include "testing/render.h"
+#include "testing/report.h"
 #include "testing/run_suite.h"
 
 #include <algorithm>
@@ -26,6 +29,8 @@ struct TestOptions {
   std::string shard;
   std::string format = "text";
   std::string output;
+  std::string report;
+  bool merge = false;
 };
 
 constexpr std::string_view ending = ".test";
@@ -98,10 +103,77 @@ tl::expected<testing::Shard, Failure> read_shard(const std::string& text) {
   return testing::Shard{*index, *count};
 }
 
-class NoProgress final : public testing::Progress {
+/// Shows how many runs are done.
+class Bar final : public testing::Progress {
 public:
-  void on_cases(std::uint64_t, std::uint64_t) override {}
+  explicit Bar(const Context& context) : bar_(context, "runs") {}
+  void on_cases(std::uint64_t done, std::uint64_t all) override { bar_.show(done, all); }
+
+private:
+  CountBar bar_;
 };
+
+/// The files of a report in its folder. The index is written last, and an old one goes first: a
+/// folder with an index is a whole report.
+class ReportFolder final : public testing::Pages {
+public:
+  explicit ReportFolder(std::string folder) : folder_(std::move(folder)) {}
+
+  tl::expected<void, Failure> begin() {
+    const auto index = folder_ + "/index.html";
+    std::error_code error;
+    if (fs::exists(index, error)) {
+      const auto old = disk::read(index);
+      if (!old || !old->starts_with(testing::report_mark))
+        return refuse(
+            fmt::format("{} is not a report of `orb test`; choose another folder", index));
+      fs::remove(index, error);
+      for (const auto& file : fs::directory_iterator(folder_ + "/runs", error))
+        remove_old(file.path());
+    }
+    fs::create_directories(folder_ + "/runs", error);
+    if (error)
+      return refuse(fmt::format("cannot make {}/runs: {}", folder_, error.message()));
+    return {};
+  }
+
+  bool write(const std::string& name, std::string_view text) override {
+    auto written = disk::write(folder_ + "/" + name, as_bytes(text));
+    if (!written)
+      problem_ = written.error().message;
+    return problem_.empty();
+  }
+
+  const std::string& problem() const { return problem_; }
+
+private:
+  static tl::unexpected<Failure> refuse(std::string message) {
+    return tl::unexpected(Failure{ExitCode::File, std::move(message)});
+  }
+
+  /// A file of an earlier report, known by its name.
+  static void remove_old(const fs::path& path) {
+    const auto stem = path.stem().string();
+    const bool ours = (path.extension() == ".svg" || path.extension() == ".html") &&
+                      !stem.empty() && std::all_of(stem.begin(), stem.end(), is_digit);
+    std::error_code kept;
+    if (ours)
+      fs::remove(path, kept);
+  }
+
+  std::string folder_;
+  std::string problem_;
+};
+
+tl::expected<void, Failure> write_report(const std::string& folder, const testing::Suite& suite,
+                                         const testing::Results& results) {
+  ReportFolder pages(folder);
+  if (auto ready = pages.begin(); !ready)
+    return ready;
+  if (!testing::write_report(suite, results, pages))
+    return tl::unexpected(Failure{ExitCode::File, pages.problem()});
+  return {};
+}
 
 tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& options) {
   testing::SuiteOptions wanted{options.programs, {}, options.only};
@@ -141,7 +213,52 @@ tl::expected<void, Failure> write_results(const Context& context, const TestOpti
   return {};
 }
 
+/// Prints the results, and leaves the exit code that they are worth.
+tl::expected<void, Failure> tell(Context& context, const TestOptions& options,
+                                 const testing::Results& results) {
+  if (auto written = write_results(context, options, results); !written)
+    return written;
+  if (testing::totals_of(results).failed > 0)
+    context.exit = ExitCode::BadInput;
+  return {};
+}
+
+/// Joins the results of shards.
+tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
+  if (!options.report.empty() || !options.programs.empty() || !options.seeds.empty() ||
+      !options.shard.empty() || !options.only.empty())
+    return tl::unexpected(Failure{
+        ExitCode::Usage, "`--merge` runs nothing: it takes only `--format` and `--output`"});
+  std::vector<testing::Part> parts;
+  for (const auto& path : options.paths) {
+    const auto text = read_text(path);
+    if (!text)
+      return tl::unexpected(text.error());
+    auto part = testing::read_results(disk::display_name(path), *text);
+    if (!part)
+      return tl::unexpected(part.error());
+    parts.push_back(*std::move(part));
+  }
+  const auto results = testing::merge(std::move(parts));
+  if (!results)
+    return tl::unexpected(results.error());
+  return tell(context, options, *results);
+}
+
+/// That a test file stands among the programs, where everything behind `--program` belongs.
+tl::expected<void, Failure> check_programs(const TestOptions& options) {
+  for (const auto& path : options.programs)
+    if (path.ends_with(ending))
+      return tl::unexpected(Failure{
+          ExitCode::Usage, fmt::format("`--program` takes programs; put {} before it", path)});
+  return {};
+}
+
 tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
+  if (options.merge)
+    return join(context, options);
+  if (auto programs = check_programs(options); !programs)
+    return programs;
   const auto wanted = suite_options(options);
   if (!wanted)
     return tl::unexpected(wanted.error());
@@ -160,13 +277,14 @@ tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
   testing::RunOptions run;
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
   run.shard = *shard;
-  NoProgress progress;
-  const auto results = testing::run_suite(*suite, run, progress);
-  if (auto written = write_results(context, options, results); !written)
-    return written;
-  if (testing::totals_of(results).failed > 0)
-    context.exit = ExitCode::BadInput;
-  return {};
+  const auto results = [&] {
+    Bar bar(context);
+    return testing::run_suite(*suite, run, bar);
+  }();
+  if (!options.report.empty())
+    if (auto written = write_report(options.report, *suite, results); !written)
+      return written;
+  return tell(context, options, results);
 }
 
 } // namespace
@@ -175,10 +293,14 @@ void add_test(CLI::App& app, Context& context) {
   auto* command =
       add_command(app, "test", "run the tests of programs and judge them",
                   "orb test\norb test corner.test\norb test task.test --program *.bas\n"
-                  "orb test maze.test --seeds 1..200 --format junit --output tests.xml");
+                  "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
+                  "orb test --shard 1/2 --format json > a.json\n"
+                  "orb test --merge a.json b.json --format markdown");
   auto options = std::make_shared<TestOptions>();
   options->paths = {"."};
-  command->add_option("FILE", options->paths, "test files, and folders to search for them")
+  command
+      ->add_option("FILE", options->paths,
+                   "test files, and folders to search for them; with --merge, results")
       ->capture_default_str();
   command->add_option("--program", options->programs,
                       "programs to test, each with every test, in place of those the tests name");
@@ -193,6 +315,12 @@ void add_test(CLI::App& app, Context& context) {
       ->check(one_of(std::move(formats)))
       ->capture_default_str();
   command->add_option("--output", options->output, "the file for the results; else stdout");
+  command
+      ->add_option("--report", options->report,
+                   "a folder for a page with a picture of each run and a replay of each failure")
+      ->type_name("FOLDER");
+  command->add_flag("--merge", options->merge,
+                    "joins results: the files are those that shards wrote with --format json");
   command->callback([&context, options] {
     if (const auto done = test(context, *options); !done)
       fail(context, done.error());
