@@ -9,6 +9,7 @@
 #include "cli/target.h"
 #include "cli/watch.h"
 #include "disk/disk.h"
+#include "testing/suite.h"
 
 #include <algorithm>
 #include <deque>
@@ -35,15 +36,27 @@ using run::Language;
 /// Sources are referred to and must not move.
 using Sources = std::deque<SourceFile>;
 
+/// Whether a file is something else than a program or a macro: a course or tests.
+bool is_no_program(const std::string& path) {
+  return report::is_course(path) || testing::is_test(path);
+}
+
+std::vector<Diagnostic> check_other(const SourceFile& input) {
+  if (report::is_course(input.path))
+    return report::read_course(input.source).findings;
+  DiskFiles disk;
+  return testing::check(input.source, disk);
+}
+
 tl::expected<Sources, Failure> read_sources(const Options& options) {
   Sources sources;
   for (const auto& path : options.files) {
-    if (report::is_course(path)) {
-      auto drawing = read_text(path);
-      if (!drawing)
-        return tl::unexpected(drawing.error());
-      sources.push_back({path, Language::Basic, // of no language; is_course() comes first
-                         Source(disk::display_name(path), *std::move(drawing))});
+    if (is_no_program(path)) {
+      auto text = read_text(path);
+      if (!text)
+        return tl::unexpected(text.error());
+      sources.push_back({path, Language::Basic, // of no language; is_no_program() comes first
+                         Source(disk::display_name(path), *std::move(text))});
       continue;
     }
     auto source = read_source(path, options.lang);
@@ -110,8 +123,8 @@ std::vector<FileFindings> check_all(const Options& options, const Sources& input
   std::vector<FileFindings> files;
   std::size_t next_macro = 0;
   for (const auto& input : inputs) {
-    if (report::is_course(input.path)) {
-      files.push_back({&input.source, report::read_course(input.source).findings, {}});
+    if (is_no_program(input.path)) {
+      files.push_back({&input.source, check_other(input), {}});
       continue;
     }
     switch (input.language) {
@@ -132,8 +145,8 @@ std::vector<FileFindings> check_all(const Options& options, const Sources& input
 std::vector<Diagnostic> findings_of(const Options& options, const SourceFile& input) {
   IncludedSources included;
   auto found = [&] {
-    if (report::is_course(input.path))
-      return report::read_course(input.source).findings;
+    if (is_no_program(input.path))
+      return check_other(input);
     switch (input.language) {
     case Language::Basic: return check_basic(options, input.source).diagnostics;
     case Language::Structured:
@@ -215,13 +228,14 @@ void check(Context& context, const Options& options) {
 } // namespace
 
 void add_check(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "check", "find the mistakes in programs, macros and courses",
-                              "orb check square.bas\n"
-                              "orb check --target 1.2 --ram 1024 *.bas\n"
-                              "orb check --fix patrol.orb\n"
-                              "orb check parking.svg\n"
-                              "orb check --watch square.bas\n"
-                              "orb check --format sarif *.bas *.macro > findings.sarif");
+  auto* command =
+      add_command(app, "check", "find the mistakes in programs, macros, courses and tests",
+                  "orb check square.bas\n"
+                  "orb check --target 1.2 --ram 1024 *.bas\n"
+                  "orb check --fix patrol.orb\n"
+                  "orb check parking.svg\n"
+                  "orb check --watch square.bas\n"
+                  "orb check --format sarif *.bas *.macro > findings.sarif");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
   add_language_option(*command, options->lang);

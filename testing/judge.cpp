@@ -78,7 +78,7 @@ double off(const Expectation& one, const Meaning& meaning, const Sighting& s) {
     }
     return 0;
   case Word::Inside:
-  case Word::Stay: return meaning.zone->distance_cm(s.x, s.y);
+  case Word::Stay: return meaning.zone->distance_cm({s.x, s.y});
   case Word::Heading: return std::max(0.0, turn(s.heading, one.most) - one.by);
   case Word::Speed: return outside(s.speed, one.least, one.most);
   case Word::Moving: return s.moving ? 0 : 1;
@@ -117,7 +117,7 @@ std::string describe(const Expectation& one, const Meaning& meaning, const Sight
   }
   case Word::Inside:
   case Word::Stay: {
-    const double away = meaning.zone->distance_cm(s.x, s.y);
+    const double away = meaning.zone->distance_cm({s.x, s.y});
     return away == 0 ? fmt::format("in {}", one.name.text)
                      : fmt::format("{} cm from {}", above(away, 0), one.name.text);
   }
@@ -235,7 +235,7 @@ public:
     const bool whole = one_.when.kind == When::Kind::AnyTime;
     if (certain() || (!whole && (from.t > one_.when.to || to <= one_.when.from)))
       return;
-    if (meaning_.zone->distance_cm(s.x, s.y) > 0) {
+    if (meaning_.zone->distance_cm({s.x, s.y}) > 0) {
       const Moment at{whole ? from.t : std::max(from.t, one_.when.from), from.running};
       miss(fmt::format("{} at {}", describe(one_, meaning_, s), words(at.t)), at);
     } else if (!whole && to > one_.when.to)
@@ -276,9 +276,7 @@ public:
   void on_bump(const Moment& at, const vm::event::Bump& bump) override {
     if (one_.word != Word::Collision || certain() || !in_time(at.t))
       return;
-    happen(at,
-           fmt::format("it ran into the wall {}={}",
-                       bump.wall.axis == vm::Wall::Axis::X ? 'x' : 'y', plain(bump.wall.at_cm, 2)));
+    happen(at, fmt::format("it ran into the wall {}", vm::to_string(bump.wall)));
   }
 
   void on_error(const Moment& at, const run::ProgramError& error) override {

@@ -14,17 +14,9 @@
 
 namespace orb::testing {
 
-/// An area of the course.
-class Zone {
-public:
-  virtual ~Zone() = default;
-  /// How far a place is from the zone, in centimetres; 0 inside and on its edge.
-  virtual double distance_cm(double x, double y) const = 0;
-};
-
 /// What the names of an expectation stand for in one program.
 struct Meaning {
-  const Zone* zone = nullptr;
+  const report::Zone* zone = nullptr;
   std::optional<int> macro;            ///< the id
   std::optional<std::size_t> variable; ///< of vm::Machine::variable()
   std::size_t packed_bytes = 0;        ///< of the program's image

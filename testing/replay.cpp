@@ -97,6 +97,9 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
     command += " --area flash";
   if (file.file.firmware != spec::default_firmware)
     command += fmt::format(" --firmware {}", spec::info(file.file.firmware).name);
+  if (file.file.course)
+    command +=
+        " --course " + shell(structured::resolve_path(file.source->name(), file.file.course->text));
   for (const auto& line : test.stimulus_lines)
     command += " --stimulus " + shell(line);
   return command + fmt::format(" --report {}", shell(stem(program.name) + ".html"));

@@ -198,6 +198,7 @@ run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t s
   options.target = file.file.target;
   options.firmware = file.file.firmware;
   options.stimuli = test.stimuli;
+  options.course = file.course.get();
   options.until = run::Until::Rest;
   if (std::any_of(test.expectations.begin(), test.expectations.end(), watches_steps))
     options.steps = run::Steps::Heard;

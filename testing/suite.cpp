@@ -184,31 +184,29 @@ void find_macro(const Expectation& one, const Prepared& program, Lookup& found) 
   found.rule = &rules::Macro;
 }
 
-void find_zone(const Expectation& one, const CourseOf& course, Lookup& found) {
-  const auto at = course.zones.find(one.name.text);
-  if (at != course.zones.end()) {
-    found.meaning.zone = at->second.get();
+void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
+  const auto& name = one.name.text;
+  found.meaning.zone = file.course ? file.course->zone(name) : nullptr;
+  if (found.meaning.zone != nullptr)
     return;
-  }
   found.rule = &rules::Zone;
-  if (!course.named) {
-    found.meaning.problem =
-        fmt::format("`{}` is a zone, and the file names no course", one.name.text);
+  if (!file.course) {
+    found.meaning.problem = fmt::format("`{}` is a zone, and the file names no course", name);
     found.help = "write `course hall.svg` at its beginning";
     return;
   }
   std::vector<std::string_view> known;
-  for (const auto& row : course.zones)
-    known.push_back(row.first);
-  found.meaning.problem = fmt::format("the course has no zone `{}`", one.name.text);
-  found.help = meant(one.name.text, known, "zone");
+  for (const auto& zone : file.course->zones)
+    known.push_back(zone.id);
+  found.meaning.problem = fmt::format("the course has no zone `{}`", name);
+  found.help = meant(name, known, "zone");
 }
 
 Lookup look_up(const Expectation& one, const SuiteFile& file, const Prepared& program) {
   Lookup found;
   found.meaning.packed_bytes = program.packed_bytes;
   if (one.word == Word::Inside || one.word == Word::Stay)
-    find_zone(one, file.course, found);
+    find_zone(one, file, found);
   else if (one.word == Word::Marker && !one.name.text.empty())
     find_macro(one, program, found);
   else if (one.word == Word::Variable)
@@ -222,7 +220,8 @@ void check_names(SuiteFile& file, const Prepared* own) {
   for (const auto& test : file.file.tests)
     for (const auto& one : test.expectations) {
       const bool of_course = one.word == Word::Inside || one.word == Word::Stay;
-      if (!of_course && (own == nullptr || !own->problem.empty()))
+      if (of_course ? file.file.course && !file.course // told of the course already
+                    : own == nullptr || !own->problem.empty())
         continue;
       const auto found = look_up(one, file, own == nullptr ? none : *own);
       if (found.rule != nullptr)
@@ -239,6 +238,33 @@ void check_files(SuiteFile& file, structured::Files& files) {
       file.file.diagnostics.push_back(finding(rules::File, with.span,
                                               fmt::format("cannot read {}", path),
                                               "paths count from the folder of the test file"));
+}
+
+/// Reads the course that a file names.
+void read_course(SuiteFile& file, structured::Files& files) {
+  const auto& given = file.file.course;
+  if (!given || given->text.empty())
+    return;
+  const auto path = structured::resolve_path(file.source->name(), given->text);
+  auto& findings = file.file.diagnostics;
+  auto text = files.read(path);
+  if (!text) {
+    findings.push_back(finding(rules::File, given->span, fmt::format("cannot read {}", path),
+                               "paths count from the folder of the test file"));
+    return;
+  }
+  const Source drawing(path, *std::move(text));
+  auto reading = report::read_course(drawing);
+  const auto wrong = std::find_if(reading.findings.begin(), reading.findings.end(), is_error);
+  if (wrong == reading.findings.end()) {
+    file.course = std::make_unique<report::Course>(std::move(reading.course));
+    return;
+  }
+  const auto place = drawing.position(wrong->span.begin);
+  findings.push_back(finding(rules::File, given->span,
+                             fmt::format("the course has mistakes: {}:{}:{}: {}", path, place.line,
+                                         place.column, wrong->message),
+                             fmt::format("`orb check {}` tells them all", path)));
 }
 
 /// Adds the groups of one file, for the given programs or its own.
@@ -290,8 +316,8 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
     SuiteFile file;
     file.source = std::make_unique<Source>(std::move(one.name), std::move(one.text));
     file.file = parse(*file.source);
-    file.course.named = file.file.course.has_value();
     check_files(file, files);
+    read_course(file, files);
     auto& own = programs.emplace_back();
     if (options.programs.empty())
       if (const auto path = program_path(file, files))
@@ -307,6 +333,10 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
   if (!options.only.empty() && suite.groups.empty() && !suite.has_errors())
     return tl::unexpected(no_such_test(suite, options.only));
   return suite;
+}
+
+bool is_test(std::string_view file_name) {
+  return file_name.ends_with(".test");
 }
 
 std::vector<Diagnostic> check(const Source& source, structured::Files& files) {

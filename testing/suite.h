@@ -29,17 +29,11 @@ struct Prepared {
   std::map<std::string, int> macros; ///< ids by name
 };
 
-/// A course with its names.
-struct CourseOf {
-  bool named = false; ///< the file names a course
-  std::map<std::string, std::unique_ptr<Zone>> zones;
-};
-
 /// A test file that has been read.
 struct SuiteFile {
   std::unique_ptr<Source> source;
-  TestFile file; ///< its findings hold those about names, too
-  CourseOf course;
+  TestFile file;                          ///< its findings hold those about names, too
+  std::unique_ptr<report::Course> course; ///< null where it names none, or a bad one
 
   bool has_errors() const;
 };
@@ -81,6 +75,9 @@ struct GivenFile {
 /// tested with the one beside it. Fails where no test has the name `only`.
 tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
                                         structured::Files& files);
+
+/// Whether a file of that name is taken for a test file.
+bool is_test(std::string_view file_name);
 
 /// Everything that is to be said about a test file.
 std::vector<Diagnostic> check(const Source& source, structured::Files& files);
