@@ -29,19 +29,20 @@ struct Kind {
 // Arguments by their name in usage lines, options by their long name. What is not here is free
 // text unless it is checked by `one_of`.
 constexpr Kind kinds[] = {
-    {"FILE", ValueKind::File},       {"MACRO", ValueKind::File},
-    {"SOURCE", ValueKind::File},     {"HEX", ValueKind::File},
-    {"FOLDER", ValueKind::File},     {"WORD", ValueKind::Known},
-    {"SECTION", ValueKind::Section}, {"NAME", ValueKind::Packet},
-    {"URL", ValueKind::Port},        {"RULE", ValueKind::Rule},
-    {"out", ValueKind::File},        {"output", ValueKind::File},
-    {"map", ValueKind::File},        {"stimulus", ValueKind::File},
-    {"trace-out", ValueKind::File},  {"report", ValueKind::File},
-    {"svg", ValueKind::File},        {"record", ValueKind::File},
-    {"state", ValueKind::File},      {"log", ValueKind::File},
-    {"pty", ValueKind::File},        {"port", ValueKind::Port},
-    {"deny", ValueKind::Rule},       {"warn", ValueKind::Rule},
-    {"allow", ValueKind::Rule},      {"firmware", ValueKind::Firmware},
+    {"FILE", ValueKind::File},         {"MACRO", ValueKind::File},
+    {"SOURCE", ValueKind::File},       {"HEX", ValueKind::File},
+    {"FOLDER", ValueKind::File},       {"WORD", ValueKind::Known},
+    {"SECTION", ValueKind::Section},   {"NAME", ValueKind::Packet},
+    {"URL", ValueKind::Port},          {"RULE", ValueKind::Rule},
+    {"out", ValueKind::File},          {"output", ValueKind::File},
+    {"map", ValueKind::File},          {"stimulus", ValueKind::File},
+    {"trace-out", ValueKind::File},    {"report", ValueKind::File},
+    {"svg", ValueKind::File},          {"record", ValueKind::File},
+    {"state", ValueKind::File},        {"log", ValueKind::File},
+    {"pty", ValueKind::File},          {"port", ValueKind::Port},
+    {"program", ValueKind::File},      {"deny", ValueKind::Rule},
+    {"warn", ValueKind::Rule},         {"allow", ValueKind::Rule},
+    {"firmware", ValueKind::Firmware},
 };
 
 std::vector<std::string> words_of(const CLI::Option& option) {

@@ -1,7 +1,7 @@
 #pragma once
 
 // What an editor may ask about a text, without any protocol: places are bytes of a Source. The
-// languages answer in editor/basic.cpp, editor/structured.cpp and editor/macro.cpp.
+// languages answer in editor/basic.cpp, editor/structured.cpp, editor/macro.cpp and editor/test.cpp.
 
 #include "base/diagnostic.h"
 #include "base/source.h"
@@ -112,5 +112,6 @@ struct LanguageService {
 extern const LanguageService basic_service;
 extern const LanguageService structured_service;
 extern const LanguageService macro_service;
+extern const LanguageService test_service;
 
 } // namespace orb::editor

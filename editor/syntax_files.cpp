@@ -4,6 +4,8 @@
 #include "spec/basic.h"
 #include "spec/macro.h"
 #include "structured/words.h"
+#include "testing/vocabulary.h"
+#include "vm/stimulus.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -206,6 +208,51 @@ std::string macro_textmate() {
   return grammar.dump(2) + "\n";
 }
 
+Words test_words() {
+  Words words;
+  for (const auto& row : testing::line_words)
+    words.emplace_back(row.word);
+  for (const auto& row : testing::when_words)
+    words.emplace_back(row.word);
+  for (const auto* word : {"by", "to", "times", "points", "end", "macro"})
+    words.emplace_back(word);
+  return words;
+}
+
+Words expectation_words() {
+  Words words;
+  for (const auto& row : testing::expectations)
+    if (&row != &testing::info(testing::Word::Variable))
+      words.emplace_back(row.word);
+  return words;
+}
+
+Words stimulus_words() {
+  Words words;
+  for (const auto& row : vm::stimulus_words)
+    words.emplace_back(row.word);
+  return words;
+}
+
+std::string test_textmate() {
+  constexpr auto part = "A-Za-z0-9_";
+  const Json grammar{
+      {"comment", generated},
+      {"name", "orb test"},
+      {"scopeName", "source.orbtest"},
+      {"patterns",
+       {pattern("constant.other.color.orbtest", "#[0-9A-Fa-f]{6}\\b"),
+        pattern("comment.line.number-sign.orbtest", "#.*$"),
+        {{"name", "string.quoted.double.orbtest"}, {"begin", "\""}, {"end", "\"|$"}},
+        pattern("string.regexp.orbtest", "(?<=print )/(?:\\\\.|[^/])*/"),
+        words_pattern("keyword.control.orbtest", test_words(), part),
+        words_pattern("support.function.orbtest", expectation_words(), part),
+        words_pattern("support.function.stimulus.orbtest", stimulus_words(), part),
+        pattern("constant.numeric.orbtest",
+                "[-+]?\\d+(?:\\.\\d+)?(?:ms|s|min|mm|cm|m|deg)?(?:/s)?(?![A-Za-z0-9_])")}}};
+  return grammar.dump(2) + "\n";
+}
+
 // ---- Vim
 
 /// `syntax keyword GROUP WORD…`, a few words a line.
@@ -311,15 +358,37 @@ std::string macro_vim() {
   return out + "let b:current_syntax = 'orbmacro'\n";
 }
 
+std::string test_vim() {
+  auto out = vim_head("tests of programs for Sphero robots");
+  out += vim_keywords("orbtestKeyword", test_words());
+  out += vim_keywords("orbtestExpectation", expectation_words());
+  out += vim_keywords("orbtestStimulus", stimulus_words());
+  out += "syntax match orbtestNumber "
+         "/[-+]\\?\\<\\d\\+\\(\\.\\d\\+\\)\\?\\(ms\\|s\\|min\\|mm\\|cm\\|m\\|deg\\)\\?\\>/\n"
+         "syntax match orbtestComment /#.*$/\n"
+         "syntax match orbtestNumber /#\\x\\{6}\\>/\n"
+         "syntax region orbtestString start=/\"/ end=/\"/ oneline\n"
+         "syntax region orbtestString start=+\\%(print \\)\\@<=/+ skip=+\\\\/+ end=+/+ oneline\n";
+  out += vim_links("orbtest", {{"Keyword", "Conditional"},
+                               {"Expectation", "Statement"},
+                               {"Stimulus", "Function"},
+                               {"Number", "Number"},
+                               {"String", "String"},
+                               {"Comment", "Comment"}});
+  return out + "let b:current_syntax = 'orbtest'\n";
+}
+
 } // namespace
 
 std::vector<SyntaxFile> syntax_files() {
   return {{"vscode/syntaxes/orbbasic.tmLanguage.json", basic_textmate()},
           {"vscode/syntaxes/orbstructured.tmLanguage.json", structured_textmate()},
           {"vscode/syntaxes/orbmacro.tmLanguage.json", macro_textmate()},
+          {"vscode/syntaxes/orbtest.tmLanguage.json", test_textmate()},
           {"vim/syntax/orbbasic.vim", basic_vim()},
           {"vim/syntax/orbstructured.vim", structured_vim()},
-          {"vim/syntax/orbmacro.vim", macro_vim()}};
+          {"vim/syntax/orbmacro.vim", macro_vim()},
+          {"vim/syntax/orbtest.vim", test_vim()}};
 }
 
 } // namespace orb::editor

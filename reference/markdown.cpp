@@ -104,7 +104,7 @@ private:
            : section.id.starts_with("stimul") || section.id.starts_with("test-") ||
                    section.id == "expectations"
                ? Language::Test
-                                                  : Language::Basic;
+               : Language::Basic;
   }
 
   void add(const Section& section, const Section& here) {
@@ -192,7 +192,8 @@ std::string contents(const Section& section, const Links& links) {
 
 /// What a fence holds (tests/docs/page.h). A mistake, or a line out of a program, is only text.
 std::string_view fence(std::string_view section, std::string_view caption) {
-  if (caption == "bad" || section.starts_with("test-") || section == "statements" || section == "words" || section == "functions")
+  if (caption == "bad" || section.starts_with("test-") || section == "statements" ||
+      section == "words" || section == "functions")
     return "text";
   if (section.starts_with("api-"))
     return "sh";

@@ -132,11 +132,12 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
   for (const auto ending : endings)
     if (auto path = beside(name, ending); files.read(path))
       return path;
-  findings.push_back(finding(rules::File, {0, 0},
+  findings.push_back(finding(rules::NoProgram, {0, 0},
                              fmt::format("there is no program to test: neither {}, {} nor {}",
                                          beside(name, endings[0]), beside(name, endings[1]),
                                          beside(name, endings[2])),
-                             "name one: `program corner.bas`"));
+                             "name one: `program corner.bas`, or give programs with `--program`"));
+  findings.back().severity = Severity::Error; // to run it; check() lowers that
   return std::nullopt;
 }
 
@@ -160,6 +161,11 @@ void find_variable(const Expectation& one, const Prepared& program, Lookup& foun
   const auto* first = run::first_with_program(program.inputs);
   if (first == nullptr) {
     found.meaning.problem = "there is no program, only macros: no variable";
+  } else if (first->program->compiled) {
+    found.meaning.problem = fmt::format(
+        "{} is a structured program: letters are shared, and `{}` may be gone in the end",
+        program.name, name);
+    found.help = "let the program print the value, and expect that";
   } else if (name.size() == 1 && name[0] >= 'A' && name[0] < static_cast<char>('A' + letters)) {
     found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
   } else {
@@ -341,7 +347,12 @@ bool is_test(std::string_view file_name) {
 
 std::vector<Diagnostic> check(const Source& source, structured::Files& files) {
   auto suite = make_suite({{source.name(), std::string(source.text())}}, {}, files);
-  return suite ? std::move(suite->files.front().file.diagnostics) : std::vector<Diagnostic>();
+  if (!suite)
+    return {};
+  auto& found = suite->files.front().file.diagnostics;
+  for (auto& one : found)
+    one.severity = one.rule->severity;
+  return std::move(found);
 }
 
 } // namespace orb::testing

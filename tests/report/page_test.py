@@ -479,6 +479,42 @@ class Report(unittest.TestCase):
         self.assertIn("goroll 0,60,1", page.evaluate("document.getElementById('source').textContent"))
 
 
+class TestReport(unittest.TestCase):
+    """The page of `orb test --report`: a picture of each run, and a replay of each failure."""
+
+    def test_pictures_are_shown_and_failures_play_back(self):
+        folder = tempfile.TemporaryDirectory(prefix="orb-report.")
+        self.addCleanup(folder.cleanup)
+        name = lambda file: os.path.join(folder.name, file)
+        with open(name("way.bas"), "w", encoding="utf-8") as file:
+            file.write("10 goroll rnd 359,100,1\n20 LEDC 1\n30 delay 900\n40 goroll 0,0,0\n50 delay 900\n")
+        with open(name("way.test"), "w", encoding="utf-8") as file:
+            file.write('test "goes <up>" seeds 1..6\n  expect beyond y>20\ntest "moves"\n  expect moving\n')
+        done = subprocess.run([orb, "test", name("way.test"), "--report", name("out"), "--format", "json"],
+                              stdout=subprocess.PIPE, check=False)
+        self.assertEqual(done.returncode, 1)
+        tests = json.loads(done.stdout)["tests"]
+        failed = sum(case["verdict"] == "failed" for test in tests for case in test["cases"])
+        self.assertGreater(failed, 0)
+        browser = chromium.Browser(chromium.find())
+        self.addCleanup(browser.close)
+        for width in (1280, 400):
+            page = browser.page()
+            page.resize(width, 900, width < 500)
+            page.open(name("out/index.html"))
+            page.wait("[...document.images].every(image => (image.loading = 'eager', image.complete))")
+            self.assertEqual(page.evaluate("document.querySelectorAll('.run').length"), 7)
+            self.assertEqual(page.evaluate("[...document.images].filter(image => image.naturalWidth > 0).length"), 7)
+            self.assertEqual(page.evaluate("document.querySelectorAll('.run.failed').length"), failed)
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+            self.assertEqual(page.complaints, [])
+        replay = page.evaluate("document.querySelector('.run.failed p a').getAttribute('href')")
+        page.open(name(os.path.join("out", replay)))
+        page.wait("document.getElementById('ball') !== null")
+        self.assertIn("goes <up>", page.evaluate("document.title"))
+        self.assertEqual(page.complaints, [])
+
+
 if __name__ == "__main__":
     if chromium.find() is None:
         print("skipped: no chromium here; `./dev report` installs it")

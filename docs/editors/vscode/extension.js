@@ -9,7 +9,7 @@ function activate() {
   const settings = workspace.getConfiguration('orb');
   const command = { command: settings.get('path'), args: ['lsp'] };
   client = new LanguageClient('orb', 'orb', { run: command, debug: command }, {
-    documentSelector: [{ language: 'orbbasic' }, { language: 'orbstructured' }, { language: 'orbmacro' }],
+    documentSelector: [{ language: 'orbbasic' }, { language: 'orbstructured' }, { language: 'orbmacro' }, { language: 'orbtest' }],
     initializationOptions: { target: settings.get('target') },
   });
   return client.start();

@@ -43,7 +43,7 @@ constexpr auto mutants = std::to_array<Mutant>({
     {"print", "expect print ~\"ump\"\n", "10 print \"bumper\"\n", "10 print \"bunper\"\n", "nearest \"bunper\" at 0.3 ms"},
     {"print", "never print \"x\"\n", "10 print \"y\"\n", "10 print \"x\"\n", "\"x\" at 0.3 ms"},
     {"prints", "expect prints\n\"a\"\n\"b\"\n", "10 print \"a\"\n20 print \"b\"\n", "10 print \"a\"\n20 print \"c\"\n", "line 2 is \"c\" at 0.7 ms, not \"b\""},
-    {"near", "expect near 65,0 by 5cm at end\n", drive, "10 goroll 90,86,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "8.0 cm from 65,0 at the end, 2 s"},
+    {"near", "expect near 65,0 by 9cm at end\n", drive, "10 goroll 90,86,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "10.8 cm from 65,0 at the end, 2 s"},
     {"beyond", "expect beyond x>62\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "nearest x 59.7 at 1.24 s"},
     {"inside", "expect inside goal at end\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "2.3 cm from goal at the end, 2 s"},
     {"stay", "expect stay arena\n", "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", drive, "0.1 cm from arena at 1."},
