@@ -59,7 +59,7 @@ bool asks_what(const Spot& spot) {
   return spot.before.size() == 1 && (spot.before[0] == "expect" || spot.before[0] == "never");
 }
 
-std::optional<Hover> hover(const Source& source, std::uint32_t offset) {
+std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto spot = spot_at(source, offset);
   const auto found = [&](const reference::Section& section) -> std::optional<Hover> {
     auto text = find_markdown(section, spot.word, language_id);
@@ -84,7 +84,7 @@ void suggest_rows(Suggestions& out, const Rows& rows, const reference::Section& 
                              entry_markdown(section, entry, language_id)});
 }
 
-Suggestions suggest(const Source& source, std::uint32_t offset) {
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto spot = spot_at(source, offset);
   Suggestions out;
   out.replaces = {spot.span.begin, offset};
@@ -121,12 +121,12 @@ std::vector<Symbol> outline(const Source& source) {
   return symbols;
 }
 
-Occurrences occurrences(const Source&, std::uint32_t) {
+Occurrences occurrences(const Source&, std::uint32_t, const LanguageOptions&) {
   return {};
 }
 
-tl::expected<std::vector<Edit>, std::string> rename(const Source&, std::uint32_t,
-                                                    std::string_view) {
+tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::string_view,
+                                           const LanguageOptions&) {
   return tl::unexpected(std::string("nothing in a test file can be renamed"));
 }
 
