@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "editor/language.h"
 #include "editor/markdown.h"
+#include "editor/text.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
 #include "testing/suite.h"
@@ -17,7 +18,9 @@ constexpr std::string_view language_id = "orbtest";
 
 std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {
   structured::NoFiles none;
-  return testing::check(source, options.files != nullptr ? *options.files : none);
+  // What it names counts from its folder.
+  const Source named(path_of_uri(source.name()), std::string(source.text()));
+  return testing::check(named, options.files != nullptr ? *options.files : none);
 }
 
 /// A word of a line and what stands before it.
