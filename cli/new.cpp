@@ -71,6 +71,34 @@ print "shaken, goodbye"
 macrun wink
 )"};
 
+constexpr Starter test{"%.test",
+                       R"(# What % shall do: `orb test` says whether it does.
+with wink.macro
+for 30s
+at 10s shake
+
+test "drives a square"
+  expect near 0,80 by 15cm
+  expect near 80,80 by 15cm
+  expect near 0,0 by 15cm at 9s
+  expect print ~"corner" 4 times
+
+test "waits for the shake"
+  never print "shaken, goodbye" during 0s..9900ms
+  expect print "shaken, goodbye" within 11s
+  expect color off at end
+)"};
+
+/// The test where there is a course.
+std::string with_course(std::string text) {
+  text.insert(text.find("with "), "course course.svg\n");
+  return text + R"(
+test "comes home"
+  expect inside home at 9s
+  never collision
+)";
+}
+
 // A room of 2 m by 2 m in which the starters drive their square.
 constexpr Starter course{"course.svg",
                          R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -120,6 +148,7 @@ target = "1.6"
 
     orb check %.@ wink.macro
     orb run %.@ --stimulus world.stimulus --report report.html
+    orb test
     orb run wink.macro
     orb upload %.@ --port rfcomm://68:86:E7:00:11:22 --run
 )"},
@@ -156,12 +185,15 @@ void make(Context& context, const Options& options) {
   const auto& program = options.structured ? structured : numbered;
   const auto ending = program.name.substr(2);
   std::vector<Starter> files{program};
+  files.push_back(test);
   files.insert(files.end(), starters.begin(), starters.end());
   if (options.course)
     files.push_back(course);
   for (const auto& starter : files) {
     const auto file = (path / filled(starter.name, name, ending)).lexically_normal().string();
-    const auto text = filled(starter.text, name, ending);
+    auto text = filled(starter.text, name, ending);
+    if (options.course && starter.text == test.text)
+      text = with_course(std::move(text));
     if (const auto written = disk::write(file, as_bytes(text)); !written)
       return fail(context, {ExitCode::File, written.error().message});
     print_out(fmt::format("{}\n", file));
@@ -180,8 +212,9 @@ void add_new(CLI::App& app, Context& context) {
                               "orb new dance\norb new dance --structured --course\norb new .");
   auto options = std::make_shared<Options>();
   command
-      ->add_option("NAME", options->folder,
-                   "the folder to make: a program, a macro, a stimulus script and settings")
+      ->add_option(
+          "NAME", options->folder,
+          "the folder to make: a program, its test, a macro, a stimulus script and settings")
       ->required()
       ->check([](const std::string& name) {
         return name.empty() ? std::string("a name is needed") : std::string();

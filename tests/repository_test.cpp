@@ -194,6 +194,27 @@ TEST(Golden, EveryExampleIsCheckedAndRun) {
   EXPECT_GE(count, 20U);
 }
 
+TEST(Golden, EveryLessonHasATaskAStarterATestAndASolution) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(root / "examples" / "lessons")) {
+    if (!entry.is_directory())
+      continue;
+    ++count;
+    for (const auto* name : {"README.md", "robot.orb", "robot.test", "solution.orb"})
+      EXPECT_TRUE(fs::exists(entry.path() / name)) << entry.path() << ": " << name;
+    // The transcript says that the starter fails and that the solution passes.
+    const auto lesson = entry.path().filename().string();
+    const auto shown = read_all(root / "tests" / "golden" / "lessons" / (lesson + ".txt"));
+    const auto solved = shown.find("--program solution.orb");
+    ASSERT_NE(solved, std::string::npos) << lesson;
+    EXPECT_NE(shown.substr(0, solved).find("[exit 1]"), std::string::npos) << lesson;
+    const std::regex all(R"((\d+) of \1 tests passed)");
+    EXPECT_TRUE(std::regex_search(shown.substr(solved), all)) << lesson;
+    EXPECT_EQ(shown.find("FAIL", solved), std::string::npos) << lesson;
+  }
+  EXPECT_EQ(count, 10U);
+}
+
 TEST(Golden, EveryRuleIsShown) {
   std::string shown;
   for (const auto& file : files_below(root / "tests" / "golden", {".txt"}))
