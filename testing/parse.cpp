@@ -162,7 +162,7 @@ private:
         return cursor.fail(rules::Word, fmt::format("`{}` begins no line", word),
                            fmt::format("write `expect {}` or `never {}`", word, word));
     cursor.fail(
-        rules::Word, fmt::format("`{}` is no word of a test file", word),
+        rules::Word, fmt::format("`{}` is not a word of a test file", word),
         did_you_mean(word, known,
                      fmt::format("a line begins with {}, or with a stimulus such as `at 1s shake`",
                                  words_of(line_words))));
@@ -444,7 +444,7 @@ private:
       return;
     if (!cursor.take_word("by"))
       return cursor.fail(rules::Syntax, "`by` is missing: how far away the ball may be",
-                         "a ball is no measuring instrument: write it like `by 12cm`");
+                         "a ball is not a measuring instrument: write it like `by 12cm`");
     one.by = cursor.length();
   }
 
