@@ -48,12 +48,27 @@ bool assigns(std::string_view text, std::size_t at) {
   return at < text.size() && text[at] == '=';
 }
 
+/// What stands before a place, blanks and the ends of lines apart.
+char sign_before(std::string_view text, std::uint32_t at) {
+  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
+    --at;
+  return at == 0 ? '\n' : text[at - 1];
+}
+
+bool begins_line(std::string_view text, std::uint32_t at) {
+  while (at > 0 && is_blank(text[at - 1]))
+    --at;
+  return at == 0 || is_line_end(text[at - 1]);
+}
+
 /// A word of the language where the line makes sense only with a name: `heading = 90`.
 std::optional<Span> word_for_name(const Program& program, Reason reason, Span found) {
   const std::string_view text = program.text;
   const auto kind = find_word(program.text_of(found)).kind;
   if (reason == Reason::ExpectedExpression && kind == WordKind::Statement)
-    return found;
+    return begins_line(text, found.begin) || text.substr(found.end).starts_with('(')
+               ? std::nullopt
+               : std::optional(found);
   if (reason == Reason::NotAStatement && kind != WordKind::Name)
     return assigns(text, text.find_first_not_of(" \t", found.end)) ? std::optional(found)
                                                                    : std::nullopt;
@@ -115,9 +130,16 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     if (text == ":")
       return finding(rules::ForeignWord, found, "`:` does not separate statements",
                      "write one statement on a line");
+    if (text == "+" && sign_before(program.text, found.begin) == '"')
+      return malformed(program, found, "texts are not added",
+                       "write what to print side by side: `print \"x is \" x`");
     return malformed(program, found, "the statement is complete");
   case Reason::ExpectedStatement: return malformed(program, found, "a statement is missing");
-  case Reason::ExpectedExpression: return malformed(program, found, "a value is missing");
+  case Reason::ExpectedExpression:
+    if (begins_line(program.text, found.begin) && sign_before(program.text, found.begin) == '{')
+      return finding(rules::MalformedLine, found, "`{` shifts left, and no value follows it",
+                     "blocks need no braces; they end with `next`, `end if`, `end while` …");
+    return malformed(program, found, "a value is missing");
   case Reason::ExpectedPlace:
     return malformed(program, found, "a variable or an element belongs here");
   case Reason::ExpectedName: return malformed(program, found, "a name belongs here");
