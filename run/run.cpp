@@ -492,6 +492,35 @@ std::optional<Failure> objection(const Load& load) {
   return std::nullopt;
 }
 
+/// What the world does to the ball.
+void schedule(const Options& options, vm::Ball& ball) {
+  if (options.course != nullptr)
+    ball.schedule(options.course->stimuli());
+  ball.schedule(options.stimuli);
+  for (const auto number : options.numbers)
+    ball.queue_input(number);
+}
+
+Ending ending_of(std::span<const Input> inputs, const Options& options, const Watcher& watcher,
+                 const vm::Ball& ball, Instant limit) {
+  Ending ending;
+  ending.reason = reason_of(ball, watcher, limit);
+  ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
+  ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
+  ending.seen_to = options.until == Until::Rest
+                       ? std::max(ending.lasted, ball.now() - watcher.start())
+                       : ending.lasted;
+  ending.seen = watcher.seen();
+  ending.only_interpreted = ball.machine().only_interpreted();
+  if (const auto* code = ball.machine().machine_code())
+    ending.machine_code = code->pieces();
+  ending.aborted = how_aborted(watcher.macro_end());
+  ending.sight = watcher.sight();
+  ending.waits_for = waits_for(ending.reason, inputs, options, ball);
+  ending.faults = watcher.faults();
+  return ending;
+}
+
 } // namespace
 
 tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& options,
@@ -517,11 +546,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   watcher.begin(ball, streams ? Watcher::From::FirstCommand : Watcher::From::Now);
   if (journey != nullptr)
     describe(inputs, options, *journey);
-  if (options.course != nullptr)
-    ball.schedule(options.course->stimuli());
-  ball.schedule(options.stimuli);
-  for (const auto number : options.numbers)
-    ball.queue_input(number);
+  schedule(options, ball);
   const auto started = load.programs.empty()
                            ? start_macro(*load.macros.front(), options, ball, session)
                            : start_program(*load.programs.front().program, options, ball);
@@ -538,21 +563,7 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   if (started == Started::Refused || answer.refused())
     return tl::unexpected(refusal(load, options));
 
-  Ending ending;
-  ending.reason = reason_of(ball, watcher, limit);
-  ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
-  ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
-  ending.seen_to = options.until == Until::Rest
-                       ? std::max(ending.lasted, ball.now() - watcher.start())
-                       : ending.lasted;
-  ending.seen = watcher.seen();
-  ending.only_interpreted = ball.machine().only_interpreted();
-  if (const auto* code = ball.machine().machine_code())
-    ending.machine_code = code->pieces();
-  ending.aborted = how_aborted(watcher.macro_end());
-  ending.sight = watcher.sight();
-  ending.waits_for = waits_for(ending.reason, inputs, options, ball);
-  ending.faults = watcher.faults();
+  const auto ending = ending_of(inputs, options, watcher, ball, limit);
   listener.on_end(ending);
   if (journey != nullptr)
     journey->finish(ending.seen_to, std::string(to_string(ending.reason)), to_string(ending));
