@@ -38,7 +38,8 @@ std::vector<Stamp> stamps(const std::vector<std::string>& files) {
   return list;
 }
 
-/// The signals that end watching, held back so that none is lost between two looks.
+/// The signals that end watching, held back so that none is lost between two looks; in the watching
+/// process for good, so that a second one does not end it before its exit code.
 class Held {
 public:
   Held() {
@@ -47,10 +48,8 @@ public:
       sigaddset(&signals_, signal);
     sigprocmask(SIG_BLOCK, &signals_, &before_);
   }
-  ~Held() { release(); }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
 
+  /// For the process of a run, which they end.
   void release() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
   /// Waits one period; true when a signal came.
   bool came() const { return sigtimedwait(&signals_, nullptr, &period) > 0; }
