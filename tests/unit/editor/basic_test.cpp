@@ -93,7 +93,8 @@ TEST(LspBasicCompletion, FollowsThePlaceInTheLine) {
 
 TEST(LspBasicCompletion, ReplacesTheWordThatIsBeingTyped) {
   Session session("10 gor 0,0,0\n");
-  for (const auto& item : session.at("completion", 0, 6)["items"])
+  const auto completion = session.at("completion", 0, 6);
+  for (const auto& item : completion["items"])
     EXPECT_EQ(item["textEdit"]["range"], json_range(0, 3, 6));
 }
 
