@@ -6,11 +6,9 @@
 #include "protocol/payload.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
-#include <utility>
 
 namespace orb::cli {
 namespace {
@@ -38,30 +36,22 @@ const spec::CommandInfo* find(const Context& context, const std::string& name) {
 template <class Told>
 auto with_answer(spec::ApiCommand command, const protocol::Response& response, Told told) {
   protocol::Describer describer;
-  const auto packets =
-      std::pair{encode(protocol::make_command(command, {}, response.seq)), encode(response)};
-  protocol::Decoder to_ball(protocol::Direction::ToBall);
-  to_ball.feed(packets.first);
-  (void)describer.parts(*to_ball.next()); // the answer's fields are those of the command
-  protocol::Decoder from_ball(protocol::Direction::FromBall);
-  from_ball.feed(packets.second);
-  return told(describer, *from_ball.next());
+  const auto asked = protocol::make_command(command, {}, response.seq);
+  const auto question = encode(asked);
+  (void)describer.parts(item_of(asked, question)); // the answer's fields are those of the command
+  const auto packet = encode(response);
+  return told(describer, item_of(response, packet));
 }
 
-/// The messages that are the rest of an answer: the answer itself only says that they will come.
-constexpr std::array late{spec::AsyncId::Level1Diagnostics, spec::AsyncId::ConfigBlock,
-                          spec::AsyncId::SelfLevelResult, spec::AsyncId::SoulBlock};
 constexpr Duration patience = 60s; // a ball that levels itself takes its time
-
-constexpr std::uint8_t starts_self_level = 1; // bit 0 of its options; source: API §Self Level
 
 /// The message that the answer to a command announces; null for most, and where it only stops.
 const spec::AsyncInfo* announced(spec::ApiCommand command, const Bytes& data) {
-  if (command == spec::ApiCommand::SelfLevel && (data.at(0) & starts_self_level) == 0)
+  if (command == spec::ApiCommand::SelfLevel && (data.at(0) & spec::self_level_options::start) == 0)
     return nullptr;
   const auto ids = fmt::format("{:02X}h {:02X}h", spec::did(command), spec::cid(command));
   const auto row = std::find_if(spec::asyncs.begin(), spec::asyncs.end(), [&](const auto& one) {
-    return one.enabler == ids && std::find(late.begin(), late.end(), one.id) != late.end();
+    return one.arrival == spec::Arrival::AsAnswer && one.enabler == ids;
   });
   return row == spec::asyncs.end() ? nullptr : &*row;
 }
@@ -87,23 +77,13 @@ std::optional<protocol::Async> wait_for(uploader::Session& session, spec::AsyncI
 /// A message on a line, or as it is where all of it is text.
 std::string in_words(const protocol::Async& message) {
   const auto packet = encode(message);
-  protocol::Decoder decoder(protocol::Direction::FromBall);
-  decoder.feed(packet);
-  const auto item = *decoder.next();
+  const auto item = item_of(message, packet);
   protocol::Describer describer;
   const auto parts = describer.parts(item);
   if (parts.fields.size() == 1 && !parts.fields[0].number && parts.rest.empty() &&
       spec::fields(static_cast<spec::AsyncId>(message.id))[0].unit == "text")
     return parts.fields[0].text;
   return describer.describe(item) + "\n";
-}
-
-Json message_json(const protocol::Async& message) {
-  const auto packet = encode(message);
-  protocol::Decoder decoder(protocol::Direction::FromBall);
-  decoder.feed(packet);
-  protocol::Describer describer;
-  return packet_json(describer, *decoder.next());
 }
 
 ExitCode print_answer(const Context& context, const Options& options, spec::ApiCommand command,

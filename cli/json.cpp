@@ -75,6 +75,12 @@ Json packet_json(protocol::Describer& describer, const Item& item) {
   return json;
 }
 
+Json message_json(const protocol::Async& message) {
+  const auto packet = encode(message);
+  protocol::Describer describer;
+  return packet_json(describer, item_of(message, packet));
+}
+
 void print_json(const Json& json) {
   print_out(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -23,6 +23,9 @@ void put_fields(Json& json, const protocol::Parts& parts);
 /// (docs/json.md).
 Json packet_json(protocol::Describer& describer, const protocol::Item& item);
 
+/// A message of the ball, as packet_json() tells it.
+Json message_json(const protocol::Async& message);
+
 /// Prints a value on a line of its own.
 void print_json(const Json& json);
 

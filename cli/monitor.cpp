@@ -51,17 +51,6 @@ std::optional<run::ProgramError> explain(const Reported& reported, const Lookup&
   return run::explain(*lookup.input, {}, reported.line, *known, nullptr);
 }
 
-/// The message as a packet that can be described; `packet` are its bytes.
-protocol::Item item_of(const Async& message, ByteView packet) {
-  protocol::Item item;
-  item.kind = protocol::Item::Kind::Async;
-  item.flags = packet[1]; // SOP2
-  item.code = message.id;
-  item.data = message.data;
-  item.raw = packet;
-  return item;
-}
-
 /// What to write instead: of the value that was wrong, else of what the linter says.
 const std::string& help_of(const run::ProgramError& fault) {
   return fault.cause.help.empty() ? fault.help : fault.cause.help;
@@ -89,9 +78,7 @@ void print_fault(const Context& context, const Lookup& lookup, const Reported& r
 
 /// A message as JSON; a fault has its place and cause as well.
 void print_json_message(const Async& message, const Lookup& lookup, Watched& watched) {
-  const auto packet = encode(message);
-  protocol::Describer describer;
-  auto json = packet_json(describer, item_of(message, packet));
+  auto json = message_json(message);
   const auto reported = fault_in(message);
   watched.faulted |= reported.has_value();
   if (const auto fault = reported ? explain(*reported, lookup) : std::nullopt) {

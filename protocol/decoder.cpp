@@ -21,7 +21,37 @@ std::size_t find_start(ByteView bytes, std::size_t from) {
              : static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - bytes.data());
 }
 
+Item whole_packet(Item::Kind kind, ByteView data, ByteView packet) {
+  Item item;
+  item.kind = kind;
+  item.flags = packet[1]; // SOP2
+  item.data = data;
+  item.raw = packet;
+  return item;
+}
+
 } // namespace
+
+Item item_of(const Command& command, ByteView packet) {
+  auto item = whole_packet(Item::Kind::Command, command.data, packet);
+  item.did = command.did;
+  item.cid = command.cid;
+  item.seq = command.seq;
+  return item;
+}
+
+Item item_of(const Response& response, ByteView packet) {
+  auto item = whole_packet(Item::Kind::Response, response.data, packet);
+  item.code = response.code;
+  item.seq = response.seq;
+  return item;
+}
+
+Item item_of(const Async& message, ByteView packet) {
+  auto item = whole_packet(Item::Kind::Async, message.data, packet);
+  item.code = message.id;
+  return item;
+}
 
 void Decoder::feed(ByteView bytes) {
   if (!pending()) {

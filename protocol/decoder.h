@@ -34,6 +34,12 @@ struct Item {
   Async async() const { return {code, {data.begin(), data.end()}}; }
 };
 
+/// A packet made here, as a Decoder would find it. `packet` are its bytes; the item's views live as
+/// long as both.
+Item item_of(const Command& command, ByteView packet);
+Item item_of(const Response& response, ByteView packet);
+Item item_of(const Async& message, ByteView packet);
+
 /// Finds packets in a stream that arrives in pieces of any size. It resynchronises after noise and
 /// damaged packets, never fails, and keeps no more than one incomplete packet between feeds.
 ///

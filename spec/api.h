@@ -249,17 +249,21 @@ enum class AsyncId : std::uint8_t {
 #include "spec/async.def"
 };
 
+/// Whether a message comes of itself, or as the rest of an answer that only announced it.
+enum class Arrival : std::uint8_t { Unasked, AsAnswer };
+
 struct AsyncInfo {
   AsyncId id;
   std::string_view name;    ///< kebab-case
   std::string_view enabler; ///< the command that turns it on, DID and CID; empty when none does
+  Arrival arrival;
   std::string_view source;
   std::string_view summary;
 };
 
 inline constexpr auto asyncs = std::to_array<AsyncInfo>({
-#define ASYNC(enumerator, code, name, enabler, source, summary)                                    \
-  {AsyncId::enumerator, name, enabler, source, summary},
+#define ASYNC(enumerator, code, name, enabler, arrival, source, summary)                           \
+  {AsyncId::enumerator, name, enabler, Arrival::arrival, source, summary},
 #include "spec/async.def"
 });
 
