@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "cli/progress_bar.h"
 #include "cli/target.h"
+#include "spec/limits.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -246,7 +247,9 @@ void add_upload(CLI::App& app, Context& context) {
       ->check([](const std::string& text) {
         return text.empty() || parse_number<std::uint16_t>(text).value_or(0) > 0
                    ? std::string()
-                   : "`" + text + "` is not a line number; write one from 1 to 65535";
+                   : fmt::format("`{}` is not a line number; write one from {} to {}", text,
+                                 spec::value_of(spec::Limit::LeastLineNumber),
+                                 spec::value_of(spec::Limit::GreatestLineNumber));
       });
   command->add_option("--as", options->as, "how macros are kept")
       ->check(one_of({"temp", "user", "stream"}));

@@ -27,7 +27,8 @@ using compiler::Program;
 
 constexpr std::string_view language_id = "orbbasic";
 constexpr std::string_view allow_mark = "orb: allow";
-constexpr std::uint32_t most_line_number = 65535;
+constexpr auto most_line_number =
+    static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber));
 
 // ---- words of one line, for text that need not parse
 

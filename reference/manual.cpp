@@ -3,6 +3,7 @@
 #include "base/exit_code.h"
 #include "base/utf8.h"
 #include "reference/knowledge.h"
+#include "spec/limits.h"
 
 #include <algorithm>
 #include <array>
@@ -312,7 +313,7 @@ std::string section_text(const Section& section) {
 
 constexpr std::string_view basic_intro =
     "orbBasic is the programming language inside Sphero robots of the first generation. "
-    "A program is a list of lines, and each line is a number from 1 to 65535, at least one blank, "
+    "A program is a list of lines, and each line is a number from {} to {}, at least one blank, "
     "and one statement. The lines run in the order of the text, about 3000 in a second. Keywords "
     "and system variables are written exactly as on this page: `RGB` is a statement, `rgb` is "
     "none. A single quote begins a comment, which never reaches the robot.";
@@ -343,7 +344,10 @@ constexpr std::string_view macro_example = ".macro blink id=40 flags=motor_contr
 
 ManualPage basic_page(const std::vector<Section>& sections) {
   auto text = head("orbbasic", 7, "the programming language of Sphero robots");
-  text += ".Sh DESCRIPTION\n" + prose(basic_intro) + ".Pp\n" + prose(basic_values);
+  text += ".Sh DESCRIPTION\n" +
+          prose(fmt::format(basic_intro, spec::value_of(spec::Limit::LeastLineNumber),
+                            spec::value_of(spec::Limit::GreatestLineNumber))) +
+          ".Pp\n" + prose(basic_values);
   for (const auto* id :
        {"statements", "functions", "variables", "operators", "errors", "limits", "basic-flags"})
     for (const auto& section : sections)
