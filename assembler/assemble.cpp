@@ -3,6 +3,7 @@
 #include "assembler/parse.h"
 #include "assembler/rules.h"
 #include "base/suggest.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -438,9 +439,8 @@ private:
         report(rules::OperandCount, value->span,
                info.operand_count == 0
                    ? fmt::format("`{}` takes no operand", info.mnemonic)
-                   : fmt::format("`{}` takes {} operand{}, found {}", info.mnemonic,
-                                 info.operand_count, info.operand_count == 1 ? "" : "s",
-                                 statement.count),
+                   : fmt::format("`{}` takes {}, found {}", info.mnemonic,
+                                 plural(info.operand_count, "operand"), statement.count),
                info.operand_count == 0 ? std::string()
                                        : fmt::format("they are {}", operand_list(info)));
         return false;
@@ -751,8 +751,7 @@ std::size_t AssembledMacro::framed_size() const {
 }
 
 bool Assembly::has_errors() const {
-  return std::any_of(diagnostics.begin(), diagnostics.end(),
-                     [](const Diagnostic& d) { return d.severity == Severity::Error; });
+  return any_error(diagnostics);
 }
 
 Assembly assemble(const Source& source, Folding folding) {

@@ -25,6 +25,10 @@ Diagnostic finding(const Rule& rule, Span span, std::string message, std::string
   return diagnostic;
 }
 
+bool any_error(const std::vector<Diagnostic>& findings) {
+  return std::any_of(findings.begin(), findings.end(), is_error);
+}
+
 Counts count(const std::vector<FileFindings>& files) {
   Counts counts;
   for (const auto& file : files)

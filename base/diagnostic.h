@@ -61,6 +61,11 @@ struct Diagnostic {
 /// A finding of `rule` at `span`, with the rule's severity.
 Diagnostic finding(const Rule& rule, Span span, std::string message, std::string help = {});
 
+inline bool is_error(const Diagnostic& diagnostic) {
+  return diagnostic.severity == Severity::Error;
+}
+bool any_error(const std::vector<Diagnostic>& findings);
+
 /// The findings of one file, as the renderers take them.
 struct FileFindings {
   const Source* source = nullptr;

@@ -1,4 +1,5 @@
 #include "base/render.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
 #include <algorithm>
@@ -49,10 +50,6 @@ std::string excerpt(const Source& source, Span span, Role role, Style style) {
                  std::string(code_points(before) + (from > 0 ? 1 : 0), ' '),
                  style.paint(role, caret));
   return out;
-}
-
-std::string plural(std::size_t n, std::string_view word) {
-  return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
 }
 
 } // namespace

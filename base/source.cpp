@@ -5,6 +5,16 @@
 
 namespace orb {
 
+std::string_view file_name(std::string_view path) {
+  return path.substr(path.rfind('/') + 1); // npos + 1 is the begin
+}
+
+std::string_view stem(std::string_view path) {
+  const auto name = file_name(path);
+  const auto dot = name.rfind('.');
+  return dot == 0 ? name : name.substr(0, dot);
+}
+
 Source::Source(std::string name, std::string text)
     : name_(std::move(name)), text_(std::move(text)) {
   starts_.push_back(0);

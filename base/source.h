@@ -24,6 +24,11 @@ struct Position {
   friend constexpr bool operator==(Position, Position) = default;
 };
 
+/// The last part of a path: all of it where there is no `/`.
+std::string_view file_name(std::string_view path);
+/// The name of a file without folders and ending.
+std::string_view stem(std::string_view path);
+
 /// A named text with its lines found once. LF, CR and CRLF all end a line (decision A-3).
 class Source {
 public:

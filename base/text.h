@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -44,6 +46,13 @@ constexpr std::string_view trim(std::string_view text) {
     text.remove_suffix(1);
   return text;
 }
+
+/// `1 byte`, `2 bytes`: a count and its noun, whose plural ends in an s.
+std::string plural(std::uint64_t count, std::string_view noun);
+
+/// `text` as a text or an attribute of HTML, SVG and XML: valid UTF-8, without the characters that
+/// XML 1.0 forbids.
+std::string escape_markup(std::string_view text);
 
 /// The number that all of `text` is, in the form of std::from_chars: no sign `+`, no blanks.
 /// `form` is the base of a whole number, or a std::chars_format. Nothing where it does not fit.

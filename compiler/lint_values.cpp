@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "compiler/lint_passes.h"
 
 #include "compiler/range.h"
@@ -386,9 +387,9 @@ private:
     const auto count = static_cast<std::int32_t>(targets.size());
     const auto range = range_of(selector);
     if (range.misses(1, count))
-      findings_.add(rules::SelectorRange, selector.span,
-                    fmt::format("the list has {} line{}, found {}", count, count == 1 ? "" : "s",
-                                shown(range)));
+      findings_.add(
+          rules::SelectorRange, selector.span,
+          fmt::format("the list has {}, found {}", plural(targets.size(), "line"), shown(range)));
   }
 
   void check_print(const StatementNode& statement) {

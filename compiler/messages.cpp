@@ -109,7 +109,7 @@ private:
     const auto most = row.parameters().size();
     return row.required < most
                ? fmt::format("`{}` takes {} or {} values", row.word, row.required, most)
-               : fmt::format("`{}` takes {} value{}", row.word, most, most == 1 ? "" : "s");
+               : fmt::format("`{}` takes {}", row.word, plural(most, "value"));
   }
 
   Diagnostic unknown_word() const {

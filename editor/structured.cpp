@@ -74,10 +74,6 @@ Compiled compile(const Source& source, const LanguageOptions& options) {
                              options.files != nullptr ? *options.files : no_files);
 }
 
-std::string_view file_name_of(std::string_view path) {
-  return path.substr(path.rfind('/') + 1); // all of it where there is no `/`
-}
-
 // ---- names
 
 /// What a name stands for: a symbol, or a label of a routine.
@@ -301,7 +297,7 @@ std::string lines_where(const Part& part, bool is_set) {
     const auto line = place->source->position(place->span.begin).line;
     const bool own = place->source == part.reading.sources[part.file];
     auto words = own ? fmt::format("{}", line)
-                     : fmt::format("{}:{}", file_name_of(place->source->name()), line);
+                     : fmt::format("{}:{}", file_name(place->source->name()), line);
     if (lines.empty() || lines.back() != words)
       lines.push_back(std::move(words));
   }
@@ -354,7 +350,7 @@ std::string declaration_markdown(const Part& part, const structured::Symbol& sym
   if (above.starts_with("'"))
     text += fmt::format("{}\n", trim(above.substr(1)));
   if (place->source != part.reading.sources[part.file])
-    text += fmt::format("\nin `{}`\n", file_name_of(source.name()));
+    text += fmt::format("\nin `{}`\n", file_name(source.name()));
   return text;
 }
 

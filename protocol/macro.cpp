@@ -1,4 +1,5 @@
 #include "protocol/macro.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -34,10 +35,6 @@ MacroError cut_operand(ByteView bytes, std::uint32_t offset, const spec::MacroCo
   return error;
 }
 
-std::string plural(std::uint32_t count) {
-  return count == 1 ? "1 byte" : fmt::format("{} bytes", count);
-}
-
 std::string seen_and_expected(const MacroError& error) {
   switch (error.kind) {
   case MacroError::Kind::NoHeader:
@@ -52,13 +49,14 @@ std::string seen_and_expected(const MacroError& error) {
     return fmt::format("the bytes end inside `{}` ({:02X}h); expected its operand `{}`, {} of the "
                        "{} that the command takes are there",
                        error.command->mnemonic, error.byte, error.operand->name, error.present,
-                       plural(error.wanted));
+                       plural(error.wanted, "byte"));
   case MacroError::Kind::CutText:
     return fmt::format("the bytes end inside a `{}` ({:02X}h); expected {} of text, found {}",
-                       error.command->mnemonic, error.byte, plural(error.wanted), error.present);
+                       error.command->mnemonic, error.byte, plural(error.wanted, "byte"),
+                       error.present);
   case MacroError::Kind::AfterEnd:
-    return fmt::format("{} after `{}`; expected the macro to end here", plural(error.present),
-                       spec::info(MacroCommand::End).mnemonic);
+    return fmt::format("{} after `{}`; expected the macro to end here",
+                       plural(error.present, "byte"), spec::info(MacroCommand::End).mnemonic);
   }
   return {};
 }

@@ -1,5 +1,6 @@
 // What the macro tables know.
 
+#include "base/text.h"
 #include "reference/sections.h"
 #include "spec/macro.h"
 
@@ -12,9 +13,8 @@ std::string describe(const spec::MacroOperand& operand) {
   if (operand.kind == spec::MacroOperandKind::Text)
     return fmt::format("text, its length in {} bytes before it", operand.width);
   const auto unit = spec::to_string(operand.unit);
-  auto out =
-      fmt::format("{} to {}{}{}, {} byte{}", operand.minimum, operand.maximum,
-                  unit.empty() ? "" : " ", unit, operand.width, operand.width == 1 ? "" : "s");
+  auto out = fmt::format("{} to {}{}{}, {}", operand.minimum, operand.maximum,
+                         unit.empty() ? "" : " ", unit, plural(operand.width, "byte"));
   for (std::size_t i = 0; i < operand.word_count; ++i)
     out +=
         fmt::format("{}{} {}", i == 0 ? "; " : ", ", operand.words[i].value, operand.words[i].word);

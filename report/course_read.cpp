@@ -117,8 +117,8 @@ public:
 
   CourseReading read() {
     const auto& name = source_.name();
-    const auto stem = name.substr(name.rfind('/') + 1);
-    out_.course.name = is_course(stem) ? stem.substr(0, stem.size() - 4) : stem; // .svg
+    const auto file = file_name(name);
+    out_.course.name = is_course(file) ? stem(file) : file;
     if (is_text() && parse())
       read_drawing();
     sort_by_place(out_.findings);
@@ -131,10 +131,7 @@ private:
     if (out_.findings.size() < most_findings)
       out_.findings.push_back(finding(rule, span, std::move(message), std::move(help)));
   }
-  bool failed() const {
-    return std::any_of(out_.findings.begin(), out_.findings.end(),
-                       [](const Diagnostic& one) { return one.severity == Severity::Error; });
-  }
+  bool failed() const { return any_error(out_.findings); }
   /// `<name` in the text.
   Span place(const pugi::xml_node& node) const {
     const auto offset = node.offset_debug();

@@ -1,5 +1,6 @@
 #include "report/svg.h"
 
+#include "base/text.h"
 #include "base/utf8.h"
 
 #include <algorithm>
@@ -167,13 +168,6 @@ std::string walls(const Journey& journey, const Frame& frame) {
   return out;
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : to_valid_utf8(text))
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  return out;
-}
-
 std::string zones(const Course& course, const Frame& frame) {
   std::string out;
   for (const auto& zone : course.zones) {
@@ -188,7 +182,7 @@ std::string zones(const Course& course, const Frame& frame) {
                        "<text class=\"zone-name\" x=\"{}\" y=\"{}\" "
                        "text-anchor=\"middle\">{}</text>\n",
                        zone.fill == Zone::Fill::EvenOdd ? " fill-rule=\"evenodd\"" : "", d,
-                       number(top.x), number(top.y + 15), escaped(zone.id));
+                       number(top.x), number(top.y + 15), escape_markup(zone.id));
   }
   return out;
 }

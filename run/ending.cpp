@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "run/run.h"
 
 #include <algorithm>
@@ -56,8 +57,7 @@ std::string way(const Sight& sight) {
 std::string blows(const Sight& sight) {
   if (sight.bumps == 0)
     return "";
-  const auto walls =
-      fmt::format("hit {} wall{}", sight.walls.size(), sight.walls.size() == 1 ? "" : "s");
+  const auto walls = fmt::format("hit {}", plural(sight.walls.size(), "wall"));
   return sight.bumps == sight.walls.size() ? walls : fmt::format("{} {} times", walls, sight.bumps);
 }
 

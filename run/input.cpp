@@ -32,13 +32,6 @@ bool is_built(std::string_view text) {
   return text.ends_with('\0');
 }
 
-/// The name of a file without folders and ending.
-std::string stem(std::string_view name) {
-  name = name.substr(name.rfind('/') + 1);
-  const auto dot = name.rfind('.');
-  return std::string(dot == 0 ? name : name.substr(0, dot));
-}
-
 void read_program(Input& input, const compiler::Target& target, Lint lint) {
   auto checked = compiler::check(input.source->text(), target);
   // A file that is not a program at all (empty, binary, huge) is of no use, linted or not.
@@ -54,7 +47,7 @@ void read_program(Input& input, const compiler::Target& target, Lint lint) {
 void read_macro_source(Input& input, Lint lint) {
   auto assembly = assembler::assemble(*input.source);
   for (const auto& macro : assembly.macros) {
-    Macro read{macro.name.empty() ? stem(input.source->name()) : macro.name,
+    Macro read{macro.name.empty() ? std::string(stem(input.source->name())) : macro.name,
                macro.image(),
                macro.id.has_value(),
                {}};
@@ -64,14 +57,6 @@ void read_macro_source(Input& input, Lint lint) {
   }
   input.findings =
       lint == Lint::On ? assembler::check(*input.source) : std::move(assembly.diagnostics);
-}
-
-bool is_error(const Diagnostic& diagnostic) {
-  return diagnostic.severity == Severity::Error;
-}
-
-bool any_error(const std::vector<Diagnostic>& findings) {
-  return std::any_of(findings.begin(), findings.end(), is_error);
 }
 
 /// Without the linter only what keeps a program from becoming lines is told.
@@ -124,7 +109,7 @@ tl::expected<void, Failure> read_macro_bytes(Input& input, Content content) {
                                                                   protocol::to_string(error))});
   };
   const auto bytes = as_bytes(input.source->text());
-  Macro macro{stem(input.source->name()), {}, content == Content::MacroImage, {}};
+  Macro macro{std::string(stem(input.source->name())), {}, content == Content::MacroImage, {}};
   if (content == Content::MacroImage) {
     auto image = protocol::decode_macro(bytes);
     if (!image)

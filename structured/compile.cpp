@@ -140,8 +140,7 @@ private:
 } // namespace
 
 bool Compiled::has_errors() const {
-  return std::any_of(program.diagnostics.begin(), program.diagnostics.end(),
-                     [](const Diagnostic& d) { return d.severity == Severity::Error; });
+  return any_error(program.diagnostics);
 }
 
 namespace {

@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "structured/names.h"
 
 #include "base/suggest.h"
@@ -30,9 +31,7 @@ std::string_view kind_word(SymbolKind kind) {
 class Resolver {
 public:
   explicit Resolver(Program& program)
-      : program_(program),
-        broken_(std::any_of(program.diagnostics.begin(), program.diagnostics.end(),
-                            [](const Diagnostic& d) { return d.severity == Severity::Error; })) {}
+      : program_(program), broken_(any_error(program.diagnostics)) {}
 
   Names run() {
     incomplete_ = std::any_of(
@@ -444,8 +443,8 @@ private:
     const auto& routine = names_.routines[symbol.routine];
     if (count != routine.parameters)
       report(rules::ArgumentCount, span,
-             fmt::format("`{}` takes {} value{}, found {}", program_.name(symbol.name),
-                         routine.parameters, routine.parameters == 1 ? "" : "s", count));
+             fmt::format("`{}` takes {}, found {}", program_.name(symbol.name),
+                         plural(routine.parameters, "value"), count));
   }
 
   void look_up_call(std::uint32_t i) {

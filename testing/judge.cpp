@@ -1,6 +1,7 @@
 #include "testing/judge.h"
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
 #include <algorithm>
@@ -488,8 +489,7 @@ private:
       return {one_.least <= outcome.way_cm && outcome.way_cm <= one_.most,
               fmt::format("it drove {:.1f} cm", outcome.way_cm)};
     if (one_.word == Word::Lines)
-      return {static_cast<double>(outcome.lines) < one_.most,
-              fmt::format("{} line{}", outcome.lines, outcome.lines == 1 ? "" : "s")};
+      return {static_cast<double>(outcome.lines) < one_.most, plural(outcome.lines, "line")};
     if (one_.word == Word::Bytes)
       return {static_cast<double>(meaning_.packed_bytes) < one_.most,
               fmt::format("{} bytes", meaning_.packed_bytes)};

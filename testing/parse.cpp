@@ -25,13 +25,6 @@ const Row* find_word(std::span<const Row> rows, std::string_view word) {
   return found == rows.end() ? nullptr : &*found;
 }
 
-/// The name of a file without folders and ending.
-std::string stem(std::string_view name) {
-  name = name.substr(name.rfind('/') + 1);
-  const auto dot = name.rfind('.');
-  return std::string(dot == 0 ? name : name.substr(0, dot));
-}
-
 /// What was written of an expectation's place in time and number.
 struct Said {
   Span when{};  ///< empty: nothing
@@ -47,7 +40,7 @@ public:
       has_tests_ = has_tests_ || first_word(line) == "test";
     if (!has_tests_) {
       file_.tests.push_back(new_test());
-      file_.tests.back().name = {stem(source_.name()), {0, 0}};
+      file_.tests.back().name = {std::string(stem(source_.name())), {0, 0}};
     }
     for (std::uint32_t line = 1; line <= source_.line_count(); ++line)
       read_line(line);

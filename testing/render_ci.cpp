@@ -12,21 +12,6 @@
 namespace orb::testing {
 namespace {
 
-/// Text in XML, in a text or in an attribute: no character that XML 1.0 forbids.
-std::string xml(std::string_view text) {
-  std::string out;
-  for (const char c : to_valid_utf8(text))
-    switch (c) {
-    case '&': out += "&amp;"; break;
-    case '<': out += "&lt;"; break;
-    case '>': out += "&gt;"; break;
-    case '"': out += "&quot;"; break;
-    case '\n': out += "&#10;"; break;
-    default: out += static_cast<unsigned char>(c) < ' ' && c != '\t' ? '?' : c;
-    }
-  return out;
-}
-
 std::string seconds(Duration t) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(t).count());
 }
@@ -63,14 +48,14 @@ std::string short_story(const CaseResult& one) {
 std::string test_case(const GroupResult& group, const CaseResult& one) {
   const auto name =
       group.count == 1 ? group.test : fmt::format("{}, seed {}", group.test, one.seed);
-  auto out = fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{}\"", xml(group.program),
-                         xml(name), seconds(one.lasted));
+  auto out = fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{}\"",
+                         escape_markup(group.program), escape_markup(name), seconds(one.lasted));
   if (one.verdict == Verdict::Passed)
     return out + "/>\n";
   const bool failed = one.verdict == Verdict::Failed;
   return out + fmt::format("><{0} message=\"{1}\" type=\"{2}\">{3}</{0}></testcase>\n",
-                           failed ? "failure" : "error", xml(short_story(one)),
-                           failed ? "expectation" : "program", xml(story(group, one)));
+                           failed ? "failure" : "error", escape_markup(short_story(one)),
+                           failed ? "expectation" : "program", escape_markup(story(group, one)));
 }
 
 /// All that ran of one test file.
@@ -175,8 +160,8 @@ std::string render_junit(const Results& results) {
         "<testsuite name=\"{}\" package=\"orb\" id=\"{}\" timestamp=\"1970-01-01T00:00:00\" "
         "hostname=\"localhost\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
         "time=\"{}\">\n<properties/>\n{}<system-out/>\n<system-err/>\n</testsuite>\n",
-        xml(order[i]), i, suite.count, suite.failures, suite.errors, seconds(suite.lasted),
-        suite.cases);
+        escape_markup(order[i]), i, suite.count, suite.failures, suite.errors,
+        seconds(suite.lasted), suite.cases);
   }
   return out + "</testsuites>\n";
 }

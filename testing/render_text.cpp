@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "base/utf8.h"
 #include "testing/render.h"
 #include "testing/table.h"
@@ -11,10 +12,6 @@ namespace {
 // A table that is wider has numbers for its tests, and a list of them below.
 constexpr std::size_t widest_table = 100;
 constexpr std::size_t longest_seeds = 60;
-
-std::string plural(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 /// Each line of `text` behind `before`.
 std::string indented(std::string_view text, std::string_view before) {

@@ -30,12 +30,6 @@ std::string seconds(Duration t) {
   return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000) : fmt::format("{}ms", ms);
 }
 
-std::string stem(std::string_view name) {
-  name = name.substr(name.rfind('/') + 1);
-  const auto dot = name.rfind('.');
-  return std::string(dot == 0 ? name : name.substr(0, dot));
-}
-
 std::string with_line(const run::LinePlace& place, const std::string& file, std::string_view text) {
   return fmt::format("{}:{}: {}", file, place.line, trim(text));
 }
@@ -102,7 +96,7 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
         " --course " + shell(structured::resolve_path(file.source->name(), file.file.course->text));
   for (const auto& line : test.stimulus_lines)
     command += " --stimulus " + shell(line);
-  return command + fmt::format(" --report {}", shell(stem(program.name) + ".html"));
+  return command + fmt::format(" --report {}", shell(fmt::format("{}.html", stem(program.name))));
 }
 
 } // namespace orb::testing

@@ -1,5 +1,6 @@
 #include "testing/report.h"
 
+#include "base/text.h"
 #include "base/utf8.h"
 #include "report/page.h"
 #include "report/svg.h"
@@ -34,19 +35,6 @@ table{border-collapse:collapse;margin:1rem 0}td,th{padding:.25rem .7rem;text-ali
 a{color:inherit}pre{white-space:pre-wrap;font-size:.85em;margin:.4rem 0 0}
 )css";
 
-std::string html(std::string_view text) {
-  std::string out;
-  for (const char c : to_valid_utf8(text))
-    switch (c) {
-    case '&': out += "&amp;"; break;
-    case '<': out += "&lt;"; break;
-    case '>': out += "&gt;"; break;
-    case '"': out += "&quot;"; break;
-    default: out += c;
-    }
-  return out;
-}
-
 class Report {
 public:
   Report(const Suite& suite, const Results& results, Pages& pages)
@@ -60,8 +48,8 @@ public:
     auto page = fmt::format("{}<html lang=\"en\"><head><meta charset=\"utf-8\">"
                             "<meta name=\"viewport\" content=\"width=device-width\">"
                             "<title>{}</title><style>{}</style></head>\n<body>\n<h1>{}</h1>\n",
-                            report_mark, html(render_summary(results_)), style,
-                            html(render_summary(results_)));
+                            report_mark, escape_markup(render_summary(results_)), style,
+                            escape_markup(render_summary(results_)));
     page += table() + body;
     if (left_out_ > 0)
       page += fmt::format("<p class=\"dim\">{} runs are told without a picture.</p>\n", left_out_);
@@ -75,10 +63,10 @@ private:
       return {};
     std::string out = "<table>\n<tr><th>program</th>";
     for (const auto& test : table.tests)
-      out += fmt::format("<th>{}</th>", html(test));
+      out += fmt::format("<th>{}</th>", escape_markup(test));
     out += "<th>points</th></tr>\n";
     for (const auto& row : table.rows) {
-      out += fmt::format("<tr><td>{}</td>", html(row.program));
+      out += fmt::format("<tr><td>{}</td>", escape_markup(row.program));
       for (const auto* cell : row.cells) {
         if (cell == nullptr || cell->cases.empty()) {
           out += "<td></td>";
@@ -95,10 +83,11 @@ private:
   bool add_group(std::size_t index, std::string& body) {
     const auto& told = results_.groups[index];
     const auto word = to_string(told.verdict());
-    body += fmt::format(
-        "<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
-        "</span></h2>\n<div class=\"runs\">\n",
-        told.first, word, word, html(told.test), html(told.program), html(told.file), told.line);
+    body +=
+        fmt::format("<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
+                    "</span></h2>\n<div class=\"runs\">\n",
+                    told.first, word, word, escape_markup(told.test), escape_markup(told.program),
+                    escape_markup(told.file), told.line);
     for (const auto& one : told.cases)
       if (!add_case(suite_.groups[index], told, one, body))
         return false;
@@ -149,11 +138,11 @@ private:
     out += replay.empty() ? "</p>" : fmt::format(" · <a href=\"{}\">replay</a></p>", replay);
     for (const auto& miss : one.misses)
       out += fmt::format("<p><code>{}</code><br><span class=\"seen\">{}</span></p>",
-                         html(miss.expected), html(miss.seen));
+                         escape_markup(miss.expected), escape_markup(miss.seen));
     if (!one.again.empty())
-      out += fmt::format("<p><code>{}</code></p>", html(one.again));
+      out += fmt::format("<p><code>{}</code></p>", escape_markup(one.again));
     if (!one.problem.empty())
-      out += fmt::format("<pre>{}</pre>", html(one.problem));
+      out += fmt::format("<pre>{}</pre>", escape_markup(one.problem));
     return out + "</div>\n";
   }
 

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::size_t letters = 25; // A to Y; Z is a row of elements
 
-bool is_error(const Diagnostic& one) {
-  return one.severity == Severity::Error;
-}
-
 /// What keeps a source from becoming a program at all, as text.
 std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings) {
   std::string text;
@@ -305,7 +301,7 @@ Failure no_such_test(const Suite& suite, const std::string& name) {
 } // namespace
 
 bool SuiteFile::has_errors() const {
-  return std::any_of(file.diagnostics.begin(), file.diagnostics.end(), is_error);
+  return any_error(file.diagnostics);
 }
 
 bool Suite::has_errors() const {
