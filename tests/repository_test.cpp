@@ -138,7 +138,8 @@ TEST(Numbers, OfTheRobotAreRowsAndOthersSayWhatTheyAre) {
 TEST(Floors, EveryFolderWithCodeIsARoom) {
   for (const auto& entry : fs::directory_iterator(root)) {
     const auto name = entry.path().filename().string();
-    if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "tests")
+    if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "tests" ||
+        name == "examples")
       continue;
     const bool known = std::any_of(rooms.begin(), rooms.end(),
                                    [&](const Room& room) { return room.name == name; });
@@ -295,6 +296,19 @@ TEST(Docs, ArchitectureNamesFilesThatExist) {
   for (std::sregex_iterator at(text.begin(), text.end(), path); at != end; ++at, ++count)
     EXPECT_TRUE(fs::exists(root / (*at)[1].str())) << (*at)[1];
   EXPECT_GT(count, 25U);
+}
+
+TEST(Docs, LibraryShowsTheExamplesAndTheHeaders) {
+  const auto page = read_all(root / "docs" / "library.md");
+  for (const auto& file : files_below(root / "examples" / "library", {".cpp"}))
+    EXPECT_NE(page.find("```cpp\n" + read_all(file) + "```"), std::string::npos)
+        << "docs/library.md should show " << file;
+  const auto package = read_all(root / "cmake" / "library.cmake");
+  const auto begin = package.find("set(library_headers");
+  const auto list = package.substr(begin, package.find(')', begin) - begin);
+  const std::regex header(R"([a-z]+/[a-z_]+\.h)");
+  for (std::sregex_iterator at(list.begin(), list.end(), header), end; at != end; ++at)
+    EXPECT_NE(page.find("`orb/" + at->str() + "`"), std::string::npos) << at->str();
 }
 
 TEST(Docs, MacrosHasTheTableOfCommands) {
