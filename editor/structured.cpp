@@ -11,6 +11,7 @@
 #include "editor/text.h"
 #include "reference/sections.h"
 #include "spec/limits.h"
+#include "structured/blocks.h"
 #include "structured/compile.h"
 #include "structured/format.h"
 #include "structured/parse.h"
@@ -37,7 +38,6 @@ using structured::SymbolKind;
 
 constexpr std::string_view language_id = "orbstructured";
 constexpr std::string_view allow_mark = "orb: allow";
-constexpr std::size_t longest_name = 31;
 
 /// A program with all that it includes.
 struct Reading {
@@ -479,8 +479,9 @@ public:
       return;
     case Context::Label: labels(); return;
     case Context::Block:
-      for (const auto* word : {"if", "while", "repeat", "loop", "select", "sub", "function"})
-        out_.items.push_back({word, SuggestionKind::Keyword, fmt::format("end {}", word), ""});
+      for (const auto word : structured::words_after_end())
+        out_.items.push_back(
+            {std::string(word), SuggestionKind::Keyword, fmt::format("end {}", word), ""});
       return;
     case Context::Macro: names({SymbolKind::Constant}); return;
     }
@@ -647,11 +648,11 @@ std::vector<Symbol> outline(const Source& source) {
 std::optional<std::string> why_no_name(std::string_view name) {
   const bool well_formed = !name.empty() && structured::begins_name(name.front()) &&
                            std::all_of(name.begin(), name.end(), structured::is_name_char) &&
-                           name.size() <= longest_name;
+                           name.size() <= structured::longest_name;
   if (!well_formed)
     return fmt::format(
         "a name is a letter or `_`, then letters, digits and `_`, at most {} of them",
-        longest_name);
+        structured::longest_name);
   if (structured::find_word(name).kind != structured::WordKind::Name)
     return fmt::format("`{}` is a word of the language", name);
   return std::nullopt;

@@ -17,6 +17,12 @@ struct Block {
   Kind end;
   std::string_view word; ///< of the opener
   std::string_view end_words;
+
+  /// The word that follows `end`; empty where the block ends in another way.
+  constexpr std::string_view after_end() const {
+    constexpr std::string_view end_word = "end ";
+    return end_words.starts_with(end_word) ? end_words.substr(end_word.size()) : std::string_view();
+  }
 };
 
 constexpr auto blocks = std::to_array<Block>({
@@ -157,9 +163,30 @@ private:
 
 std::optional<Kind> end_of_block(std::string_view word) {
   for (const auto& block : blocks)
-    if (block.end_words.starts_with("end ") && equal_words(block.end_words.substr(4), word))
+    if (!word.empty() && equal_words(block.after_end(), word))
       return block.end;
   return std::nullopt;
+}
+
+std::string_view words_of_end(Kind end) {
+  for (const auto& block : blocks)
+    if (block.end == end)
+      return block.end_words;
+  return {};
+}
+
+std::vector<std::string_view> words_after_end() {
+  std::vector<std::string_view> words;
+  for (const auto& block : blocks)
+    if (!block.after_end().empty())
+      words.push_back(block.after_end());
+  return words;
+}
+
+bool is_loop_word(std::string_view word) {
+  return std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    return is_loop(block.opener) && equal_words(block.word, word);
+  });
 }
 
 bool opens_block(Kind kind) {

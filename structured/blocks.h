@@ -4,11 +4,21 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace orb::structured {
 
 /// What `end WORD` ends, where WORD is one that can be ended.
 std::optional<Kind> end_of_block(std::string_view word);
+
+/// How the end of a block is written: `end if`, `next`.
+std::string_view words_of_end(Kind end);
+
+/// The words that `end` ends: `if`, `while` …
+std::vector<std::string_view> words_after_end();
+
+/// Whether a word opens a loop.
+bool is_loop_word(std::string_view word);
 
 /// Links the statements of a file that open, part and close the same block, and reports those that
 /// do not fit.

@@ -85,9 +85,7 @@ bool ends_operand(const Token& token) {
 bool calls(const Token& token) {
   if (token.kind == TokenKind::Name)
     return true;
-  const auto word = find_word(token.text);
-  return token.kind == TokenKind::Word &&
-         (word.kind == WordKind::Function || word.is(Keyword::Min) || word.is(Keyword::Max));
+  return token.kind == TokenKind::Word && is_function(find_word(token.text));
 }
 
 class Formatter {

@@ -4,6 +4,7 @@
 #include "structured/check.h"
 #include "structured/compile.h"
 #include "structured/jumps.h"
+#include "structured/lift_choices.h"
 #include "structured/lift_text.h"
 #include "structured/lower.h"
 #include "structured/read.h"

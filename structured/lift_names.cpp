@@ -10,8 +10,6 @@
 namespace orb::structured::lifting {
 namespace {
 
-constexpr std::size_t longest_name = 31;
-
 /// Words that begin no name, or end none.
 bool is_article(std::string_view word) {
   return word == "a" || word == "an" || word == "the";

@@ -1,9 +1,11 @@
 #include "structured/lift_text.h"
 
-#include "spec/limits.h"
 #include "structured/format.h"
+#include "structured/lift_choices.h"
+#include "structured/lift_effects.h"
+#include "structured/lift_statements.h"
+#include "structured/lift_tests.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
@@ -13,64 +15,7 @@
 namespace orb::structured::lifting {
 namespace {
 
-using compiler::ItemKind;
-using compiler::StatementNode;
-using spec::Operator;
-using spec::Statement;
-
 constexpr std::size_t longest_line = 76; ///< of an `if` that stays on one line
-
-// ---- what computing a value does besides
-
-bool is_number(const compiler::Program& program, std::uint32_t node, std::int32_t least) {
-  const auto& leaf = program.nodes[node];
-  return leaf.kind == compiler::NodeKind::Number && leaf.value >= least;
-}
-
-/// Whether a node itself, its operands apart, can stop the program or changes what it reads.
-bool node_acts(const compiler::Program& program, std::uint32_t n) {
-  const auto& node = program.nodes[n];
-  switch (node.kind) {
-  case compiler::NodeKind::Indexed: return true;
-  case compiler::NodeKind::System:
-    return spec::variables[node.what].access == spec::Access::ReadClears;
-  case compiler::NodeKind::Call:
-    return static_cast<spec::Function>(node.what) != spec::Function::Abs;
-  case compiler::NodeKind::Binary: {
-    const auto op = static_cast<Operator>(node.what);
-    const bool shifts = op == Operator::ShiftLeft || op == Operator::ShiftRight;
-    if (op == Operator::Divide || op == Operator::Remainder)
-      return !is_number(program, n - 1, 1);
-    return shifts && !(is_number(program, n - 1, 0) &&
-                       program.nodes[n - 1].value <= spec::value_of(spec::Limit::GreatestShift));
-  }
-  case compiler::NodeKind::Number:
-  case compiler::NodeKind::Letter:
-  case compiler::NodeKind::Group:
-  case compiler::NodeKind::Negate: return false;
-  }
-  return false;
-}
-
-bool acts(const compiler::Program& program, const compiler::Item& item) {
-  for (auto n = program.nodes[item.value].first; n <= item.value; ++n)
-    if (node_acts(program, n))
-      return true;
-  return false;
-}
-
-bool is_prepared(const compiler::Program& program, const StatementNode& test) {
-  const auto view = program.as<compiler::IfView>(test);
-  return view.second && (acts(program, view.second->left) || acts(program, view.second->right));
-}
-
-/// A time as people say it.
-std::string duration(std::int32_t ms) {
-  if (ms >= 1000 && ms % 100 == 0)
-    return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000)
-                          : fmt::format("{}.{}s", ms / 1000, ms % 1000 / 100);
-  return fmt::format("{}ms", ms);
-}
 
 /// Whether a line of a text is more than a comment.
 bool has_statement(std::string_view text) {
@@ -80,22 +25,15 @@ bool has_statement(std::string_view text) {
   return false;
 }
 
-std::string_view sign_of(spec::Relation relation, bool negated) {
-  switch (relation) {
-  case spec::Relation::Equal: return negated ? "<>" : "=";
-  case spec::Relation::NotEqual: return negated ? "=" : "<>";
-  case spec::Relation::Less: return negated ? ">=" : "<";
-  case spec::Relation::Greater: return negated ? "<=" : ">";
-  }
-  return "=";
-}
-
 class Writer {
 public:
   Writer(const compiler::Program& program, const Ways& ways, const Comments& comments,
          const std::vector<Graph>& graphs, const Proofs& proofs)
-      : program_(program), ways_(ways), comments_(comments), graphs_(graphs), proofs_(proofs),
-        names_(program, ways, comments), hints_{proofs.counted, prepared_tests(program, ways)} {}
+      : program_(program), ways_(ways), comments_(comments),
+        graphs_(graphs), hints_{proofs.counted, prepared_tests(program, ways)},
+        names_(program, ways, comments), values_(program, names_),
+        tests_(program, ways, names_, values_, hints_.prepared),
+        choices_(program, ways, names_, values_, proofs.covered) {}
 
   LiftedText write() {
     for (std::size_t g = 0; g < graphs_.size(); ++g)
@@ -106,7 +44,7 @@ public:
     text += out_;
     for (const auto comment : comments_.last)
       text += fmt::format("{}\n", comment);
-    return {format(text), std::move(lines_), std::move(loops_), std::move(choices_)};
+    return {format(text), std::move(lines_), std::move(loops_), choices_.stops()};
   }
 
 private:
@@ -146,13 +84,7 @@ private:
     std::string text;
     for (const auto comment : comments_.before[ways_.steps.front().line])
       text += fmt::format("{}\n", comment);
-    std::string declared;
-    if (uses_elements_)
-      declared += fmt::format("array {}[{}]\n", names_.elements(),
-                              spec::value_of(spec::Limit::IndexedVariables));
-    for (std::size_t letter = 0; letter < read_.size(); ++letter)
-      if (read_[letter] && !set_[letter])
-        declared += fmt::format("{} = 0\n", names_.letter(letter));
+    const auto declared = values_.declarations();
     return declared.empty() ? text : fmt::format("{}{}\n", text, declared);
   }
 
@@ -266,9 +198,9 @@ private:
     if (only.kind != PieceKind::Write || !comments_above(only.node).empty() ||
         !comment_of(only.node).empty())
       return std::nullopt;
-    const auto choices = choices_.size();
+    const auto stops = choices_.stops().size();
     auto lines = lines_of(only.node);
-    choices_.resize(choices); // they are written again where the text is not short
+    choices_.forget_stops_from(stops); // they are written again where the text is not short
     return lines.size() == 1 ? std::optional(std::move(lines.front())) : std::nullopt;
   }
 
@@ -319,13 +251,14 @@ private:
 
   void count(const Piece& piece) {
     const auto step = graph_->nodes[piece.node].step;
-    const auto view = program_.as<compiler::ForView>(statement_of(step));
+    const auto view = program_.as<compiler::ForView>(statement_of(program_, ways_, step));
     comments(piece.node);
     loops_.push_back(step);
-    const auto name = letter_set(view.variable.value);
-    auto text = fmt::format("for {} = {} to {}", name, value(view.start), value(view.end));
+    const auto name = values_.letter_set(view.variable.value);
+    auto text =
+        fmt::format("for {} = {} to {}", name, values_.text(view.start), values_.text(view.end));
     if (view.step != nullptr)
-      text += fmt::format(" step {}", value(*view.step));
+      text += fmt::format(" step {}", values_.text(*view.step));
     with_comment(text, piece.node);
     list(piece.first);
     comments(piece.end);
@@ -337,141 +270,24 @@ private:
   void select(const Piece& piece) {
     comments(piece.node);
     const auto step = graph_->nodes[piece.node].step;
-    const auto chosen =
-        begin_select(step, [&](std::string_view text) { with_comment(text, piece.node); });
+    for (const auto& text : choices_.begin(step))
+      with_comment(text, piece.node);
     for (const auto& way : piece.ways) {
       line(fmt::format("case {}", fmt::join(way.values, ", ")));
       list(way.pieces);
     }
-    for (const auto& text : end_select(step, chosen))
+    for (const auto& text : choices_.end(step))
       line(text);
   }
 
-  template <typename Emit>
-  std::string begin_select(std::uint32_t step, Emit emit) {
-    const auto& selector = program_.as<compiler::OnView>(statement_of(step)).selector;
-    auto chosen = value(selector);
-    const bool leaf = program_.nodes[selector.value].kind == compiler::NodeKind::Letter;
-    if (!proofs_.covered[step] && !leaf) {
-      auto& name = helpers_[{step, 0}];
-      if (name.empty())
-        name = names_.fresh("choice");
-      emit(fmt::format("{} = {}", name, chosen));
-      chosen = name;
-    }
-    emit(fmt::format("select {}", chosen));
-    return chosen;
-  }
-
-  std::vector<std::string> end_select(std::uint32_t step, std::string_view chosen) {
-    if (proofs_.covered[step])
-      return {"end select"};
-    choices_.push_back(step);
-    uses_elements_ = true;
-    return {"else",
-            fmt::format("{}{})] = 0 ' the robot stops here: {}", stopper, chosen,
-                        spec::info(spec::BasicError::IllegalIndex).text),
-            "end select"};
-  }
-
-  std::vector<std::string> calls(std::uint32_t step) {
-    std::vector<std::string> lines;
-    const auto chosen =
-        begin_select(step, [&](std::string text) { lines.push_back(std::move(text)); });
-    const auto& targets = ways_.steps[step].targets;
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-      if (std::find(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(i),
-                    targets[i]) != targets.begin() + static_cast<std::ptrdiff_t>(i))
-        continue;
-      std::vector<std::size_t> values;
-      for (std::size_t n = i; n < targets.size(); ++n)
-        if (targets[n] == targets[i])
-          values.push_back(n + 1);
-      lines.push_back(fmt::format("case {}", fmt::join(values, ", ")));
-      lines.push_back(sub_at(targets[i]));
-    }
-    for (auto& text : end_select(step, chosen))
-      lines.push_back(std::move(text));
-    return lines;
-  }
-
-  std::string sub_at(std::uint32_t step) const {
-    const auto& subs = ways_.subroutines;
-    return names_.sub(
-        static_cast<std::size_t>(std::lower_bound(subs.begin(), subs.end(), step) - subs.begin()));
-  }
-
-  // ---- conditions
+  // ---- statements and conditions
 
   /// The condition under which a node goes to its first successor.
   std::string condition(std::uint32_t n, bool negated) {
     const auto step = graph_->nodes[n].step;
-    if (graph_->nodes[n].kind == NodeKind::Close) {
-      const auto begin = ways_.steps[step].loop;
-      const auto view = program_.as<compiler::ForView>(statement_of(begin));
-      const auto relation = step_of(view) > 0 ? spec::Relation::Greater : spec::Relation::Less;
-      return fmt::format("{} {} {}", letter_read(view.variable.value), sign_of(relation, !negated),
-                         end_of(begin, view));
-    }
-    const auto view = program_.as<compiler::IfView>(statement_of(step));
-    const bool prepared = hints_.prepared[step];
-    const auto relation = [&](const compiler::Comparison& comparison, std::uint32_t first) {
-      const auto side = [&](const compiler::Item& item, std::uint32_t n_th) {
-        return prepared && acts(program_, item) ? helpers_[{step, first + n_th}] : value(item);
-      };
-      return fmt::format("{} {} {}", side(comparison.left, 0),
-                         sign_of(static_cast<spec::Relation>(comparison.relation.value), negated),
-                         side(comparison.right, 1));
-    };
-    auto text = relation(view.first, 0);
-    if (view.second)
-      text += fmt::format(" {} {}", (view.joint->kind == ItemKind::And) != negated ? "and" : "or",
-                          relation(*view.second, 2));
-    return text;
-  }
-
-  /// What must be computed before a test, because the robot always computes both its sides.
-  std::vector<std::string> prepare(std::uint32_t step) {
-    std::vector<std::string> lines;
-    if (!hints_.prepared[step])
-      return lines;
-    const auto view = program_.as<compiler::IfView>(statement_of(step));
-    std::uint32_t n = 0;
-    for (const auto* item :
-         {&view.first.left, &view.first.right, &view.second->left, &view.second->right}) {
-      if (acts(program_, *item)) {
-        auto& name = helpers_[{step, n}];
-        if (name.empty())
-          name = names_.fresh("seen");
-        lines.push_back(fmt::format("{} = {}", name, value(*item)));
-      }
-      ++n;
-    }
-    return lines;
-  }
-
-  std::int32_t step_of(const compiler::ForView& loop) const {
-    if (loop.step == nullptr)
-      return 1;
-    const auto root = loop.step->value;
-    const auto& node = program_.nodes[root];
-    return node.kind == compiler::NodeKind::Negate ? -program_.nodes[root - 1].value : node.value;
-  }
-
-  /// The end of a loop that is not written as `for`: a number, or the variable that keeps it.
-  std::string end_of(std::uint32_t step, const compiler::ForView& loop) {
-    if (program_.nodes[loop.end.value].kind == compiler::NodeKind::Number)
-      return value(loop.end);
-    auto& name = helpers_[{step, 0}];
-    if (name.empty())
-      name = names_.fresh("last_" + names_.letter(loop.variable.value));
-    return name;
-  }
-
-  // ---- statements
-
-  const StatementNode& statement_of(std::uint32_t step) const {
-    return program_.statements[ways_.steps[step].statement];
+    if (graph_->nodes[n].kind == NodeKind::Close)
+      return tests_.is_over(ways_.steps[step].loop, !negated);
+    return tests_.condition(step, negated);
   }
 
   std::vector<std::string> lines_of(std::uint32_t n) {
@@ -479,214 +295,37 @@ private:
     if (node.kind == NodeKind::Tail)
       return {names_.sub(node.sub)};
     if (node.kind == NodeKind::Test)
-      return prepare(node.step);
+      return tests_.prepare(node.step);
     if (node.step == none)
       return {"end"};
-    const auto& statement = statement_of(node.step);
-    if (node.kind == NodeKind::Close) {
-      const auto view = program_.as<compiler::ForView>(statement_of(ways_.steps[node.step].loop));
-      const auto by = step_of(view);
-      return {fmt::format("{} {}= {}", letter_set(view.variable.value), by < 0 ? '-' : '+',
-                          std::abs(std::int64_t{by}))};
-    }
-    if (node.kind == NodeKind::Begin) {
-      const auto view = program_.as<compiler::ForView>(statement);
-      std::vector<std::string> lines{
-          fmt::format("{} = {}", letter_set(view.variable.value), value(view.start))};
-      if (program_.nodes[view.end.value].kind != compiler::NodeKind::Number)
-        lines.push_back(fmt::format("{} = {}", end_of(node.step, view), value(view.end)));
-      return lines;
-    }
-    if (statement.kind == Statement::On)
-      return calls(node.step);
-    return {simple(node.step, statement)};
-  }
-
-  std::string simple(std::uint32_t step, const StatementNode& statement) {
-    const auto word = spec::info(statement.kind).word;
-    const auto items = program_.items_of(statement);
-    const auto value_text = [&](const compiler::Item& item) { return value(item); };
-    switch (spec::info(statement.kind).form) {
-    case spec::Form::Assignment: return assignment(items[0], items[1]);
-    case spec::Form::Branch: return sub_at(ways_.steps[step].targets.front());
-    case spec::Form::Output: return print(items);
-    case spec::Form::Entry:
-      return items.size() < 2 ? fmt::format("{} {}", word, place(items[0]))
-                              : fmt::format("{} {}, {}, {}", word, place(items[0]), time(items[1]),
-                                            value(items[2]));
-    case spec::Form::Variables:
-      return words(word, items, [&](const compiler::Item& item) { return place(item); });
-    case spec::Form::Values: {
-      const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::DataValues));
-      return words(word, items.first(std::min(items.size(), most)), value_text);
-    }
-    case spec::Form::Arguments:
-      if (statement.kind == Statement::Sleep)
-        return sleep(statement);
-      if (statement.kind == Statement::Delay)
-        return fmt::format("{} {}", word, time(items[0]));
-      return words(word, items, value_text);
-    case spec::Form::Conditional:
-    case spec::Form::Loop:
-    case spec::Form::LoopEnd:
-    case spec::Form::IndexedBranch: break; // written as blocks
-    }
-    return {};
-  }
-
-  template <typename Text>
-  static std::string words(std::string_view word, std::span<const compiler::Item> items,
-                           Text text) {
-    std::string out(word);
-    for (std::size_t i = 0; i < items.size(); ++i)
-      out += (i == 0 ? " " : ", ") + text(items[i]);
-    return out;
-  }
-
-  std::string time(const compiler::Item& item) {
-    const auto& node = program_.nodes[item.value];
-    return node.kind == compiler::NodeKind::Number ? duration(node.value) : value(item);
-  }
-
-  /// `v = v + e` is `v += e`.
-  std::string assignment(const compiler::Item& variable, const compiler::Item& expression) {
-    const auto root = expression.value;
-    const auto& node = program_.nodes[root];
-    const auto op = static_cast<Operator>(node.what);
-    const bool short_form = op == Operator::Add || op == Operator::Subtract ||
-                            op == Operator::Multiply || op == Operator::Divide ||
-                            op == Operator::Remainder;
-    if (variable.kind == ItemKind::Letter && node.kind == compiler::NodeKind::Binary &&
-        short_form) {
-      const auto& left = program_.nodes[node.first];
-      const bool same = left.kind == compiler::NodeKind::Letter && left.what == variable.value &&
-                        program_.nodes[root - 1].first == node.first + 1;
-      if (same) {
-        read_[variable.value] = true;
-        return fmt::format("{} {}= {}", place(variable), spec::info(op).symbol,
-                           expression_text(inner(root - 1)));
-      }
-    }
-    return fmt::format("{} = {}", place(variable), value(expression));
-  }
-
-  /// The first line of the program is `restart`; no line is nothing.
-  std::string sleep(const StatementNode& statement) {
-    const auto view = program_.as<compiler::SleepView>(statement);
-    auto text = fmt::format("sleep {}", value(view.seconds));
-    const bool restarts = program_.nodes[view.line.value].value != 0;
-    const auto& macro = program_.nodes[view.macro.value];
-    if (restarts || macro.kind != compiler::NodeKind::Number || macro.value != 0)
-      text += fmt::format(", {}", value(view.macro));
-    return restarts ? text + ", restart" : text;
-  }
-
-  std::string print(std::span<const compiler::Item> items) {
-    std::string text = "print";
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const auto& item = items[i];
-      const auto before = i == 0 ? ItemKind::Semicolon : items[i - 1].kind;
-      if (item.kind == ItemKind::Comma) {
-        text += i + 1 == items.size() ? " \" \"" : ","; // a comma at the end would go on below
-      } else if (item.kind == ItemKind::Semicolon) {
-        text += ";";
-      } else if (item.kind == ItemKind::String) {
-        text += fmt::format(" {}", program_.text_of(item.span));
-      } else if (item.kind == ItemKind::Character) {
-        text += fmt::format(" ${}", operand(item.value));
-      } else {
-        const auto shown = value(item);
-        // What stands in parentheses after a name would be its arguments.
-        const bool calls = shown.front() == '(' &&
-                           (before == ItemKind::Expression || before == ItemKind::Character);
-        text += fmt::format("{} {}", calls ? ";" : "", shown);
-      }
-    }
-    return text;
-  }
-
-  // ---- expressions
-
-  const std::string& letter_read(std::uint32_t which) {
-    read_[which] = true;
-    return names_.letter(which);
-  }
-  const std::string& letter_set(std::uint32_t which) {
-    set_[which] = true;
-    return names_.letter(which);
-  }
-  std::string element() {
-    uses_elements_ = true;
-    constexpr std::uint32_t index = 'Y' - 'A';
-    return fmt::format("{}[{}]", names_.elements(), letter_read(index));
-  }
-
-  std::string place(const compiler::Item& item) {
-    if (item.kind == ItemKind::Letter)
-      return letter_set(item.value);
-    if (item.kind == ItemKind::Indexed)
-      return element();
-    return std::string(spec::variables[item.value].word);
-  }
-
-  std::string value(const compiler::Item& item) { return expression_text(item.value); }
-
-  /// What stands in parentheses, where they are all there is.
-  std::uint32_t inner(std::uint32_t root) const {
-    while (program_.nodes[root].kind == compiler::NodeKind::Group)
-      --root;
-    return root;
-  }
-
-  /// In parentheses where it has several parts.
-  std::string operand(std::uint32_t root) {
-    const auto kind = program_.nodes[inner(root)].kind;
-    const bool parts = kind == compiler::NodeKind::Binary || kind == compiler::NodeKind::Negate;
-    const auto text = expression_text(inner(root));
-    return parts ? fmt::format("({})", text) : text;
-  }
-
-  std::string expression_text(std::uint32_t root) {
-    const auto& node = program_.nodes[root];
-    switch (node.kind) {
-    case compiler::NodeKind::Number: return fmt::format("{}", node.value);
-    case compiler::NodeKind::Letter: return letter_read(node.what);
-    case compiler::NodeKind::Indexed: return element();
-    case compiler::NodeKind::System: return std::string(program_.text_of(node.span));
-    case compiler::NodeKind::Group: return operand(root);
-    case compiler::NodeKind::Negate: return fmt::format("-{}", expression_text(root - 1));
-    case compiler::NodeKind::Binary: {
-      const auto left = program_.nodes[root - 1].first - 1;
-      auto text = expression_text(left);
-      text += fmt::format(" {} ", spec::operators[node.what].symbol);
-      return text + expression_text(root - 1);
-    }
-    case compiler::NodeKind::Call:
-      return fmt::format("{}({})", spec::functions[node.what].word,
-                         expression_text(inner(root - 1)));
-    }
-    return {};
+    if (node.kind == NodeKind::Close)
+      return {tests_.count(ways_.steps[node.step].loop)};
+    if (node.kind == NodeKind::Begin)
+      return tests_.begin_loop(node.step);
+    const auto& statement = statement_of(program_, ways_, node.step);
+    if (statement.kind == spec::Statement::On)
+      return choices_.calls(node.step);
+    if (statement.kind == spec::Statement::Gosub)
+      return {sub_at(ways_, names_, ways_.steps[node.step].targets.front())};
+    return {statement_text(program_, statement, values_)};
   }
 
   const compiler::Program& program_;
   const Ways& ways_;
   const Comments& comments_;
   const std::vector<Graph>& graphs_;
-  const Proofs& proofs_;
-  LiftedNames names_;
   Hints hints_;
+  LiftedNames names_;
+  LiftedValues values_;
+  LiftedTests tests_;
+  LiftedChoices choices_;
   std::string out_;
   std::vector<std::uint32_t> lines_;
   std::uint32_t source_line_ = 0;
   const Graph* graph_ = nullptr;
   std::uint32_t routine_line_ = none;           ///< the first one of the routine
   std::map<std::uint32_t, std::string> labels_; ///< of nodes
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> helpers_; ///< variables for steps
-  std::array<bool, 25> read_{};
-  std::array<bool, 25> set_{};
-  bool uses_elements_ = false;
   std::vector<std::uint32_t> loops_;
-  std::vector<std::uint32_t> choices_;
 };
 
 } // namespace
@@ -696,15 +335,6 @@ std::size_t not_blank(std::string_view text, std::size_t end) {
   for (std::size_t i = 0; i < end; ++i)
     lines += text[i] == '\n' && i > 0 && text[i - 1] != '\n' ? 1 : 0;
   return lines;
-}
-
-std::vector<bool> prepared_tests(const compiler::Program& program, const Ways& ways) {
-  std::vector<bool> prepared(ways.steps.size(), false);
-  for (std::size_t s = 0; s < ways.steps.size(); ++s) {
-    const auto& statement = program.statements[ways.steps[s].statement];
-    prepared[s] = statement.kind == Statement::If && is_prepared(program, statement);
-  }
-  return prepared;
 }
 
 LiftedText write_text(const compiler::Program& program, const Ways& ways, const Comments& comments,

@@ -26,13 +26,6 @@ struct LiftedText {
 /// How many lines that are not blank end before a place in a text.
 std::size_t not_blank(std::string_view text, std::size_t end);
 
-/// By step of an `if`: both its sides are computed before one is looked at, and that shows.
-std::vector<bool> prepared_tests(const compiler::Program& program, const Ways& ways);
-
-/// How the assignment begins that stops a program as an `on` does that finds no line: nothing else
-/// in a lifted program begins so.
-inline constexpr std::string_view stopper = "z[26 + abs(";
-
 /// Writes the graphs of a program's routines, the main program first, as a structured program.
 LiftedText write_text(const compiler::Program& program, const Ways& ways, const Comments& comments,
                       const std::vector<Graph>& graphs, const Proofs& proofs);

@@ -37,6 +37,11 @@ struct Ways {
   std::uint32_t end() const { return static_cast<std::uint32_t>(steps.size()); }
 };
 
+inline const compiler::StatementNode& statement_of(const compiler::Program& program,
+                                                   const Ways& ways, std::uint32_t step) {
+  return program.statements[ways.steps[step].statement];
+}
+
 /// Follows every way through a program that has no errors: each step with the loops and calls that
 /// can be open there. A program that could stop with an error about its jumps, which structured
 /// programs cannot make, has an obstacle.

@@ -117,6 +117,26 @@ Diagnostic reserved(const Program& program, Span word) {
                  "choose another name");
 }
 
+/// How the functions are written.
+std::string functions() {
+  std::string all = "write ";
+  for (const auto& row : spec::functions)
+    all += fmt::format("`{}(e)`, ", row.word);
+  for (const auto word : {Keyword::Min, Keyword::Max})
+    all += fmt::format("{}`{}(a, b)`", word == Keyword::Max ? ", " : "",
+                       keywords[static_cast<std::size_t>(word)].word);
+  return all;
+}
+
+/// The robot's variables that a program can set.
+std::string settable() {
+  std::string all;
+  for (const auto& row : spec::variables)
+    if (row.access == spec::Access::ReadWrite)
+      all += fmt::format("{}`{}`", all.empty() ? "" : ", ", row.word);
+  return fmt::format("of the robot's variables only these can be set: {}", all);
+}
+
 } // namespace
 
 Diagnostic explain(const Program& program, Reason reason, Span found) {
@@ -153,8 +173,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::ExpectedBracket: return malformed(program, found, "a bracket is missing");
   case Reason::ExpectedParenthesis: return malformed(program, found, "a parenthesis is missing");
   case Reason::ExpectedOperand:
-    return malformed(program, found, "a function takes its value in parentheses",
-                     "write `abs(e)`, `sqrt(e)`, `rnd(e)`, `min(a, b)`, `max(a, b)`");
+    return malformed(program, found, "a function takes its value in parentheses", functions());
   case Reason::ExpectedQuote:
     return finding(rules::MalformedLine, found, "the text has no closing `\"`");
   case Reason::ExpectedFile:
@@ -165,12 +184,12 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::TooManyArguments:
     return finding(rules::ArgumentCount, found, "the statement takes no more values");
   case Reason::ReadOnly:
-    return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text),
-                   "the three timers and `ctrl` can be set");
+    return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text), settable());
   case Reason::Reserved: return reserved(program, found);
   case Reason::NameTooLong:
-    return finding(rules::ReservedName, found,
-                   fmt::format("the name has {} characters; the limit is 31", found.size()));
+    return finding(
+        rules::ReservedName, found,
+        fmt::format("the name has {} characters; the limit is {}", found.size(), longest_name));
   case Reason::BadNumber:
     return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
                    "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");

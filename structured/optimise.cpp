@@ -2,6 +2,7 @@
 
 #include "structured/forward.h"
 #include "structured/jumps.h"
+#include "structured/long_prints.h"
 #include "structured/switches.h"
 #include "structured/values.h"
 

@@ -15,7 +15,6 @@ namespace orb::structured {
 namespace {
 
 constexpr int deepest = 64; ///< open brackets
-constexpr std::size_t longest_name = 31;
 
 /// Ends the parse of a line. Never leaves this file.
 struct Stop {
@@ -413,7 +412,6 @@ bool named_factor::match(Input& in, Builder& builder) {
     return false;
   const auto where = builder.span(name.data(), name.data() + name.size());
   const auto word = find_word(name);
-  const bool pair = word.is(Keyword::Min) || word.is(Keyword::Max);
   if (word.kind == WordKind::Name) {
     match_name<A, M, Action, Control>(in, builder, name);
     return true;
@@ -423,8 +421,9 @@ bool named_factor::match(Input& in, Builder& builder) {
     in.bump(name.size());
     return true;
   }
-  if (word.kind != WordKind::Function && !pair)
+  if (!is_function(word))
     return false;
+  const bool pair = word.kind == WordKind::Keyword;
   const auto first = builder.nodes();
   in.bump(name.size());
   skip_blanks(in);
@@ -735,7 +734,7 @@ private:
   void leave_line(Input& in, Kind kind, std::string_view word) {
     bare(in, kind, word);
     const auto loop = peek_name(in); // `exit for`, as elsewhere
-    if (is_loop_word(loop)) {
+    if (is_loop_word(loop) || equal_words(loop, "do")) {
       builder_.report(habit(program_, span(loop), " "));
       in.bump(loop.size());
     }
@@ -802,11 +801,6 @@ private:
     case Keyword::Min:
     case Keyword::Max: throw Stop{Reason::NotAStatement, word.data()};
     }
-  }
-
-  static bool is_loop_word(std::string_view word) {
-    return equal_words(word, "for") || equal_words(word, "while") || equal_words(word, "do") ||
-           equal_words(word, "loop") || equal_words(word, "repeat");
   }
 
   /// `if` and `elseif`: a condition and `then`.
@@ -1057,25 +1051,15 @@ private:
 
   /// Statements of other languages; what has one meaning is taken with a finding.
   bool foreign(Input& in, std::string_view name, Position position) {
-    struct Ending {
-      std::string_view word;
-      std::string_view instead;
-    };
-    static constexpr auto endings = std::to_array<Ending>({{"endif", "end if"},
-                                                           {"endwhile", "end while"},
-                                                           {"wend", "end while"},
-                                                           {"endsub", "end sub"},
-                                                           {"endfunction", "end function"},
-                                                           {"endselect", "end select"},
-                                                           {"endloop", "end loop"},
-                                                           {"endrepeat", "end repeat"}});
     const auto is = [&](std::string_view word) { return equal_words(name, word); };
-    for (const auto& ending : endings)
-      if (is(ending.word)) {
-        builder_.report(habit(program_, span(name), ending.instead));
-        bare(in, *end_of_block(ending.instead.substr(4)), name);
-        return true;
-      }
+    const auto ended = is("wend")                              ? std::string_view("while")
+                       : equal_words(name.substr(0, 3), "end") ? name.substr(3)
+                                                               : std::string_view();
+    if (const auto end = end_of_block(ended)) {
+      builder_.report(habit(program_, span(name), words_of_end(*end)));
+      bare(in, *end, name);
+      return true;
+    }
     if (is("elif") || is("elsif")) {
       builder_.report(habit(program_, span(name), "elseif"));
       conditional(in, Kind::ElseIf, name);

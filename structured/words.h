@@ -69,8 +69,16 @@ constexpr bool is_name_char(char c) {
   return begins_name(c) || is_digit(c);
 }
 
+/// The characters that a name may have.
+inline constexpr std::size_t longest_name = 31;
+
 /// What a word means; `let` is none of the language's (the robot's own is undocumented).
 Word find_word(std::string_view text);
+
+/// Whether a word takes its values in parentheses: the robot's functions, `min` and `max`.
+constexpr bool is_function(Word word) {
+  return word.kind == WordKind::Function || word.is(Keyword::Min) || word.is(Keyword::Max);
+}
 
 /// A word in its documented spelling; empty for a name.
 std::string_view spelling(Word word);
