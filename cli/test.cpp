@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr unsigned most_jobs = 1000;
+
 struct TestOptions {
   std::vector<std::string> paths;
   std::vector<std::string> programs;
@@ -33,8 +35,6 @@ struct TestOptions {
   bool merge = false;
 };
 
-constexpr std::string_view ending = ".test";
-
 /// The test files below a folder, in the order of their names.
 tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& folder) {
   std::vector<std::string> found;
@@ -42,7 +42,7 @@ tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& fo
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && at != fs::recursive_directory_iterator(); at.increment(error))
     if (std::error_code unreadable;
-        at->path().extension() == ending && at->is_regular_file(unreadable))
+        testing::is_test(at->path().native()) && at->is_regular_file(unreadable))
       found.push_back((folder == "." ? at->path().lexically_relative(".") : at->path()).string());
   if (error)
     return tl::unexpected(
@@ -77,8 +77,8 @@ read_tests(const std::vector<std::string>& paths) {
     if (!found)
       return tl::unexpected(found.error());
     if (found->empty())
-      return tl::unexpected(
-          Failure{ExitCode::Usage, fmt::format("there is no {} file below {}", ending, path)});
+      return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there is no {} file below {}",
+                                                                 testing::file_ending, path)});
     for (const auto& one : *found)
       if (auto added = add(one); !added)
         return tl::unexpected(added.error());
@@ -183,7 +183,7 @@ tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& op
   if (!wanted.seeds)
     return tl::unexpected(
         Failure{ExitCode::Usage,
-                fmt::format("`--seeds {}` are no seeds; write them like 1..20", options.seeds)});
+                fmt::format("`--seeds {}` are not seeds; write them like 1..20", options.seeds)});
   return wanted;
 }
 
@@ -245,10 +245,10 @@ tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
   return tell(context, options, *results);
 }
 
-/// That a test file stands among the programs, where everything behind `--program` belongs.
+/// That a test file stands among the programs, where everything after `--program` belongs.
 tl::expected<void, Failure> check_programs(const TestOptions& options) {
   for (const auto& path : options.programs)
-    if (path.ends_with(ending))
+    if (testing::is_test(path))
       return tl::unexpected(Failure{
           ExitCode::Usage, fmt::format("`--program` takes programs; put {} before it", path)});
   return {};
@@ -305,6 +305,7 @@ void add_test(CLI::App& app, Context& context) {
   command->add_option("--program", options->programs,
                       "programs to test, each with every test, in place of those the tests name");
   command->add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
+      ->check(whole_number(0, most_jobs))
       ->capture_default_str();
   command->add_option("--seeds", options->seeds, "the seeds of every test, such as 1..200");
   command->add_option("--only", options->only, "runs the one test of this name");

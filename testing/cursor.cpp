@@ -126,7 +126,7 @@ std::string Cursor::quoted(std::string_view what) {
   const auto end = text_.find('"', at_);
   if (end == std::string_view::npos) {
     --at_;
-    fail(rules::Syntax, fmt::format("the {} does not end", what), "write `\"` behind it");
+    fail(rules::Syntax, fmt::format("the {} does not end", what), "write `\"` after it");
     return {};
   }
   const auto found = text_.substr(at_, end - at_);
@@ -144,7 +144,7 @@ std::string Cursor::slashed() {
   }
   if (at_ == text_.size())
     fail_at({open, begin_ + static_cast<std::uint32_t>(at_)}, rules::Syntax,
-            "the pattern does not end", "write `/` behind it");
+            "the pattern does not end", "write `/` after it");
   else
     ++at_;
   return pattern;

@@ -260,9 +260,15 @@ public:
   void on_print(const Moment& at, const PrintedLine& line) override {
     if (one_.word != Word::Print || certain() || !in_time(at.t))
       return;
-    if (fits(line.text))
-      return happen(at, quote(line.text));
-    near(at, line.text);
+    switch (compare(line.text)) {
+    case Pattern::Found::Yes: return happen(at, quote(line.text));
+    case Pattern::Found::No: return near(at, line.text);
+    case Pattern::Found::GaveUp:
+      // At once: with the next lines it would be no better, and nobody would wait for it.
+      return miss(
+          fmt::format("the pattern takes too many steps on {}; write it simpler", quote(line.text)),
+          at);
+    }
   }
 
   void on_marker(const Moment& at, const vm::event::Marker& marker) override {
@@ -310,15 +316,14 @@ private:
     return one_.when.kind == When::Kind::AnyTime || (one_.when.from <= t && t <= one_.when.to);
   }
 
-  bool fits(std::string_view line) {
+  Pattern::Found compare(std::string_view line) const {
+    const auto told = [](bool yes) { return yes ? Pattern::Found::Yes : Pattern::Found::No; };
     switch (one_.match) {
-    case Match::Whole: return line == one_.text;
-    case Match::Part: return line.find(one_.text) != std::string_view::npos;
+    case Match::Whole: return told(line == one_.text);
+    case Match::Part: return told(line.find(one_.text) != std::string_view::npos);
     case Match::Pattern: break;
     }
-    const auto found = one_.pattern->search(line);
-    gave_up_ = gave_up_ || found == Pattern::Found::GaveUp;
-    return found == Pattern::Found::Yes;
+    return one_.pattern->search(line);
   }
 
   void happen(const Moment& at, std::string text) {
@@ -356,8 +361,6 @@ private:
     if (count_ > 0)
       return miss(count_words(), last_);
     const Kept* best = nearest();
-    if (gave_up_)
-      return miss("the pattern takes too many steps on a line; write it simpler");
     if (best == nullptr)
       return miss(nothing() + until());
     const auto what =
@@ -413,7 +416,6 @@ private:
   std::vector<std::string> listed_;
   std::vector<Kept> kept_;
   std::optional<Moment> last_;
-  bool gave_up_ = false;
 };
 
 /// `prints`: exactly these lines, in this order.

@@ -62,6 +62,7 @@ public:
     if (good_ && json.contains("misses"))
       for (const auto& entry : member(json, "misses", Json::value_t::array))
         one.misses.push_back(miss(entry));
+    good_ = good_ && (one.verdict != Verdict::Failed || !one.misses.empty());
     return one;
   }
 

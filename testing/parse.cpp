@@ -79,12 +79,12 @@ private:
     const auto span = cursor.peek_span();
     cursor.word();
     if (row->stands == Stands::Head && has_tests_ && !file_.tests.empty())
-      return cursor.fail_at(span, rules::Place, fmt::format("`{}` stands behind a test", word),
+      return cursor.fail_at(span, rules::Place, fmt::format("`{}` stands after a test", word),
                             "write it before the first `test`");
     if (row->stands == Stands::InTest && file_.tests.empty())
       return cursor.fail_at(span, rules::Place,
                             fmt::format("`{}` stands before the first test", word),
-                            "write it behind the `test` that it belongs to");
+                            "write it after the `test` that it belongs to");
     read_row(static_cast<LineWord>(row - line_words.data()), cursor, span, line);
   }
 
@@ -205,7 +205,7 @@ private:
       known.push_back(row.name);
     if (found == nullptr)
       return cursor.fail(
-          rules::Value, fmt::format("`{}` is no firmware", cursor.peek()),
+          rules::Value, fmt::format("`{}` is not a firmware", cursor.peek()),
           did_you_mean(cursor.peek(), known, fmt::format("there are {}", fmt::join(known, ", "))));
     file_.firmware = found->firmware;
     cursor.word();
@@ -223,7 +223,7 @@ private:
     if (!found)
       cursor.fail(rules::Value,
                   cursor.at_end() ? std::string("the seeds are missing")
-                                  : fmt::format("`{}` are no seeds", cursor.peek()),
+                                  : fmt::format("`{}` are not seeds", cursor.peek()),
                   "write them like `1..20`");
     else
       cursor.word();
@@ -268,10 +268,10 @@ private:
     else if (cursor.take_word("for"))
       test.bound = read_bound(cursor).value_or(test.bound);
     else
-      cursor.fail(rules::Syntax, fmt::format("`{}` is left over", cursor.peek()),
-                  did_you_mean(cursor.peek(),
-                               std::vector<std::string_view>{"points", "seeds", "for"},
-                               "behind the name stand `points N`, `seeds A..B` and `for TIME`"));
+      cursor.fail(
+          rules::Syntax, fmt::format("`{}` is left over", cursor.peek()),
+          did_you_mean(cursor.peek(), std::vector<std::string_view>{"points", "seeds", "for"},
+                       "after the name you can write `points N`, `seeds A..B` and `for TIME`"));
   }
 
   /// What only the whole file can say about a test.
@@ -424,7 +424,7 @@ private:
       text.remove_suffix(unit.size());
     const auto value = parse_number<double>(text, std::chars_format::fixed);
     if (!value || *value < 0 || *value > most)
-      return cursor.fail_at(span, rules::Value, fmt::format("behind `by` stands 0 to {}", most));
+      return cursor.fail_at(span, rules::Value, fmt::format("`by` takes 0 to {}", most));
     one.by = *value;
     cursor.word();
   }
@@ -447,7 +447,7 @@ private:
       return cursor.fail(rules::Value, "`beyond` takes a line such as `x>70` or `y<-20`");
     const bool above = cursor.take('>');
     if (!above && !cursor.take('<'))
-      return cursor.fail(rules::Value, "`beyond` takes `>` or `<` behind the axis",
+      return cursor.fail(rules::Value, "`beyond` takes `>` or `<` after the axis",
                          "write it like `x>70` or `y<-20`");
     one.side = is_x ? (above ? Side::AboveX : Side::BelowX) : (above ? Side::AboveY : Side::BelowY);
     one.most = cursor.number("place of the line");
@@ -670,7 +670,7 @@ private:
               "leave the time out, or write `at end`");
       else if (one.word == Word::Variable && when != Of::AtEnd)
         wrong(one.name.span, "the value of a variable is known at the end",
-              "write ` at end` behind it");
+              "write `at end` after it");
       return;
     }
   }

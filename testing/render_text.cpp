@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t widest_table = 100;
 constexpr std::size_t longest_seeds = 60;
 
-/// Each line of `text` behind `before`.
+/// Each line of `text` after `before`.
 std::string indented(std::string_view text, std::string_view before) {
   std::string out;
   while (!text.empty()) {
@@ -49,7 +49,7 @@ std::string details(const GroupResult& group, const CaseResult& one, Style style
   return out;
 }
 
-/// What is said behind the name of a test: which program, how many of its runs, which seeds.
+/// What is said after the name of a test: which program, how many of its runs, which seeds.
 std::string about(const GroupResult& group, bool with_program) {
   std::string out = with_program ? fmt::format(", {}", group.program) : std::string();
   const auto failed = static_cast<std::uint64_t>(

@@ -1,6 +1,7 @@
 #include "testing/run_suite.h"
 
 #include <algorithm>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -11,32 +12,6 @@ namespace {
 struct Task {
   const Group* group;
   CaseResult* result;
-};
-
-/// Runs tasks, the next one whenever it is done with one, until none is left.
-class Worker {
-public:
-  Worker(const Suite& suite, const std::vector<Task>& tasks, vm::NativePrograms& native,
-         std::atomic<std::size_t>& next, std::atomic<std::size_t>& done)
-      : suite_(suite), tasks_(tasks), native_(native), next_(next), done_(done) {}
-
-  /// Runs one; false where none is left.
-  bool run_one() {
-    const auto index = next_.fetch_add(1);
-    if (index >= tasks_.size())
-      return false;
-    const auto& task = tasks_[index];
-    *task.result = run_case(suite_, *task.group, task.result->seed, &native_, nullptr);
-    done_.fetch_add(1);
-    return true;
-  }
-
-private:
-  const Suite& suite_;
-  const std::vector<Task>& tasks_;
-  vm::NativePrograms& native_;
-  std::atomic<std::size_t>& next_;
-  std::atomic<std::size_t>& done_;
 };
 
 /// The groups as they will be told, with an empty result for each case that runs here.
@@ -75,16 +50,28 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
   vm::NativePrograms native;
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> done{0};
+  // Runs the next task; false where none is left.
+  const auto run_one = [&] {
+    const auto index = next.fetch_add(1);
+    if (index >= tasks.size())
+      return false;
+    const auto& task = tasks[index];
+    *task.result = run_case(suite, *task.group, task.result->seed, &native, nullptr);
+    done.fetch_add(1);
+    return true;
+  };
   std::vector<std::thread> others;
   const auto wanted = std::min<std::size_t>(options.jobs, tasks.size());
-  for (std::size_t i = 1; i < wanted; ++i)
-    others.emplace_back([&] {
-      Worker worker(suite, tasks, native, next, done);
-      while (worker.run_one()) {
-      }
-    });
-  Worker worker(suite, tasks, native, next, done);
-  while (worker.run_one())
+  try {
+    for (std::size_t i = 1; i < wanted; ++i)
+      others.emplace_back([&] {
+        while (run_one()) {
+        }
+      });
+  } catch (const std::system_error&) {
+    // The system gives no more threads; those that are there do the work.
+  }
+  while (run_one())
     progress.on_cases(done, tasks.size());
   for (auto& other : others)
     other.join();

@@ -3,6 +3,7 @@
 #include "base/render.h"
 #include "base/suggest.h"
 #include "compiler/image.h"
+#include "spec/limits.h"
 #include "testing/rules.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace orb::testing {
 namespace {
 
-constexpr std::size_t letters = 25; // A to Y; Z is a row of elements
+constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
 
 /// What keeps a source from becoming a program at all, as text.
 std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings) {
@@ -46,6 +47,23 @@ std::string problem_of(const run::Input& input) {
       text += render_text(*input.source, one, {});
   return text;
 }
+
+/// Asks for each file once: some, such as a pipe, can be read only once.
+class EachOnce final : public structured::Files {
+public:
+  explicit EachOnce(structured::Files& files) : files_(files) {}
+
+  std::optional<std::string> read(const std::string& path) override {
+    const auto [at, fresh] = texts_.try_emplace(path);
+    if (fresh)
+      at->second = files_.read(path);
+    return at->second;
+  }
+
+private:
+  structured::Files& files_;
+  std::map<std::string, std::optional<std::string>> texts_;
+};
 
 class Reader {
 public:
@@ -94,7 +112,10 @@ private:
     }
     auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_);
     if (!input) {
-      made.problem += input.error().message + "\n";
+      made.problem += run::content_of(path, "")
+                          ? input.error().message + "\n"
+                          : fmt::format("cannot tell what {} is: a program's name ends in {}\n",
+                                        path, fmt::join(endings, ", "));
       return;
     }
     made.problem += problem_of(*input);
@@ -111,7 +132,10 @@ std::string beside(const std::string& name, std::string_view ending) {
   return name.substr(0, dot) + std::string(ending);
 }
 
-constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
+Diagnostic cannot_read(const std::string& path, Span span) {
+  return finding(rules::File, span, fmt::format("cannot read {}", path),
+                 "paths count from the folder of the test file");
+}
 
 /// Where the program of a test file is; nothing, and a finding, where there is none.
 std::optional<std::string> program_path(SuiteFile& file, structured::Files& files) {
@@ -121,8 +145,7 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
     auto path = structured::resolve_path(name, given->text);
     if (files.read(path))
       return path;
-    findings.push_back(finding(rules::File, given->span, fmt::format("cannot read {}", path),
-                               "paths count from the folder of the test file"));
+    findings.push_back(cannot_read(path, given->span));
     return std::nullopt;
   }
   for (const auto ending : endings)
@@ -162,7 +185,8 @@ void find_variable(const Expectation& one, const Prepared& program, Lookup& foun
         "{} is a structured program: letters are shared, and `{}` may be gone in the end",
         program.name, name);
     found.help = "let the program print the value, and expect that";
-  } else if (name.size() == 1 && name[0] >= 'A' && name[0] < static_cast<char>('A' + letters)) {
+  } else if (name.size() == 1 && name[0] >= 'A' &&
+             name[0] - 'A' < spec::value_of(spec::Limit::DirectVariables)) {
     found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
   } else {
     found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
@@ -237,9 +261,7 @@ void check_files(SuiteFile& file, structured::Files& files) {
   for (const auto& with : file.file.with)
     if (const auto path = structured::resolve_path(file.source->name(), with.text);
         !with.text.empty() && !files.read(path))
-      file.file.diagnostics.push_back(finding(rules::File, with.span,
-                                              fmt::format("cannot read {}", path),
-                                              "paths count from the folder of the test file"));
+      file.file.diagnostics.push_back(cannot_read(path, with.span));
 }
 
 /// Reads the course that a file names.
@@ -251,8 +273,7 @@ void read_course(SuiteFile& file, structured::Files& files) {
   auto& findings = file.file.diagnostics;
   auto text = files.read(path);
   if (!text) {
-    findings.push_back(finding(rules::File, given->span, fmt::format("cannot read {}", path),
-                               "paths count from the folder of the test file"));
+    findings.push_back(cannot_read(path, given->span));
     return;
   }
   const Source drawing(path, *std::move(text));
@@ -310,8 +331,9 @@ bool Suite::has_errors() const {
 }
 
 tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
-                                        structured::Files& files) {
+                                        structured::Files& from) {
   Suite suite;
+  EachOnce files(from);
   Reader reader(suite, files);
   std::vector<std::vector<std::size_t>> programs;
   for (auto& one : given) {
@@ -338,7 +360,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
 }
 
 bool is_test(std::string_view file_name) {
-  return file_name.ends_with(".test");
+  return file_name.ends_with(file_ending);
 }
 
 std::vector<Diagnostic> check(const Source& source, structured::Files& files) {

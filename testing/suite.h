@@ -76,6 +76,8 @@ struct GivenFile {
 tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
                                         structured::Files& files);
 
+/// How the name of a test file ends.
+inline constexpr std::string_view file_ending = ".test";
 /// Whether a file of that name is taken for a test file.
 bool is_test(std::string_view file_name);
 

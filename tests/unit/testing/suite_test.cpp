@@ -94,6 +94,15 @@ TEST(Suite, PartsThatDoNotMakeAWholeAreRefused) {
   EXPECT_FALSE(read_results("x", "{\"schema\":\"orb.test/1\",\"cases\":1}").has_value());
 }
 
+TEST(Suite, AFailureWithoutAReasonIsNoResult) {
+  auto text = render_json(run(make(), 1));
+  const auto passed = text.find("passed");
+  text.replace(passed, 6, "failed");
+  EXPECT_FALSE(read_results("x", text).has_value());
+  text.replace(passed, 6, "error ");
+  EXPECT_FALSE(read_results("x", text).has_value());
+}
+
 TEST(TestRules, EachBadExampleIsToldAndEachGoodOneIsNot) {
   for (const auto& rule : rules::all()) {
     const auto told = [&](std::string_view text) {
