@@ -21,6 +21,9 @@ std::string escape_markup(std::string_view text) {
     case '\n': out += "&#10;"; break; // a line end of an attribute would be read as a blank
     default: out += static_cast<unsigned char>(c) < ' ' && c != '\t' ? '?' : c;
     }
+  for (const std::string_view forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) // U+FFFE, U+FFFF
+    for (auto at = out.find(forbidden); at != std::string::npos; at = out.find(forbidden, at))
+      out.replace(at, forbidden.size(), "\xEF\xBF\xBD");
   return out;
 }
 

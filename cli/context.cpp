@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -50,6 +51,10 @@ Style Context::err_style() const {
 }
 
 void print_out(std::string_view text) {
+  // What is cleaned up after a first failure may still want to say something, such as a ball whose
+  // client leaves. A second exception would be the end of the process.
+  if (std::uncaught_exceptions() > 0)
+    return;
   if (!print_to(stdout, text) || std::fflush(stdout) != 0)
     throw OutputError{errno};
 }

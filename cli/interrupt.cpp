@@ -31,8 +31,8 @@ InterruptGuard::~InterruptGuard() {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-bool InterruptGuard::asked() {
-  return requests > 0;
+int InterruptGuard::asked() {
+  return requests;
 }
 
 bool InterruptibleTransport::stop() {
@@ -46,7 +46,10 @@ tl::expected<void, protocol::LinkError> InterruptibleTransport::write(ByteView b
   if (stop())
     return tl::unexpected(
         protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
-  return inner_->write(bytes);
+  auto written = inner_->write(bytes);
+  if (!written && written.error().kind == protocol::LinkError::Kind::Interrupted)
+    seen_ = requests; // it noticed by itself
+  return written;
 }
 
 tl::expected<Bytes, protocol::LinkError> InterruptibleTransport::read(Instant deadline) {

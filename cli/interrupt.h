@@ -14,8 +14,8 @@ public:
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether the user asked to stop since the guard was made.
-  static bool asked();
+  /// How often the user asked to stop since the guard was made.
+  static int asked();
 };
 
 /// A Transport around a Transport whose waits end when the user asks to stop: the next read or

@@ -65,7 +65,9 @@ ExitCode Link::finish(const Context& context, ExitCode exit) const {
   if (written)
     return exit;
   print_error(context, written.error().message);
-  return exit == ExitCode::Done ? ExitCode::File : exit;
+  if (exit != ExitCode::Done)
+    return exit;
+  return InterruptGuard::asked() > 0 ? ExitCode::Interrupted : ExitCode::File;
 }
 
 namespace {
@@ -131,7 +133,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
     return tl::unexpected(endpoint.error());
   // Nothing may be done to a ball whose recording then cannot be written.
   if (!options.record.empty())
-    if (const auto writable = disk::write(options.record, {}); !writable)
+    if (const auto writable = disk::prepare(options.record); !writable)
       return failure(ExitCode::File, writable.error().message);
   Link link;
   link.name = endpoint->text;

@@ -162,6 +162,8 @@ int run(int argc, char** argv) {
 /// Ends as every program does whose reader has left, without a word; else says why nothing can be
 /// written.
 int end_without_output(int error) {
+  if (error == EINTR) // Ctrl-C, while whoever reads did not
+    return static_cast<int>(ExitCode::Interrupted);
   if (error == EPIPE) {
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);

@@ -107,7 +107,6 @@ public:
   void on_time(Duration t) override {
     if (!options_.realtime)
       return;
-    std::fflush(stdout);
     std::this_thread::sleep_until(start_ + t);
   }
 

@@ -180,4 +180,13 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
   return replace(place, bytes, exists ? &status : nullptr);
 }
 
+tl::expected<void, IoError> prepare(const std::string& path) {
+  struct stat status {};
+  if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISFIFO(status.st_mode))
+    return write(path, {});
+  if (::access(path.c_str(), W_OK) != 0)
+    return failure("write", path);
+  return {};
+}
+
 } // namespace orb::disk

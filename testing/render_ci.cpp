@@ -67,6 +67,10 @@ struct TestSuite {
   Duration lasted{};
 };
 
+/// One schema wants the element, the other one at least one property in it.
+constexpr std::string_view properties =
+    "<properties><property name=\"clock\" value=\"robot time\"/></properties>\n";
+
 /// Text in a command of GitHub's runners; `property` in one of its properties.
 enum class In : std::uint8_t { Message, Property };
 std::string github(std::string_view text, In in) {
@@ -159,9 +163,9 @@ std::string render_junit(const Results& results) {
     out += fmt::format(
         "<testsuite name=\"{}\" package=\"orb\" id=\"{}\" timestamp=\"1970-01-01T00:00:00\" "
         "hostname=\"localhost\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
-        "time=\"{}\">\n<properties/>\n{}<system-out/>\n<system-err/>\n</testsuite>\n",
+        "time=\"{}\">\n{}{}<system-out/>\n<system-err/>\n</testsuite>\n",
         escape_markup(order[i]), i, suite.count, suite.failures, suite.errors,
-        seconds(suite.lasted), suite.cases);
+        seconds(suite.lasted), properties, suite.cases);
   }
   return out + "</testsuites>\n";
 }

@@ -38,12 +38,12 @@ struct Endpoint {
 /// Reads a URL; the error is a sentence that says which forms there are.
 tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url);
 
-/// Whether a wait is no longer wanted, as after Ctrl-C.
-using Stop = std::function<bool()>;
+/// How often waiting was asked to stop, as by Ctrl-C.
+using Stop = std::function<int()>;
 
 /// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
 /// try can help. Not for Sim and Replay. The error says what helps; it is Interrupted within
-/// stop_notice of `stop`.
+/// stop_notice of `stop`, and so is a write of the link that cannot go on when `stop` is one more.
 tl::expected<std::unique_ptr<protocol::Transport>, protocol::LinkError>
 open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop);
 

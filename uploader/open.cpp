@@ -2,6 +2,7 @@
 
 #include "uploader/endpoint.h"
 
+#include <algorithm>
 #include <array>
 #include <asio.hpp>
 #include <cerrno>
@@ -44,17 +45,26 @@ Instant steady_now() {
 template <class Stream>
 class AsioTransport final : public protocol::Transport {
 public:
-  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream)
-      : io_(std::move(io)), stream_(std::move(stream)) {}
+  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream, Stop stop)
+      : io_(std::move(io)), stream_(std::move(stream)), stop_(std::move(stop)) {}
 
   Instant now() const override { return steady_now(); }
 
   tl::expected<void, LinkError> write(ByteView bytes) override {
+    if (stuck_) // in the middle of a packet
+      return failed(LinkError::Kind::Broken, takes_nothing);
     std::optional<asio::error_code> result;
     asio::async_write(stream_, asio::buffer(bytes.data(), bytes.size()),
                       [&](const asio::error_code& error, std::size_t) { result = error; });
-    if (!finish(result, steady_now() + write_time))
-      return failed(LinkError::Kind::Broken, "the link takes no bytes any more");
+    const auto deadline = steady_now() + write_time;
+    const auto asked = stop_();
+    while (!run(result, std::min(deadline, steady_now() + stop_notice)))
+      if (steady_now() >= deadline || stop_() > asked)
+        break;
+    stuck_ = !cancel_unless(result);
+    if (stuck_)
+      return stop_() > asked ? failed(LinkError::Kind::Interrupted, "interrupted")
+                             : failed(LinkError::Kind::Broken, takes_nothing);
     if (*result)
       return link_error(*result);
     return {};
@@ -68,7 +78,8 @@ public:
                               result = error;
                               size = count;
                             });
-    const auto in_time = finish(result, deadline);
+    run(result, deadline);
+    const auto in_time = cancel_unless(result);
     if (size > 0)
       return Bytes(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(size));
     if (!in_time)
@@ -79,8 +90,10 @@ public:
   }
 
 private:
-  /// Runs the operation to its end or to the deadline; then it is cancelled.
-  bool finish(const std::optional<asio::error_code>& result, Instant deadline) {
+  static constexpr auto takes_nothing = "the link takes no bytes any more";
+
+  /// Runs the operation to its end or to the deadline; whether it has ended.
+  bool run(const std::optional<asio::error_code>& result, Instant deadline) {
     io_->restart();
     io_->poll();
     if (!result && deadline > steady_now()) {
@@ -92,6 +105,11 @@ private:
       else
         io_->run_until(until);
     }
+    return result.has_value();
+  }
+
+  /// Cancels the operation unless it has ended; whether it came to its own end.
+  bool cancel_unless(const std::optional<asio::error_code>& result) {
     if (result)
       return true;
     asio::error_code ignored;
@@ -112,6 +130,8 @@ private:
 
   std::unique_ptr<asio::io_context> io_;
   Stream stream_;
+  Stop stop_;
+  bool stuck_ = false; ///< a write did not come to its end
   std::array<std::uint8_t, read_most> buffer_{};
 };
 
@@ -134,7 +154,7 @@ bool lock(int handle) {
 }
 
 /// Raw, exclusive, flushed. A line discipline would turn LF into CR LF and eat XON and XOFF.
-Opened open_serial(const Endpoint& endpoint) {
+Opened open_serial(const Endpoint& endpoint, const Stop& stop) {
   auto io = std::make_unique<asio::io_context>(1);
   asio::serial_port port(*io);
   asio::error_code error;
@@ -156,7 +176,7 @@ Opened open_serial(const Endpoint& endpoint) {
   port.set_option(asio::serial_port::baud_rate(baud_rate), error); // a pty may not care
   // What waits to be sent on a pty is what the client before has said, not noise of a radio.
   ::tcflush(handle, is_pty(handle) ? TCIFLUSH : TCIOFLUSH);
-  return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port));
+  return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port), stop);
 }
 
 /// Nothing has been sent while a link is being opened.
@@ -167,7 +187,7 @@ tl::unexpected<LinkError> interrupted() {
 /// Lets `wait` wait for short times until it is true, or until nobody waits any more.
 template <class Wait>
 bool wait_unless(const Stop& stop, Instant deadline, const Wait& wait) {
-  while (!stop() && steady_now() < deadline)
+  while (stop() == 0 && steady_now() < deadline)
     if (wait(std::min(stop_notice, deadline - steady_now())))
       return true;
   return false;
@@ -235,7 +255,7 @@ Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& st
     return tl::unexpected(describe_open_error(endpoint, result));
   asio::error_code ignored;
   socket.set_option(tcp::no_delay(true), ignored);
-  return std::make_unique<AsioTransport<tcp::socket>>(std::move(io), std::move(socket));
+  return std::make_unique<AsioTransport<tcp::socket>>(std::move(io), std::move(socket), stop);
 }
 
 Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
@@ -253,13 +273,13 @@ Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop&
   });
   if (result != 0)
     return tl::unexpected(describe_open_error(endpoint, result));
-  return std::make_unique<AsioTransport<Protocol::socket>>(std::move(io), std::move(socket));
+  return std::make_unique<AsioTransport<Protocol::socket>>(std::move(io), std::move(socket), stop);
 }
 
 Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   switch (endpoint.scheme) {
   case Scheme::Serial:
-  case Scheme::Pty: return open_serial(endpoint);
+  case Scheme::Pty: return open_serial(endpoint, stop);
   case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets, stop);
   case Scheme::Tcp: return open_tcp(endpoint, budgets, stop);
   case Scheme::Replay:
@@ -274,14 +294,14 @@ Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) 
   // Only a radio link fails now and works a moment later: the ball may be waking up.
   const auto times = endpoint.scheme == Scheme::Rfcomm ? budgets.opens : 1;
   auto opened = open_once(endpoint, budgets, stop);
-  for (int time = 1; !opened && !stop() && time < times; ++time) {
+  for (int time = 1; !opened && stop() == 0 && time < times; ++time) {
     wait_unless(stop, steady_now() + budgets.backoff(time), [](Duration pause) {
       std::this_thread::sleep_for(pause);
       return false;
     });
     opened = open_once(endpoint, budgets, stop);
   }
-  if (!opened && stop())
+  if (!opened && stop() > 0)
     return interrupted();
   return opened;
 }
