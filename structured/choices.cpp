@@ -2,6 +2,7 @@
 
 #include "structured/flow.h"
 #include "structured/jumps.h"
+#include "structured/words.h"
 
 #include <algorithm>
 
@@ -37,8 +38,7 @@ bool in_documented_list(spec::Statement statement) {
 
 class ChoiceWriter {
 public:
-  ChoiceWriter(Code& code, const std::vector<std::uint32_t>& source_lines)
-      : code_(code), source_lines_(source_lines) {}
+  ChoiceWriter(Code& code, const Program& program) : code_(code), program_(program) {}
 
   void run() {
     while (join_tests())
@@ -210,13 +210,20 @@ private:
     return false;
   }
 
+  bool on_one_line(std::uint32_t a, std::uint32_t b) const {
+    const auto [begin, end] =
+        std::minmax(program_.statements[a].span.begin, program_.statements[b].span.begin);
+    const std::string_view text = program_.text;
+    return std::none_of(text.begin() + begin, text.begin() + end, is_line_end);
+  }
+
   /// One line of the robot speaks for one line of the source: the one whose part may stop the
   /// program. False where there are several.
   bool name_origin(CodeLine& line, std::uint32_t taken, std::uint32_t passed) const {
     std::uint32_t origin = none;
     bool good = true;
     const auto add = [&](std::uint32_t statement) {
-      good = good && (origin == none || source_lines_[origin] == source_lines_[statement]);
+      good = good && (origin == none || on_one_line(origin, statement));
       origin = statement;
     };
     const auto& condition = code_.conditions[line.condition];
@@ -367,21 +374,20 @@ private:
   }
 
   Code& code_;
-  const std::vector<std::uint32_t>& source_lines_; ///< of each statement
-  std::vector<std::uint32_t> named_;               ///< of each label: how often
+  const Program& program_;
+  std::vector<std::uint32_t> named_; ///< of each label: how often
   std::vector<std::uint32_t> at_;
 };
 
 } // namespace
 
-void write_choices(Code& code, const Letters& letters,
-                   const std::vector<std::uint32_t>& source_lines) {
+void write_choices(Code& code, const Letters& letters, const Program& program) {
   for (auto& line : code.lines)
     if (line.kind == LineKind::Let && code.terms[line.term].kind == TermKind::Variable &&
         letters.of[code.terms[line.term].left] == letters.of[line.variable])
       line.kind = LineKind::Nothing;
   clean_jumps(code);
-  ChoiceWriter(code, source_lines).run();
+  ChoiceWriter(code, program).run();
 }
 
 } // namespace orb::structured

@@ -2,17 +2,14 @@
 
 #include "structured/code.h"
 #include "structured/letters.h"
-
-#include <cstdint>
-#include <vector>
+#include "structured/program.h"
 
 namespace orb::structured {
 
 /// Turns tests and the lines they lead to into the robot's `if … then … else`: tests joined by its
 /// one `and` or `or`, single statements after `then` and `else`, comparisons that it has. Copies
-/// between variables that share a letter go. Afterwards there are no If lines. `source_lines` holds
-/// the line of each statement: a robot's line has one place where it can stop the program.
-void write_choices(Code& code, const Letters& letters,
-                   const std::vector<std::uint32_t>& source_lines);
+/// between variables that share a letter go. Afterwards there are no If lines. A robot's line has
+/// one line of the source where it can stop the program.
+void write_choices(Code& code, const Letters& letters, const Program& program);
 
 } // namespace orb::structured

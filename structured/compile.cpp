@@ -20,19 +20,6 @@
 namespace orb::structured {
 namespace {
 
-/// The line that each statement begins on, counted through all files.
-std::vector<std::uint32_t> source_lines_of(const Program& program) {
-  std::vector<std::uint32_t> lines(program.statements.size(), 0);
-  std::uint32_t line = 0;
-  std::uint32_t at = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (; at < program.statements[i].span.begin; ++at)
-      line += is_line_end(program.text[at]) ? 1 : 0;
-    lines[i] = line;
-  }
-  return lines;
-}
-
 /// The letter that a variable would like: its own where it is one, else its first.
 std::vector<std::uint8_t> wishes_of(const Program& program, const Names& names, const Code& code) {
   std::vector<std::uint8_t> wishes(code.variables.size(), no_letter);
@@ -171,7 +158,7 @@ void compile(Compiled& compiled, const compiler::Target& target) {
     report_crowd(compiled);
     return;
   }
-  write_choices(compiled.code, compiled.letters, source_lines_of(compiled.program));
+  write_choices(compiled.code, compiled.letters, compiled.program);
   compiled.robot = print(compiled.program, compiled.code, compiled.letters, {});
   relay_findings(compiled, target);
 }

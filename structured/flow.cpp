@@ -120,22 +120,6 @@ void find_touched(const Code& code, Flow& flow) {
 
 } // namespace
 
-bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> from) {
-  std::uint64_t changed = 0;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    changed |= from[i] & ~set[i];
-    set[i] |= from[i];
-  }
-  return changed != 0;
-}
-
-bool falls_through(const CodeLine& line) {
-  if (line.kind == LineKind::Do)
-    return line.robot != spec::Statement::End && line.robot != spec::Statement::Reset;
-  return line.kind != LineKind::Goto && line.kind != LineKind::Return &&
-         line.kind != LineKind::Switch && line.kind != LineKind::On;
-}
-
 Flow read_flow(const Code& code) {
   Flow flow;
   find_blocks(code, flow);

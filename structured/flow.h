@@ -45,7 +45,14 @@ void each_member(std::span<const std::uint64_t> set, Visit visit) {
       visit(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
 /// Adds all of `from`; true where that changed something.
-bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> from);
+inline bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> from) {
+  std::uint64_t changed = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    changed |= from[i] & ~set[i];
+    set[i] |= from[i];
+  }
+  return changed != 0;
+}
 
 /// Lines that run one after the other. A call stands inside: it comes back.
 struct Block {
@@ -99,7 +106,12 @@ void each_label(const Code& code, const CodeLine& line, Visit visit) {
 }
 
 /// Whether the line below can be next.
-bool falls_through(const CodeLine& line);
+inline bool falls_through(const CodeLine& line) {
+  if (line.kind == LineKind::Do)
+    return line.robot != spec::Statement::End && line.robot != spec::Statement::Reset;
+  return line.kind != LineKind::Goto && line.kind != LineKind::Return &&
+         line.kind != LineKind::Switch && line.kind != LineKind::On;
+}
 
 /// Which variables are read later, before they are set again.
 struct Liveness {

@@ -31,12 +31,12 @@ public:
     go_back();
     count_reads();
     const auto size = static_cast<std::uint32_t>(code_.lines.size());
-    for (auto i = size; i-- > 0;)
-      if (code_.lines[i].kind == LineKind::Let && !move(i))
-        copy(i);
     for (std::uint32_t i = 0; i < size; ++i)
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
+    for (auto i = size; i-- > 0;)
+      if (code_.lines[i].kind == LineKind::Let && !move(i))
+        copy(i);
   }
 
 private:
@@ -372,22 +372,6 @@ private:
 
 void forward_values(Code& code) {
   Forwarder(code).run();
-}
-
-void remove_dead(Code& code) {
-  const auto flow = read_flow(code);
-  const auto liveness = read_liveness(code, flow);
-  std::vector<std::uint64_t> live;
-  for (std::uint32_t b = 0; b < flow.blocks.size(); ++b) {
-    const auto out = liveness.out[b];
-    live.assign(out.begin(), out.end());
-    for (auto i = flow.blocks[b].end; i-- > flow.blocks[b].begin;) {
-      auto& line = code.lines[i];
-      if (is_dead(code, line, live))
-        line.kind = LineKind::Nothing;
-      step_back(code, flow, liveness, line, live);
-    }
-  }
 }
 
 } // namespace orb::structured

@@ -8,7 +8,4 @@ namespace orb::structured {
 /// from, and takes out assignments that nobody reads. What happens keeps its order.
 void forward_values(Code& code);
 
-/// Takes out assignments whose value nobody reads, unless computing it does something.
-void remove_dead(Code& code);
-
 } // namespace orb::structured

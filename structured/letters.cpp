@@ -37,9 +37,12 @@ public:
   std::size_t pressure = 0;
 
 private:
+  std::vector<std::uint64_t> live_;
+
   void read_block(std::uint32_t b) {
     const auto out = liveness_.out[b];
-    std::vector<std::uint64_t> live(out.begin(), out.end());
+    auto& live = live_;
+    live.assign(out.begin(), out.end());
     for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
       const auto& line = code_.lines[i];
       each_line_read(code_, line, [&](std::uint32_t v) { used[v] = true; });
@@ -57,16 +60,16 @@ private:
   }
 
   void measure(std::uint32_t line, const std::vector<std::uint64_t>& live) {
-    auto all = live;
-    unite(all, liveness_.across[code_.lines[line].routine]);
+    const auto across = liveness_.across[code_.lines[line].routine];
     std::size_t count = 0;
-    for (const auto word : all)
-      count += static_cast<std::size_t>(std::popcount(word));
+    for (std::size_t w = 0; w < live.size(); ++w)
+      count += static_cast<std::size_t>(std::popcount(live[w] | across[w]));
     if (count <= pressure)
       return;
     pressure = count;
     crowded_line = line;
-    crowd = all;
+    crowd = live;
+    unite(crowd, across);
   }
 
   void add_edges(const CodeLine& line, std::uint32_t variable,

@@ -90,6 +90,10 @@ private:
     let(variable, term);
     return variable;
   }
+  /// A term that stays what it is now.
+  std::uint32_t kept(std::uint32_t term) {
+    return code_.is_number(term) ? term : code_.read(into_temporary(term));
+  }
   void go_if(Comparison comparison, std::uint32_t left, std::uint32_t right, std::uint32_t label) {
     Condition condition;
     condition.first = {comparison, left, right, {}, {}};
@@ -763,7 +767,7 @@ private:
     const auto exit = new_label();
     const auto again = new_label();
     if (plan_.native[i]) {
-      const auto last = into_temporary(times);
+      const auto last = kept(times);
       let(counter, code_.number(1));
       native(i, end, counter, last, 1, exit, again);
       return end + 1;
@@ -790,7 +794,7 @@ private:
     const auto counter = symbol == none ? code_.new_variable() : variable_of(symbol);
     const auto step = size(node) > 3 ? evaluate(program_, names_, item(node, 3).value)->value : 1;
     let(counter, value(item(node, 1).value));
-    const auto last = into_temporary(value(item(node, 2).value));
+    const auto last = kept(value(item(node, 2).value));
     const auto exit = new_label();
     const auto again = new_label();
     if (plan_.native[i]) {
@@ -806,8 +810,8 @@ private:
     label(again);
     let(counter, code_.binary(Operator::Add, code_.read(counter), code_.number(step)));
     label(test);
-    go_if(step > 0 ? Comparison::LessEqual : Comparison::GreaterEqual, code_.read(counter),
-          code_.read(last), top);
+    go_if(step > 0 ? Comparison::LessEqual : Comparison::GreaterEqual, code_.read(counter), last,
+          top);
     label(exit);
     return end + 1;
   }
@@ -815,12 +819,11 @@ private:
   /// The robot's own loop, whose body runs once before its end is looked at.
   void native(std::uint32_t i, std::uint32_t end, std::uint32_t counter, std::uint32_t last,
               std::int32_t step, std::uint32_t exit, std::uint32_t again) {
-    go_if(step > 0 ? Comparison::Greater : Comparison::Less, code_.read(counter), code_.read(last),
-          exit);
+    go_if(step > 0 ? Comparison::Greater : Comparison::Less, code_.read(counter), last, exit);
     auto& line = emit(LineKind::For);
     line.variable = counter;
     line.term = code_.read(counter);
-    line.end = code_.read(last);
+    line.end = last;
     line.step = step;
     const auto top = new_label();
     line.label = top;

@@ -26,15 +26,9 @@ void optimise(Code& code) {
   if (code.too_large)
     return;
   use_values(code);
-  clean_jumps(code);
   write_switches(code);
   clean_jumps(code);
   forward_values(code);
-  use_values(code);
-  clean_jumps(code);
-  forward_values(code);
-  remove_dead(code);
-  clean_jumps(code);
   cut_prints(code);
 }
 

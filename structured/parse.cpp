@@ -42,7 +42,7 @@ public:
 
   std::uint32_t intern(Span name) {
     auto at = slot_of(program_.text_of(name));
-    for (; slots_[at] != none; at = (at + 1) % slots_.size())
+    for (; slots_[at] != none; at = next_slot(at))
       if (equal_words(program_.name(slots_[at]), program_.text_of(name)))
         return slots_[at];
     program_.names.push_back(name);
@@ -175,7 +175,7 @@ public:
     if (p == end || is_line_end(*p) || *p == '\'')
       return span(at, at);
     if (is_name_char(*p))
-      p = std::find_if_not(p, end, is_name_char);
+      p = end_of_name(p, end);
     else if (*p == '"')
       p = std::find_if(p, end, is_line_end);
     else
@@ -194,18 +194,19 @@ private:
     std::uint64_t hash = 0xCBF29CE484222325U;
     for (const char c : name)
       hash = (hash ^ static_cast<unsigned char>(to_lower(c))) * 0x100000001B3U;
-    return static_cast<std::size_t>(hash ^ hash >> 32) % slots_.size();
+    return static_cast<std::size_t>(hash ^ hash >> 32) & (slots_.size() - 1);
   }
+  std::size_t next_slot(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
   void place(std::uint32_t index) {
     auto at = slot_of(program_.name(index));
     while (slots_[at] != none)
-      at = (at + 1) % slots_.size();
+      at = next_slot(at);
     slots_[at] = index;
   }
 
   Program& program_;
   const char* base_;
-  std::vector<std::uint32_t> slots_; ///< names by their hash
+  std::vector<std::uint32_t> slots_; ///< names by their hash; a power of two
   int depth_ = 0;
   int brackets_ = 0;
 };
@@ -220,7 +221,7 @@ template <typename Input>
 std::string_view peek_name(const Input& in) {
   if (in.empty() || !begins_name(*in.current()))
     return {};
-  const char* end = std::find_if_not(in.current(), in.end(), is_name_char);
+  const char* const end = end_of_name(in.current(), in.end());
   return {in.current(), static_cast<std::size_t>(end - in.current())};
 }
 
@@ -500,7 +501,7 @@ bool arguments::match(Input& in, Builder& builder) {
   if (robot == spec::Statement::Rgb && !in.empty() && *in.current() == '#') {
     std::uint32_t colour = 0;
     const char* const begin = in.current();
-    const char* const end = std::find_if_not(begin + 1, in.end(), is_name_char);
+    const char* const end = end_of_name(begin + 1, in.end());
     const auto read = std::from_chars(begin + 1, end, colour, 16);
     if (end - begin != 7 || read.ptr != end)
       throw Stop{Reason::BadNumber, begin, end};

@@ -29,12 +29,11 @@ public:
   /// Calls `visit(line, state)` with each line that can run and the state before it.
   template <typename Visit>
   void each_state(Visit visit) {
-    State state;
+    State state(code_.variables.size());
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
       if (!reached_[b])
         continue;
-      state.assign(code_.variables.size(), {});
-      load(b, state);
+      load(b, state); // what is not tracked is set before it is read
       for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
         visit(i, state);
         if (!step(b, code_.lines[i], state))

@@ -584,6 +584,8 @@ Names resolve(Program& program) {
 }
 
 std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root) {
+  if (const auto& leaf = program.nodes[root]; leaf.kind == NodeKind::Number)
+    return Constant{leaf.value, false};
   std::vector<Constant> stack;
   const auto pop = [&] {
     const auto top = stack.back();

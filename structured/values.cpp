@@ -167,6 +167,10 @@ private:
     ranges_.each_state([&](std::uint32_t i, State& state) {
       reached[i] = true;
       auto& line = code_.lines[i];
+      if (sets_what_is_there(line, state)) {
+        line.kind = LineKind::Nothing;
+        return;
+      }
       if (line.kind == LineKind::If)
         learn(line, state);
       each_root(code_, line, [&](std::uint32_t& root) {
@@ -184,15 +188,16 @@ private:
       if (line.kind == LineKind::Switch)
         choose(i, state[line.variable]);
     });
-    ranges_.each_state([&](std::uint32_t i, const State& state) {
-      auto& line = code_.lines[i];
-      if (line.kind == LineKind::Let && line.variable != index_variable &&
-          state[line.variable].constant() && code_.is_number(line.term) &&
-          code_.terms[line.term].value == state[line.variable].lo)
-        line.kind = LineKind::Nothing;
-    });
     cut_unreached(reached);
     add_lines();
+  }
+
+  /// Whether a variable is set to the number that it holds already. Only of variables that are set
+  /// to a number as the program stands, it is known what they held before.
+  bool sets_what_is_there(const CodeLine& line, const State& state) const {
+    return line.kind == LineKind::Let && line.variable != index_variable &&
+           code_.is_number(line.term) && state[line.variable].constant() &&
+           code_.terms[line.term].value == state[line.variable].lo;
   }
 
   /// What no values come to never runs, after a sub that always ends the program, say.

@@ -69,6 +69,13 @@ constexpr bool is_name_char(char c) {
   return begins_name(c) || is_digit(c);
 }
 
+/// Where a name or a word ends that has begun before `at`.
+constexpr const char* end_of_name(const char* at, const char* end) {
+  while (at != end && is_name_char(*at))
+    ++at;
+  return at;
+}
+
 /// The characters that a name may have.
 inline constexpr std::size_t longest_name = 31;
 
