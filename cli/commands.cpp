@@ -3,8 +3,11 @@
 #include "cli/options.h"
 #include "vm/native.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace orb::cli {
@@ -61,7 +64,44 @@ std::string examples_of(const CLI::App& command) {
   return help == nullptr ? std::string() : help->examples();
 }
 
-void add_commands(CLI::App& app, Context& context) {
+namespace {
+
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App&, Context&);
+};
+
+constexpr auto commands = std::to_array<Command>({
+    {"abort", add_abort},
+    {"asm", add_asm},
+    {"ball", add_ball},
+    {"build", add_build},
+    {"check", add_check},
+    {"commit", add_commit},
+    {"completion", add_completion},
+    {"decode", add_decode},
+    {"disasm", add_disasm},
+    {"doctor", add_doctor},
+    {"encode", add_encode},
+    {"erase", add_erase},
+    {"exec", add_exec},
+    {"explain", add_explain},
+    {"fmt", add_fmt},
+    {"info", add_info},
+    {"lift", add_lift},
+    {"lsp", add_lsp},
+    {"man", add_man},
+    {"monitor", add_monitor},
+    {"new", add_new},
+    {"ports", add_ports},
+    {"run", add_run},
+    {"spec", add_spec},
+    {"test", add_test},
+    {"upload", add_upload},
+});
+
+/// What orb is without a command.
+void add_frame(CLI::App& app, Context& context) {
   app.formatter(
       std::make_shared<HelpFormatter>("orb new robot\norb check program.bas\norb run program.bas\n"
                                       "orb upload program.bas --port /dev/rfcomm0 --run\n"));
@@ -75,32 +115,24 @@ void add_commands(CLI::App& app, Context& context) {
   app.add_option("--color", context.color, "auto, always or never")
       ->check(one_of({"auto", "always", "never"}))
       ->capture_default_str();
-  add_abort(app, context);
-  add_asm(app, context);
-  add_ball(app, context);
-  add_build(app, context);
-  add_check(app, context);
-  add_commit(app, context);
-  add_completion(app, context);
-  add_decode(app, context);
-  add_disasm(app, context);
-  add_doctor(app, context);
-  add_encode(app, context);
-  add_erase(app, context);
-  add_exec(app, context);
-  add_explain(app, context);
-  add_fmt(app, context);
-  add_info(app, context);
-  add_lift(app, context);
-  add_lsp(app, context);
-  add_man(app, context);
-  add_monitor(app, context);
-  add_new(app, context);
-  add_ports(app, context);
-  add_run(app, context);
-  add_spec(app, context);
-  add_test(app, context);
-  add_upload(app, context);
+}
+
+} // namespace
+
+void add_commands(CLI::App& app, Context& context) {
+  add_frame(app, context);
+  for (const auto& command : commands)
+    command.add(app, context);
+}
+
+bool add_only_command(CLI::App& app, Context& context, std::string_view word) {
+  const auto* const command = std::find_if(commands.begin(), commands.end(),
+                                           [&](const Command& one) { return one.name == word; });
+  if (command == commands.end() || command->add == add_explain || command->add == add_man)
+    return false; // those two tell of all commands
+  add_frame(app, context);
+  command->add(app, context);
+  return true;
 }
 
 } // namespace orb::cli

@@ -12,6 +12,7 @@
 #include <exception>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <unistd.h>
@@ -82,14 +83,6 @@ ExitCode report_usage(const CLI::App& app, const Context& context, const CLI::Pa
   return ExitCode::Usage;
 }
 
-tl::expected<void, orb::cli::ConfigError> configure(CLI::App& app, Context& context) {
-  auto config = orb::cli::load_config();
-  if (!config)
-    return tl::unexpected(config.error());
-  context.config = *std::move(config);
-  return orb::cli::apply_config(context.config, app);
-}
-
 /// The words of the command line, last first as CLI11 takes them. An option whose value is optional
 /// takes it only as `--option=value`: a bare one is moved after all others, where there is no file
 /// that it could take for its value.
@@ -125,24 +118,29 @@ void answer_completion(const CLI::App& app, std::vector<std::string> words) {
   orb::cli::print_out(print(complete(orb::cli::command_line(app), ports, words)));
 }
 
-int run(int argc, char** argv) {
-  // A closed pipe or socket, or a file as large as it may be, is an error to handle, not a death.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App app(
-      "orb writes, checks, runs and flashes orbBasic programs and macros for Sphero robots.",
-      "orb");
+constexpr auto about =
+    "orb writes, checks, runs and flashes orbBasic programs and macros for Sphero robots.";
+
+/// Runs a command line that begins with a command, with nothing but that command's options; nothing
+/// where all of them are needed: to make sense of settings, or of a line that does not parse.
+std::optional<int> run_only_command(const orb::cli::Config& config, int argc, char** argv) {
+  if (!config.settings.empty())
+    return std::nullopt;
+  CLI::App app(about, "orb");
   Context context;
-  orb::cli::add_commands(app, context);
-  if (argc == 1) {
-    orb::cli::print_out(app.help());
-    return 0;
+  context.config = config;
+  if (!orb::cli::add_only_command(app, context, argv[1]))
+    return std::nullopt;
+  try {
+    app.parse(words_for(app, argc, argv));
+  } catch (const CLI::Error&) { // nothing has run
+    return std::nullopt;
   }
-  if (argv[1] == completion_request) {
-    answer_completion(app, std::vector<std::string>(argv + 2, argv + argc));
-    return 0;
-  }
-  if (const auto ready = configure(app, context); !ready) {
+  return static_cast<int>(context.exit);
+}
+
+int run_command(CLI::App& app, Context& context, int argc, char** argv) {
+  if (const auto ready = orb::cli::apply_config(context.config, app); !ready) {
     orb::cli::print_error(context, ready.error().message);
     return static_cast<int>(ExitCode::Usage);
   }
@@ -157,6 +155,34 @@ int run(int argc, char** argv) {
     return static_cast<int>(report_usage(app, context, error));
   }
   return static_cast<int>(context.exit);
+}
+
+int run(int argc, char** argv) {
+  // A closed pipe or socket, or a file as large as it may be, is an error to handle, not a death.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const bool completes = argc > 1 && argv[1] == completion_request;
+  const auto config = argc == 1 || completes ? orb::cli::Config() : orb::cli::load_config();
+  if (config && argc > 1)
+    if (const auto exit = run_only_command(*config, argc, argv))
+      return *exit;
+  CLI::App app(about, "orb");
+  Context context;
+  orb::cli::add_commands(app, context);
+  if (argc == 1) {
+    orb::cli::print_out(app.help());
+    return 0;
+  }
+  if (completes) {
+    answer_completion(app, std::vector<std::string>(argv + 2, argv + argc));
+    return 0;
+  }
+  if (!config) {
+    orb::cli::print_error(context, config.error().message);
+    return static_cast<int>(ExitCode::Usage);
+  }
+  context.config = *config;
+  return run_command(app, context, argc, argv);
 }
 
 /// Ends as every program does whose reader has left, without a word; else says why nothing can be
