@@ -63,5 +63,9 @@ constexpr std::int64_t reciprocal(std::int32_t divisor) {
 constexpr std::int32_t divide_by(std::int32_t x, std::int64_t reciprocal) {
   return static_cast<std::int32_t>(Wide{x} * reciprocal >> 64) - (x >> 31);
 }
+/// remainder() by the same divisor.
+constexpr std::int32_t remainder_by(std::int32_t x, std::int32_t divisor, std::int64_t reciprocal) {
+  return subtract(x, multiply(divide_by(x, reciprocal), divisor));
+}
 
 } // namespace orb::bytecode

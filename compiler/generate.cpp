@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 namespace orb::compiler {
 
@@ -71,7 +72,9 @@ public:
   explicit Generator(const Program& program) : program_(program) {}
 
   Chunk run() {
-    find_lines();
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
+      if (program_.lines[i].has_number())
+        line_of_.try_emplace(program_.lines[i].number, i); // of duplicates the first counts, A-26
     begins_.assign(program_.lines.size() + 1, 0);
     for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
       const auto& line = program_.lines[i];
@@ -102,18 +105,12 @@ private:
   /// The line ends with what was emitted last.
   void end_line() { chunk_.code.back().ends_line = true; }
 
-  void find_lines() {
-    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
-      if (program_.lines[i].has_number())
-        line_of_.try_emplace(program_.lines[i].number, i); // of duplicates the first counts, A-26
-  }
-
   /// Leads instruction `at` to a line; false where there is none of that number.
   bool lead_to(std::uint32_t at, std::uint32_t number) {
     const auto found = line_of_.find(number);
     if (found == line_of_.end())
       return false;
-    jumps_.push_back({at, found->second});
+    jumps_.emplace_back(at, found->second);
     return true;
   }
 
@@ -138,7 +135,7 @@ private:
   void give_up(std::uint32_t begin) {
     overflow_ = false;
     chunk_.code.resize(begin);
-    while (!jumps_.empty() && jumps_.back().at >= begin)
+    while (!jumps_.empty() && jumps_.back().first >= begin)
       jumps_.pop_back();
     trap(BasicError::ExpressionTooComplex);
   }
@@ -203,9 +200,7 @@ private:
     const Op op = operations[static_cast<std::size_t>(written)];
     if (y && *y > 1 && (op == Op::Divide || op == Op::Remainder))
       divide_by_constant(op, left, right, static_cast<std::uint32_t>(*y));
-    else if (op == Op::Add && (is_last_product(left) || is_last_product(right)))
-      add_to_product(is_last_product(left) ? right : left);
-    else
+    else if (!(op == Op::Add && join(op, right, left)) && !join(op, left, right))
       compute(op, left, right);
   }
 
@@ -218,23 +213,30 @@ private:
       compute(quotient ? Op::DivideBy : Op::RemainderBy, left, right);
   }
 
-  bool is_last_product(std::uint16_t index) const {
-    return is_temporary(index) && chunk_.code.back().op == Op::Multiply &&
-           chunk_.code.back().a == index;
+  /// Where the value on the right was computed last: both operations in one instruction, if any.
+  bool join(Op op, std::uint16_t left, std::uint16_t right) {
+    constexpr std::array rows{std::array{Op::Multiply, Op::Add, Op::MultiplyAdd},
+                              std::array{Op::DivideBy, Op::Subtract, Op::DivideSubtract},
+                              std::array{Op::RemainderBy, Op::Add, Op::RemainderAdd}};
+    for (const auto& [first, second, both] : rows)
+      if (op == second && is_last(first, right, here())) {
+        const auto last = chunk_.code.back();
+        chunk_.code.pop_back();
+        compute(both, last.b, last.c, left);
+        return true;
+      }
+    return false;
   }
 
-  void add_to_product(std::uint16_t summand) {
-    const auto product = chunk_.code.back();
-    chunk_.code.pop_back();
-    compute(Op::MultiplyAdd, product.b, product.c, summand);
+  /// Whether a temporary has been computed by the last instruction before `end`, which is an `op`.
+  bool is_last(Op op, std::uint16_t to, std::uint32_t end) const {
+    return is_temporary(to) && chunk_.code[end - 1].op == op && chunk_.code[end - 1].a == to;
   }
 
   void negate() {
     const std::uint16_t operand = pop();
-    if (const auto value = constant_in(operand))
-      stack_.push_back(constant(bytecode::subtract(0, *value)));
-    else
-      compute(Op::Subtract, constant(0), operand);
+    stack_.insert(stack_.end(), {constant(0), operand});
+    combine(Operator::Subtract);
   }
 
   /// The first node of the first level too many: it is noticed where that opens.
@@ -269,14 +271,6 @@ private:
     return stack_.back();
   }
 
-  /// Computes an expression into a given register. False when it traps.
-  bool value_into(std::uint32_t root, std::uint16_t to) {
-    if (!value(root))
-      return false;
-    move(to, pop());
-    return true;
-  }
-
   void move(std::uint16_t to, std::uint16_t from) {
     if (is_temporary(from))
       chunk_.code.back().a = to; // what was emitted last computed it
@@ -289,8 +283,9 @@ private:
     const std::size_t first = stack_.size();
     for (const auto& item : items) {
       const std::uint16_t place = temporary(stack_.size());
-      if (!value_into(item.value, place))
+      if (!value(item.value))
         return std::nullopt;
+      move(place, pop());
       stack_.push_back(place);
     }
     return static_cast<std::uint16_t>(bytecode::first_temporary + first);
@@ -315,8 +310,8 @@ private:
     case Statement::If: decide(node); return;
     case Statement::For: begin_loop(program_.as<ForView>(node)); return;
     case Statement::Next: end_loop(program_.as<NextView>(node).variable); return;
-    case Statement::Goto: branch(Op::Goto, target_of(node)); return;
-    case Statement::Gosub: branch(Op::Gosub, target_of(node)); return;
+    case Statement::Goto: branch(Op::Goto, program_.as<BranchView>(node)); return;
+    case Statement::Gosub: branch(Op::Gosub, program_.as<BranchView>(node)); return;
     case Statement::Return: emit(Op::Return); return;
     case Statement::On:
       choose(node.spelling == Spelling::OnGosub ? Op::OnGosub : Op::OnGoto,
@@ -387,17 +382,24 @@ private:
           return info(made.op).compiled == bytecode::Compiled::Wholly;
         });
     stack_.resize(2); // left and right
-    if (harmless)
-      emit(with_relation(Op::SelectEqual, relation), static_cast<std::uint16_t>(x.variable.value),
-           left, right, *pair);
-    else
+    if (!harmless) {
       chunk_.code.resize(begin);
-    return harmless;
+      return false;
+    }
+    const auto to = static_cast<std::uint16_t>(x.variable.value);
+    if (relation == Relation::Equal && constant_in(right) == 0 && is_last(Op::And, left, begin)) {
+      const auto bits = chunk_.code[begin - 1];
+      chunk_.code.erase(chunk_.code.begin() + begin - 1);
+      emit(Op::SelectClear, to, bits.b, bits.c, *pair);
+    } else {
+      emit(with_relation(Op::SelectEqual, relation), to, left, right, *pair);
+    }
+    return true;
   }
 
-  void branch(Op op, std::uint32_t number) {
+  void branch(Op op, const BranchView& branch) {
     const std::uint32_t at = emit(op);
-    if (lead_to(at, number))
+    if (lead_to(at, branch.target.value))
       chunk_.code[at].ends_line = op == Op::Goto;
     else
       chunk_.code[at] = {Op::Trap, false, spec::code(BasicError::BadLineNumber)};
@@ -446,19 +448,13 @@ private:
     return static_cast<Relation>(comparison.relation.value);
   }
 
-  /// The line number after `goto` or `gosub`.
-  std::uint32_t target_of(const StatementNode& node) const {
-    return program_.as<BranchView>(node).target.value;
-  }
-
   /// Puts the registers of both sides on the stack. False when one traps.
   bool compare(const Comparison& comparison) {
     if (!value(comparison.left.value) || !value(comparison.right.value))
       return false;
     const auto left = stack_[stack_.size() - 2];
     const auto relation = relation_of(comparison);
-    if (is_temporary(left) && chunk_.code.back().op == Op::RemainderByPower &&
-        constant_in(stack_.back()) == 0 &&
+    if (is_last(Op::RemainderByPower, left, here()) && constant_in(stack_.back()) == 0 &&
         (relation == Relation::Equal || relation == Relation::NotEqual)) {
       auto& last = chunk_.code.back(); // the remainder is 0 where the low bits are
       last = {Op::And, false, left, last.b, constant(*constant_in(last.c) - 1)};
@@ -486,7 +482,7 @@ private:
         emit(with_relation(Op::UnlessEqual, last), stack_[stack_.size() - 2], stack_.back());
     // `then goto` is part of the test where nothing else remains to be done.
     const bool jumps = !has_else && !either && then.kind == Statement::Goto && !then.error &&
-                       lead_to(end, target_of(then));
+                       lead_to(end, program_.as<BranchView>(then).target.value);
     const std::uint32_t then_part = here();
     if (jumps)
       chunk_.code[end].op = with_relation(Op::WhenEqual, last);
@@ -583,17 +579,12 @@ private:
          static_cast<std::uint16_t>(items.size()));
   }
 
-  struct Jump {
-    std::uint32_t at;   ///< instruction
-    std::uint32_t line; ///< index into the program's lines
-  };
-
   const Program& program_;
   Chunk chunk_;
   std::unordered_map<std::uint32_t, std::uint32_t> line_of_;
   std::unordered_map<std::int32_t, std::uint16_t> constants_;
   std::vector<std::uint32_t> begins_; ///< by line of the program: its instruction, or the next one
-  std::vector<Jump> jumps_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> jumps_; ///< from instruction to line
   std::vector<std::uint16_t> stack_;
   bool overflow_ = false;
 };

@@ -101,7 +101,9 @@ private:
   }
 
   void right_side(spec::Operator op, std::uint32_t root) {
-    if (op == spec::Operator::Divide || op == spec::Operator::Remainder)
+    const auto& node = program_.nodes[root];
+    const bool safe = node.kind == NodeKind::Number && node.value > 1; // divides without a check
+    if ((op == spec::Operator::Divide || op == spec::Operator::Remainder) && !safe)
       found_.push_back({.kind = Kind::Divisor, .name = "the divisor", .root = root});
     if (op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight)
       found_.push_back({.kind = Kind::Shift,
@@ -195,8 +197,7 @@ std::optional<Suspect> place_of(const bytecode::Instruction& instruction) {
   if (instruction.op == Op::Sqrt) return Suspect{.kind = Kind::Operand, .function = spec::Function::Sqrt};
   if (instruction.op == Op::Rnd) return Suspect{.kind = Kind::Operand, .function = spec::Function::Rnd};
   if (instruction.op == Op::ShiftLeft || instruction.op == Op::ShiftRight) return Suspect{.kind = Kind::Shift};
-  if (instruction.op == Op::Divide || instruction.op == Op::Remainder ||
-      instruction.op == Op::DivideBy || instruction.op == Op::RemainderBy) return Suspect{.kind = Kind::Divisor};
+  if (instruction.op == Op::Divide || instruction.op == Op::Remainder) return Suspect{.kind = Kind::Divisor};
   if (instruction.op == Op::WriteSystem) return Suspect{.kind = Kind::Timer};
   if (instruction.op == Op::OnGoto || instruction.op == Op::OnGosub) return Suspect{.kind = Kind::Selector};
   if (instruction.op == Op::For || instruction.op == Op::ForElement) return Suspect{.kind = Kind::Step};

@@ -62,6 +62,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
 #define A r[pc->a]
 #define B r[pc->b]
 #define C r[pc->c]
+#define D r[pc->d]
 
 // An operation after which the line goes on.
 #define STEP(name, ...)                                                                            \
@@ -100,10 +101,11 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   VALUE(Multiply, A = bytecode::multiply(B, C))
   VALUE(Divide, if (C == 0) FAULT(BasicError::DivideByZero); A = bytecode::divide(B, C))
   VALUE(Remainder, if (C == 0) FAULT(BasicError::DivideByZero); A = bytecode::remainder(B, C))
-  VALUE(MultiplyAdd, A = bytecode::add(bytecode::multiply(B, C), r[pc->d]))
+  VALUE(MultiplyAdd, A = bytecode::add(bytecode::multiply(B, C), D))
   VALUE(DivideBy, A = bytecode::divide_by(B, reciprocal[pc->c]))
-  VALUE(RemainderBy, const auto quotient = bytecode::divide_by(B, reciprocal[pc->c]);
-        A = bytecode::subtract(B, bytecode::multiply(quotient, C)))
+  VALUE(RemainderBy, A = bytecode::remainder_by(B, C, reciprocal[pc->c]))
+  VALUE(DivideSubtract, A = bytecode::subtract(D, bytecode::divide_by(B, reciprocal[pc->c])))
+  VALUE(RemainderAdd, A = bytecode::add(bytecode::remainder_by(B, C, reciprocal[pc->c]), D))
   VALUE(DivideByPower, A = bytecode::before_cut(B, C) >> pc->d)
   VALUE(RemainderByPower, A = bytecode::subtract(B, bytecode::before_cut(B, C) & -C))
   VALUE(ShiftLeft, if (!bytecode::is_shift_count(C)) FAULT(BasicError::BadNumericParameter);
@@ -122,52 +124,40 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   VALUE(ReadData, SLOW(pc + 1, core.read_data(*pc)))
 
   // --- decisions --------------------------------------------------------------------------------
-#define TEST(relation, sign)                                                                       \
-  OP(Unless##relation) {                                                                           \
-    pc = A sign B ? pc + 1 : pc->target();                                                         \
-    DISPATCH();                                                                                    \
-  }                                                                                                \
-  OP_LINE(Unless##relation) {                                                                      \
-    if (A sign B) {                                                                                \
-      ++pc;                                                                                        \
-      DISPATCH();                                                                                  \
-    }                                                                                              \
-    pc = pc->target();                                                                             \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  OP(When##relation) {                                                                             \
-    pc = A sign B ? pc->target() : pc + 1;                                                         \
-    DISPATCH();                                                                                    \
-  }                                                                                                \
-  OP_LINE(When##relation) {                                                                        \
-    if (A sign B) {                                                                                \
+#define TEST(name, condition, jumping, passing)                                                    \
+  name {                                                                                           \
+    if (condition) {                                                                               \
       pc = pc->target();                                                                           \
-      NEXT_LINE();                                                                                 \
+      jumping();                                                                                   \
     }                                                                                              \
     ++pc;                                                                                          \
-    NEXT_LINE();                                                                                   \
-  }                                                                                                \
-  OP(Select##relation) {                                                                           \
-    const std::int32_t where_true = r[pc->d];                                                      \
+    passing();                                                                                     \
+  }
+
+#define SELECT(name, condition)                                                                    \
+  OP(Select##name) {                                                                               \
+    const std::int32_t where_true = D;                                                             \
     const std::int32_t where_false = r[pc->d + 1u];                                                \
-    A = B sign C ? where_true : where_false;                                                       \
+    A = condition ? where_true : where_false;                                                      \
     ++pc;                                                                                          \
     NEXT_LINE();                                                                                   \
   }
-  TEST(Equal, ==)
-  TEST(NotEqual, !=)
-  TEST(Less, <)
-  TEST(Greater, >)
+
+#define RELATION(name, sign)                                                                       \
+  TEST(OP(Unless##name), !(A sign B), DISPATCH, DISPATCH)                                          \
+  TEST(OP_LINE(Unless##name), !(A sign B), NEXT_LINE, DISPATCH)                                    \
+  TEST(OP(When##name), A sign B, DISPATCH, DISPATCH)                                               \
+  TEST(OP_LINE(When##name), A sign B, NEXT_LINE, NEXT_LINE)                                        \
+  SELECT(name, B sign C)
+  RELATION(Equal, ==)
+  RELATION(NotEqual, !=)
+  RELATION(Less, <)
+  RELATION(Greater, >)
+  SELECT(Clear, (B & C) == 0)
 
   // --- control ----------------------------------------------------------------------------------
-  OP(Goto) {
-    pc = pc->target();
-    DISPATCH();
-  }
-  OP_LINE(Goto) {
-    pc = pc->target();
-    NEXT_LINE();
-  }
+  TEST(OP(Goto), true, DISPATCH, DISPATCH)
+  TEST(OP_LINE(Goto), true, NEXT_LINE, NEXT_LINE)
 
 #define CALL(first)                                                                                \
   if (core.frames.call_depth == core.frames.calls.size())                                          \
@@ -217,9 +207,11 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   FOLLOWING_LINE()
 
 #define STEP_LOOP(counter)                                                                         \
-  const std::int32_t value = bytecode::add(counter, loop->step);                                   \
+  const std::int32_t step = loop->step;                                                            \
+  const std::int32_t value = bytecode::add(counter, step);                                         \
   counter = value;                                                                                 \
-  if (loop->step > 0 ? value <= loop->end : value >= loop->end) {                                  \
+  const std::int32_t down = step >> 31; /* inverts both where the loop counts down */              \
+  if ((value ^ down) <= (loop->end ^ down)) {                                                      \
     pc = code + loop->body;                                                                        \
     NEXT_LINE();                                                                                   \
   }                                                                                                \
@@ -228,7 +220,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
 
   OP(For) {
     A = B;
-    BEGIN_LOOP(pc->a, C, r[pc->d]);
+    BEGIN_LOOP(pc->a, C, D);
   }
   OP(ForElement) {
     BEGIN_LOOP(element_by_index, B, C);

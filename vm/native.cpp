@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -386,6 +385,8 @@ private:
     case Op::MultiplyAdd: multiply(i, i.d); break;
     case Op::DivideBy: divide_by(i); break;
     case Op::RemainderBy: remainder_by(i); break;
+    case Op::DivideSubtract: divide_subtract(i); break;
+    case Op::RemainderAdd: remainder_by(i, i.d); break;
     case Op::DivideByPower: divide_by_power(i); break;
     case Op::RemainderByPower: remainder_by_power(i); break;
     case Op::ShiftLeft: shift(x86::Inst::kIdShl, i); break;
@@ -405,6 +406,7 @@ private:
     case Op::SelectNotEqual: select(at, i, x86::CondCode::kNE); break;
     case Op::SelectLess: select(at, i, x86::CondCode::kL); break;
     case Op::SelectGreater: select(at, i, x86::CondCode::kG); break;
+    case Op::SelectClear: select(at, i, x86::CondCode::kE); break;
     case Op::Goto: jump(at, i.target); break;
     case Op::For: begin_loop(at, i); break;
     case Op::Next: end_loop(at, i); break;
@@ -536,13 +538,23 @@ private:
     store(i.a, x86::edx);
   }
 
-  void remainder_by(const Instruction& i) {
-    const auto x = quotient(i);
+  void divide_subtract(const Instruction& i) {
+    quotient(i);
     const auto place = place_of(i.a);
+    load(place, i.d);
+    a_.sub(place, x86::edx);
+    store(i.a, place);
+  }
+
+  void remainder_by(const Instruction& i, std::optional<std::uint16_t> summand = std::nullopt) {
+    const auto x = quotient(i);
+    const auto place = summand ? apart(i.a, *summand) : place_of(i.a);
     a_.imul(x86::edx, x86::edx, constant(i.c));
     if (place != x)
       a_.mov(place, x);
     a_.sub(place, x86::edx);
+    if (summand)
+      a_.emit(x86::Inst::kIdAdd, place, operand(*summand));
     store(i.a, place);
   }
 
@@ -573,19 +585,16 @@ private:
   }
 
   void shift(InstId op, const Instruction& i) {
-    if (is_constant(i.c) && bytecode::is_shift_count(constant(i.c))) {
-      const auto place = place_of(i.a);
-      load(place, i.b);
-      a_.emit(op, place, Imm(constant(i.c)));
-      store(i.a, place);
-    } else {
+    const bool known = is_constant(i.c) && bytecode::is_shift_count(constant(i.c));
+    const auto place = known ? place_of(i.a) : x86::Gp(x86::eax);
+    if (!known) {
       load(x86::ecx, i.c);
       a_.cmp(x86::ecx, spec::value_of(spec::Limit::GreatestShift));
       a_.ja(leave_);
-      load(x86::eax, i.b);
-      a_.emit(op, x86::eax, x86::cl);
-      store(i.a, x86::eax);
     }
+    load(place, i.b);
+    a_.emit(op, place, known ? operand(i.c) : Operand(x86::cl));
+    store(i.a, place);
   }
 
   void absolute(const Instruction& i) {
@@ -627,7 +636,11 @@ private:
 
   void select(std::uint32_t at, const Instruction& i, x86::CondCode takes_first) {
     const auto place = apart(i.a, i.d) == x86::eax ? x86::Gp(x86::ecx) : *homes_[i.a];
-    compare(i.b, i.c);
+    if (i.op == Op::SelectClear)
+      a_.emit(x86::Inst::kIdTest, loaded(i.b, x86::eax),
+              is_constant(i.c) ? operand(i.c) : Operand(loaded(i.c, x86::ecx)));
+    else
+      compare(i.b, i.c);
     load(place, static_cast<std::uint16_t>(i.d + 1)); // a move leaves the flags alone
     a_.emit(x86::Inst::cmovccFromCond(takes_first), place, operand(i.d));
     store(i.a, place);

@@ -225,7 +225,8 @@ TEST(Agreement, DivisionByConstantsIsExact) {
                                     "2147483646", "2147483647", "2147483647+1"})
       for (const std::string sign : {"", "0-"}) {
         const auto text = fmt::format("10 X={0}({1})\n20 A=X/{2}\n30 B=X%{2}\n40 X=X/{2}+A*A+B\n"
-                                      "50 if A%{2}=0 then C=1\n60 if A%{2}!0 then D=1\n",
+                                      "50 if A%{2}=0 then C=1\n60 if A%{2}!0 then D=1\n"
+                                      "70 if X%{2}=0 then E=X-A/{2} else E=A%{2}+X\n",
                                       sign, value, divisor);
         SideBySide all(text, 1);
         while (all.goes_on() && !::testing::Test::HasFailure())

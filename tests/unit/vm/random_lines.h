@@ -80,6 +80,9 @@ private:
     return expression(depth + 1) + op + right;
   }
   std::string relation() {
+    if (chance(15)) // of low bits
+      return letter() + one_of<std::string>({"%2", "%8", "&6", "&B"}) +
+             one_of<std::string>({"=0", "!0"});
     return (chance(50) ? leaf() : expression(2)) + one_of<std::string>({"=", "!", "<", ">"}) +
            (chance(70) ? leaf() : expression(2));
   }
