@@ -57,11 +57,11 @@ private:
 
   enum class Calls : std::uint8_t { Enter, StepOver };
 
-  /// Marks what can follow `start`, and returns what was not marked before.
-  std::vector<std::uint32_t> spread(std::uint32_t start, std::vector<std::uint8_t>& marks,
-                                    Calls calls) const {
-    std::vector<std::uint32_t> found;
-    found.reserve(size_);
+  /// Marks what can follow `start`, and returns what was not marked before, until the next call.
+  const std::vector<std::uint32_t>& spread(std::uint32_t start, std::vector<std::uint8_t>& marks,
+                                           Calls calls) {
+    auto& found = found_;
+    found.clear();
     const auto visit = [&](std::uint32_t to) {
       if (to < size_ && marks[to] == 0) {
         marks[to] = 1;
@@ -322,6 +322,7 @@ private:
   bool has_return_ = false;
   bool has_call_ = false;
   bool has_wait_ = false;
+  std::vector<std::uint32_t> found_; ///< by spread(), the last time
   std::vector<std::uint8_t> reached_;
   std::vector<std::uint8_t> main_;   ///< can run while no subroutine is open
   std::vector<std::uint8_t> inside_; ///< can run as part of a subroutine

@@ -27,15 +27,25 @@ bool is(const StatementNode& node, spec::Statement kind) {
 
 /// The open loops before a line, as far as they are the same on every way that leads there.
 struct Loops {
+  static constexpr std::uint32_t most = spec::value_of(spec::Limit::ForDepth);
+
   bool known = true;
   std::uint8_t count = 0;
-  std::array<std::uint8_t, 4> variables{};
+  std::uint32_t variables = 0; ///< a byte each, the innermost lowest
 
-  static Loops unknown() { return {false, 0, {}}; }
+  static Loops unknown() { return {false, 0, 0}; }
+  std::uint32_t innermost() const { return variables & UINT8_MAX; }
+  void open(std::uint32_t variable) {
+    variables = variables << 8 | variable;
+    ++count;
+  }
+  void close() {
+    variables >>= 8;
+    --count;
+  }
   friend bool operator==(const Loops&, const Loops&) = default;
 };
-static_assert(std::tuple_size_v<decltype(Loops::variables)> ==
-              spec::value_of(spec::Limit::ForDepth));
+static_assert(Loops::most <= sizeof Loops::variables);
 
 /// The main program, or a subroutine called while these loops are open.
 struct Call {
@@ -258,17 +268,17 @@ private:
     if (!loops.known || !is_loop_part(node))
       return loops;
     if (node.kind == spec::Statement::Next) {
-      if (loops.count == 0 || loops.variables[loops.count - 1U] != stepped_by(node))
+      if (loops.count == 0 || loops.innermost() != stepped_by(node))
         return std::nullopt;
-      loops.variables[--loops.count] = 0;
+      loops.close();
       return loops;
     }
-    const auto variable = static_cast<std::uint8_t>(counter_of(node));
-    if (loops.count > 0 && loops.variables[loops.count - 1U] == variable)
+    const auto variable = counter_of(node);
+    if (loops.count > 0 && loops.innermost() == variable)
       return loops; // the innermost loop begins again
-    if (loops.count == loops.variables.size())
+    if (loops.count == Loops::most)
       return std::nullopt;
-    loops.variables[loops.count++] = variable;
+    loops.open(variable);
     return loops;
   }
 
@@ -323,7 +333,7 @@ private:
       const auto& loops = states_[at].loops;
       if (!loops.known || loops.count == 0)
         return;
-      const std::uint32_t here = loops.variables[loops.count - 1U];
+      const std::uint32_t here = loops.innermost();
       if (innermost.value_or(here) != here)
         return;
       innermost = here;
@@ -358,7 +368,7 @@ private:
       findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
       return;
     }
-    const auto innermost = name_of(loops.variables[loops.count - 1U]);
+    const auto innermost = name_of(loops.innermost());
     findings_.add(rules::NextWithoutFor, node.span,
                   fmt::format("the innermost loop counts in `{}`", innermost),
                   fmt::format("end it first: `next {}`", innermost));

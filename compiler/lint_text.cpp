@@ -26,15 +26,15 @@ constexpr std::uint64_t unusual_bytes(std::uint64_t word) {
 }
 
 bool has_unusual_byte(std::string_view text) {
-  while (!text.empty()) {
-    std::uint64_t word = 0x2020202020202020; // blanks
-    const auto part = text.substr(0, sizeof word);
-    std::memcpy(&word, part.data(), part.size());
-    if (unusual_bytes(word) != 0)
-      return true;
-    text.remove_prefix(part.size());
+  std::uint64_t found = 0;
+  std::uint64_t word = 0;
+  for (; text.size() >= sizeof word; text.remove_prefix(sizeof word)) {
+    std::memcpy(&word, text.data(), sizeof word);
+    found |= unusual_bytes(word);
   }
-  return false;
+  word = 0x2020202020202020; // blanks
+  text.copy(reinterpret_cast<char*>(&word), sizeof word);
+  return (found | unusual_bytes(word)) != 0;
 }
 
 /// What can be said of the text without computing anything.

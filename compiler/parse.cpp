@@ -93,12 +93,7 @@ public:
   }
 
   void leaf(NodeKind kind, std::uint8_t what, const char* begin, const char* end) {
-    Node node;
-    node.kind = kind;
-    node.what = what;
-    node.first = size(program_.nodes);
-    node.span = span(begin, end);
-    program_.nodes.push_back(node);
+    add(kind, what, size(program_.nodes), span(begin, end));
   }
 
   void number(const char* begin, const char* end) {
@@ -110,24 +105,14 @@ public:
 
   /// An operator before, or parentheses around, the last operand.
   void unary(NodeKind kind, std::uint8_t what, const char* begin, const char* end) {
-    Node node;
-    node.kind = kind;
-    node.what = what;
-    node.depth = depth_;
-    node.first = program_.nodes.back().first;
-    node.span = span(begin, end);
-    program_.nodes.push_back(node);
+    add(kind, what, program_.nodes.back().first, span(begin, end)).depth = depth_;
   }
 
   void binary(char symbol) {
     const auto& right = program_.nodes.back();
     const auto& left = program_.nodes[right.first - 1];
-    Node node;
-    node.kind = NodeKind::Binary;
-    node.what = operator_of[static_cast<std::size_t>(symbol)];
-    node.first = left.first;
-    node.span = {left.span.begin, right.span.end};
-    program_.nodes.push_back(node);
+    add(NodeKind::Binary, operator_of[static_cast<std::size_t>(symbol)], left.first,
+        {left.span.begin, right.span.end});
   }
 
   void open(const char* at) {
@@ -137,7 +122,10 @@ public:
   void close() { --depth_; }
 
   void item(ItemKind kind, std::uint32_t value, Span where) {
-    program_.items.push_back({kind, value, where});
+    auto& item = program_.items.emplace_back();
+    item.kind = kind;
+    item.value = value;
+    item.span = where;
   }
   void expression(ItemKind kind) {
     item(kind, size(program_.nodes) - 1, program_.nodes.back().span);
@@ -184,7 +172,7 @@ public:
     statement.error = error_of(stop.reason);
     statement.items_begin = statement.items_end = size(program_.items);
     statement.span = span(begin, end);
-    const auto line = size(program_.lines);
+    const auto line = size(program_.lines) - 1;
     if (program_.faults.empty() || program_.faults.back().line != line)
       program_.faults.push_back(
           {stop.reason, line, kind_, stop.found,
@@ -224,6 +212,16 @@ public:
   }
 
 private:
+  /// Filled where it lies: a copy would have to wait for the parts that were written just before.
+  Node& add(NodeKind kind, std::uint8_t what, std::uint32_t first, Span where) {
+    auto& node = program_.nodes.emplace_back();
+    node.kind = kind;
+    node.what = what;
+    node.first = first;
+    node.span = where;
+    return node;
+  }
+
   template <typename T>
   static std::uint32_t size(const std::vector<T>& vector) {
     return static_cast<std::uint32_t>(vector.size());
@@ -591,7 +589,7 @@ public:
 private:
   /// Parses the line that begins at `begin`; returns its end.
   const char* parse_line(const char* begin) {
-    Line line;
+    auto& line = program_.lines.emplace_back();
     const char* p = begin;
     while (p != end_ && is_blank(*p))
       ++p;
@@ -603,7 +601,6 @@ private:
       p = end;
     }
     line.span = builder_.span(begin, p);
-    program_.lines.push_back(line);
     return p;
   }
 
@@ -611,7 +608,8 @@ private:
   const char* parse_content(Line& line, const char* begin) {
     builder_.begin_line();
     const auto mark = builder_.mark();
-    const char* const digits_end = std::find_if_not(begin, end_, is_digit);
+    const char* const digits_end =
+        std::find_if_not(begin, end_, [](char c) { return is_digit(c); });
     const char* body = digits_end;
     while (body != end_ && is_blank(*body))
       ++body;
