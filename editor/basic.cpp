@@ -7,80 +7,27 @@
 #include "compiler/renumber.h"
 #include "compiler/rules.h"
 #include "compiler/words.h"
+#include "editor/basic_names.h"
 #include "editor/language.h"
 #include "editor/markdown.h"
+#include "editor/words.h"
 #include "reference/sections.h"
 #include "spec/limits.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 #include <utility>
 #include <variant>
 
 namespace orb::editor {
 namespace {
 
-using compiler::ItemKind;
-using compiler::NodeKind;
 using compiler::Program;
 
-constexpr std::string_view language_id = "orbbasic";
+constexpr auto language_id = basic_language_id;
 constexpr std::string_view allow_mark = "orb: allow";
 constexpr auto most_line_number =
     static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber));
-
-// ---- words of one line, for text that need not parse
-
-enum class TokenKind : std::uint8_t { Number, Word, String, Comment, Symbol };
-
-struct Token {
-  TokenKind kind = TokenKind::Symbol;
-  Span span;
-};
-
-bool is_word_part(char c) {
-  return is_letter(c) || c == '_';
-}
-
-/// The tokens of the line that holds `offset`.
-std::vector<Token> tokens_at(const Source& source, std::uint32_t offset) {
-  const auto number = source.position(offset).line;
-  const auto line = source.line(number);
-  const auto start = source.line_start(number);
-  std::vector<Token> tokens;
-  std::size_t at = 0;
-  while (at < line.size()) {
-    const char c = line[at];
-    const auto begin = at;
-    auto kind = TokenKind::Symbol;
-    if (is_blank(c)) {
-      ++at;
-      continue;
-    }
-    if (is_digit(c)) {
-      kind = TokenKind::Number;
-      while (at < line.size() && is_digit(line[at]))
-        ++at;
-    } else if (is_word_part(c)) {
-      kind = TokenKind::Word;
-      while (at < line.size() && is_word_part(line[at]))
-        ++at;
-    } else if (c == '"') {
-      kind = TokenKind::String;
-      at = std::min(line.find('"', at + 1), line.size() - 1) + 1;
-    } else if (c == '\'') {
-      kind = TokenKind::Comment;
-      at = line.size();
-    } else {
-      ++at;
-    }
-    tokens.push_back(
-        {kind,
-         {start + static_cast<std::uint32_t>(begin), start + static_cast<std::uint32_t>(at)}});
-  }
-  return tokens;
-}
 
 const Token* token_at(const std::vector<Token>& tokens, std::uint32_t offset) {
   for (const auto& token : tokens)
@@ -93,71 +40,6 @@ const Token* token_at(const std::vector<Token>& tokens, std::uint32_t offset) {
 }
 
 // ---- names: line numbers and variables
-
-/// A place that names a line: its own number, or a target of a jump.
-struct LineName {
-  std::uint32_t number = 0;
-  Span span;
-  bool is_target = false;
-  bool calls = false; ///< of a target: by gosub
-};
-
-/// The line number that `sleep` takes as its last argument, where it is written out; 0 is none.
-std::optional<LineName> sleep_target(const Program& program, const compiler::StatementNode& node) {
-  if (node.kind != spec::Statement::Sleep || node.error)
-    return std::nullopt;
-  const auto& root = program.nodes[program.as<compiler::SleepView>(node).line.value];
-  if (root.kind != NodeKind::Number || root.value <= 0)
-    return std::nullopt;
-  return LineName{static_cast<std::uint32_t>(root.value), root.span, true, false};
-}
-
-std::vector<LineName> line_names(const Program& program) {
-  std::vector<LineName> names;
-  for (const auto& line : program.lines)
-    if (line.has_number())
-      names.push_back({line.number, line.number_span, false, false});
-  for (const auto& node : program.statements) {
-    if (node.error)
-      continue;
-    const bool calls =
-        node.kind == spec::Statement::Gosub || node.spelling == compiler::Spelling::OnGosub;
-    for (const auto& item : program.items_of(node))
-      if (item.kind == ItemKind::Target)
-        names.push_back({item.value, item.span, true, calls});
-    if (const auto target = sleep_target(program, node))
-      names.push_back(*target);
-  }
-  return names;
-}
-
-constexpr std::uint8_t indexed_letter = 'Z' - 'A';
-
-struct LetterName {
-  std::uint8_t letter = 0; ///< 0 for A to 25 for Z
-  Span span;
-  bool is_set = false;
-};
-
-std::vector<LetterName> letter_names(const Program& program) {
-  std::vector<LetterName> names;
-  for (const auto& node : program.nodes)
-    if (node.kind == NodeKind::Letter || node.kind == NodeKind::Indexed)
-      names.push_back(
-          {node.kind == NodeKind::Letter ? node.what : indexed_letter, node.span, false});
-  for (const auto& item : program.items)
-    if (item.kind == ItemKind::Letter || item.kind == ItemKind::Indexed)
-      names.push_back(
-          {item.kind == ItemKind::Letter ? static_cast<std::uint8_t>(item.value) : indexed_letter,
-           item.span, true});
-  std::sort(names.begin(), names.end(),
-            [](const LetterName& a, const LetterName& b) { return a.span.begin < b.span.begin; });
-  return names;
-}
-
-bool touches(Span span, std::uint32_t offset) {
-  return span.begin <= offset && offset <= span.end;
-}
 
 /// The name that stands at `offset`; of two that touch it the one after wins.
 template <typename Name>
@@ -314,7 +196,7 @@ std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_
 }
 
 std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
-  const auto tokens = tokens_at(source, offset);
+  const auto tokens = tokens_at(source, offset, basic_lexis);
   const auto* token = token_at(tokens, offset);
   if (token == nullptr)
     return std::nullopt;
@@ -322,7 +204,7 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset, const Lan
   switch (token->kind) {
   case TokenKind::String: return std::nullopt;
   case TokenKind::Comment: return hover_rule(source, token->span, offset);
-  case TokenKind::Symbol: {
+  case TokenKind::Sign: {
     const auto word = text == "?" ? std::string_view("print") : text;
     if (auto found = word_markdown(word))
       return Hover{token->span, *found};
@@ -465,10 +347,9 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
   offset = std::min(offset, static_cast<std::uint32_t>(text.size()));
   Suggestions out{{offset, offset}, {}};
   std::vector<Token> before;
-  for (const auto& token : tokens_at(source, offset)) {
+  for (const auto& token : tokens_at(source, offset, basic_lexis)) {
     const bool open_end = token.kind == TokenKind::Comment ||
-                          (token.kind == TokenKind::String &&
-                           (token.span.size() < 2 || text[token.span.end - 1] != '"'));
+                          (token.kind == TokenKind::String && is_open(source, token));
     const bool inside = token.span.begin < offset &&
                         (open_end ? offset <= token.span.end : offset < token.span.end);
     if (token.kind == TokenKind::Comment && inside) {
@@ -505,56 +386,16 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
 
 // ---- outline
 
-/// What a comment in the line above says, without its mark: the name of a part of a program.
-std::string_view title_above(const Program& program, std::size_t index) {
-  if (index == 0)
-    return {};
-  const auto& above = program.lines[index - 1];
-  if (above.has_number() || above.has_statement() || above.comment.size() == 0)
-    return {};
-  auto text = program.text_of(above.comment);
-  while (!text.empty() && (text.front() == '\'' || is_blank(text.front())))
-    text.remove_prefix(1);
-  return text.starts_with("orb:") ? std::string_view() : text;
-}
-
-bool ends_part(const Program& program, const compiler::Line& line) {
-  if (!line.has_statement())
-    return false;
-  const auto& node = program.statements[line.statement];
-  return !node.error && (node.kind == spec::Statement::Return || node.kind == spec::Statement::End);
-}
-
 std::vector<Symbol> outline(const Source& source) {
   const auto program = compiler::parse(source.text());
-  struct Target {
-    bool is_called = false;
-    bool is_listed = false; ///< of lines of equal numbers only the first is reached by a jump
-  };
-  std::map<std::uint32_t, Target> targets;
-  for (const auto& name : line_names(program))
-    if (name.is_target)
-      targets[name.number].is_called |= name.calls;
   std::vector<Symbol> symbols;
-  std::size_t part_end = 0; // the last line of the subroutine at hand
-  for (std::size_t i = 0; i < program.lines.size(); ++i) {
-    const auto& line = program.lines[i];
-    const auto found = line.has_number() ? targets.find(line.number) : targets.end();
-    if (found == targets.end() || std::exchange(found->second.is_listed, true))
-      continue;
-    const bool is_called = found->second.is_called;
-    if (is_called) { // one that begins inside another ends where that one does
-      part_end = std::max(part_end, i);
-      while (part_end + 1 < program.lines.size() && !ends_part(program, program.lines[part_end]))
-        ++part_end;
-    }
-    const auto& last = program.lines[is_called ? part_end : i];
-    const auto title = title_above(program, i);
+  for (const auto& part : parts_of(program)) {
+    const auto& first = program.lines[part.first];
     symbols.push_back(
-        {title.empty() ? fmt::format("{}", line.number) : fmt::format("{} {}", line.number, title),
-         std::string(is_called ? "subroutine" : "jump target"),
-         {line.span.begin, std::max(last.span.end, line.span.end)},
-         line.number_span});
+        {part.title,
+         std::string(part.is_called ? "subroutine" : "jump target"),
+         {first.span.begin, std::max(program.lines[part.last].span.end, first.span.end)},
+         first.number_span});
   }
   return symbols;
 }

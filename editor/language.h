@@ -1,7 +1,8 @@
 #pragma once
 
 // What an editor may ask about a text, without any protocol: places are bytes of a Source. The
-// languages answer in editor/basic.cpp, editor/structured.cpp, editor/macro.cpp and editor/test.cpp.
+// languages answer in editor/basic.cpp, editor/structured.cpp, editor/macro.cpp and
+// editor/test.cpp.
 
 #include "base/diagnostic.h"
 #include "base/source.h"

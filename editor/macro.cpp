@@ -8,7 +8,9 @@
 #include "base/text.h"
 #include "editor/directives.h"
 #include "editor/language.h"
+#include "editor/macro_names.h"
 #include "editor/markdown.h"
+#include "editor/words.h"
 #include "reference/sections.h"
 
 #include <algorithm>
@@ -21,82 +23,15 @@ using assembler::Program;
 using assembler::Statement;
 using assembler::Value;
 
-constexpr std::string_view language_id = "orbmacro";
+constexpr auto language_id = macro_language_id;
 
 bool is_word_part(char c) {
   return is_letter(c) || is_digit(c) || c == '_';
 }
 
-bool touches(Span span, std::uint32_t offset) {
-  return span.begin <= offset && offset <= span.end;
-}
-
 // ---- names: macros and constants
 
-struct Name {
-  Span span;
-  bool is_definition = false;
-};
-
-/// The operand that the value at `index` of a command is for: by name, else by its place.
-const spec::MacroOperand* operand_of(const Source& source, const Program& program,
-                                     const Statement& statement, std::uint32_t index) {
-  if (statement.info == nullptr)
-    return nullptr;
-  const auto& value = program.values[statement.first + index];
-  if (value.name.size() > 0) {
-    for (const auto& operand : *statement.info)
-      if (operand.name == source.text(value.name))
-        return &operand;
-    return nullptr;
-  }
-  return index < statement.info->operand_count ? statement.info->begin() + index : nullptr;
-}
-
-bool is_own_word(const spec::MacroOperand* operand, std::string_view word) {
-  return operand != nullptr &&
-         std::any_of(operand->begin_words(), operand->end_words(),
-                     [&](const spec::MacroWord& one) { return one.word == word; });
-}
-
-bool is_flag(std::string_view word) {
-  return std::any_of(std::begin(spec::macro_flags), std::end(spec::macro_flags),
-                     [&](const spec::MacroFlagInfo& row) { return row.word == word; });
-}
-
-/// Every place that defines or uses a macro's or a constant's name.
-std::vector<Name> names_in(const Source& source, const Program& program) {
-  std::vector<Name> names;
-  for (const auto& statement : program.statements)
-    for (std::uint32_t i = 0; i < statement.count; ++i) {
-      const auto& value = program.values[statement.first + i];
-      const bool is_word = value.kind == Value::Kind::Word;
-      const auto text = source.text(value.span);
-      switch (statement.kind) {
-      case Statement::Kind::Const:
-        if (value.name.size() > 0)
-          names.push_back({value.name, true});
-        if (is_word)
-          names.push_back({value.span, false});
-        break;
-      case Statement::Kind::Macro:
-        if (i == 0 && is_word && value.name.size() == 0)
-          names.push_back({value.span, true});
-        else if (is_word && !is_flag(text))
-          names.push_back({value.span, false});
-        break;
-      case Statement::Kind::Command:
-        if (is_word && !is_own_word(operand_of(source, program, statement, i), text))
-          names.push_back({value.span, false});
-        break;
-      case Statement::Kind::Raw:
-      case Statement::Kind::NoEnd: break;
-      }
-    }
-  return names;
-}
-
-const Name* name_at(const std::vector<Name>& names, std::uint32_t offset) {
+const MacroName* name_at(const std::vector<MacroName>& names, std::uint32_t offset) {
   for (const auto& name : names)
     if (touches(name.span, offset))
       return &name;
@@ -181,24 +116,6 @@ tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t o
 }
 
 // ---- hover
-
-std::string range_text(const spec::MacroOperand& operand) {
-  if (operand.kind == spec::MacroOperandKind::Text)
-    return "a text in quotes";
-  const auto unit = [&]() -> std::string_view {
-    switch (operand.unit) {
-    case spec::MacroUnit::None: return "";
-    case spec::MacroUnit::Milliseconds: return " ms";
-    case spec::MacroUnit::Ticks10ms: return " times 10 ms";
-    case spec::MacroUnit::Degrees: return " degrees";
-    }
-    return "";
-  }();
-  auto out = fmt::format("{} to {}{}", operand.minimum, operand.maximum, unit);
-  for (const auto* word = operand.begin_words(); word != operand.end_words(); ++word)
-    out += fmt::format(", `{}` is {}", word->word, word->value);
-  return out;
-}
 
 const MacroDirective* find_directive(std::string_view word) {
   for (const auto& row : macro_directives)

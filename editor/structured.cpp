@@ -8,7 +8,9 @@
 #include "compiler/rules.h"
 #include "editor/language.h"
 #include "editor/markdown.h"
+#include "editor/structured_names.h"
 #include "editor/text.h"
+#include "editor/words.h"
 #include "reference/sections.h"
 #include "spec/limits.h"
 #include "structured/blocks.h"
@@ -29,136 +31,15 @@ namespace orb::editor {
 namespace {
 
 using structured::Compiled;
-using structured::ItemKind;
 using structured::Kind;
-using structured::Names;
 using structured::none;
 using structured::Program;
 using structured::SymbolKind;
 
-constexpr std::string_view language_id = "orbstructured";
+constexpr auto language_id = structured_language_id;
 constexpr std::string_view allow_mark = "orb: allow";
 
-/// A program with all that it includes.
-struct Reading {
-  Program program;
-  Names names;
-  std::vector<std::shared_ptr<const Source>> sources; ///< of its files
-
-  /// The file and the place in it; nothing for what stands in no file, such as a macro's name.
-  std::optional<FarPlace> place(Span span) const {
-    const auto at = structured::place_of(program, span);
-    if (at.file >= sources.size() || at.span.size() != span.size())
-      return std::nullopt;
-    return FarPlace{sources[at.file], at.span, false};
-  }
-};
-
-Reading read(const Source& source, const LanguageOptions& options) {
-  structured::NoFiles no_files;
-  Reading reading;
-  reading.program = structured::read(source.name(), path_of_uri(source.name()), source.text(),
-                                     options.files != nullptr ? *options.files : no_files);
-  reading.names = structured::resolve(reading.program);
-  for (const auto& file : reading.program.files)
-    reading.sources.push_back(std::make_shared<const Source>(
-        file.path, reading.program.text.substr(file.begin, file.end - file.begin)));
-  return reading;
-}
-
-Compiled compile(const Source& source, const LanguageOptions& options) {
-  structured::NoFiles no_files;
-  compiler::Target target;
-  target.version = options.target;
-  return structured::compile(source.name(), path_of_uri(source.name()), source.text(), target,
-                             options.files != nullptr ? *options.files : no_files);
-}
-
 // ---- names
-
-/// What a name stands for: a symbol, or a label of a routine.
-struct Meaning {
-  std::uint32_t symbol = none;
-  std::uint32_t routine = none; ///< of a label
-  std::uint32_t name = none;    ///< of a label
-
-  friend bool operator==(const Meaning&, const Meaning&) = default;
-};
-
-struct NameUse {
-  Meaning meaning;
-  Span span;
-  bool is_set = false; ///< declared or assigned
-};
-
-class NameUses {
-public:
-  explicit NameUses(const Reading& reading) : program_(reading.program), names_(reading.names) {}
-
-  std::vector<NameUse> collect() {
-    for (std::uint32_t i = 0; i < program_.statements.size(); ++i)
-      add_statement(i);
-    std::sort(uses_.begin(), uses_.end(),
-              [](const NameUse& a, const NameUse& b) { return a.span.begin < b.span.begin; });
-    return std::move(uses_);
-  }
-
-private:
-  void add(std::uint32_t symbol, Span span, bool is_set) {
-    if (symbol != none)
-      uses_.push_back({{symbol, none, none}, span, is_set});
-  }
-
-  void add_statement(std::uint32_t i) {
-    const auto& statement = program_.statements[i];
-    const auto routine = names_.routine_of[i];
-    if (statement.kind == Kind::Label || statement.kind == Kind::Goto)
-      uses_.push_back(
-          {{none, routine, statement.name}, statement.name_span, statement.kind == Kind::Label});
-    else if (statement.kind == Kind::Call)
-      add(names_.of_statement[i], statement.name_span, false);
-    else if (statement.name != none)
-      add(declared_by(i, statement.name), statement.name_span, true);
-    for (const auto& item : program_.items_of(statement)) {
-      if (item.kind == ItemKind::Name)
-        add(declared_by(i, item.value), item.span, statement.kind != Kind::Robot);
-      else if (item.kind == ItemKind::Expression || item.kind == ItemKind::Character ||
-               item.kind == ItemKind::Place)
-        add_nodes(item, statement.kind != Kind::Next);
-    }
-  }
-
-  /// The symbol of a name that a statement declares; of the macro that `macrun` names.
-  std::uint32_t declared_by(std::uint32_t statement, std::uint32_t name) const {
-    auto constant = none;
-    for (std::uint32_t s = 0; s < names_.symbols.size(); ++s) {
-      const auto& symbol = names_.symbols[s];
-      if (symbol.name != name)
-        continue;
-      if (symbol.statement == statement)
-        return s;
-      if (symbol.kind == SymbolKind::Constant)
-        constant = s;
-    }
-    return constant;
-  }
-
-  void add_nodes(const structured::Item& item, bool sets) {
-    for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {
-      const auto& node = program_.nodes[n];
-      if (names_.of_node[n] == none)
-        continue;
-      const auto length =
-          static_cast<std::uint32_t>(program_.name(static_cast<std::uint32_t>(node.value)).size());
-      add(names_.of_node[n], {node.span.begin, node.span.begin + length},
-          sets && item.kind == ItemKind::Place && n == item.value);
-    }
-  }
-
-  const Program& program_;
-  const Names& names_;
-  std::vector<NameUse> uses_;
-};
 
 /// The name that touches `offset`; of two the one after it wins.
 const NameUse* use_at(const std::vector<NameUse>& uses, std::uint32_t offset) {
@@ -179,13 +60,13 @@ struct Part {
 
 Part part_of(const Source& root, const std::string& path, std::uint32_t offset,
              const LanguageOptions& options) {
-  Part part{read(root, options), {}, nullptr, 0};
+  Part part{read_structured(root, options), {}, nullptr, 0};
   const auto& files = part.reading.program.files;
   while (part.file < files.size() && files[part.file].path != path)
     ++part.file;
   if (part.file == files.size())
     return part;
-  part.uses = NameUses(part.reading).collect();
+  part.uses = name_uses(part.reading);
   part.here = use_at(part.uses, files[part.file].begin + offset);
   return part;
 }
@@ -235,52 +116,6 @@ Occurrences occurrences(const Source& source, std::uint32_t offset,
     else
       (place.defines ? found.definitions : found.uses).push_back(place.span);
   return found;
-}
-
-// ---- the words of a line, for text that need not parse
-
-enum class TokenKind : std::uint8_t { Number, Word, String, Comment, Sign };
-
-struct Token {
-  TokenKind kind = TokenKind::Sign;
-  Span span;
-};
-
-std::size_t end_of_token(std::string_view line, std::size_t at, TokenKind kind) {
-  if (kind == TokenKind::Comment)
-    return line.size();
-  if (kind == TokenKind::String)
-    return std::min(line.find('"', at + 1), line.size() - 1) + 1;
-  if (kind == TokenKind::Sign)
-    return at + 1;
-  auto end = at;
-  while (end < line.size() && structured::is_name_char(line[end]))
-    ++end;
-  return end;
-}
-
-/// The tokens of the line that holds `offset`.
-std::vector<Token> tokens_at(const Source& source, std::uint32_t offset) {
-  const auto number = source.position(offset).line;
-  const auto line = source.line(number);
-  const auto start = source.line_start(number);
-  std::vector<Token> tokens;
-  for (std::size_t at = 0; at < line.size();) {
-    if (is_blank(line[at])) {
-      ++at;
-      continue;
-    }
-    const auto kind = line[at] == '\''                    ? TokenKind::Comment
-                      : line[at] == '"'                   ? TokenKind::String
-                      : is_digit(line[at])                ? TokenKind::Number
-                      : structured::begins_name(line[at]) ? TokenKind::Word
-                                                          : TokenKind::Sign;
-    const auto end = end_of_token(line, at, kind);
-    tokens.push_back(
-        {kind, {start + static_cast<std::uint32_t>(at), start + static_cast<std::uint32_t>(end)}});
-    at = end;
-  }
-  return tokens;
 }
 
 // ---- hover
@@ -333,7 +168,7 @@ std::string variable_markdown(const Source& source, const Part& part,
                           lines_where(part, true), lines_where(part, false));
   if (part.file != 0)
     return text; // its letter is one of the program that includes it
-  const auto letters = letters_of(compile(source, options));
+  const auto letters = letters_of(compile_structured(source, options));
   if (const auto letter = letters.find(symbol.span.begin); letter != letters.end())
     text += fmt::format("- the robot's `{}`\n", letter->second);
   return text;
@@ -421,7 +256,7 @@ std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_
 
 std::optional<Hover> hover(const Source& source, std::uint32_t offset,
                            const LanguageOptions& options) {
-  for (const auto& token : tokens_at(source, offset)) {
+  for (const auto& token : tokens_at(source, offset, structured_lexis)) {
     if (offset < token.span.begin || offset > token.span.end)
       continue;
     if (token.kind == TokenKind::Comment)
@@ -459,7 +294,7 @@ class Suggester {
 public:
   Suggester(const Source& source, std::uint32_t offset, const LanguageOptions& options,
             Suggestions& out)
-      : reading_(read(source, options)), offset_(offset), out_(out) {}
+      : reading_(read_structured(source, options)), offset_(offset), out_(out) {}
 
   void suggest(Context context) {
     switch (context) {
@@ -599,7 +434,7 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
   offset = std::min(offset, static_cast<std::uint32_t>(source.text().size()));
   Suggestions out{{offset, offset}, {}};
   std::vector<Token> before;
-  for (const auto& token : tokens_at(source, offset)) {
+  for (const auto& token : tokens_at(source, offset, structured_lexis)) {
     if (token.span.begin >= offset)
       break;
     if (token.kind == TokenKind::Comment) {
@@ -621,7 +456,7 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
 // ---- outline
 
 std::vector<Symbol> outline(const Source& source) {
-  const auto reading = read(source, {});
+  const auto reading = read_structured(source, {});
   const auto& program = reading.program;
   std::vector<Symbol> symbols;
   if (program.files.empty())
@@ -694,7 +529,7 @@ tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t o
 }
 
 std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {
-  auto found = structured::findings_by_file(compile(source, options).program);
+  auto found = structured::findings_by_file(compile_structured(source, options).program);
   return found.empty() ? std::vector<Diagnostic>() : std::move(found.front());
 }
 
@@ -732,13 +567,8 @@ std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
   return bytes;
 }
 
-std::uint32_t end_of_line(const Source& source, std::uint32_t offset) {
-  const auto line = source.position(offset).line;
-  return source.line_start(line) + static_cast<std::uint32_t>(source.line(line).size());
-}
-
 std::vector<Hint> hints(const Source& source, const LanguageOptions& options) {
-  const auto compiled = compile(source, options);
+  const auto compiled = compile_structured(source, options);
   std::vector<Hint> found;
   if (compiled.robot.lines.empty() || compiled.has_errors())
     return found;

@@ -1,6 +1,7 @@
 #include "editor/syntax_files.h"
 
 #include "editor/directives.h"
+#include "editor/words.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
 #include "structured/words.h"
@@ -18,23 +19,6 @@ using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string_view>;
 
 // ---- the words, as an editor colours them
-
-bool directs_the_flow(const spec::StatementInfo& row) {
-  switch (row.form) {
-  case spec::Form::Conditional:
-  case spec::Form::Loop:
-  case spec::Form::LoopEnd:
-  case spec::Form::Branch:
-  case spec::Form::IndexedBranch: return true;
-  case spec::Form::Assignment:
-  case spec::Form::Output:
-  case spec::Form::Entry:
-  case spec::Form::Values:
-  case spec::Form::Variables:
-  case spec::Form::Arguments: break;
-  }
-  return row.statement == spec::Statement::Return || row.statement == spec::Statement::End;
-}
 
 Words control_words() {
   Words words(spec::particles.begin(), spec::particles.end());
