@@ -2,10 +2,15 @@
 #include "cli/inputs.h"
 #include "editor/language_server.h"
 #include "editor/wire.h"
+#include "run/input.h"
+#include "testing/suite.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <memory>
+#include <poll.h>
 #include <unistd.h>
 
 namespace orb::cli {
@@ -16,26 +21,68 @@ void print_all(const std::vector<std::string>& messages) {
     print_out(editor::frame(message));
 }
 
+/// The files that an editor's folders hold.
+class DiskFolders final : public editor::Folders {
+public:
+  std::vector<std::string> sources(const std::string& root) override {
+    constexpr std::size_t most_files = 500;
+    constexpr std::size_t most_entries = 20000; // a home directory shall not stop an editor
+    namespace fs = std::filesystem;
+    std::vector<std::string> found;
+    std::error_code error;
+    std::size_t entries = 0;
+    auto at = fs::recursive_directory_iterator(root, fs::directory_options::skip_permission_denied,
+                                               error);
+    for (; !error && at != fs::end(at) && entries < most_entries; at.increment(error), ++entries) {
+      const auto path = at->path();
+      if (path.filename().string().starts_with('.')) {
+        at.disable_recursion_pending();
+        continue;
+      }
+      std::error_code no_file;
+      const bool is_source = run::language_of(path.string(), "") || testing::is_test(path.string());
+      if (is_source && at->is_regular_file(no_file))
+        found.push_back(path.string());
+    }
+    std::sort(found.begin(), found.end());
+    found.resize(std::min(found.size(), most_files));
+    return found;
+  }
+};
+
+/// Whether something can be read without waiting.
+bool has_input() {
+  pollfd in{STDIN_FILENO, POLLIN, 0};
+  return ::poll(&in, 1, 0) > 0;
+}
+
 /// Serves until the client says `exit` or goes away.
 ExitCode serve() {
   DiskFiles disk;
-  editor::LanguageServer server(&disk);
+  DiskFolders folders;
+  editor::LanguageServer server(&disk, &folders);
   editor::MessageReader reader;
   std::array<char, 65536> bytes{};
-  for (;;) {
-    const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR)
-      continue;
-    if (n <= 0)
-      return ExitCode::BadInput; // the client went away without a word
-    reader.feed({bytes.data(), static_cast<std::size_t>(n)});
-    while (const auto event = reader.next()) {
-      print_all(event->is_error ? server.receive_garbage(event->text)
-                                : server.receive(event->text));
-      if (const auto well = server.ended_well())
-        return *well ? ExitCode::Done : ExitCode::BadInput;
+  for (bool open = true; open || server.has_waiting();) {
+    // What has arrived is taken before the next answer, so that it can cancel what waits.
+    if (open && (!server.has_waiting() || has_input())) {
+      const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR)
+        continue;
+      open = n > 0;
+      reader.feed({bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0))});
+      while (const auto event = reader.next()) {
+        if (event->is_error)
+          server.take_garbage(event->text);
+        else
+          server.take(event->text);
+      }
     }
+    print_all(server.answer_next());
+    if (const auto well = server.ended_well())
+      return *well ? ExitCode::Done : ExitCode::BadInput;
   }
+  return ExitCode::BadInput; // the client went away without a word
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "editor/basic_names.h"
 #include "editor/language.h"
 #include "editor/markdown.h"
+#include "editor/shape.h"
 #include "editor/words.h"
 #include "reference/sections.h"
 #include "spec/limits.h"
@@ -492,9 +493,33 @@ std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& optio
   return all;
 }
 
+// ---- hints
+
+std::vector<Hint> hints(const Source& source, const LanguageOptions&) {
+  const auto program = compiler::parse(source.text());
+  std::vector<Hint> found;
+  for (const auto& node : program.statements) {
+    if (node.error)
+      continue;
+    const auto parameters = spec::info(node.kind).parameters();
+    auto parameter = parameters.begin();
+    for (const auto& item : program.items_of(node)) {
+      if (item.kind != compiler::ItemKind::Expression || parameter == parameters.end())
+        continue;
+      const auto& root = program.nodes[item.value];
+      if (root.kind == compiler::NodeKind::Number)
+        if (auto hint = number_hint(parameter->name, parameter->unit, root.value, item.span.end))
+          found.push_back(*std::move(hint));
+      ++parameter;
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Hint& a, const Hint& b) { return a.at < b.at; });
+  return found;
+}
+
 } // namespace
 
-const LanguageService basic_service = {check,       hover,  suggest, outline,
-                                       occurrences, rename, format,  rewrites};
+const LanguageService basic_service = {check,  hover,  suggest,  outline,      occurrences,
+                                       rename, format, rewrites, &basic_shape, hints};
 
 } // namespace orb::editor

@@ -87,6 +87,8 @@ struct Hint {
   std::string tooltip;
 };
 
+struct LanguageShape; // editor/shape.h
+
 /// One language. Every function is pure and takes any text, however broken.
 struct LanguageService {
   std::vector<Diagnostic> (*check)(const Source& source, const LanguageOptions& options);
@@ -106,6 +108,7 @@ struct LanguageService {
   std::optional<std::string> (*format)(const Source& source);
   /// Only those that change something.
   std::vector<Rewrite> (*rewrites)(const Source& source, const LanguageOptions& options);
+  const LanguageShape* shape = nullptr;
   /// In the order of the text; null for a language without any.
   std::vector<Hint> (*hints)(const Source& source, const LanguageOptions& options) = nullptr;
 };
@@ -114,5 +117,6 @@ extern const LanguageService basic_service;
 extern const LanguageService structured_service;
 extern const LanguageService macro_service;
 extern const LanguageService test_service;
+extern const LanguageService stimulus_service;
 
 } // namespace orb::editor

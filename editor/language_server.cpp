@@ -2,11 +2,15 @@
 
 #include "base/utf8.h"
 #include "editor/language.h"
+#include "editor/shape.h"
+#include "editor/shape_answers.h"
 #include "editor/text.h"
+#include "editor/wording.h"
 #include "run/input.h"
 #include "testing/suite.h"
 
 #include <algorithm>
+#include <deque>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -25,6 +29,7 @@ enum class RpcError : int {
   InvalidParams = -32602,
   ServerNotInitialized = -32002,
   RequestFailed = -32803,
+  RequestCancelled = -32800,
 };
 
 /// Why a request is not answered.
@@ -39,38 +44,35 @@ tl::unexpected<Refusal> refuse(RpcError error, std::string message) {
   return tl::unexpected(Refusal{error, std::move(message)});
 }
 
-/// The member `name` of `json`, or null where there is none or `json` is not an object.
-const Json& member(const Json& json, const char* name) {
-  static const Json null;
-  if (!json.is_object())
-    return null;
-  const auto found = json.find(name);
-  return found == json.end() ? null : *found;
-}
-
-std::string text_of(const Json& json) {
-  return json.is_string() ? json.get<std::string>() : std::string();
-}
-
-/// A number that counts something; what is too large is as good as the largest.
-std::optional<std::uint32_t> count_of(const Json& json) {
-  if (!json.is_number_integer())
-    return std::nullopt;
-  if (!json.is_number_unsigned() && json.get<std::int64_t>() < 0)
-    return std::nullopt;
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(json.get<std::uint64_t>(), 0x7FFFFFFF));
-}
-
 struct Document {
   Source source;
   const LanguageService* language = nullptr;
   std::optional<std::int64_t> version;
+
+  const LanguageShape& shape() const { return *language->shape; }
+};
+
+/// A message that is not looked at yet.
+struct Waiting {
+  Json message; ///< discarded where it is no JSON
+  bool is_cancelled = false;
+  std::string fault; ///< why it is no message at all; else empty
+};
+
+/// What a request about an open document is answered from.
+struct Asked {
+  const std::string& uri;
+  const Document& document;
+  const Json& params;
+  std::uint32_t at = 0; ///< where the request has a position
 };
 
 /// The language by the editor's word for it, else by the ending of the file's name.
 const LanguageService& language_of(std::string_view id, std::string_view uri) {
   if (id == "orbtest" || testing::is_test(uri))
     return test_service;
+  if (id == "orbstimulus" || uri.ends_with(".stimulus"))
+    return stimulus_service;
   const auto word = id == "orbmacro" || id == "macro"             ? std::string_view("macro")
                     : id == "orbbasic" || id == "basic"           ? std::string_view("basic")
                     : id == "orbstructured" || id == "structured" ? std::string_view("structured")
@@ -114,8 +116,8 @@ bool overlap(Span a, Span b) {
 
 } // namespace
 
-struct LanguageServer::State final : structured::Files {
-  explicit State(structured::Files* from) : disk(from) { options.files = this; }
+struct LanguageServer::State final : structured::Files, Wording {
+  State(structured::Files* from, Folders* in) : disk(from), folders(in) { options.files = this; }
 
   /// An open document, else what the disk holds.
   std::optional<std::string> read(const std::string& path) override {
@@ -126,8 +128,10 @@ struct LanguageServer::State final : structured::Files {
   }
 
   structured::Files* disk;
+  Folders* folders;
+  std::vector<std::string> roots; ///< the paths of the folders that the editor has open
   std::map<std::string, Document> documents;
-  PositionEncoding encoding = PositionEncoding::Utf16;
+  std::deque<Waiting> waiting;
   LanguageOptions options;
   bool initialized = false;
   bool shut_down = false;
@@ -150,48 +154,14 @@ struct LanguageServer::State final : structured::Files {
           {"error", {{"code", static_cast<int>(refusal.error)}, {"message", refusal.message}}}});
   }
 
-  void receive(std::string_view text);
+  void take(std::string_view text);
+  void answer(const Waiting& next);
   Answer request(const std::string& method, const Json& params);
+  Answer ask_document(const std::string& method, const Json& params);
   void notification(const std::string& method, const Json& params);
 
-  // Places and edits in the words of the protocol.
-  Json position(const Source& source, std::uint32_t offset) const {
-    const auto place = position_of(source, offset, encoding);
-    return {{"line", place.line}, {"character", place.character}};
-  }
-  Json range(const Source& source, Span span) const {
-    return {{"start", position(source, span.begin)}, {"end", position(source, span.end)}};
-  }
-  Json edit(const Source& source, const Edit& one) const {
-    return {{"range", range(source, one.span)}, {"newText", one.text}};
-  }
-  Json edits(const Source& source, const std::vector<Edit>& many) const {
-    auto list = Json::array();
-    for (const auto& one : many)
-      list.push_back(edit(source, one));
-    return list;
-  }
-  Json replace_all(const Source& source, const std::string& text) const {
-    if (text == source.text())
-      return Json::array();
-    return edits(source, {{{0, static_cast<std::uint32_t>(source.text().size())}, text}});
-  }
   Json workspace_edit(const std::string& uri, Json list) const {
     return {{"changes", {{uri, std::move(list)}}}};
-  }
-  std::optional<std::uint32_t> offset(const Source& source, const Json& place) const {
-    const auto line = count_of(member(place, "line"));
-    const auto character = count_of(member(place, "character"));
-    if (!line || !character)
-      return std::nullopt;
-    return offset_of(source, {*line, *character}, encoding);
-  }
-  std::optional<Span> span(const Source& source, const Json& place) const {
-    const auto begin = offset(source, member(place, "start"));
-    const auto end = offset(source, member(place, "end"));
-    if (!begin || !end)
-      return std::nullopt;
-    return Span{std::min(*begin, *end), std::max(*begin, *end)};
   }
 
   // Notifications.
@@ -202,43 +172,136 @@ struct LanguageServer::State final : structured::Files {
 
   // Requests.
   Answer initialize(const Json& params);
-  Answer hover(const Document& document, std::uint32_t at) const;
-  Answer completion(const Document& document, std::uint32_t at) const;
-  Answer locations(const std::string& uri, const Document& document, const Occurrences& names,
-                   bool definitions, bool uses) const;
+  Answer hover(const Asked& asked) const;
+  Answer completion(const Asked& asked) const;
+  Answer definition(const Asked& asked) const;
+  Answer references(const Asked& asked) const;
+  Answer highlight(const Asked& asked) const;
+  Answer prepare_rename(const Asked& asked) const;
+  Answer rename(const Asked& asked) const;
+  Answer symbols(const Asked& asked) const;
+  Answer format(const Asked& asked) const;
+  Answer code_actions(const Asked& asked) const;
+  Answer hints(const Asked& asked) const;
+  Answer all_colors(const Asked& asked) const;
+  Answer colors_within(const Asked& asked) const;
+  Answer folds(const Asked& asked) const;
+  Answer selections(const Asked& asked) const;
+  Answer signature(const Asked& asked) const;
+  Answer links(const Asked& asked) const;
+  Answer lenses(const Asked& asked) const;
+  Answer callables(const Asked& asked) const;
+  Answer calls(const Json& params, bool incoming) const;
+  Answer workspace_symbols(const std::string& query) const;
+
+  struct Method;
+  static const std::vector<Method>& methods();
+
+  Json callable(const std::string& uri, const Source& root, const Callable& one) const;
+  Json locations(const Asked& asked, const Occurrences& names, bool definitions, bool uses) const;
   LanguageOptions surroundings() const;
   std::string uri_of(const Source& source) const;
-  Answer highlight(const Document& document, std::uint32_t at) const;
-  Answer prepare_rename(const Document& document, std::uint32_t at) const;
-  Answer rename(const std::string& uri, const Document& document, std::uint32_t at,
-                const Json& params) const;
-  Answer symbols(const Document& document) const;
-  Answer format(const Document& document) const;
-  Answer code_actions(const std::string& uri, const Document& document, const Json& params) const;
-  Answer hints(const Document& document, const Json& params) const;
   Json diagnostic(const std::string& uri, const Document& document, const Diagnostic& one) const;
   std::vector<Diagnostic> check(const Document& document) const;
 };
 
-LanguageServer::LanguageServer(structured::Files* disk) : state_(std::make_unique<State>(disk)) {}
+struct LanguageServer::State::Method {
+  std::string_view name;
+  bool has_position = false;
+  Answer (State::*answer)(const Asked&) const;
+};
+
+const std::vector<LanguageServer::State::Method>& LanguageServer::State::methods() {
+  static const std::vector<Method> all{
+      {"textDocument/hover", true, &State::hover},
+      {"textDocument/completion", true, &State::completion},
+      {"textDocument/definition", true, &State::definition},
+      {"textDocument/references", true, &State::references},
+      {"textDocument/documentHighlight", true, &State::highlight},
+      {"textDocument/prepareRename", true, &State::prepare_rename},
+      {"textDocument/rename", true, &State::rename},
+      {"textDocument/signatureHelp", true, &State::signature},
+      {"textDocument/prepareCallHierarchy", true, &State::callables},
+      {"textDocument/documentSymbol", false, &State::symbols},
+      {"textDocument/formatting", false, &State::format},
+      {"textDocument/codeAction", false, &State::code_actions},
+      {"textDocument/inlayHint", false, &State::hints},
+      {"textDocument/semanticTokens/full", false, &State::all_colors},
+      {"textDocument/semanticTokens/range", false, &State::colors_within},
+      {"textDocument/foldingRange", false, &State::folds},
+      {"textDocument/selectionRange", false, &State::selections},
+      {"textDocument/documentLink", false, &State::links},
+      {"textDocument/codeLens", false, &State::lenses},
+  };
+  return all;
+}
+
+LanguageServer::LanguageServer(structured::Files* disk, Folders* folders)
+    : state_(std::make_unique<State>(disk, folders)) {}
 LanguageServer::~LanguageServer() = default;
 
 std::vector<std::string> LanguageServer::receive(std::string_view message) {
-  state_->receive(message);
+  take(message);
+  return answer_all();
+}
+
+std::vector<std::string> LanguageServer::answer_all() {
+  std::vector<std::string> all;
+  while (has_waiting())
+    for (auto& one : answer_next())
+      all.push_back(std::move(one));
+  return all;
+}
+
+void LanguageServer::take(std::string_view message) {
+  state_->take(message);
+}
+
+bool LanguageServer::has_waiting() const {
+  return !state_->waiting.empty();
+}
+
+std::vector<std::string> LanguageServer::answer_next() {
+  if (has_waiting()) {
+    const auto next = std::move(state_->waiting.front());
+    state_->waiting.pop_front();
+    state_->answer(next);
+  }
   return std::exchange(state_->out, {});
 }
 
+void LanguageServer::take_garbage(std::string_view what) {
+  state_->waiting.push_back({nullptr, false, std::string(what)});
+}
+
 std::vector<std::string> LanguageServer::receive_garbage(std::string_view what) {
-  state_->fail(nullptr, {RpcError::ParseError, std::string(what)});
-  return std::exchange(state_->out, {});
+  take_garbage(what);
+  return answer_all();
 }
 
 std::optional<bool> LanguageServer::ended_well() const {
   return state_->ended_well;
 }
 
-void LanguageServer::State::receive(std::string_view text) {
-  const auto message = Json::parse(text, nullptr, false);
+/// Puts a message behind those that wait; one that cancels takes effect on them at once.
+void LanguageServer::State::take(std::string_view text) {
+  auto message = Json::parse(text, nullptr, false);
+  if (text_of(member(message, "method")) != "$/cancelRequest") {
+    waiting.push_back({std::move(message), false, {}});
+    return;
+  }
+  const auto& id = member(member(message, "params"), "id");
+  for (auto& one : waiting)
+    if (!id.is_null() && member(one.message, "id") == id)
+      one.is_cancelled = true;
+}
+
+void LanguageServer::State::answer(const Waiting& next) {
+  const auto& message = next.message;
+  if (!next.fault.empty()) {
+    fail(nullptr, {RpcError::ParseError, next.fault});
+    return;
+  }
   if (message.is_discarded()) {
     fail(nullptr, {RpcError::ParseError, "the message is not JSON"});
     return;
@@ -259,6 +322,10 @@ void LanguageServer::State::receive(std::string_view text) {
   }
   if (!good_id) {
     fail(nullptr, {RpcError::InvalidRequest, "an id is a number or a string"});
+    return;
+  }
+  if (next.is_cancelled) {
+    fail(id, {RpcError::RequestCancelled, "cancelled"});
     return;
   }
   auto answer = request(method, member(message, "params"));
@@ -292,7 +359,17 @@ Answer LanguageServer::State::request(const std::string& method, const Json& par
     shut_down = true;
     return Json();
   }
-  if (!method.starts_with("textDocument/"))
+  if (method == "workspace/symbol")
+    return workspace_symbols(text_of(member(params, "query")));
+  if (method == "callHierarchy/incomingCalls" || method == "callHierarchy/outgoingCalls")
+    return calls(params, method == "callHierarchy/incomingCalls");
+  return ask_document(method, params);
+}
+
+Answer LanguageServer::State::ask_document(const std::string& method, const Json& params) {
+  const auto known = std::find_if(methods().begin(), methods().end(),
+                                  [&](const Method& one) { return one.name == method; });
+  if (known == methods().end())
     return refuse(RpcError::MethodNotFound,
                   fmt::format("`{}` is not known here", to_valid_utf8(method)));
   const auto uri = text_of(member(member(params, "textDocument"), "uri"));
@@ -300,39 +377,12 @@ Answer LanguageServer::State::request(const std::string& method, const Json& par
   if (found == documents.end())
     return refuse(RpcError::InvalidParams, fmt::format("`{}` is not open", to_valid_utf8(uri)));
   const auto& document = found->second;
-  if (method == "textDocument/documentSymbol")
-    return symbols(document);
-  if (method == "textDocument/formatting")
-    return format(document);
-  if (method == "textDocument/codeAction")
-    return code_actions(uri, document, params);
-  if (method == "textDocument/inlayHint")
-    return hints(document, params);
-  const auto at = offset(document.source, member(params, "position"));
-  if (!at && member(params, "position").is_null())
-    return refuse(RpcError::MethodNotFound,
-                  fmt::format("`{}` is not known here", to_valid_utf8(method)));
+  std::optional<std::uint32_t> at = 0;
+  if (known->has_position)
+    at = offset(document.source, member(params, "position"));
   if (!at)
     return refuse(RpcError::InvalidParams, "a position is a line and a character, both from 0");
-  if (method == "textDocument/hover")
-    return hover(document, *at);
-  if (method == "textDocument/completion")
-    return completion(document, *at);
-  if (method == "textDocument/definition" || method == "textDocument/references") {
-    const auto names = document.language->occurrences(document.source, *at, surroundings());
-    const auto& declared = member(member(params, "context"), "includeDeclaration");
-    const bool uses = method == "textDocument/references";
-    const bool definitions = !uses || !declared.is_boolean() || declared.get<bool>();
-    return locations(uri, document, names, definitions, uses);
-  }
-  if (method == "textDocument/documentHighlight")
-    return highlight(document, *at);
-  if (method == "textDocument/prepareRename")
-    return prepare_rename(document, *at);
-  if (method == "textDocument/rename")
-    return rename(uri, document, *at, params);
-  return refuse(RpcError::MethodNotFound,
-                fmt::format("`{}` is not known here", to_valid_utf8(method)));
+  return (this->*known->answer)({uri, document, params, *at});
 }
 
 Answer LanguageServer::State::initialize(const Json& params) {
@@ -359,21 +409,26 @@ Answer LanguageServer::State::initialize(const Json& params) {
   else if (!target.empty())
     log(fmt::format("`{}` is not a version of orbBasic; checking for {}", to_valid_utf8(target),
                     spec::info(options.target).text));
+  for (const auto& folder : member(params, "workspaceFolders"))
+    roots.push_back(path_of_uri(text_of(member(folder, "uri"))));
+  if (const auto root = text_of(member(params, "rootUri")); roots.empty() && !root.empty())
+    roots.push_back(path_of_uri(root));
   constexpr int incremental = 2;
-  return Json{{"capabilities",
-               {{"positionEncoding", chosen},
-                {"textDocumentSync", {{"openClose", true}, {"change", incremental}}},
-                {"hoverProvider", true},
-                {"completionProvider", {{"triggerCharacters", {" ", ",", "=", "'", "."}}}},
-                {"definitionProvider", true},
-                {"referencesProvider", true},
-                {"documentHighlightProvider", true},
-                {"renameProvider", {{"prepareProvider", true}}},
-                {"documentSymbolProvider", true},
-                {"documentFormattingProvider", true},
-                {"inlayHintProvider", true},
-                {"codeActionProvider",
-                 {{"codeActionKinds", {"quickfix", "source.fixAll", "source.renumber"}}}}}},
+  Json capabilities = {{"positionEncoding", chosen},
+                       {"textDocumentSync", {{"openClose", true}, {"change", incremental}}},
+                       {"hoverProvider", true},
+                       {"completionProvider", {{"triggerCharacters", {" ", ",", "=", "'", "."}}}},
+                       {"definitionProvider", true},
+                       {"referencesProvider", true},
+                       {"documentHighlightProvider", true},
+                       {"renameProvider", {{"prepareProvider", true}}},
+                       {"documentSymbolProvider", true},
+                       {"documentFormattingProvider", true},
+                       {"inlayHintProvider", true},
+                       {"codeActionProvider",
+                        {{"codeActionKinds", {"quickfix", "source.fixAll", "source.renumber"}}}}};
+  capabilities.update(shape_capabilities());
+  return Json{{"capabilities", std::move(capabilities)},
               {"serverInfo", {{"name", "orb"}, {"version", ORB_VERSION}}}};
 }
 
@@ -473,7 +528,8 @@ void LanguageServer::State::publish(const std::string& uri, const Document& docu
   notify("textDocument/publishDiagnostics", std::move(params));
 }
 
-Answer LanguageServer::State::hover(const Document& document, std::uint32_t at) const {
+Answer LanguageServer::State::hover(const Asked& asked) const {
+  const auto& [uri, document, params, at] = asked;
   const auto found = document.language->hover(document.source, at, surroundings());
   if (!found)
     return Json();
@@ -481,7 +537,8 @@ Answer LanguageServer::State::hover(const Document& document, std::uint32_t at) 
               {"range", range(document.source, found->span)}};
 }
 
-Answer LanguageServer::State::completion(const Document& document, std::uint32_t at) const {
+Answer LanguageServer::State::completion(const Asked& asked) const {
+  const auto& [uri, document, params, at] = asked;
   const auto found = document.language->suggest(document.source, at, surroundings());
   const auto place = range(document.source, found.replaces);
   auto list = Json::array();
@@ -516,14 +573,13 @@ std::string LanguageServer::State::uri_of(const Source& source) const {
   return uri_of_path(source.name());
 }
 
-Answer LanguageServer::State::locations(const std::string& uri, const Document& document,
-                                        const Occurrences& names, bool definitions,
-                                        bool uses) const {
+Json LanguageServer::State::locations(const Asked& asked, const Occurrences& names,
+                                      bool definitions, bool uses) const {
   auto list = Json::array();
   const auto add = [&](bool wanted, const std::vector<Span>& spans) {
     if (wanted)
       for (const auto span : spans)
-        list.push_back({{"uri", uri}, {"range", range(document.source, span)}});
+        list.push_back({{"uri", asked.uri}, {"range", range(asked.document.source, span)}});
   };
   add(definitions, names.definitions);
   add(uses, names.uses);
@@ -533,10 +589,24 @@ Answer LanguageServer::State::locations(const std::string& uri, const Document& 
   return list;
 }
 
-Answer LanguageServer::State::highlight(const Document& document, std::uint32_t at) const {
+Answer LanguageServer::State::definition(const Asked& asked) const {
+  const auto& source = asked.document.source;
+  return locations(asked, asked.document.language->occurrences(source, asked.at, surroundings()),
+                   true, false);
+}
+
+Answer LanguageServer::State::references(const Asked& asked) const {
+  const auto& source = asked.document.source;
+  const auto& declared = member(member(asked.params, "context"), "includeDeclaration");
+  return locations(asked, asked.document.language->occurrences(source, asked.at, surroundings()),
+                   !declared.is_boolean() || declared.get<bool>(), true);
+}
+
+Answer LanguageServer::State::highlight(const Asked& asked) const {
+  const auto& document = asked.document;
   constexpr int read = 2;
   constexpr int write = 3;
-  const auto names = document.language->occurrences(document.source, at, surroundings());
+  const auto names = document.language->occurrences(document.source, asked.at, surroundings());
   auto list = Json::array();
   for (const auto span : names.definitions)
     list.push_back({{"range", range(document.source, span)}, {"kind", write}});
@@ -545,7 +615,9 @@ Answer LanguageServer::State::highlight(const Document& document, std::uint32_t 
   return list;
 }
 
-Answer LanguageServer::State::prepare_rename(const Document& document, std::uint32_t at) const {
+Answer LanguageServer::State::prepare_rename(const Asked& asked) const {
+  const auto& document = asked.document;
+  const auto at = asked.at;
   const auto names = document.language->occurrences(document.source, at, surroundings());
   for (const auto* spans : {&names.definitions, &names.uses})
     for (const auto span : *spans)
@@ -555,8 +627,8 @@ Answer LanguageServer::State::prepare_rename(const Document& document, std::uint
   return Json();
 }
 
-Answer LanguageServer::State::rename(const std::string& uri, const Document& document,
-                                     std::uint32_t at, const Json& params) const {
+Answer LanguageServer::State::rename(const Asked& asked) const {
+  const auto& [uri, document, params, at] = asked;
   const auto name = text_of(member(params, "newName"));
   const auto renaming = document.language->rename(document.source, at, name, surroundings());
   if (!renaming)
@@ -567,7 +639,8 @@ Answer LanguageServer::State::rename(const std::string& uri, const Document& doc
   return changed;
 }
 
-Answer LanguageServer::State::symbols(const Document& document) const {
+Answer LanguageServer::State::symbols(const Asked& asked) const {
+  const auto& document = asked.document;
   auto list = Json::array();
   for (const auto& symbol : document.language->outline(document.source))
     list.push_back({{"name", symbol.name.empty() ? "?" : symbol.name},
@@ -578,12 +651,15 @@ Answer LanguageServer::State::symbols(const Document& document) const {
   return list;
 }
 
-Answer LanguageServer::State::format(const Document& document) const {
+Answer LanguageServer::State::format(const Asked& asked) const {
+  const auto& document = asked.document;
   const auto text = document.language->format(document.source);
   return text ? replace_all(document.source, *text) : Json();
 }
 
-Answer LanguageServer::State::hints(const Document& document, const Json& params) const {
+Answer LanguageServer::State::hints(const Asked& asked) const {
+  const auto& document = asked.document;
+  const auto& params = asked.params;
   const auto place = span(document.source, member(params, "range"));
   if (!place)
     return refuse(RpcError::InvalidParams, "a range has a start and an end");
@@ -599,8 +675,10 @@ Answer LanguageServer::State::hints(const Document& document, const Json& params
   return list;
 }
 
-Answer LanguageServer::State::code_actions(const std::string& uri, const Document& document,
-                                           const Json& params) const {
+Answer LanguageServer::State::code_actions(const Asked& asked) const {
+  const auto& uri = asked.uri;
+  const auto& document = asked.document;
+  const auto& params = asked.params;
   const auto place = span(document.source, member(params, "range"));
   if (!place)
     return refuse(RpcError::InvalidParams, "a range has a start and an end");
@@ -631,6 +709,146 @@ Answer LanguageServer::State::code_actions(const std::string& uri, const Documen
       list.push_back({{"title", rewrite.title},
                       {"kind", rewrite.kind},
                       {"edit", workspace_edit(uri, replace_all(document.source, rewrite.text))}});
+  return list;
+}
+
+// ---- what the shape of a text says
+
+Answer LanguageServer::State::all_colors(const Asked& asked) const {
+  const auto& source = asked.document.source;
+  return pack_colors(*this, source, asked.document.shape().colors(source, options),
+                     {0, static_cast<std::uint32_t>(source.text().size())});
+}
+
+Answer LanguageServer::State::colors_within(const Asked& asked) const {
+  const auto& source = asked.document.source;
+  const auto place = span(source, member(asked.params, "range"));
+  if (!place)
+    return refuse(RpcError::InvalidParams, "a range has a start and an end");
+  return pack_colors(*this, source, asked.document.shape().colors(source, options), *place);
+}
+
+Answer LanguageServer::State::folds(const Asked& asked) const {
+  return list_folds(asked.document.shape().folds(asked.document.source));
+}
+
+Answer LanguageServer::State::selections(const Asked& asked) const {
+  const auto& source = asked.document.source;
+  const auto& positions = member(asked.params, "positions");
+  if (!positions.is_array())
+    return refuse(RpcError::InvalidParams, "`positions` is a list of places");
+  auto list = Json::array();
+  for (const auto& one : positions) {
+    const auto at = offset(source, one);
+    if (!at)
+      return refuse(RpcError::InvalidParams, "a position is a line and a character, both from 0");
+    list.push_back(nest_ranges(*this, source,
+                               nested(source, *at, asked.document.shape().around(source, *at))));
+  }
+  return list;
+}
+
+Answer LanguageServer::State::signature(const Asked& asked) const {
+  const auto& document = asked.document;
+  const auto found = document.shape().signature(document.source, asked.at, options);
+  return found ? describe(*found) : Json();
+}
+
+Answer LanguageServer::State::links(const Asked& asked) const {
+  const auto& document = asked.document;
+  const auto* links = document.shape().links;
+  return list_links(*this, document.source,
+                    links != nullptr ? links(document.source) : std::vector<Link>());
+}
+
+Answer LanguageServer::State::lenses(const Asked& asked) const {
+  const auto& document = asked.document;
+  const auto* lenses = document.shape().lenses;
+  return list_lenses(*this, asked.uri, document.source,
+                     lenses != nullptr ? lenses(document.source) : std::vector<Lens>());
+}
+
+// ---- who calls whom
+
+/// `root` is the document whose program it is; later requests about it come back with its URI.
+Json LanguageServer::State::callable(const std::string& uri, const Source& root,
+                                     const Callable& one) const {
+  const auto& source = one.source != nullptr ? *one.source : root;
+  Json json{{"name", one.name},
+            {"kind", symbol_kind_function},
+            {"uri", one.source != nullptr ? uri_of(source) : uri},
+            {"range", range(source, one.span)},
+            {"selectionRange", range(source, one.selection)},
+            {"data", {{"root", uri}, {"name", one.name}}}};
+  if (!one.detail.empty())
+    json["detail"] = one.detail;
+  return json;
+}
+
+Answer LanguageServer::State::callables(const Asked& asked) const {
+  const auto& [uri, document, params, at] = asked;
+  if (document.shape().calls == nullptr)
+    return Json();
+  const auto all = document.shape().calls(document.source, options);
+  std::optional<std::size_t> found;
+  const auto take = [&](std::size_t index) { found = found ? found : std::optional(index); };
+  for (const auto& call : all.calls)
+    if (all.callables[call.caller].source == nullptr && touches(call.site, at))
+      take(call.callee);
+  for (std::size_t i = 0; i < all.callables.size(); ++i)
+    if (all.callables[i].source == nullptr && touches(all.callables[i].selection, at))
+      take(i);
+  return found ? Json::array({callable(uri, document.source, all.callables[*found])}) : Json();
+}
+
+Answer LanguageServer::State::calls(const Json& params, bool incoming) const {
+  const auto& data = member(member(params, "item"), "data");
+  const auto uri = text_of(member(data, "root"));
+  const auto name = text_of(member(data, "name"));
+  const auto found = documents.find(uri);
+  if (found == documents.end() || found->second.shape().calls == nullptr)
+    return refuse(RpcError::InvalidParams, "the item is none of an open document");
+  const auto& root = found->second.source;
+  const auto all = found->second.shape().calls(root, options);
+  std::map<std::size_t, Json> sites; // by the other end
+  for (const auto& call : all.calls) {
+    const auto& caller = all.callables[call.caller];
+    if (all.callables[incoming ? call.callee : call.caller].name != name)
+      continue;
+    auto& list = sites[incoming ? call.caller : call.callee];
+    list.push_back(range(caller.source != nullptr ? *caller.source : root, call.site));
+  }
+  auto list = Json::array();
+  for (const auto& [other, ranges] : sites)
+    list.push_back({{incoming ? "from" : "to", callable(uri, root, all.callables[other])},
+                    {"fromRanges", ranges}});
+  return list;
+}
+
+/// The outlines of what is open, then of what lies in the open folders.
+Answer LanguageServer::State::workspace_symbols(const std::string& query) const {
+  constexpr std::size_t most = 500;
+  auto list = Json::array();
+  const auto add = [&](const std::string& uri, const Source& source,
+                       const LanguageService& language) {
+    for (const auto& symbol : language.outline(source))
+      if (answers_to(symbol.name, query) && list.size() < most)
+        list.push_back({{"name", symbol.name},
+                        {"kind", symbol_kind_function},
+                        {"containerName", symbol.detail},
+                        {"location", {{"uri", uri}, {"range", range(source, symbol.selection)}}}});
+  };
+  for (const auto& [uri, document] : documents)
+    add(uri, document.source, *document.language);
+  if (folders == nullptr || disk == nullptr)
+    return list;
+  for (const auto& root : roots)
+    for (const auto& path : folders->sources(root)) {
+      const auto uri = uri_of_path(path);
+      auto text = documents.contains(uri) ? std::nullopt : disk->read(path);
+      if (text)
+        add(uri, Source(uri, *std::move(text)), language_of("", uri));
+    }
   return list;
 }
 

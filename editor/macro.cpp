@@ -10,6 +10,7 @@
 #include "editor/language.h"
 #include "editor/macro_names.h"
 #include "editor/markdown.h"
+#include "editor/shape.h"
 #include "editor/words.h"
 #include "reference/sections.h"
 
@@ -342,9 +343,26 @@ std::vector<Rewrite> rewrites(const Source&, const LanguageOptions&) {
   return {};
 }
 
+std::vector<Hint> hints(const Source& source, const LanguageOptions&) {
+  const auto program = assembler::parse(source.text());
+  std::vector<Hint> found;
+  for (const auto& statement : program.statements)
+    for (std::uint32_t i = 0; i < statement.count; ++i) {
+      const auto& value = program.values[statement.first + i];
+      const auto* operand = operand_of(source, program, statement, i);
+      if (operand == nullptr || value.kind != Value::Kind::Number)
+        continue;
+      const bool says_itself = value.unit != assembler::Unit::None;
+      if (auto hint = number_hint(operand->name, says_itself ? "" : spec::to_string(operand->unit),
+                                  value.thousandths / assembler::whole, value.span.end))
+        found.push_back(*std::move(hint));
+    }
+  return found;
+}
+
 } // namespace
 
-const LanguageService macro_service = {check,       hover,  suggest, outline,
-                                       occurrences, rename, format,  rewrites};
+const LanguageService macro_service = {check,  hover,  suggest,  outline,      occurrences,
+                                       rename, format, rewrites, &macro_shape, hints};
 
 } // namespace orb::editor

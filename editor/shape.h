@@ -151,17 +151,23 @@ class SignatureText {
 public:
   explicit SignatureText(std::string_view head) { made_.label = head; }
   void add(std::string_view between, std::string_view name, std::string text);
+  void close(std::string_view end) { made_.label += end; }
   Signature take(std::size_t active, std::string markdown);
-  Signature& made() { return made_; }
 
 private:
   Signature made_;
 };
 
-/// `500` milliseconds as `0.5 s`; nothing below a second, where the number reads as well.
-std::optional<std::string> as_seconds(std::int64_t milliseconds);
+/// What a statement of the robot takes, while its argument after `commas` commas is written.
+std::optional<Signature> statement_signature(const spec::StatementInfo& row, std::size_t commas,
+                                             std::string_view language);
 
-/// A heading as an arrow over a map with 0 at the top: 90 is `→`.
-std::string_view arrow(std::int64_t heading_deg);
+/// To run a program and to debug it, at its first line.
+std::vector<Lens> run_lenses(const Source& source);
+
+/// What a number says more clearly: milliseconds from a second on as seconds, a heading as an arrow
+/// over a map with 0 at the top. `at` is where the number ends.
+std::optional<Hint> number_hint(std::string_view parameter, std::string_view unit,
+                                std::int64_t value, std::uint32_t at);
 
 } // namespace orb::editor

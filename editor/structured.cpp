@@ -8,6 +8,7 @@
 #include "compiler/rules.h"
 #include "editor/language.h"
 #include "editor/markdown.h"
+#include "editor/shape.h"
 #include "editor/structured_names.h"
 #include "editor/text.h"
 #include "editor/words.h"
@@ -181,9 +182,8 @@ std::string declaration_markdown(const Part& part, const structured::Symbol& sym
   const auto& source = *place->source;
   const auto line = source.position(place->span.begin).line;
   auto text = fmt::format("```{}\n{}\n```\n", language_id, trim(source.line(line)));
-  const auto above = line > 1 ? trim(source.line(line - 1)) : std::string_view();
-  if (above.starts_with("'"))
-    text += fmt::format("{}\n", trim(above.substr(1)));
+  if (const auto above = comment_above(part.reading, symbol.span); !above.empty())
+    text += above + "\n";
   if (place->source != part.reading.sources[part.file])
     text += fmt::format("\nin `{}`\n", file_name(source.name()));
   return text;
@@ -567,11 +567,34 @@ std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
   return bytes;
 }
 
+/// Numbers and constants given to the robot's statements; a duration says itself.
+void hint_numbers(const Compiled& compiled, std::uint32_t end, std::vector<Hint>& found) {
+  for (const auto& statement : compiled.program.statements) {
+    if (statement.kind != Kind::Robot || statement.span.end > end)
+      continue;
+    const auto parameters = spec::info(statement.robot).parameters();
+    auto parameter = parameters.begin();
+    for (const auto& item : compiled.program.items_of(statement)) {
+      if (item.kind != structured::ItemKind::Expression || parameter == parameters.end())
+        continue;
+      const auto& root = compiled.program.nodes[item.value];
+      const auto value = structured::evaluate(compiled.program, compiled.names, item.value);
+      const bool is_plain =
+          root.kind == structured::NodeKind::Number || root.kind == structured::NodeKind::Name;
+      if (value && is_plain)
+        if (auto hint = number_hint(parameter->name, parameter->unit, value->value, item.span.end))
+          found.push_back(*std::move(hint));
+      ++parameter;
+    }
+  }
+}
+
 std::vector<Hint> hints(const Source& source, const LanguageOptions& options) {
   const auto compiled = compile_structured(source, options);
   std::vector<Hint> found;
   if (compiled.robot.lines.empty() || compiled.has_errors())
     return found;
+  hint_numbers(compiled, compiled.program.files.front().end, found);
   const auto end = compiled.program.files.front().end;
   for (const auto& [at, letter] : letters_of(compiled))
     if (at < end) {
@@ -593,13 +616,15 @@ std::vector<Hint> hints(const Source& source, const LanguageOptions& options) {
          own == bytes.end() ? "it is written into its callers, or never called"
                             : "of the packed image"});
   }
-  std::sort(found.begin(), found.end(), [](const Hint& a, const Hint& b) { return a.at < b.at; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hint& a, const Hint& b) { return a.at < b.at; });
   return found;
 }
 
 } // namespace
 
-const LanguageService structured_service = {check,  hover,  suggest,  outline, occurrences,
-                                            rename, format, rewrites, hints};
+const LanguageService structured_service = {
+    check,  hover,  suggest,  outline,           occurrences,
+    rename, format, rewrites, &structured_shape, hints};
 
 } // namespace orb::editor

@@ -1,5 +1,6 @@
 #include "editor/structured_names.h"
 
+#include "base/text.h"
 #include "editor/text.h"
 #include "structured/read.h"
 
@@ -113,6 +114,15 @@ Compiled compile_structured(const Source& source, const LanguageOptions& options
   target.version = options.target;
   return structured::compile(source.name(), path_of_uri(source.name()), source.text(), target,
                              options.files != nullptr ? *options.files : no_files);
+}
+
+std::string comment_above(const Reading& reading, Span declared) {
+  const auto place = reading.place(declared);
+  if (!place)
+    return {};
+  const auto line = place->source->position(place->span.begin).line;
+  const auto above = line > 1 ? trim(place->source->line(line - 1)) : std::string_view();
+  return above.starts_with("'") ? std::string(trim(above.substr(1))) : std::string();
 }
 
 std::vector<NameUse> name_uses(const Reading& reading) {

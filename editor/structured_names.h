@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct NameUse {
   Span span;
   bool is_set = false; ///< declared or assigned
 };
+
+/// What a comment in the line above a declaration says, without its mark; may be empty.
+std::string comment_above(const Reading& reading, Span declared);
 
 /// Every name of the program, by where it stands in the text of all its files.
 std::vector<NameUse> name_uses(const Reading& reading);

@@ -1,20 +1,16 @@
 // What an editor may ask about a test file.
 
-#include "base/text.h"
-#include "editor/language.h"
-#include "editor/markdown.h"
+#include "editor/test_names.h"
 #include "editor/text.h"
-#include "reference/sections.h"
+#include "report/course.h"
 #include "spec/basic.h"
+#include "spec/firmware.h"
 #include "testing/suite.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace orb::editor {
 namespace {
-
-constexpr std::string_view language_id = "orbtest";
 
 std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {
   structured::NoFiles none;
@@ -23,86 +19,85 @@ std::vector<Diagnostic> check(const Source& source, const LanguageOptions& optio
   return testing::check(named, options.files != nullptr ? *options.files : none);
 }
 
-/// A word of a line and what stands before it.
-struct Spot {
-  Span span;
-  std::string_view word;
-  std::vector<std::string_view> before;
-};
-
-bool is_word_part(char c) {
-  return is_letter(c) || is_digit(c) || c == '_';
-}
-
-/// The word at `offset`, which may be in the middle of it.
-Spot spot_at(const Source& source, std::uint32_t offset) {
-  const auto line = source.position(offset).line;
-  const auto text = source.line(line);
-  const auto start = source.line_start(line);
-  const auto at = std::min<std::size_t>(offset - start, text.size());
-  auto begin = at;
-  while (begin > 0 && is_word_part(text[begin - 1]))
-    --begin;
-  auto end = at;
-  while (end < text.size() && is_word_part(text[end]))
-    ++end;
-  Spot spot{{start + static_cast<std::uint32_t>(begin), start + static_cast<std::uint32_t>(end)},
-            text.substr(begin, end - begin),
-            {}};
-  for (std::size_t i = 0; i < begin;) {
-    const auto next = std::min(text.find_first_of(" \t", i), begin);
-    if (next > i)
-      spot.before.push_back(text.substr(i, next - i));
-    i = next + 1;
-  }
-  return spot;
+bool is_expectation(std::string_view word) {
+  return word == "expect" || word == "never";
 }
 
 bool asks_what(const Spot& spot) {
-  return spot.before.size() == 1 && (spot.before[0] == "expect" || spot.before[0] == "never");
+  return spot.before.size() == 1 && is_expectation(spot.before[0]);
 }
 
 std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
   const auto spot = spot_at(source, offset);
   const auto found = [&](const reference::Section& section) -> std::optional<Hover> {
-    auto text = find_markdown(section, spot.word, language_id);
+    auto text = find_markdown(section, spot.word, test_language_id);
     return text ? std::optional(Hover{spot.span, *std::move(text)}) : std::nullopt;
   };
   if (asks_what(spot))
     return found(reference::expectations_section());
   if (auto line = found(reference::test_lines_section()))
     return line;
-  const bool stimulus = spot.before.empty() || spot.before[0] == "at";
-  return stimulus ? found(reference::stimulus_section()) : std::nullopt;
+  return is_stimulus_place(spot) ? found(reference::stimulus_section()) : std::nullopt;
 }
 
-/// The words of a table, with what each is.
-template <class Rows>
-void suggest_rows(Suggestions& out, const Rows& rows, const reference::Section& section) {
-  for (const auto& row : rows)
-    for (const auto& entry : section.entries)
-      if (entry.name == row.word)
-        out.items.push_back({std::string(row.word), SuggestionKind::Keyword,
-                             std::string(row.operands),
-                             entry_markdown(section, entry, language_id)});
+/// The zones of the course that the file names.
+void suggest_zones(Suggestions& out, const Source& source, const LanguageOptions& options) {
+  const auto file = testing::parse(source);
+  if (!file.course || options.files == nullptr)
+    return;
+  const auto path = structured::resolve_path(path_of_uri(source.name()), file.course->text);
+  auto drawing = options.files->read(path);
+  if (!drawing)
+    return;
+  for (const auto& zone : report::read_course(Source(path, *std::move(drawing))).course.zones)
+    out.items.push_back({zone.id, SuggestionKind::Name, "zone of " + file.course->text, ""});
 }
 
-Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions&) {
+void suggest_values(Suggestions& out, std::string_view word) {
+  if (word == testing::info(testing::LineWord::Target).word)
+    for (const auto& row : spec::basic_versions)
+      out.items.push_back(
+          {std::string(row.text), SuggestionKind::Value, std::string(row.summary), ""});
+  if (word == testing::info(testing::LineWord::Firmware).word)
+    for (const auto& row : spec::firmwares)
+      out.items.push_back(
+          {std::string(row.name), SuggestionKind::Value, std::string(row.summary), ""});
+}
+
+/// Whether the last word before takes a zone: `reach`, `inside`, `stay`.
+bool wants_zone(const Spot& spot) {
+  const auto operands_after = [&]() -> std::string_view {
+    if (spot.before.size() == 1)
+      if (const auto* row = row_of(testing::line_words, spot.before[0]))
+        return row->operands;
+    if (spot.before.size() == 2 && is_expectation(spot.before[0]))
+      if (const auto* row = row_of(testing::expectations, spot.before[1]))
+        return row->operands;
+    return {};
+  };
+  return operands_after().starts_with("ZONE");
+}
+
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions& options) {
   const auto spot = spot_at(source, offset);
   Suggestions out;
   out.replaces = {spot.span.begin, offset};
   if (spot.before.empty()) {
-    suggest_rows(out, testing::line_words, reference::test_lines_section());
-    suggest_rows(out, vm::stimulus_words, reference::stimulus_section());
+    suggest_rows(out, testing::line_words, reference::test_lines_section(), test_language_id);
+    suggest_rows(out, vm::stimulus_words, reference::stimulus_section(), test_language_id);
   } else if (asks_what(spot)) {
-    suggest_rows(out, testing::expectations, reference::expectations_section());
-  } else if (spot.before[0] == "at" && spot.before.size() == 2) {
-    suggest_rows(out, vm::stimulus_words, reference::stimulus_section());
-  } else if (spot.before.back() == "color") {
+    suggest_rows(out, testing::expectations, reference::expectations_section(), test_language_id);
+  } else if (is_stimulus_place(spot)) {
+    suggest_rows(out, vm::stimulus_words, reference::stimulus_section(), test_language_id);
+  } else if (wants_zone(spot)) {
+    suggest_zones(out, source, options);
+  } else if (spot.before.back() == testing::info(testing::Word::Color).word) {
     for (const auto& row : spec::led_colours)
       out.items.push_back({std::string(row.name), SuggestionKind::Value, "", ""});
-  } else if (spot.before[0] == "expect" || spot.before[0] == "never" || spot.before[0] == "reach") {
-    suggest_rows(out, testing::when_words, reference::test_lines_section());
+  } else if (is_expectation(spot.before[0]) || spot.before[0] == "reach") {
+    suggest_rows(out, testing::when_words, reference::test_lines_section(), test_language_id);
+  } else if (spot.before.size() == 1) {
+    suggest_values(out, spot.before[0]);
   }
   return out;
 }
@@ -143,7 +138,7 @@ std::vector<Rewrite> rewrites(const Source&, const LanguageOptions&) {
 
 } // namespace
 
-const LanguageService test_service = {check,       hover,  suggest, outline,
-                                      occurrences, rename, format,  rewrites};
+const LanguageService test_service = {check,  hover,  suggest,  outline,    occurrences,
+                                      rename, format, rewrites, &test_shape};
 
 } // namespace orb::editor
