@@ -112,9 +112,9 @@ std::vector<Span> around(const Source& source, std::uint32_t offset) {
   for (const auto& token : tokens_at(source, offset, basic_lexis))
     add(token.span);
   for (const auto& node : program.nodes)
-    add(node.span);
+    add(with_closing(source, node.span));
   for (const auto& item : program.items)
-    add(item.span);
+    add(with_closing(source, item.span));
   for (const auto& node : program.statements)
     add(node.span);
   for (const auto& part : parts_of(program))

@@ -756,14 +756,14 @@ Answer LanguageServer::State::signature(const Asked& asked) const {
 
 Answer LanguageServer::State::links(const Asked& asked) const {
   const auto& document = asked.document;
-  const auto* links = document.shape().links;
+  auto* const links = document.shape().links;
   return list_links(*this, document.source,
                     links != nullptr ? links(document.source) : std::vector<Link>());
 }
 
 Answer LanguageServer::State::lenses(const Asked& asked) const {
   const auto& document = asked.document;
-  const auto* lenses = document.shape().lenses;
+  auto* const lenses = document.shape().lenses;
   return list_lenses(*this, asked.uri, document.source,
                      lenses != nullptr ? lenses(document.source) : std::vector<Lens>());
 }

@@ -124,11 +124,12 @@ std::vector<Span> around(const Source& source, std::uint32_t offset) {
   for (const auto& token : tokens_at(source, offset, structured_lexis))
     add(token.span);
   for (const auto& node : program.nodes)
-    add(node.span);
+    if (node.span.end <= source.text().size()) // it is of this file
+      add(with_closing(source, node.span));
   for (const auto* statement : own_statements(program)) {
     add(statement->span);
     for (const auto& item : program.items_of(*statement))
-      add(item.span);
+      add(with_closing(source, item.span));
     if (statement->next == none)
       continue;
     const auto& next = program.statements[statement->next];

@@ -1,6 +1,7 @@
 #include "editor/syntax_files.h"
 
 #include "editor/directives.h"
+#include "editor/snippets.h"
 #include "editor/words.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
@@ -237,6 +238,21 @@ std::string test_textmate() {
   return grammar.dump(2) + "\n";
 }
 
+std::string stimulus_textmate() {
+  constexpr auto part = "A-Za-z0-9_";
+  const Json grammar{{"comment", generated},
+                     {"name", "Stimulus script"},
+                     {"scopeName", "source.orbstimulus"},
+                     {"patterns",
+                      {pattern("comment.line.number-sign.orbstimulus", "#.*$"),
+                       words_pattern("keyword.control.orbstimulus", {"at"}, part),
+                       words_pattern("support.function.orbstimulus", stimulus_words(), part),
+                       words_pattern("constant.language.orbstimulus", {"on", "off"}, part),
+                       pattern("constant.numeric.orbstimulus",
+                               "[-+]?\\d+(?:\\.\\d+)?(?:ms|s|min)?(?![A-Za-z0-9_])")}}};
+  return grammar.dump(2) + "\n";
+}
+
 // ---- Vim
 
 /// `syntax keyword GROUP WORD…`, a few words a line.
@@ -362,17 +378,39 @@ std::string test_vim() {
   return out + "let b:current_syntax = 'orbtest'\n";
 }
 
+std::string stimulus_vim() {
+  auto out = vim_head("what the world does to a Sphero robot");
+  out += vim_keywords("orbstimulusKeyword", {"at"});
+  out += vim_keywords("orbstimulusEvent", stimulus_words());
+  out += vim_keywords("orbstimulusValue", {"on", "off"});
+  out += "syntax match orbstimulusNumber "
+         "/[-+]\\?\\<\\d\\+\\(\\.\\d\\+\\)\\?\\(ms\\|s\\|min\\)\\?\\>/\n"
+         "syntax match orbstimulusComment /#.*$/\n";
+  out += vim_links("orbstimulus", {{"Keyword", "Conditional"},
+                                   {"Event", "Function"},
+                                   {"Value", "Constant"},
+                                   {"Number", "Number"},
+                                   {"Comment", "Comment"}});
+  return out + "let b:current_syntax = 'orbstimulus'\n";
+}
+
 } // namespace
 
 std::vector<SyntaxFile> syntax_files() {
-  return {{"vscode/syntaxes/orbbasic.tmLanguage.json", basic_textmate()},
-          {"vscode/syntaxes/orbstructured.tmLanguage.json", structured_textmate()},
-          {"vscode/syntaxes/orbmacro.tmLanguage.json", macro_textmate()},
-          {"vscode/syntaxes/orbtest.tmLanguage.json", test_textmate()},
-          {"vim/syntax/orbbasic.vim", basic_vim()},
-          {"vim/syntax/orbstructured.vim", structured_vim()},
-          {"vim/syntax/orbmacro.vim", macro_vim()},
-          {"vim/syntax/orbtest.vim", test_vim()}};
+  auto files = snippet_files();
+  const std::vector<SyntaxFile> grammars{
+      {"vscode/syntaxes/orbbasic.tmLanguage.json", basic_textmate()},
+      {"vscode/syntaxes/orbstructured.tmLanguage.json", structured_textmate()},
+      {"vscode/syntaxes/orbmacro.tmLanguage.json", macro_textmate()},
+      {"vscode/syntaxes/orbtest.tmLanguage.json", test_textmate()},
+      {"vscode/syntaxes/orbstimulus.tmLanguage.json", stimulus_textmate()},
+      {"vim/syntax/orbbasic.vim", basic_vim()},
+      {"vim/syntax/orbstructured.vim", structured_vim()},
+      {"vim/syntax/orbmacro.vim", macro_vim()},
+      {"vim/syntax/orbtest.vim", test_vim()},
+      {"vim/syntax/orbstimulus.vim", stimulus_vim()}};
+  files.insert(files.end(), grammars.begin(), grammars.end());
+  return files;
 }
 
 } // namespace orb::editor

@@ -1,5 +1,6 @@
 // What an editor may ask about a test file.
 
+#include "base/text.h"
 #include "editor/test_names.h"
 #include "editor/text.h"
 #include "report/course.h"

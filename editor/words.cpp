@@ -135,6 +135,23 @@ bool directs_the_flow(const spec::StatementInfo& row) {
   return row.statement == spec::Statement::Return || row.statement == spec::Statement::End;
 }
 
+Span with_closing(const Source& source, Span span) {
+  int open = 0;
+  for (const char c : source.text(span))
+    open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+  const auto line_end = end_of_line(source, span.end);
+  for (auto at = span.end; open > 0 && at < line_end; ++at) {
+    const char c = source.text()[at];
+    if (c == ')' || c == ']') {
+      --open;
+      span.end = at + 1;
+    } else if (!is_blank(c)) {
+      break;
+    }
+  }
+  return span;
+}
+
 std::uint32_t end_of_line(const Source& source, std::uint32_t offset) {
   const auto line = source.position(offset).line;
   return source.line_start(line) + static_cast<std::uint32_t>(source.line(line).size());

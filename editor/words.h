@@ -53,6 +53,10 @@ constexpr bool touches(Span span, std::uint32_t offset) {
   return span.begin <= offset && offset <= span.end;
 }
 
+/// A part of an expression with the parentheses behind it that close those in it: the spans of the
+/// parsers end at the last operand.
+Span with_closing(const Source& source, Span span);
+
 /// The byte where the line that holds `offset` ends, its line end not counted.
 std::uint32_t end_of_line(const Source& source, std::uint32_t offset);
 

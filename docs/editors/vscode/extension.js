@@ -1,22 +1,20 @@
-// Starts `orb lsp` when the first orbBasic program or macro is opened.
+// orb in VS Code: the language server, the debugger, runs, and tests in the test explorer. The work is
+// done by the program `orb`; each part here only starts it.
 
-const { workspace } = require('vscode');
-const { LanguageClient } = require('vscode-languageclient/node');
+const languages = require('./languages');
+const debugging = require('./debugging');
+const runs = require('./runs');
+const tests = require('./tests');
 
-let client;
-
-function activate() {
-  const settings = workspace.getConfiguration('orb');
-  const command = { command: settings.get('path'), args: ['lsp'] };
-  client = new LanguageClient('orb', 'orb', { run: command, debug: command }, {
-    documentSelector: [{ language: 'orbbasic' }, { language: 'orbstructured' }, { language: 'orbmacro' }, { language: 'orbtest' }],
-    initializationOptions: { target: settings.get('target') },
-  });
-  return client.start();
+function activate(context) {
+  debugging.activate(context);
+  runs.activate(context);
+  tests.activate(context);
+  return languages.activate();
 }
 
 function deactivate() {
-  return client && client.stop();
+  return languages.deactivate();
 }
 
 module.exports = { activate, deactivate };

@@ -1,0 +1,22 @@
+// Starts `orb lsp` when the first program, macro, test or stimulus script is opened.
+
+const { LanguageClient } = require('vscode-languageclient/node');
+const { settings, programs } = require('./settings');
+
+let client;
+
+function activate() {
+  const { path, target } = settings();
+  const command = { command: path, args: ['lsp'] };
+  client = new LanguageClient('orb', 'orb', { run: command, debug: command }, {
+    documentSelector: [...programs, 'orbtest', 'orbstimulus'].map((language) => ({ language })),
+    initializationOptions: { target },
+  });
+  return client.start();
+}
+
+function deactivate() {
+  return client?.stop();
+}
+
+module.exports = { activate, deactivate };
