@@ -22,12 +22,22 @@ std::int32_t rounded_s16(double value) {
 } // namespace
 
 Ball::Ball(const BallOptions& options)
-    : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), body_(options.seed),
-      link_(options.wire), drive_(body_, settings_), power_(settings_),
+    : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
+      body_(options.seed), link_(options.wire), drive_(body_, settings_), power_(settings_),
       programs_(options, options.seed), macros_(asks_->of_macro),
       dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
 }
+
+Ball::Ball(const Ball& other)
+    : asks_(std::make_unique<Asks>(*this)), observer_(other.observer_), gate_(other.gate_),
+      now_(other.now_), settings_(other.settings_), body_(other.body_), link_(other.link_),
+      lamps_(other.lamps_), drive_(other.drive_, body_, settings_), power_(other.power_),
+      programs_(other.programs_), macros_(other.macros_, asks_->of_macro),
+      streamer_(other.streamer_), dispatcher_(other.dispatcher_, asks_->of_client),
+      script_(other.script_), interrupted_(other.interrupted_), idle_since_(other.idle_since_),
+      double_shake_(other.double_shake_), deaf_until_(other.deaf_until_),
+      watch_at_(other.watch_at_), was_moving_(other.was_moving_) {}
 
 Ball::~Ball() = default;
 
@@ -110,6 +120,7 @@ void Ball::advance_until_quiet(Instant target) {
 }
 
 void Ball::advance(Instant target, Until until) {
+  programs_.let_go();
   for (;;) {
     if (until == Until::Quiet) {
       if (!idle())
@@ -131,11 +142,17 @@ void Ball::advance(Instant target, Until until) {
     if (programs_.next_event() < limit) {
       now_ = std::max(now_, programs_.run(limit, asks_->of_program));
       finish_program();
+      if (programs_.machine().held()) {
+        body_.advance_to(now_);
+        return;
+      }
       continue;
     }
     if (event > target)
       break;
     run_events(std::min({others, programs_.next_event(), target}));
+    if (macros_.held())
+      return;
   }
   now_ = std::max(now_, target);
   body_.advance_to(now_);
@@ -164,6 +181,8 @@ void Ball::run_events(Instant others) {
     dispatcher_.run(now_);
   if (!asleep() && macros_.next_event() <= now_)
     macros_.advance_to(now_);
+  if (macros_.held())
+    return; // the rest of this instant follows when it goes on
   settle();
   if (!asleep())
     if (const auto full = streamer_.run(now_, body_))

@@ -44,7 +44,8 @@ class Ball final {
 public:
   explicit Ball(const BallOptions& options);
   ~Ball();
-  Ball(const Ball&) = delete;
+  /// A ball that has come just as far, with the same observers and the same gate.
+  Ball(const Ball& other);
   Ball& operator=(const Ball&) = delete;
 
   // The link.
@@ -72,6 +73,8 @@ public:
   bool idle() const;
   /// Since when it is idle, as far as advance_until_quiet() has seen.
   std::optional<Instant> idle_since() const { return idle_since_; }
+  /// The gate let the program or the macro go no further, so that the ball came back.
+  bool held() const { return programs_.machine().held() || macros_.held(); }
   /// Lets advance_until_quiet() come back after the present event.
   void interrupt() { interrupted_ = true; }
   /// When something happens next by itself, output that leaves included; `never` at rest.
@@ -99,8 +102,16 @@ public:
   /// Takes over what outlives a power cycle.
   void restore(const Settings& settings, const Profile& profile);
 
+  // What a debugger changes.
+  /// A to Y (0 to 24), or an element of Z (from bytecode::first_element).
+  void set_variable(std::size_t index, std::int32_t value) { programs_.set_variable(index, value); }
+  /// The program goes on at that line; false where none runs that has it.
+  bool go_to_line(int line) { return programs_.go_to(line, now_); }
+
   // What can be seen.
   const Body& body() const { return body_; }
+  /// What a program would read, without what reading clears; of a timer, as of now.
+  std::int32_t peek(spec::Variable variable) const;
   Color led() const { return lamps_.shown(); }
   /// Nobody is connected and nobody has set a colour: it shows who it is.
   bool blinks() const { return lamps_.next_blink(lamp_situation()) != never; }
@@ -151,6 +162,7 @@ private:
 
   std::unique_ptr<Asks> asks_;
   Observer* observer_;
+  Gate* gate_;
   Instant now_{};
   Settings settings_;
   Body body_;

@@ -33,9 +33,17 @@ constexpr auto scales = [] {
 std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   ball_.now_ = now;
   ball_.body_.advance_to(now);
-  const auto& body = ball_.body_;
-  auto& lamps = ball_.lamps_;
-  auto& drive = ball_.drive_;
+  const auto value = ball_.peek(variable);
+  if (variable == Variable::Cmdroll)
+    ball_.drive_.take_new_roll();
+  else if (variable == Variable::Cmdrgb)
+    ball_.lamps_.take_new_color();
+  else if (variable == Variable::Dshake)
+    ball_.double_shake_ = false;
+  return value;
+}
+
+std::int32_t Ball::peek(Variable variable) const {
   const auto steps = [&](double value) {
     const auto& row = spec::info(variable);
     value = scales[static_cast<std::size_t>(variable)].of(value);
@@ -44,37 +52,37 @@ std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   switch (variable) {
   case Variable::TimerA:
   case Variable::TimerB:
-  case Variable::TimerC: break; // the machine's own
-  case Variable::Ctrl: return body.stabilized() ? 1 : 0;
-  case Variable::Speed: return body.speed();
-  case Variable::Yaw: return rounded(body.yaw_deg()) % spec::ball::full_circle;
-  case Variable::Pitch: return steps(body.pitch_deg());
-  case Variable::Roll: return steps(body.roll_deg());
-  case Variable::AccelX: return steps(body.acceleration_g().x);
-  case Variable::AccelY: return steps(body.acceleration_g().y);
-  case Variable::AccelZ: return steps(body.acceleration_g().z);
-  case Variable::GyroX: return steps(body.rotation_deg_s().x);
-  case Variable::GyroY: return steps(body.rotation_deg_s().y);
-  case Variable::GyroZ: return steps(body.rotation_deg_s().z);
-  case Variable::Vbatt: return steps(body.battery_v());
-  case Variable::Sbatt: return ball_.power_.battery_state();
-  case Variable::Cmdroll: return drive.take_new_roll() ? 1 : 0;
-  case Variable::Spdval: return drive.client_roll().speed;
-  case Variable::Hdgval: return drive.client_roll().heading_deg;
-  case Variable::Cmdrgb: return lamps.take_new_color() ? 1 : 0;
-  case Variable::Redval: return lamps.client_color().red;
-  case Variable::Grnval: return lamps.client_color().green;
-  case Variable::Bluval: return lamps.client_color().blue;
-  case Variable::Isconn: return ball_.connected() ? 1 : 0;
-  case Variable::Dshake: return std::exchange(ball_.double_shake_, false) ? 1 : 0;
-  case Variable::Accelone: return steps(body.acceleration_total_g());
-  case Variable::Xpos: return steps(body.pose().x_cm);
-  case Variable::Ypos: return steps(body.pose().y_cm);
-  case Variable::Qzero: return steps(body.attitude().w);
-  case Variable::Qone: return steps(body.attitude().x);
-  case Variable::Qtwo: return steps(body.attitude().y);
-  case Variable::Qthree: return steps(body.attitude().z);
-  case Variable::Macstat: return static_cast<std::int32_t>(ball_.macros_.macstat());
+  case Variable::TimerC: return programs_.machine().timer(variable, now_);
+  case Variable::Ctrl: return body_.stabilized() ? 1 : 0;
+  case Variable::Speed: return body_.speed();
+  case Variable::Yaw: return rounded(body_.yaw_deg()) % spec::ball::full_circle;
+  case Variable::Pitch: return steps(body_.pitch_deg());
+  case Variable::Roll: return steps(body_.roll_deg());
+  case Variable::AccelX: return steps(body_.acceleration_g().x);
+  case Variable::AccelY: return steps(body_.acceleration_g().y);
+  case Variable::AccelZ: return steps(body_.acceleration_g().z);
+  case Variable::GyroX: return steps(body_.rotation_deg_s().x);
+  case Variable::GyroY: return steps(body_.rotation_deg_s().y);
+  case Variable::GyroZ: return steps(body_.rotation_deg_s().z);
+  case Variable::Vbatt: return steps(body_.battery_v());
+  case Variable::Sbatt: return power_.battery_state();
+  case Variable::Cmdroll: return drive_.new_roll() ? 1 : 0;
+  case Variable::Spdval: return drive_.client_roll().speed;
+  case Variable::Hdgval: return drive_.client_roll().heading_deg;
+  case Variable::Cmdrgb: return lamps_.new_color() ? 1 : 0;
+  case Variable::Redval: return lamps_.client_color().red;
+  case Variable::Grnval: return lamps_.client_color().green;
+  case Variable::Bluval: return lamps_.client_color().blue;
+  case Variable::Isconn: return connected() ? 1 : 0;
+  case Variable::Dshake: return double_shake_ ? 1 : 0;
+  case Variable::Accelone: return steps(body_.acceleration_total_g());
+  case Variable::Xpos: return steps(body_.pose().x_cm);
+  case Variable::Ypos: return steps(body_.pose().y_cm);
+  case Variable::Qzero: return steps(body_.attitude().w);
+  case Variable::Qone: return steps(body_.attitude().x);
+  case Variable::Qtwo: return steps(body_.attitude().y);
+  case Variable::Qthree: return steps(body_.attitude().z);
+  case Variable::Macstat: return static_cast<std::int32_t>(macros_.macstat());
   }
   return 0;
 }

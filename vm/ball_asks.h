@@ -42,6 +42,7 @@ struct Ball::Asks {
       ball_.trace(event::Macro{macro, command});
     }
     void sleep_ms(int time_ms) override;
+    bool may_begin() override { return ball_.gate_ == nullptr || ball_.gate_->command(); }
     bool stopped() const override { return ball_.body_.stopped(); }
     bool connected() const override { return ball_.connected(); }
 

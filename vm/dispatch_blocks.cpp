@@ -34,24 +34,24 @@ HANDLE(GetChassisId) {
 }
 
 HANDLE(SetPermanentOptionFlags) {
-  host_.set(&Settings::permanent_flags, static_cast<std::uint32_t>(call.operands.number(0)));
+  host_->set(&Settings::permanent_flags, static_cast<std::uint32_t>(call.operands.number(0)));
   watch_gyro();
   persist();
   return {};
 }
 
 HANDLE(GetPermanentOptionFlags) {
-  return call.answer({host_.settings().permanent_flags});
+  return call.answer({host_->settings().permanent_flags});
 }
 
 HANDLE(SetTemporaryOptionFlags) {
-  host_.set(&Settings::temporary_flags,
-            static_cast<std::uint32_t>(call.operands.number(0)) & assigned_temporary_flags);
+  host_->set(&Settings::temporary_flags,
+             static_cast<std::uint32_t>(call.operands.number(0)) & assigned_temporary_flags);
   return {};
 }
 
 HANDLE(GetTemporaryOptionFlags) {
-  return call.answer({host_.settings().temporary_flags});
+  return call.answer({host_->settings().temporary_flags});
 }
 
 HANDLE(GetConfigurationBlock) {
@@ -62,17 +62,17 @@ HANDLE(GetConfigurationBlock) {
     block.resize(spec::config_block_size - sizeof(std::uint16_t));
     append_u16(block, chassis_id(seed_));
   } else {
-    block = config_block(host_.settings(), profile_);
+    block = config_block(host_->settings(), profile_);
   }
-  host_.send(protocol::make_async(spec::AsyncId::ConfigBlock, {block}));
+  host_->send(protocol::make_async(spec::AsyncId::ConfigBlock, {block}));
   return {};
 }
 
 HANDLE(SetConfigurationBlock) {
-  auto settings = host_.settings();
+  auto settings = host_->settings();
   if (!load_config_block(call.operands.data(), settings, profile_))
     return {ResponseCode::BadParameter, {}};
-  host_.change(settings);
+  host_->change(settings);
   watch_gyro();
   persist();
   return {};
@@ -88,7 +88,7 @@ HANDLE(GetDeviceMode) {
 }
 
 HANDLE(GetSsb) {
-  host_.send(protocol::make_async(spec::AsyncId::SoulBlock, {profile_.soul.block()}));
+  host_->send(protocol::make_async(spec::AsyncId::SoulBlock, {profile_.soul.block()}));
   return {};
 }
 
@@ -100,7 +100,7 @@ HANDLE(RefillBank) {
   persist();
   if (soul_messages_) {
     const auto is_boost = bank == spec::bank::boost;
-    host_.send(
+    host_->send(
         protocol::make_async(is_boost ? spec::AsyncId::BoostUpdate : spec::AsyncId::ShieldDamage,
                              {is_boost ? profile_.soul.boost() : profile_.soul.shield()}));
   }
@@ -117,9 +117,9 @@ HANDLE(BuyConsumable) {
 
 HANDLE(UseConsumable) {
   const auto consumable = call.operands.u8(0);
-  if (host_.now() < consumable_until_ || !profile_.soul.use(consumable))
+  if (host_->now() < consumable_until_ || !profile_.soul.use(consumable))
     return {ResponseCode::ExecuteFailed, {}};
-  consumable_until_ = host_.now() + consumable_time;
+  consumable_until_ = host_->now() + consumable_time;
   return call.answer({consumable, profile_.soul.count(consumable)});
 }
 

@@ -75,45 +75,47 @@ HANDLE(GetAutoReconnect) {
 
 HANDLE(GetPowerState) {
   bring_up_to_date();
-  return call.answer({power_record_version, host_.power().battery_state(), centivolts(host_.body()),
-                      profile_.charges, clamp_u16(profile_.since_charge_s)});
+  return call.answer({power_record_version, host_->power().battery_state(),
+                      centivolts(host_->body()), profile_.charges,
+                      clamp_u16(profile_.since_charge_s)});
 }
 
 HANDLE(SetPowerNotification) {
-  power_notice_at_ = call.operands.u8(0) == 0 ? never : host_.now() + power_notice_interval;
+  power_notice_at_ = call.operands.u8(0) == 0 ? never : host_->now() + power_notice_interval;
   return {};
 }
 
 HANDLE(Sleep) {
   if (call.operands.number(0) == deep_sleep)
     return {ResponseCode::Unsupported, {}};
-  host_.sleep({static_cast<int>(call.operands.number(0)), call.operands.u8(1),
-               static_cast<int>(call.operands.number(2))});
+  host_->sleep({static_cast<int>(call.operands.number(0)), call.operands.u8(1),
+                static_cast<int>(call.operands.number(2))});
   return {};
 }
 
 HANDLE(GetVoltageTripPoints) {
-  return call.answer({host_.settings().low_battery_cv, host_.settings().critical_battery_cv});
+  return call.answer({host_->settings().low_battery_cv, host_->settings().critical_battery_cv});
 }
 
 HANDLE(SetVoltageTripPoints) {
-  auto settings = host_.settings();
+  auto settings = host_->settings();
   settings.low_battery_cv = static_cast<int>(call.operands.number(0));
   settings.critical_battery_cv = static_cast<int>(call.operands.number(1));
-  host_.change(settings);
+  host_->change(settings);
   persist();
   return {};
 }
 
 HANDLE(SetInactivityTimeout) {
-  host_.set<Duration>(&Settings::inactivity_timeout, std::chrono::seconds{call.operands.number(0)});
+  host_->set<Duration>(&Settings::inactivity_timeout,
+                       std::chrono::seconds{call.operands.number(0)});
   persist();
   return {};
 }
 
 HANDLE(JumpToBootloader) {
   in_bootloader_ = true;
-  host_.shut_down();
+  host_->shut_down();
   return {};
 }
 
@@ -124,7 +126,7 @@ HANDLE(LeaveBootloader) {
 
 HANDLE(PerformLevel1Diagnostics) {
   const auto text = level_1();
-  host_.send(protocol::make_async(spec::AsyncId::Level1Diagnostics, {as_bytes(text)}));
+  host_->send(protocol::make_async(spec::AsyncId::Level1Diagnostics, {as_bytes(text)}));
   return {};
 }
 
@@ -135,28 +137,28 @@ HANDLE(PerformLevel2Diagnostics) {
     append_u16(boots, i == 0 ? profile_.cold_boots : i == wake_up_counter ? profile_.wake_ups : 0);
   return call.answer({level_2_record_version, 0, counters_.good, counters_.bad_did,
                       counters_.bad_dlen, counters_.bad_cid, counters_.bad_checksum,
-                      counters_.overruns, host_.link().sent(), host_.link().dropped(),
+                      counters_.overruns, host_->link().sent(), host_->link().dropped(),
                       boot_reason_cold, boots, 0, profile_.charges,
                       clamp_u16(profile_.since_charge_s), profile_.awake_s,
-                      profile_.rolled_cm + host_.body().rolled_cm(), 0, 0});
+                      profile_.rolled_cm + host_->body().rolled_cm(), 0, 0});
 }
 
 HANDLE(ClearCounters) {
   if (device_mode_ == spec::device_mode::normal)
     return {ResponseCode::ExecuteFailed, {}};
   counters_ = {};
-  host_.link().clear_counters();
+  host_->link().clear_counters();
   return {};
 }
 
 HANDLE(AssignTimeValue) {
-  host_.link().set_clock_ms(static_cast<std::uint32_t>(call.operands.number(0)), host_.now());
+  host_->link().set_clock_ms(static_cast<std::uint32_t>(call.operands.number(0)), host_->now());
   return {};
 }
 
 HANDLE(PollPacketTimes) {
   // Received and sent in the same millisecond.
-  const auto clock = host_.link().clock_ms(host_.now());
+  const auto clock = host_->link().clock_ms(host_->now());
   return call.answer({call.operands.number(0), clock, clock});
 }
 
@@ -164,8 +166,8 @@ std::string Dispatcher::level_1() {
   bring_up_to_date();
   const auto record = firmware_.record();
   const auto nibbles = [](std::uint8_t byte) { return fmt::format("{}.{}", byte >> 4, byte & 15); };
-  const auto& settings = host_.settings();
-  const auto& body = host_.body();
+  const auto& settings = host_->settings();
+  const auto& body = host_->body();
   const auto felt = body.acceleration_g();
   const auto rate = body.rotation_deg_s();
   std::string out;
@@ -176,10 +178,10 @@ std::string Dispatcher::level_1() {
   out += fmt::format("Cold:{}, Wakeup:{}\n", profile_.cold_boots, profile_.wake_ups);
   out += fmt::format("Dist rolled: {} cm, Vbatt {:.2f}, state: {}\n",
                      profile_.rolled_cm + body.rolled_cm(), body.battery_v(),
-                     spec::value_name("power state", host_.power().battery_state()));
+                     spec::value_name("power state", host_->power().battery_state()));
   out += fmt::format("Stabilize:{}\nAutoRN:{}\nMac:{}\nBas:{}\n", body.stabilized() ? 1 : 0,
-                     profile_.auto_reconnect ? 1 : 0, host_.macros().id(),
-                     host_.programs().running() ? 1 : 0);
+                     profile_.auto_reconnect ? 1 : 0, host_->macros().id(),
+                     host_->programs().running() ? 1 : 0);
   out += fmt::format("Bootldr={}\nMA={}.{}\nBoard={}\nOrbBasic={}\nMacExec={}\n",
                      nibbles(record[version_bootloader_at]), record[spec::version_firmware_at],
                      record[spec::version_firmware_at + 1], record[version_hardware_at],
@@ -187,7 +189,7 @@ std::string Dispatcher::level_1() {
   out += fmt::format(
       "[Network]\nRx good:{}, bad:{}, Tx:{}\nRx overruns:{}, Tx:{}\n", counters_.good,
       counters_.bad_checksum + counters_.bad_did + counters_.bad_cid + counters_.bad_dlen,
-      host_.link().sent(), counters_.overruns, host_.link().dropped());
+      host_->link().sent(), counters_.overruns, host_->link().dropped());
   out += fmt::format("Dev name: {}, BTA:{}\n", own_name(profile_), own_address(seed_));
   out += fmt::format("[Options]\nPermanent:{:08X}, Temporary:{:08X}\nTrip points:{}, {}\n",
                      settings.permanent_flags, settings.temporary_flags, settings.low_battery_cv,

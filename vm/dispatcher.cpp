@@ -46,14 +46,14 @@ struct Dispatcher::Handlers {
 };
 
 Dispatcher::Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware)
-    : host_(host), seed_(seed), firmware_(spec::info(firmware)) {
+    : host_(&host), seed_(seed), firmware_(spec::info(firmware)) {
   profile_.cold_boots = 1;
 }
 
 void Dispatcher::receive(ByteView bytes) {
   if (bytes.empty())
     return;
-  last_byte_ = host_.now();
+  last_byte_ = host_->now();
   decoder_.feed(bytes);
   take_items();
 }
@@ -63,11 +63,11 @@ void Dispatcher::take_items() {
     switch (item->kind) {
     case Item::Kind::Command: {
       // An answer precedes the messages that its command causes.
-      host_.link().hold_messages();
+      host_->link().hold_messages();
       answer(*item, obey(*item));
-      host_.command_done();
-      host_.link().release_messages(host_.now());
-      if (host_.power().falls_asleep()) {
+      host_->command_done();
+      host_->link().release_messages(host_->now());
+      if (host_->power().falls_asleep()) {
         decoder_.reset();
         return;
       }
@@ -87,15 +87,15 @@ void Dispatcher::take_items() {
 
 void Dispatcher::answer(const Item& item, const Reply& reply) {
   if ((item.flags & spec::sop2_answer) != 0)
-    host_.link().send(
+    host_->link().send(
         protocol::Response{static_cast<std::uint8_t>(reply.code), item.seq, reply.data},
-        host_.now());
+        host_->now());
 }
 
 Dispatcher::Reply Dispatcher::obey(const Item& item) {
   const auto resets = (item.flags & spec::sop2_reset_timeout) != 0;
   if (resets || !firmware_.has_option_bits())
-    host_.stay_awake();
+    host_->stay_awake();
 
   const auto leaves_bootloader =
       spec::api_command(item.did, item.cid) == ApiCommand::LeaveBootloader;
@@ -146,7 +146,7 @@ void Dispatcher::run(Instant now) {
     power_notice_at_ = now + power_notice_interval;
     send_power_state();
   }
-  if (const auto result = self_level_.run(now, host_.body()))
+  if (const auto result = self_level_.run(now, host_->body()))
     finish_levelling(*result);
   if (now >= soul_tick_at_)
     tick_soul();
@@ -155,13 +155,13 @@ void Dispatcher::run(Instant now) {
 }
 
 void Dispatcher::send_power_state() {
-  host_.send(
-      protocol::make_async(spec::AsyncId::PowerNotification, {host_.power().battery_state()}));
+  host_->send(
+      protocol::make_async(spec::AsyncId::PowerNotification, {host_->power().battery_state()}));
 }
 
 void Dispatcher::on_battery() {
   bring_up_to_date();
-  const auto charging = host_.power().battery_state() == spec::power_state::charging;
+  const auto charging = host_->power().battery_state() == spec::power_state::charging;
   if (was_charging_ && !charging) {
     ++profile_.charges;
     profile_.since_charge_s = 0;
@@ -175,12 +175,12 @@ void Dispatcher::on_collision() {
   if (!profile_.soul.damage_shield())
     return;
   if (soul_messages_)
-    host_.send(protocol::make_async(spec::AsyncId::ShieldDamage, {profile_.soul.shield()}));
-  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + soul_tick);
+    host_->send(protocol::make_async(spec::AsyncId::ShieldDamage, {profile_.soul.shield()}));
+  soul_tick_at_ = std::min(soul_tick_at_, host_->now() + soul_tick);
 }
 
 void Dispatcher::on_motion() {
-  soul_tick_at_ = std::min(soul_tick_at_, host_.now() + soul_tick);
+  soul_tick_at_ = std::min(soul_tick_at_, host_->now() + soul_tick);
   watch_gyro();
 }
 
@@ -204,9 +204,9 @@ void Dispatcher::on_sleep() {
 
 void Dispatcher::on_wake() {
   ++profile_.wake_ups;
-  counted_until_ = host_.now();
-  host_.link().set_clock_ms(
-      0, host_.now()); // API §Assign Time Value: it starts at zero when the ball wakes up
+  counted_until_ = host_->now();
+  host_->link().set_clock_ms(
+      0, host_->now()); // API §Assign Time Value: it starts at zero when the ball wakes up
 }
 
 const Profile& Dispatcher::profile() {
@@ -216,9 +216,9 @@ const Profile& Dispatcher::profile() {
 
 /// The counters of a life have no events of their own.
 void Dispatcher::bring_up_to_date() {
-  if (host_.power().asleep())
+  if (host_->power().asleep())
     return;
-  const auto awake = std::chrono::floor<std::chrono::seconds>(host_.now() - counted_until_);
+  const auto awake = std::chrono::floor<std::chrono::seconds>(host_->now() - counted_until_);
   counted_until_ += awake;
   profile_.awake_s += static_cast<std::uint64_t>(awake.count());
   profile_.since_charge_s += static_cast<std::uint64_t>(awake.count());
@@ -227,31 +227,31 @@ void Dispatcher::bring_up_to_date() {
 void Dispatcher::tick_soul() {
   auto& soul = profile_.soul;
   const auto was_boosting = soul.boosting();
-  const auto moving = !host_.body().stopped();
+  const auto moving = !host_->body().stopped();
   const auto changes = soul.tick(moving);
   if (was_boosting && !soul.boosting())
     boost(Switch::Off);
-  soul_tick_at_ = moving || soul.changing() ? host_.now() + soul_tick : never;
+  soul_tick_at_ = moving || soul.changing() ? host_->now() + soul_tick : never;
   if (!soul_messages_)
     return;
   if (changes.level)
-    host_.send(protocol::make_async(spec::AsyncId::LevelUp, {soul.level(), soul.points()}));
+    host_->send(protocol::make_async(spec::AsyncId::LevelUp, {soul.level(), soul.points()}));
   if (changes.shield)
-    host_.send(protocol::make_async(spec::AsyncId::ShieldDamage, {soul.shield()}));
+    host_->send(protocol::make_async(spec::AsyncId::ShieldDamage, {soul.shield()}));
   if (changes.experience)
-    host_.send(protocol::make_async(spec::AsyncId::XpUpdate, {soul.experience()}));
+    host_->send(protocol::make_async(spec::AsyncId::XpUpdate, {soul.experience()}));
   if (changes.boost)
-    host_.send(protocol::make_async(spec::AsyncId::BoostUpdate, {soul.boost()}));
+    host_->send(protocol::make_async(spec::AsyncId::BoostUpdate, {soul.boost()}));
 }
 
 /// Looks for gyro limits only where somebody wants to know and the ball may turn.
 void Dispatcher::watch_gyro() {
-  const auto wanted = host_.settings().has(spec::permanent_option_flags::gyro_limit_messages);
-  gyro_check_at_ = wanted && host_.body().moving() ? host_.now() : never;
+  const auto wanted = host_->settings().has(spec::permanent_option_flags::gyro_limit_messages);
+  gyro_check_at_ = wanted && host_->body().moving() ? host_->now() : never;
 }
 
 void Dispatcher::check_gyro() {
-  const auto rate = host_.body().rotation_deg_s();
+  const auto rate = host_->body().rotation_deg_s();
   const std::pair<double, std::uint32_t> axes[] = {
       {rate.x, spec::gyro_axis_flags::x_positive}, {-rate.x, spec::gyro_axis_flags::x_negative},
       {rate.y, spec::gyro_axis_flags::y_positive}, {-rate.y, spec::gyro_axis_flags::y_negative},
@@ -264,9 +264,9 @@ void Dispatcher::check_gyro() {
   if (exceeded != 0) {
     // Each axis once, until Set Heading clears the measurements.
     gyro_exceeded_ = static_cast<std::uint8_t>(gyro_exceeded_ | exceeded);
-    host_.send(protocol::make_async(spec::AsyncId::GyroLimit, {exceeded}));
+    host_->send(protocol::make_async(spec::AsyncId::GyroLimit, {exceeded}));
   }
-  gyro_check_at_ = host_.body().moving() ? host_.now() + gyro_check_interval : never;
+  gyro_check_at_ = host_->body().moving() ? host_->now() + gyro_check_interval : never;
 }
 
 } // namespace orb::vm

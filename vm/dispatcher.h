@@ -20,6 +20,8 @@ namespace orb::vm {
 class Dispatcher {
 public:
   Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware);
+  /// A copy that serves another ball.
+  Dispatcher(const Dispatcher& other, ApiHost& host) : Dispatcher(other) { host_ = &host; }
 
   /// Bytes from the client, at the host's present instant.
   void receive(ByteView bytes);
@@ -46,6 +48,8 @@ public:
   std::uint64_t revision() const { return revision_; }
 
 private:
+  Dispatcher(const Dispatcher&) = default;
+
   struct Reply {
     spec::ResponseCode code = spec::ResponseCode::Ok;
     Bytes data;
@@ -95,7 +99,7 @@ private:
   void bring_up_to_date();
   void persist() { ++revision_; }
 
-  ApiHost& host_;
+  ApiHost* host_;
   std::uint64_t seed_;
   const spec::FirmwareInfo& firmware_;
   protocol::Decoder decoder_{protocol::Direction::ToBall};

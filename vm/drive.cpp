@@ -22,11 +22,11 @@ Outcome Drive::obey(Actor actor, const Motion& motion, Instant now) {
   }
   if (!may(actor) && !std::holds_alternative<RotationRate>(motion))
     return Outcome::Refused;
-  body_.advance_to(now);
-  const auto outcome = body_.obey(motion);
+  body_->advance_to(now);
+  const auto outcome = body_->obey(motion);
   if (sets_in_motion(motion))
-    deadline_ = settings_.has(spec::permanent_option_flags::motion_timeout)
-                    ? now + settings_.motion_timeout
+    deadline_ = settings_->has(spec::permanent_option_flags::motion_timeout)
+                    ? now + settings_->motion_timeout
                     : never;
   return outcome;
 }
@@ -45,11 +45,11 @@ void Drive::run(Instant now) {
     return;
   deadline_ = never;
   if (!exclusive_)
-    body_.obey(Stop{});
+    body_->obey(Stop{});
 }
 
 void Drive::settings_changed() {
-  if (!settings_.has(spec::permanent_option_flags::motion_timeout))
+  if (!settings_->has(spec::permanent_option_flags::motion_timeout))
     deadline_ = never;
 }
 

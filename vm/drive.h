@@ -15,7 +15,12 @@ namespace orb::vm {
 /// asked.
 class Drive {
 public:
-  Drive(Body& body, const Settings& settings) : body_(body), settings_(settings) {}
+  Drive(Body& body, const Settings& settings) : body_(&body), settings_(&settings) {}
+  /// A copy that serves another ball.
+  Drive(const Drive& other, Body& body, const Settings& settings) : Drive(other) {
+    body_ = &body;
+    settings_ = &settings;
+  }
 
   /// Does what is asked, unless it is excluded or the body ignores it.
   Outcome obey(Actor actor, const Motion& motion, Instant now);
@@ -37,13 +42,16 @@ public:
 
   /// Whether a client has asked for a roll since the last call, and which, for programs.
   bool take_new_roll() { return std::exchange(new_roll_, false); }
+  bool new_roll() const { return new_roll_; }
   const Roll& client_roll() const { return client_roll_; }
 
 private:
+  Drive(const Drive&) = default;
+
   bool may(Actor actor) const { return !exclusive_ || *exclusive_ == actor; }
 
-  Body& body_;
-  const Settings& settings_;
+  Body* body_;
+  const Settings* settings_;
   std::optional<Actor> exclusive_;
   Instant deadline_ = never;
   bool new_roll_ = false;

@@ -41,6 +41,7 @@ public:
 
   /// Whether a client has set a colour since the last call, and which, for programs.
   bool take_new_color() { return std::exchange(new_color_, false); }
+  bool new_color() const { return new_color_; }
   Color client_color() const { return client_color_; }
 
 private:

@@ -67,16 +67,16 @@ bool only_lights(Statement statement) {
 Then Core::read_system(const Code& instruction) {
   const auto variable = static_cast<Variable>(instruction.b);
   const Instant now = line_end();
-  if (!is_timer(variable)) {
-    registers[instruction.a] = host->read(variable, now);
-    return Then::Next;
-  }
+  registers[instruction.a] = is_timer(variable) ? timer(variable, now) : host->read(variable, now);
+  return Then::Next;
+}
+
+std::int32_t Core::timer(Variable variable, Instant now) const {
   const auto& timer = timers[timer_number(variable)];
   const std::int64_t elapsed = (now - timer.since) / std::chrono::milliseconds{1};
-  registers[instruction.a] =
-      timer.from == 0 ? static_cast<std::int32_t>(elapsed % timer_values)
-                      : static_cast<std::int32_t>(std::max<std::int64_t>(0, timer.from - elapsed));
-  return Then::Next;
+  return timer.from == 0
+             ? static_cast<std::int32_t>(elapsed % timer_values)
+             : static_cast<std::int32_t>(std::max<std::int64_t>(0, timer.from - elapsed));
 }
 
 Then Core::write_system(const Code& instruction) {
@@ -242,6 +242,28 @@ Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch di
   core_.registers.resize(bytecode::first_temporary);
 }
 
+Machine::Machine(const Machine& other)
+    : engine_(other.engine_), core_(other.core_), native_(other.native_), shared_(other.shared_),
+      only_interpreted_(other.only_interpreted_), compile_at_(other.compile_at_),
+      gain_(other.gain_), now_(other.now_), lines_(other.lines_),
+      earlier_lines_(other.earlier_lines_), running_(other.running_), tracing_(other.tracing_),
+      gate_(other.gate_), held_(other.held_), announced_(other.announced_),
+      missing_line_(other.missing_line_), stop_(other.stop_) {
+  const auto& from = other.core_;
+  const auto same = [&](const Code* place) {
+    return place == nullptr ? nullptr : core_.code.data() + from.index_of(place);
+  };
+  core_.pc = same(from.pc);
+  core_.at = same(from.at);
+  core_.start = same(from.start);
+  if (from.frames.loop != nullptr)
+    core_.frames.loop = core_.frames.loops.data() + (from.frames.loop - from.frames.loops.data());
+  if (other.own_code_)
+    compile_at_ = lines_before_compiling();
+  else
+    machine_code_ = other.machine_code_;
+}
+
 void Machine::link(bytecode::Chunk given) {
   core_.chunk = std::move(given);
   const auto& chunk = core_.chunk;
@@ -289,6 +311,7 @@ void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
   core_.wait = Core::Wait::Nothing;
   core_.pending.clear();
   core_.clear();
+  earlier_lines_ += lines_;
   lines_ = 0;
   machine_code_ = nullptr;
   own_code_.reset();
@@ -345,6 +368,23 @@ void Machine::abort() {
     return;
   finish(BasicError::UserAbort, line());
   stop_->reason = event::End::Reason::Abort;
+}
+
+std::int32_t Machine::timer(spec::Variable variable, Instant now) const {
+  return is_timer(variable) ? core_.timer(variable, now) : 0;
+}
+
+bool Machine::go_to(int line, Instant now) {
+  const auto found = std::find_if(core_.chunk.lines.begin(), core_.chunk.lines.end(),
+                                  [&](const auto& row) { return row.number == line; });
+  if (!running_ || found == core_.chunk.lines.end())
+    return false;
+  if (core_.wait != Core::Wait::Nothing)
+    resume(std::max(now, now_));
+  missing_line_.reset();
+  announced_ = false;
+  core_.pc = core_.at = core_.code.data() + found->begin;
+  return true;
 }
 
 std::int32_t Machine::variable(std::size_t index) const {
@@ -469,6 +509,7 @@ Exit Machine::run_native() {
 
 void Machine::run(Instant limit, Host& host) {
   core_.host = &host;
+  held_ = false;
   if (running_ && missing_line_) {
     finish(BasicError::BadLineNumber, *missing_line_);
     return;
@@ -487,6 +528,12 @@ void Machine::run(Instant limit, Host& host) {
         std::min(static_cast<std::uint64_t>(lines), compile_at_ - lines_));
     if (!announce(host))
       continue;
+    if (gate_ != nullptr) {
+      lines = std::min(lines, gate_->lines());
+      held_ = lines == 0;
+      if (held_)
+        return;
+    }
     const bool single = tracing_ || core_.tron;
     const int line = single ? line_of(core_.pc) : 0;
     core_.allowed = core_.budget = single ? 1 : lines;

@@ -18,6 +18,17 @@ namespace orb::vm {
 /// jumps take.
 enum class Dispatch : std::uint8_t { Threaded, Switch };
 
+/// Decides how far programs and macros may go: a debugger.
+class Gate {
+public:
+  virtual ~Gate() = default;
+  /// A program is about to run a line, at Machine::line(). How many lines may run before the gate
+  /// is asked again; with 0 the ball comes back to whoever lets it live.
+  virtual std::int64_t lines() = 0;
+  /// A macro is about to begin a command; with false the ball comes back.
+  virtual bool command() = 0;
+};
+
 /// Runs orbBasic: a compiled program, its variables, loops, calls, timers, data and random numbers.
 /// It asks a Host for everything else and is handed the time. Line k of a program ends at
 /// floor(k * 10^9 / lines per second) ns after its start, plus what it waited; what a line does
@@ -37,7 +48,9 @@ public:
   Machine(std::uint32_t lines_per_second, std::uint64_t seed,
           Dispatch dispatch = Dispatch::Threaded, Native native = Native::Auto,
           NativePrograms* shared = nullptr);
-  Machine(const Machine&) = delete;
+  /// A copy that has come just as far. Machine code comes along where it is shared; else the copy
+  /// makes its own.
+  Machine(const Machine& other);
   Machine& operator=(const Machine&) = delete;
 
   /// Starts a program at `line` with a clean slate. A line that does not exist is an error of the
@@ -54,6 +67,8 @@ public:
   Instant next_event() const;
 
   bool running() const { return running_; }
+  /// Whether its line waits: for a time, for room in the queue, for a number.
+  bool waits() const { return running_ && core_.wait != Core::Wait::Nothing; }
   /// Whether it waits for a number; without a time-out next_event() is `never`.
   bool waits_for_input() const { return running_ && core_.wait == Core::Wait::Input; }
   /// Ends the program from outside: a stop with the error User abort.
@@ -76,12 +91,29 @@ public:
   /// The value of A to Y (0 to 24) or of an element of Z (from bytecode::first_element); 0 before
   /// the first program.
   std::int32_t variable(std::size_t index) const;
+  /// The value of a timer at `now`; 0 for every other variable.
+  std::int32_t timer(spec::Variable variable, Instant now) const;
   /// The program and all that it has come to.
   const Core& core() const { return core_; }
   /// The machine code of the program; null where it is interpreted.
   const NativeCode* machine_code() const { return machine_code_; }
   /// Why there is none although it was wanted; empty otherwise.
   std::string_view only_interpreted() const { return only_interpreted_; }
+  /// Lines executed since there is this machine.
+  std::uint64_t lines_of_all() const { return earlier_lines_ + lines_; }
+  /// The place of the next instruction in the code of the program.
+  std::uint32_t next_instruction() const { return core_.index_of(core_.pc); }
+  /// From now on `gate` is asked before lines; null: nobody.
+  void ask(Gate* gate) { gate_ = gate; }
+  /// The last run() came back because the gate let no line pass.
+  bool held() const { return held_; }
+  void let_go() { held_ = false; }
+
+  // What a debugger changes.
+  void set_variable(std::size_t index, std::int32_t value) { core_.registers[index] = value; }
+  /// Goes on at another line at `now`, whatever it waited for; false where there is no such line.
+  bool go_to(int line, Instant now);
+
   /// From now on the host is told every line.
   void trace_lines() { tracing_ = true; }
 
@@ -109,8 +141,11 @@ private:
   std::int64_t gain_ = 0;        ///< lines; below 0 where changes to machine code did not pay
   Instant now_{};
   std::uint64_t lines_ = 0;
+  std::uint64_t earlier_lines_ = 0; ///< of earlier programs
   bool running_ = false;
   bool tracing_ = false;
+  Gate* gate_ = nullptr;
+  bool held_ = false;
   bool announced_ = false;          ///< tron has printed the number of the next line
   std::optional<int> missing_line_; ///< the start line does not exist
   std::optional<Stop> stop_;

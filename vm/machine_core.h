@@ -145,6 +145,7 @@ struct Core {
   Then set_data(const Code& code);
   Then read_data(const Code& code);
   Then perform(const Code& code);
+  std::int32_t timer(spec::Variable variable, Instant now) const;
   void reseed();
   void clear();
   Then trace();

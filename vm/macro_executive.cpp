@@ -36,6 +36,24 @@ std::uint8_t blend(std::uint8_t from, std::uint8_t to, Duration elapsed, Duratio
 
 } // namespace
 
+MacroExecutive::MacroExecutive(const MacroExecutive& other, MacroHost& host)
+    : MacroExecutive(other) {
+  host_ = &host;
+  code_ = store_.moved(code_, other.store_);
+  for (auto& frame : stack_)
+    frame.code = store_.moved(frame.code, other.store_);
+}
+
+std::vector<MacroExecutive::Place> MacroExecutive::places() const {
+  std::vector<Place> all;
+  if (!running())
+    return all;
+  all.push_back({id_, wake_ > now_ ? number_ : number_ + 1});
+  for (std::size_t i = depth_; i-- > 0;)
+    all.push_back({stack_[i].id, stack_[i].number});
+  return all;
+}
+
 ByteView MacroExecutive::image_of(std::uint8_t id) const {
   for (const auto& macro : system_macros())
     if (macro.id == id)
@@ -44,7 +62,7 @@ ByteView MacroExecutive::image_of(std::uint8_t id) const {
 }
 
 bool MacroExecutive::inhibited(std::uint8_t flags) const {
-  return spec::has_flag(flags, MacroFlag::InhIfConn) && host_.connected();
+  return spec::has_flag(flags, MacroFlag::InhIfConn) && host_->connected();
 }
 
 MacroOutcome MacroExecutive::start(int wanted, Instant now) {
@@ -213,12 +231,15 @@ Instant MacroExecutive::next_tick() const {
 }
 
 void MacroExecutive::advance_to(Instant now) {
+  auto how = std::exchange(held_, false) ? Tick::GoesOn : Tick::Begins;
   while (running()) {
     const auto next = next_event();
     if (next > now)
       break;
     move_to(next);
-    tick();
+    tick(std::exchange(how, Tick::Begins));
+    if (held_)
+      return;
   }
   move_to(now);
 }
@@ -236,8 +257,24 @@ void MacroExecutive::fall_asleep(Instant now) {
   store_.forget_users();
 }
 
-void MacroExecutive::tick() {
+void MacroExecutive::tick(Tick tick) {
+  if (tick == Tick::Begins)
+    begin_tick();
+  while (running() && wake_ <= now_) {
+    if (left_ == 0) {
+      wake_ = now_ + macro_tick;
+      return;
+    }
+    run_command();
+    if (held_)
+      return;
+    --left_;
+  }
+}
+
+void MacroExecutive::begin_tick() {
   tick_ = now_;
+  left_ = macro_commands_per_tick;
   if (fade_.active)
     step_fade();
   if (collided_) {
@@ -248,16 +285,9 @@ void MacroExecutive::tick() {
       go_to(collision_target_);
     }
   }
-  if (waits_for_stop_ && (wake_ <= now_ || host_.stopped())) {
+  if (waits_for_stop_ && (wake_ <= now_ || host_->stopped())) {
     waits_for_stop_ = false;
     wake_ = now_;
-  }
-  for (int left = macro_commands_per_tick; running() && wake_ <= now_; --left) {
-    if (left == 0) {
-      wake_ = now_ + macro_tick;
-      break;
-    }
-    run_command();
   }
 }
 
@@ -272,9 +302,13 @@ void MacroExecutive::run_command() {
   const auto step = protocol::read_macro_command(code_, next_);
   if (!step)
     return finish(MacroEnding::BadCommand);
+  if (!host_->may_begin()) {
+    held_ = true;
+    return;
+  }
   ++number_;
   next_ += step->size;
-  host_.trace_command(id_, number_);
+  host_->trace_command(id_, number_);
   perform(*step);
 }
 
@@ -289,12 +323,12 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::SetSd2: parameters_.sd2_ms = static_cast<std::uint16_t>(value[0]); return;
   case MacroCommand::Stabilization:
     // The vendor's reader takes any value that it does not know as off.
-    host_.drive(value[0] > static_cast<int>(Stabilization::On)
-                    ? Stabilization::Off
-                    : static_cast<Stabilization>(value[0]));
+    host_->drive(value[0] > static_cast<int>(Stabilization::On)
+                     ? Stabilization::Off
+                     : static_cast<Stabilization>(value[0]));
     return wait_ms(value[1]);
   case MacroCommand::SetHeading:
-    host_.drive(SetHeading{value[0] % spec::ball::full_circle});
+    host_->drive(SetHeading{value[0] % spec::ball::full_circle});
     return wait_ms(value[1]);
   case MacroCommand::Roll:
   case MacroCommand::Roll2: roll(value[0], value[1]); return wait_ms(value[2]);
@@ -305,7 +339,7 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::RollSpd2Sd1:
     roll(parameters_.spd2, value[0]);
     return wait_ms(parameters_.sd1_ms);
-  case MacroCommand::SetSpeed: host_.drive(SetSpeed{value[0]}); return wait_ms(value[1]);
+  case MacroCommand::SetSpeed: host_->drive(SetSpeed{value[0]}); return wait_ms(value[1]);
   case MacroCommand::Rgb:
     fade_.active = false;
     set_color(color_of(step));
@@ -314,21 +348,21 @@ void MacroExecutive::perform(const MacroStep& step) {
     fade_.active = false;
     set_color(color_of(step));
     return wait_ms(parameters_.sd2_ms);
-  case MacroCommand::BackLed: host_.set_back_led(value[0]); return wait_ms(value[1]);
+  case MacroCommand::BackLed: host_->set_back_led(value[0]); return wait_ms(value[1]);
   case MacroCommand::RawMotors:
-    host_.drive(Motors{motor(value[0], value[1]), motor(value[2], value[3])});
+    host_->drive(Motors{motor(value[0], value[1]), motor(value[2], value[3])});
     return wait_ms(value[4]);
   case MacroCommand::Delay: return wait_ms(value[0]);
   case MacroCommand::Goto: return go_to(byte(value[0]));
   case MacroCommand::Gosub: return call(byte(value[0]));
-  case MacroCommand::Sleep: finish(MacroEnding::Slept); return host_.sleep_ms(value[0]);
+  case MacroCommand::Sleep: finish(MacroEnding::Slept); return host_->sleep_ms(value[0]);
   case MacroCommand::SetSpd1: parameters_.spd1 = byte(value[0]); return;
   case MacroCommand::SetSpd2: parameters_.spd2 = byte(value[0]); return;
-  case MacroCommand::RotationRate: return host_.drive(RotationRate{rate_deg_per_s(value[0])});
+  case MacroCommand::RotationRate: return host_->drive(RotationRate{rate_deg_per_s(value[0])});
   case MacroCommand::Fade: return start_fade(color_of(step), value[3]);
-  case MacroCommand::Marker: return host_.emit_marker(value[0], id_, number_);
+  case MacroCommand::Marker: return host_->emit_marker(value[0], id_, number_);
   case MacroCommand::WaitUntilStopped:
-    waits_for_stop_ = value[0] > 0 && !host_.stopped();
+    waits_for_stop_ = value[0] > 0 && !host_->stopped();
     return wait_ms(waits_for_stop_ ? value[0] : 0);
   case MacroCommand::Rotate: return rotate(value[0], value[1]);
   case MacroCommand::RotateSd1: return rotate(value[0], parameters_.sd1_ms);
@@ -341,7 +375,8 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::Comment: return;
   case MacroCommand::OnCollision: collision_target_ = byte(value[0]); return;
   case MacroCommand::ConfigureCollision:
-    return host_.configure_collisions({value[0], value[1], value[2], value[3], value[4], value[5]});
+    return host_->configure_collisions(
+        {value[0], value[1], value[2], value[3], value[4], value[5]});
   }
 }
 
@@ -351,14 +386,14 @@ void MacroExecutive::wait_ms(std::int32_t time_ms) {
 
 void MacroExecutive::roll(int speed, std::int32_t heading_deg) {
   if (now_ >= rotating_until_)
-    host_.drive(
+    host_->drive(
         Roll{heading_deg % spec::ball::full_circle, speed, speed == 0 ? Go::Brake : Go::Drive});
 }
 
 void MacroExecutive::rotate(std::int32_t angle_deg, std::int32_t time_ms) {
   const auto time = std::chrono::milliseconds(time_ms);
   rotating_until_ = now_ + time;
-  host_.drive(Rotate{angle_deg, time});
+  host_->drive(Rotate{angle_deg, time});
 }
 
 void MacroExecutive::start_fade(Color to, std::int32_t time_ms) {
@@ -382,7 +417,7 @@ void MacroExecutive::step_fade() {
 
 void MacroExecutive::set_color(Color color) {
   color_ = color;
-  host_.set_led(color);
+  host_->set_led(color);
 }
 
 void MacroExecutive::start_loop(std::uint8_t count) {
@@ -429,7 +464,7 @@ void MacroExecutive::call(std::uint8_t id) {
 
 void MacroExecutive::reach_end() {
   if (has(MacroFlag::Endsig))
-    host_.emit_marker(spec::macro_end_marker, id_, number_);
+    host_->emit_marker(spec::macro_end_marker, id_, number_);
   if (depth_ == 0)
     return finish(MacroEnding::Ended);
   const auto& caller = stack_[--depth_];
@@ -442,9 +477,9 @@ void MacroExecutive::reach_end() {
 
 void MacroExecutive::finish(MacroEnding ending) {
   if (now_ < rotating_until_)
-    host_.drive(Rotate{});
+    host_->drive(Rotate{});
   if (has(MacroFlag::MotorControl))
-    host_.drive(Stop{});
+    host_->drive(Stop{});
   rest(ending);
 }
 

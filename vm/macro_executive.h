@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace orb::vm {
 
@@ -49,8 +50,9 @@ inline constexpr int macro_commands_per_tick = 64;
 /// before what it causes.
 class MacroExecutive {
 public:
-  explicit MacroExecutive(MacroHost& host) : host_(host) {}
-  MacroExecutive(const MacroExecutive&) = delete;
+  explicit MacroExecutive(MacroHost& host) : host_(&host) {}
+  /// A copy that serves another ball.
+  MacroExecutive(const MacroExecutive& other, MacroHost& host);
   MacroExecutive& operator=(const MacroExecutive&) = delete;
 
   // API commands 50h to 58h.
@@ -90,6 +92,13 @@ public:
   /// The flags in force; 0 when none runs.
   std::uint8_t flags() const { return running() ? flags_ : std::uint8_t{0}; }
   bool has(spec::MacroFlag flag) const { return spec::has_flag(flags(), flag); }
+  /// A place in a macro: of the one that runs, or of one that it returns to.
+  struct Place {
+    int id = 0;
+    int command = 0; ///< that waits, or is next; of a caller its gosub
+  };
+  /// The innermost first; none when no macro runs.
+  std::vector<Place> places() const;
   /// `id << 16 | command number`; 0 when none runs (orbBasic `macstat`).
   std::uint32_t macstat() const;
   /// Of a macro that has come to its end.
@@ -102,8 +111,12 @@ public:
   /// The colour that macros set last.
   Color color() const { return color_; }
   const MacroStore& store() const { return store_; }
+  /// The last advance_to() came back before a command because the host held it.
+  bool held() const { return held_; }
 
 private:
+  MacroExecutive(const MacroExecutive&) = default;
+
   struct Frame {
     std::uint8_t id = spec::macro_id_none;
     std::uint8_t flags = 0;
@@ -142,7 +155,10 @@ private:
   void reach_end();
   void begin();
   Instant next_tick() const;
-  void tick();
+  /// Whether a tick begins, or goes on where the host held it.
+  enum class Tick : std::uint8_t { Begins, GoesOn };
+  void tick(Tick tick);
+  void begin_tick();
   void run_command();
   void perform(const protocol::MacroStep& step);
   void roll(int speed, std::int32_t heading_deg);
@@ -157,7 +173,7 @@ private:
   void move_to(Instant now) { now_ = std::max(now_, now); }
   MacroOutcome save_stream(const protocol::MacroHeader& header, ByteView commands);
 
-  MacroHost& host_;
+  MacroHost* host_;
   MacroStore store_;
   Parameters parameters_;
   Instant now_{};
@@ -179,6 +195,8 @@ private:
   Color color_;
   Fade fade_;
   std::optional<Finished> finished_;
+  bool held_ = false;
+  int left_ = 0; ///< commands that this tick may still begin
 };
 
 } // namespace orb::vm

@@ -25,6 +25,9 @@ public:
   /// spec::macro_sleep_inherit as long as the last sleep.
   virtual void sleep_ms(int time_ms) = 0;
 
+  /// Whether the next command may begin; else the executive comes back before it.
+  virtual bool may_begin() { return true; }
+
   virtual bool stopped() const = 0;
   virtual bool connected() const = 0;
 };

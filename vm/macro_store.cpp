@@ -1,6 +1,7 @@
 #include "vm/macro_store.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace orb::vm {
 
@@ -11,6 +12,20 @@ ByteView MacroStore::find(std::uint8_t id) const {
     if (entry.id == id)
       return ByteView(heap_).subspan(entry.offset, entry.size);
   return {};
+}
+
+ByteView MacroStore::moved(ByteView view, const MacroStore& from) const {
+  const auto in = [&](const auto& bytes, const auto& here) -> std::optional<ByteView> {
+    const std::less_equal<const std::uint8_t*> up_to;
+    if (view.empty() || !up_to(bytes.data(), view.data()) ||
+        !up_to(view.data() + view.size(), bytes.data() + bytes.size()))
+      return std::nullopt;
+    const auto offset = static_cast<std::size_t>(view.data() - bytes.data());
+    return ByteView(here).subspan(offset, view.size());
+  };
+  if (const auto found = in(from.buffer_, buffer_))
+    return *found;
+  return in(from.heap_, heap_).value_or(view);
 }
 
 bool MacroStore::save_user(std::uint8_t id, ByteView image) {

@@ -17,6 +17,9 @@ public:
   /// The image (id, flags, body) of a user or temporary macro; empty where there is none.
   ByteView find(std::uint8_t id) const;
 
+  /// The bytes here that `view` is of another store; any other view stays as it is.
+  ByteView moved(ByteView view, const MacroStore& from) const;
+
   /// Takes a user macro: false when the id is taken, or the heap or the index is full.
   bool save_user(std::uint8_t id, ByteView image);
   void forget_users();

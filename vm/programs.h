@@ -32,6 +32,7 @@ struct ProgramOptions {
   Dispatch dispatch = Dispatch::Threaded;
   Native native = Native::Auto;
   NativePrograms* native_programs = nullptr; ///< machine code that balls share; must outlive them
+  Gate* gate = nullptr; ///< is asked before lines and macro commands; must outlive the ball
 };
 
 /// orbBasic in a ball: the two areas, the machine, the flags of the program that runs and the
@@ -39,6 +40,7 @@ struct ProgramOptions {
 class Programs {
 public:
   Programs(const ProgramOptions& options, std::uint64_t seed);
+  Programs(const Programs&) = default;
 
   // What clients ask. The area of a program that runs cannot be changed.
   Outcome erase(Area area);
@@ -76,6 +78,11 @@ public:
   /// Returns the instant that the program has reached.
   Instant run(Instant limit, Host& host);
   void stop(event::End::Reason reason) { machine_.stop(reason); }
+  /// The gate is asked anew.
+  void let_go() { machine_.let_go(); }
+  // What a debugger changes.
+  void set_variable(std::size_t index, std::int32_t value) { machine_.set_variable(index, value); }
+  bool go_to(int line, Instant now) { return machine_.go_to(line, now); }
   /// The stop that has happened since the last call.
   std::optional<Machine::Stop> take_stop() { return machine_.take_stop(); }
 
