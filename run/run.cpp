@@ -1,9 +1,8 @@
 #include "run/run.h"
 
 #include "compiler/check.h"
-#include "compiler/load.h"
+#include "run/start.h"
 #include "run/want.h"
-#include "uploader/upload.h"
 #include "vm/ball_transport.h"
 
 #include <algorithm>
@@ -13,31 +12,6 @@
 
 namespace orb::run {
 namespace {
-
-/// The programs and macros of all inputs, in their order.
-struct Load {
-  struct ProgramOf {
-    const Input* input;
-    const Program* program;
-  };
-  std::vector<ProgramOf> programs;
-  std::vector<const Macro*> macros;
-};
-
-Load load_of(std::span<const Input> inputs) {
-  Load load;
-  for (const auto& input : inputs) {
-    if (input.program)
-      load.programs.push_back({&input, &*input.program});
-    for (const auto& macro : input.macros)
-      load.macros.push_back(&macro);
-  }
-  return load;
-}
-
-spec::Area other(spec::Area area) {
-  return area == spec::Area::Ram ? spec::Area::Flash : spec::Area::Ram;
-}
 
 /// Finds a text in output that arrives in pieces.
 class Search {
@@ -225,59 +199,6 @@ private:
   Sight sight_;
 };
 
-vm::BallOptions ball_options(const Options& options, Watcher& watcher,
-                             const report::Journey* journey) {
-  vm::BallOptions ball;
-  ball.seed = options.seed;
-  ball.lines_per_second = options.lines_per_second;
-  ball.firmware = options.firmware;
-  ball.ram_bytes = options.ram_bytes.value_or(spec::info(options.firmware).ram_bytes());
-  ball.loader = compiler::load;
-  ball.native = options.native;
-  ball.native_programs = options.native_programs;
-  ball.observer = &watcher;
-  ball.steps = options.steps == Steps::Heard ? &watcher : nullptr;
-  ball.trace_lines = options.trace_lines || journey != nullptr;
-  return ball;
-}
-
-tl::expected<void, Failure> deliver(uploader::Session& session,
-                                    const uploader::Delivery& delivery) {
-  uploader::NullProgress progress;
-  const auto report =
-      uploader::deliver(session, delivery, uploader::BatteryPolicy::Refuse, progress);
-  if (report.kind == uploader::Report::Kind::Done)
-    return {};
-  return tl::unexpected(Failure{exit_code(report.kind), report.message});
-}
-
-uploader::MacroJob job_of(const Macro& macro) {
-  return {macro.image, uploader::natural_kind(macro.image), false, false};
-}
-
-/// Brings everything into the ball the way any client would.
-tl::expected<void, Failure> upload(const Load& load, spec::Area area, uploader::Session& session) {
-  uploader::Delivery delivery;
-  // The last temporary macro stays, and the first is the one to run.
-  for (auto macro = load.macros.rbegin(); macro != load.macros.rend(); ++macro)
-    if (auto job = job_of(**macro); job.kind != uploader::MacroKind::Stream) // see start()
-      delivery.macros.push_back({(*macro)->name, std::move(job)});
-  // Flash first: on its way there a program passes through RAM.
-  for (const auto there : {spec::Area::Flash, spec::Area::Ram})
-    for (std::size_t i = 0; i < load.programs.size(); ++i) {
-      if ((i == 0 ? area : other(area)) != there)
-        continue;
-      const auto& [input, program] = load.programs[i];
-      const auto bytes = as_bytes(program->image.bytes);
-      delivery.program_name = input->source->name();
-      delivery.program = uploader::ProgramJob{{bytes.begin(), bytes.end()}, there, std::nullopt};
-      if (auto done = deliver(session, delivery); !done)
-        return done;
-      delivery = {};
-    }
-  return delivery.macros.empty() ? tl::expected<void, Failure>() : deliver(session, delivery);
-}
-
 /// What the ball answers to the command that starts the run.
 class Answer {
 public:
@@ -299,55 +220,6 @@ private:
   protocol::Decoder decoder_{protocol::Direction::FromBall};
   std::optional<std::uint8_t> code_;
 };
-
-/// What a start without a client came to; with one, the answer tells.
-enum class Started : std::uint8_t { Yes, Refused };
-
-/// Sends one packet at this very instant.
-void send_now(vm::Ball& ball, spec::ApiCommand command, Bytes data) {
-  ball.receive(protocol::encode(protocol::make_command(command, std::move(data))));
-}
-
-Started start_macro(const Macro& macro, const Options& options, vm::Ball& ball,
-                    uploader::Session& session) {
-  if (job_of(macro).kind == uploader::MacroKind::Stream) {
-    uploader::NullProgress progress; // plays while it arrives
-    const auto report = uploader::upload(session, job_of(macro), progress);
-    return report.kind == uploader::Report::Kind::Done ? Started::Yes : Started::Refused;
-  }
-  if (options.client == Client::Absent)
-    return ball.run_macro(macro.image.id) == vm::MacroOutcome::Done ? Started::Yes
-                                                                    : Started::Refused;
-  send_now(ball, spec::ApiCommand::RunMacro, {macro.image.id});
-  return Started::Yes;
-}
-
-Started start_program(const Program& program, const Options& options, vm::Ball& ball) {
-  const auto line = options.line.value_or(program.first_line().value_or(0));
-  if (options.client == Client::Absent)
-    return ball.execute_basic(options.target.area, line) == vm::Outcome::Done ? Started::Yes
-                                                                              : Started::Refused;
-  Bytes data{static_cast<std::uint8_t>(options.target.area)};
-  append_u16(data, line);
-  send_now(ball, spec::ApiCommand::ExecuteOrbbasicProgram, std::move(data));
-  return Started::Yes;
-}
-
-/// Why the ball does not start what it was given.
-Failure refusal(const Load& load, const Options& options) {
-  if (!load.programs.empty())
-    return {ExitCode::Refused, fmt::format("the ball does not run the program: its firmware {} "
-                                           "has no orbBasic; choose another with `--firmware`",
-                                           spec::info(options.firmware).name)};
-  const auto& macro = *load.macros.front();
-  if (options.client == Client::Connected &&
-      (macro.image.flags & static_cast<std::uint8_t>(spec::MacroFlag::InhIfConn)) != 0)
-    return {ExitCode::Refused,
-            fmt::format("the ball does not run macro `{}` while a client is connected: its flag "
-                        "`inh_if_conn` forbids it; run it with `--disconnected`",
-                        macro.name)};
-  return {ExitCode::Refused, fmt::format("the ball does not run macro `{}`", macro.name)};
-}
 
 /// Lets the ball live until the run is over or `limit` is reached.
 void live(vm::Ball& ball, const Watcher& watcher, Listener& listener, Answer& answer, Instant limit,
@@ -435,72 +307,6 @@ std::string waits_for(Reason reason, std::span<const Input> inputs, const Option
   return found ? std::string(found->what) : std::string();
 }
 
-/// Tells the journey which files there are and where the robot's lines and commands stand in them.
-void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey) {
-  bool first = true; // of two programs the lines of the second are told by their number alone
-  for (const auto& input : inputs) {
-    const auto& source = *input.source;
-    const bool has_lines =
-        std::any_of(input.macros.begin(), input.macros.end(),
-                    [](const Macro& macro) { return !macro.command_lines.empty(); });
-    if (!input.program && !has_lines)
-      continue;
-    const int file = journey.add_file(source.name(), std::string(source.text()));
-    for (const auto& other : input.included)
-      journey.add_file(other.source->name(), std::string(other.source->text()));
-    if (input.program && std::exchange(first, false)) {
-      journey.tell_places(input.program->compiled ? report::Told::Source : report::Told::RobotLine);
-      for (const auto& [line, place] : input.program->lines.places)
-        journey.map_line(static_cast<int>(line),
-                         {file + static_cast<int>(place.file), static_cast<int>(place.line)});
-    }
-    for (const auto& macro : input.macros)
-      for (std::size_t k = 0; k < macro.command_lines.size(); ++k)
-        journey.map_command(macro.image.id, static_cast<int>(k) + 1,
-                            {file, static_cast<int>(macro.command_lines[k])});
-  }
-  if (options.course != nullptr)
-    journey.set_course(*options.course);
-  for (const auto& event : options.stimuli)
-    if (const auto* wall = std::get_if<vm::Wall>(&event.stimulus))
-      journey.add_wall(*wall);
-}
-
-/// That the inputs cannot be run; nothing where they can.
-std::optional<Failure> objection(const Load& load) {
-  if (load.programs.size() > 2)
-    return Failure{ExitCode::Usage, "a ball holds two programs: one in RAM, one in flash"};
-  for (const auto& [input, program] : load.programs)
-    if (!program->first_line())
-      return Failure{ExitCode::BadInput,
-                     fmt::format("{} holds no program: no line begins with a line number and a "
-                                 "statement",
-                                 input->source->name())};
-  if (load.programs.empty() && load.macros.empty())
-    return Failure{ExitCode::BadInput, "there is no macro to run"};
-  if (load.programs.empty() && load.macros.front()->image.body.empty())
-    return Failure{ExitCode::BadInput,
-                   fmt::format("macro `{}` holds no command, not even the final 00",
-                               load.macros.front()->name)};
-  for (const auto* macro : load.macros)
-    if (const auto size = encode(macro->image).size();
-        job_of(*macro).kind == uploader::MacroKind::User && size > spec::macro_max_packet)
-      return Failure{ExitCode::BadInput,
-                     fmt::format("macro `{}` has an id and {} bytes; a ball keeps at most {} under "
-                                 "an id. Without `id=` it runs as a temporary or streamed macro",
-                                 macro->name, size, spec::macro_max_packet)};
-  return std::nullopt;
-}
-
-/// What the world does to the ball.
-void schedule(const Options& options, vm::Ball& ball) {
-  if (options.course != nullptr)
-    ball.schedule(options.course->stimuli());
-  ball.schedule(options.stimuli);
-  for (const auto number : options.numbers)
-    ball.queue_input(number);
-}
-
 Ending ending_of(std::span<const Input> inputs, const Options& options, const Watcher& watcher,
                  const vm::Ball& ball, Instant limit) {
   Ending ending;
@@ -529,27 +335,20 @@ tl::expected<Ending, Failure> run(std::span<const Input> inputs, const Options& 
   if (auto why = objection(load))
     return tl::unexpected(*std::move(why));
   Watcher watcher(load, options, listener, journey);
-  vm::Ball ball(ball_options(options, watcher, journey));
+  auto made = ball_options(options);
+  made.observer = &watcher;
+  made.steps = options.steps == Steps::Heard ? &watcher : nullptr;
+  made.trace_lines = options.trace_lines || journey != nullptr;
+  vm::Ball ball(made);
   vm::BallTransport transport(ball);
   uploader::Session session(transport, {}, 0);
-  if (auto done = upload(load, options.target.area, session); !done)
+  if (auto done = upload(load, options, ball, session); !done)
     return tl::unexpected(done.error());
-
-  // A whole second, so that times in a trace do not depend on how long the upload took.
-  ball.advance_to(ball.now() + 1s - ball.now().time_since_epoch() % 1s);
-  ball.take_output();
-  if (options.client == Client::Absent)
-    ball.disconnect();
-  const bool streams =
-      load.programs.empty() && job_of(*load.macros.front()).kind == uploader::MacroKind::Stream;
   listener.on_start(ball);
-  watcher.begin(ball, streams ? Watcher::From::FirstCommand : Watcher::From::Now);
+  watcher.begin(ball, streams(load) ? Watcher::From::FirstCommand : Watcher::From::Now);
   if (journey != nullptr)
     describe(inputs, options, *journey);
-  schedule(options, ball);
-  const auto started = load.programs.empty()
-                           ? start_macro(*load.macros.front(), options, ball, session)
-                           : start_program(*load.programs.front().program, options, ball);
+  const auto started = start(load, options, ball, session);
   const Instant limit = options.bound == Duration{} ? never - 1h : watcher.start() + options.bound;
   Answer answer;
   if (started == Started::Yes) {

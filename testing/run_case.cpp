@@ -191,20 +191,6 @@ private:
   std::string line_;
 };
 
-run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed) {
-  run::Options options;
-  options.bound = test.bound;
-  options.seed = seed;
-  options.target = file.file.target;
-  options.firmware = file.file.firmware;
-  options.stimuli = test.stimuli;
-  options.course = file.course.get();
-  options.until = run::Until::Rest;
-  if (std::any_of(test.expectations.begin(), test.expectations.end(), watches_steps))
-    options.steps = run::Steps::Heard;
-  return options;
-}
-
 /// The text of an expectation as it is written.
 std::string expected(const SuiteFile& file, const Expectation& one) {
   return one.line == 0 ? "never error" : std::string(file.source->text(one.span));
@@ -220,6 +206,20 @@ Miss miss_of(const Suite& suite, const Group& group, const Expectation& one, con
 }
 
 } // namespace
+
+run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed) {
+  run::Options options;
+  options.bound = test.bound;
+  options.seed = seed;
+  options.target = file.file.target;
+  options.firmware = file.file.firmware;
+  options.stimuli = test.stimuli;
+  options.course = file.course.get();
+  options.until = run::Until::Rest;
+  if (std::any_of(test.expectations.begin(), test.expectations.end(), watches_steps))
+    options.steps = run::Steps::Heard;
+  return options;
+}
 
 CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
                     vm::NativePrograms* native, report::Journey* journey) {

@@ -24,6 +24,9 @@ public:
 /// Runs the cases of a suite without errors. What comes out does not depend on `jobs`.
 Results run_suite(const Suite& suite, const RunOptions& options, Progress& progress);
 
+/// The world of a test: what it runs with.
+run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed);
+
 /// Runs one case. Where `journey` is not null, it is gathered and the run goes on to its end.
 CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
                     vm::NativePrograms* native, report::Journey* journey);
