@@ -45,9 +45,10 @@ const std::vector<Room> rooms = {
     {6, "run", {"report", "structured", "uploader"}},
     {7, "testing", {"run"}},
     {8, "reference", {"testing"}},
-    {9, "editor", {"reference"}},
+    {8, "debug", {"testing"}},
+    {9, "editor", {"reference", "debug"}},
     {9, "serve", {"vm", "disk"}},
-    {10, "cli", {"editor", "serve", "reference", "report", "uploader", "structured", "disk"}},
+    {10, "cli", {"editor", "serve", "reference", "debug", "report", "uploader", "structured", "disk"}},
 };
 
 const Room& room_called(const std::string& name) {

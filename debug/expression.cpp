@@ -1,0 +1,180 @@
+#include "debug/expression.h"
+
+#include "base/text.h"
+#include "bytecode/arithmetic.h"
+#include "structured/parse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::debug {
+namespace {
+
+using structured::Node;
+using structured::NodeKind;
+using Value = tl::expected<std::int32_t, std::string>;
+
+constexpr std::string_view lead = "if ";
+
+class Evaluator {
+public:
+  Evaluator(const structured::Program& program, const Meaning& meaning)
+      : program_(program), meaning_(meaning) {}
+
+  Value value(std::uint32_t n) const {
+    const auto& node = program_.nodes[n];
+    switch (node.kind) {
+    case NodeKind::Number:
+    case NodeKind::Duration: return node.value;
+    case NodeKind::Name: return variable(name_of(node));
+    case NodeKind::System: return meaning_.sensor(static_cast<spec::Variable>(node.what));
+    case NodeKind::Element: return element(node, n);
+    case NodeKind::Call:
+      return tl::unexpected(fmt::format(
+          "`{}` is a function of the program; only the program can call it", name_of(node)));
+    case NodeKind::Builtin: return builtin(node, n);
+    case NodeKind::Negate:
+      return value(n - 1).map([](std::int32_t v) { return bytecode::subtract(0, v); });
+    case NodeKind::Not: return value(n - 1).map([](std::int32_t v) { return v == 0 ? 1 : 0; });
+    case NodeKind::And:
+    case NodeKind::Or:
+    case NodeKind::Least:
+    case NodeKind::Greatest:
+    case NodeKind::Binary:
+    case NodeKind::Relation: return pair(node, n);
+    }
+    return 0;
+  }
+
+private:
+  std::string_view name_of(const Node& node) const {
+    return program_.name(static_cast<std::uint32_t>(node.value));
+  }
+
+  Value variable(std::string_view name) const {
+    if (const auto found = meaning_.variable(name))
+      return *found;
+    return tl::unexpected(meaning_.missing(name));
+  }
+
+  Value element(const Node& node, std::uint32_t n) const {
+    const auto index = value(n - 1);
+    if (!index)
+      return index;
+    if (const auto found = meaning_.element(name_of(node), *index))
+      return *found;
+    return tl::unexpected(fmt::format("there is no `{}[{}]`", name_of(node), *index));
+  }
+
+  Value builtin(const Node& node, std::uint32_t n) const {
+    const auto operand = value(n - 1);
+    if (!operand)
+      return operand;
+    switch (static_cast<spec::Function>(node.what)) {
+    case spec::Function::Abs: return bytecode::absolute(*operand);
+    case spec::Function::Sqrt:
+      if (*operand < 0)
+        return tl::unexpected(std::string("`sqrt` of a negative number"));
+      return static_cast<std::int32_t>(std::sqrt(static_cast<double>(*operand)));
+    case spec::Function::Rnd:
+      return tl::unexpected(
+          std::string("`rnd` would draw a number that the program then does not get"));
+    }
+    return 0;
+  }
+
+  Value pair(const Node& node, std::uint32_t n) const {
+    const auto left = value(program_.nodes[n - 1].first - 1);
+    if (!left)
+      return left;
+    if (node.kind == NodeKind::And && *left == 0)
+      return 0;
+    if (node.kind == NodeKind::Or && *left != 0)
+      return 1;
+    const auto right = value(n - 1);
+    if (!right)
+      return right;
+    if (node.kind == NodeKind::Relation)
+      return holds(static_cast<structured::Comparison>(node.what), *left, *right) ? 1 : 0;
+    if (node.kind == NodeKind::Binary)
+      return binary(static_cast<spec::Operator>(node.what), *left, *right);
+    if (node.kind == NodeKind::Least || node.kind == NodeKind::Greatest)
+      return node.kind == NodeKind::Least ? std::min(*left, *right) : std::max(*left, *right);
+    return *right != 0 ? 1 : 0;
+  }
+
+  static bool holds(structured::Comparison comparison, std::int32_t a, std::int32_t b) {
+    switch (comparison) {
+    case structured::Comparison::Equal: return a == b;
+    case structured::Comparison::NotEqual: return a != b;
+    case structured::Comparison::Less: return a < b;
+    case structured::Comparison::Greater: return a > b;
+    case structured::Comparison::LessEqual: return a <= b;
+    case structured::Comparison::GreaterEqual: return a >= b;
+    }
+    return false;
+  }
+
+  static Value binary(spec::Operator op, std::int32_t a, std::int32_t b) {
+    const auto shift = [&](auto by) -> Value {
+      if (bytecode::is_shift_count(b))
+        return by(a, b);
+      return tl::unexpected(fmt::format("a shift by {}", b));
+    };
+    if (b == 0 && (op == spec::Operator::Divide || op == spec::Operator::Remainder))
+      return tl::unexpected(std::string("a division by 0"));
+    switch (op) {
+    case spec::Operator::Add: return bytecode::add(a, b);
+    case spec::Operator::Subtract: return bytecode::subtract(a, b);
+    case spec::Operator::Multiply: return bytecode::multiply(a, b);
+    case spec::Operator::Divide: return bytecode::divide(a, b);
+    case spec::Operator::Remainder: return bytecode::remainder(a, b);
+    case spec::Operator::ShiftLeft: return shift(bytecode::shift_left);
+    case spec::Operator::ShiftRight: return shift(bytecode::shift_right);
+    case spec::Operator::And: return a & b;
+    case spec::Operator::Or: return a | b;
+    }
+    return 0;
+  }
+
+  const structured::Program& program_;
+  const Meaning& meaning_;
+};
+
+} // namespace
+
+tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
+  text = trim(text);
+  if (text.empty())
+    return tl::unexpected(std::string("an expression is missing"));
+  Expression expression;
+  expression.text_ = text;
+  auto program = std::make_shared<structured::Program>();
+  structured::parse(*program, "expression", "", fmt::format("{}{} then end\n", lead, text));
+  const auto wrong =
+      std::find_if(program->diagnostics.begin(), program->diagnostics.end(),
+                   [](const Diagnostic& one) { return one.severity == Severity::Error; });
+  if (wrong != program->diagnostics.end())
+    return tl::unexpected(wrong->help.empty() ? wrong->message
+                                              : fmt::format("{}; {}", wrong->message, wrong->help));
+  const bool is_if = !program->statements.empty() &&
+                     program->statements.front().kind == structured::Kind::If &&
+                     !program->items_of(program->statements.front()).empty();
+  if (!is_if)
+    return tl::unexpected(fmt::format("`{}` is not an expression", text));
+  const auto& item = program->items_of(program->statements.front()).front();
+  const auto span = item.span;
+  if (item.kind != structured::ItemKind::Expression || program->text_of(span).size() != text.size())
+    return tl::unexpected(fmt::format("`{}` is not one expression", text));
+  expression.root_ = item.value;
+  expression.program_ = std::move(program);
+  return expression;
+}
+
+Value Expression::value(const Meaning& meaning) const {
+  return Evaluator(*program_, meaning).value(root_);
+}
+
+} // namespace orb::debug

@@ -1,0 +1,143 @@
+#include "debug/launch.h"
+
+#include "testing/run_suite.h"
+#include "vm/stimulus.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::debug {
+namespace {
+
+tl::unexpected<Failure> failed(ExitCode code, std::string message) {
+  return tl::unexpected(Failure{code, std::move(message)});
+}
+
+/// The first error among findings, with its place; nothing where there is none.
+std::optional<std::string> first_error(const Source& source, const std::vector<Diagnostic>& found) {
+  for (const auto& one : found)
+    if (one.severity == Severity::Error) {
+      const auto place = source.position(one.span.begin);
+      return fmt::format("{}:{}:{}: {}", source.name(), place.line, place.column, one.message);
+    }
+  return std::nullopt;
+}
+
+std::optional<std::string> first_error(const run::Input& input) {
+  if (auto found = first_error(*input.source, input.findings))
+    return found;
+  for (const auto& file : input.included)
+    if (auto found = first_error(*file.source, file.findings))
+      return found;
+  return std::nullopt;
+}
+
+tl::expected<std::string, Failure> text_of(const std::string& path, structured::Files& files) {
+  auto text = files.read(path);
+  if (!text)
+    return failed(ExitCode::File, fmt::format("cannot read {}", path));
+  return *std::move(text);
+}
+
+tl::expected<void, Failure> read_files(const Launch& launch, structured::Files& files,
+                                       Launched& made) {
+  for (const auto& path : launch.files) {
+    auto text = text_of(path, files);
+    if (!text)
+      return tl::unexpected(text.error());
+    auto input = run::read_input(path, *std::move(text), launch.language, made.options.target,
+                                 run::Lint::Off, files);
+    if (!input)
+      return tl::unexpected(input.error());
+    if (auto wrong = first_error(*input))
+      return failed(ExitCode::BadInput, *std::move(wrong));
+    run::add_input(made.own, *std::move(input));
+  }
+  made.inputs = made.own;
+  return {};
+}
+
+tl::expected<void, Failure> read_stimuli(const Launch& launch, structured::Files& files,
+                                         Launched& made) {
+  auto& events = made.options.stimuli;
+  for (const auto& one : launch.stimuli) {
+    const bool is_line = one.starts_with("at ") || one.starts_with("wall ");
+    auto text = is_line ? tl::expected<std::string, Failure>(one) : text_of(one, files);
+    if (!text)
+      return tl::unexpected(text.error());
+    const Source source(is_line ? "stimulus" : one, *std::move(text));
+    const auto script = vm::parse_stimulus(source);
+    if (auto wrong = first_error(source, script.diagnostics))
+      return failed(ExitCode::BadInput, *std::move(wrong));
+    events.insert(events.end(), script.events.begin(), script.events.end());
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  return {};
+}
+
+tl::expected<void, Failure> read_course(const Launch& launch, structured::Files& files,
+                                        Launched& made) {
+  if (launch.course.empty())
+    return {};
+  auto text = text_of(launch.course, files);
+  if (!text)
+    return tl::unexpected(text.error());
+  const Source drawing(launch.course, *std::move(text));
+  auto reading = report::read_course(drawing);
+  if (auto wrong = first_error(drawing, reading.findings))
+    return failed(ExitCode::BadInput, *std::move(wrong));
+  made.course = std::make_unique<report::Course>(std::move(reading.course));
+  made.options.course = made.course.get();
+  return {};
+}
+
+tl::expected<void, Failure> read_test(const Launch& launch, structured::Files& files,
+                                      Launched& made) {
+  auto text = text_of(launch.test, files);
+  if (!text)
+    return tl::unexpected(text.error());
+  testing::SuiteOptions options;
+  options.only = launch.test_name;
+  if (!launch.files.empty())
+    options.programs = {launch.files.front()};
+  auto suite = testing::make_suite({{launch.test, *std::move(text)}}, options, files);
+  if (!suite)
+    return tl::unexpected(suite.error());
+  made.suite = std::make_unique<testing::Suite>(*std::move(suite));
+  for (const auto& file : made.suite->files)
+    if (auto wrong = first_error(*file.source, file.file.diagnostics))
+      return failed(ExitCode::BadInput, *std::move(wrong));
+  if (made.suite->groups.empty())
+    return failed(ExitCode::BadInput, fmt::format("{} holds no test", launch.test));
+  const auto& group = made.suite->groups.front();
+  const auto& program = made.suite->programs[group.program];
+  if (!program.problem.empty())
+    return failed(ExitCode::BadInput, program.problem.substr(0, program.problem.find('\n')));
+  made.inputs = program.inputs;
+  made.options = testing::options_of(made.suite->files[group.file], made.suite->test_of(group),
+                                     launch.seed.value_or(group.seeds.first));
+  return {};
+}
+
+} // namespace
+
+tl::expected<std::unique_ptr<Launched>, Failure> read(const Launch& launch,
+                                                      structured::Files& files) {
+  auto made = std::make_unique<Launched>();
+  made->options.seed = launch.seed.value_or(made->options.seed);
+  if (!launch.test.empty()) {
+    if (auto done = read_test(launch, files, *made); !done)
+      return tl::unexpected(done.error());
+  } else {
+    for (const auto step : {read_files, read_stimuli, read_course})
+      if (auto done = step(launch, files, *made); !done)
+        return tl::unexpected(done.error());
+  }
+  made->options.numbers = launch.numbers;
+  made->options.client = launch.client;
+  made->options.bound = Duration{};
+  return made;
+}
+
+} // namespace orb::debug

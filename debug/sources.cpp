@@ -1,0 +1,139 @@
+#include "debug/sources.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::debug {
+
+Sources::Sources(std::span<const run::Input> inputs, const run::Options& options) {
+  for (const auto& input : inputs) {
+    const auto file = static_cast<std::uint32_t>(files_.size());
+    files_.push_back({input.source->name(), input.source.get()});
+    for (const auto& other : input.included)
+      files_.push_back({other.source->name(), other.source.get()});
+    if (input.program) {
+      const bool first = programs_.empty();
+      main_file_ = first ? file : main_file_;
+      const auto other =
+          options.target.area == spec::Area::Ram ? spec::Area::Flash : spec::Area::Ram;
+      add_program(input, first ? options.target.area : other, file);
+    }
+    for (const auto& macro : input.macros) {
+      macro_names_[macro.image.id] = macro.name;
+      for (std::size_t k = 0; k < macro.command_lines.size(); ++k)
+        commands_.push_back(
+            {macro.image.id, static_cast<int>(k) + 1, {file, macro.command_lines[k]}});
+    }
+  }
+}
+
+void Sources::add_program(const run::Input& input, spec::Area area, std::uint32_t file) {
+  ProgramOf program{&input, area, {}};
+  const auto holders = letter_holders(*input.program);
+  std::optional<Spot> before;
+  for (const auto& [number, place] : input.program->lines.places) {
+    Line line{number, {file + place.file, place.line}, place.sub, false, {}};
+    line.begins = before != line.spot;
+    before = line.spot;
+    const auto found = holders.find(number);
+    if (found != holders.end())
+      line.symbols = found->second;
+    else
+      line.symbols.fill(structured::none);
+    program.lines.emplace(static_cast<int>(number), std::move(line));
+  }
+  programs_.push_back(std::move(program));
+}
+
+std::string Sources::words(Spot spot) const {
+  return fmt::format("{}:{}", files_[spot.file].name, spot.line);
+}
+
+std::string_view Sources::text(Spot spot) const {
+  return trim(files_[spot.file].source->line(spot.line));
+}
+
+std::optional<std::uint32_t> Sources::file(std::string_view name) const {
+  const auto with = [&](auto same) -> std::optional<std::uint32_t> {
+    const auto found = std::find_if(files_.begin(), files_.end(), same);
+    if (found == files_.end())
+      return std::nullopt;
+    return static_cast<std::uint32_t>(found - files_.begin());
+  };
+  if (const auto exact = with([&](const File& one) { return one.name == name; }))
+    return exact;
+  return with([&](const File& one) {
+    return one.name.ends_with(fmt::format("/{}", name)) ||
+           name.ends_with(fmt::format("/{}", one.name));
+  });
+}
+
+const Sources::Line* Sources::line(spec::Area area, int number) const {
+  for (const auto& program : programs_)
+    if (program.area == area || programs_.size() == 1)
+      if (const auto found = program.lines.find(number); found != program.lines.end())
+        return &found->second;
+  return nullptr;
+}
+
+const run::Input* Sources::input(spec::Area area) const {
+  for (const auto& program : programs_)
+    if (program.area == area || programs_.size() == 1)
+      return program.input;
+  return nullptr;
+}
+
+std::optional<Spot> Sources::spot(int macro, int command) const {
+  for (const auto& one : commands_)
+    if (one.macro == macro && one.command == command)
+      return one.spot;
+  return std::nullopt;
+}
+
+std::string Sources::macro_name(int macro) const {
+  const auto found = macro_names_.find(macro);
+  return found == macro_names_.end() ? fmt::format("macro {}", macro) : found->second;
+}
+
+std::optional<std::uint32_t> Sources::runs(std::uint32_t file, std::uint32_t line) const {
+  std::optional<std::uint32_t> best;
+  const auto take = [&](Spot spot) {
+    if (spot.file == file && spot.line >= line && (!best || spot.line < *best))
+      best = spot.line;
+  };
+  for (const auto& program : programs_)
+    for (const auto& [number, one] : program.lines)
+      take(one.spot);
+  for (const auto& one : commands_)
+    take(one.spot);
+  return best;
+}
+
+std::vector<int> Sources::robot_lines(Spot spot) const {
+  std::vector<int> all;
+  for (const auto& program : programs_)
+    for (const auto& [number, one] : program.lines)
+      if (one.begins && one.spot == spot)
+        all.push_back(number);
+  return all;
+}
+
+std::vector<Spot> Sources::subs(std::string_view name) const {
+  std::vector<Spot> found;
+  const auto number = parse_number<int>(name);
+  for (const auto& program : programs_) {
+    std::string_view before;
+    for (const auto& [robot, one] : program.lines) {
+      const bool starts = !one.sub.empty() && equal_words(one.sub, name) && before != one.sub;
+      const bool numbered = program.input->program->compiled == nullptr && number == robot;
+      before = one.sub;
+      if ((starts || numbered) && std::find(found.begin(), found.end(), one.spot) == found.end())
+        found.push_back(one.spot);
+    }
+  }
+  return found;
+}
+
+} // namespace orb::debug
