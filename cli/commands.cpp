@@ -79,6 +79,8 @@ constexpr auto commands = std::to_array<Command>({
     {"check", add_check},
     {"commit", add_commit},
     {"completion", add_completion},
+    {"dap", add_dap},
+    {"debug", add_debug},
     {"decode", add_decode},
     {"disasm", add_disasm},
     {"doctor", add_doctor},

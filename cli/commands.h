@@ -24,6 +24,8 @@ void add_build(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_commit(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
+void add_dap(CLI::App& app, Context& context);
+void add_debug(CLI::App& app, Context& context);
 void add_decode(CLI::App& app, Context& context);
 void add_disasm(CLI::App& app, Context& context);
 void add_doctor(CLI::App& app, Context& context);

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "structured/files.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orb::editor {
+
+/// A debug adapter without a transport: messages of the Debug Adapter Protocol in, messages out. It
+/// reads no clock and no file by itself, and answers every message, however malformed, without
+/// throwing.
+class DebugAdapter {
+public:
+  /// Programs are read from `files`, which must outlive the adapter; paths that are not absolute
+  /// count from `folder`.
+  DebugAdapter(structured::Files& files, std::string folder);
+  ~DebugAdapter();
+  DebugAdapter(const DebugAdapter&) = delete;
+  DebugAdapter& operator=(const DebugAdapter&) = delete;
+
+  /// Takes one message; returns the answer and the events that it causes.
+  std::vector<std::string> receive(std::string_view message);
+
+  /// What to answer to something that is not a message at all.
+  std::vector<std::string> receive_garbage(std::string_view what);
+
+  /// A program is to go on: call work().
+  bool busy() const;
+  /// Lets the program go on until it stands still, there is something to send, or `interrupted`
+  /// says that the client has spoken.
+  std::vector<std::string> work(const std::function<bool()>& interrupted);
+
+  /// The client has said that it is done.
+  bool ended() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace orb::editor
