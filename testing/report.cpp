@@ -26,7 +26,7 @@ constexpr std::string_view style = R"css(
 @media (prefers-color-scheme:dark){:root{--ink:#e4ecf1;--paper:#0b1014;--card:#161f27;--good:#4fc46b;--bad:#ff8a7f;--dim:#91a2af}}
 body{font:15px/1.45 system-ui,sans-serif;color:var(--ink);background:var(--paper);margin:2rem auto;max-width:72rem;padding:0 1rem}
 h1{font-size:1.4rem}h2{font-size:1.05rem;margin:2rem 0 .5rem}
-table{border-collapse:collapse;margin:1rem 0}td,th{padding:.25rem .7rem;text-align:left;border-bottom:1px solid var(--card)}
+table{border-collapse:collapse;margin:1rem 0;display:block;overflow-x:auto}td,th{padding:.25rem .7rem;text-align:left;border-bottom:1px solid var(--card)}
 .runs{display:grid;grid-template-columns:repeat(auto-fill,minmax(15rem,1fr));gap:1rem}
 .run{background:var(--card);border-radius:.6rem;padding:.7rem;overflow-wrap:anywhere}
 .run img{width:100%;height:auto;display:block;border-radius:.4rem}
@@ -52,7 +52,7 @@ public:
                             escape_markup(render_summary(results_)));
     page += table() + body;
     if (left_out_ > 0)
-      page += fmt::format("<p class=\"dim\">{} runs are told without a picture.</p>\n", left_out_);
+      page += fmt::format("<p class=\"dim\">Without a picture: {}.</p>\n", plural(left_out_, "run"));
     return pages_.write("index.html", page + "</body></html>\n");
   }
 

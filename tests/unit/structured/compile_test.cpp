@@ -3,7 +3,7 @@
 #include "structured/rules.h"
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -320,10 +320,10 @@ TEST(FilesOf, MacrosAreCalledByName) {
 // ---- any bytes
 
 void expect_quick(const std::string& text) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = std::clock(); // processor time: others may use the machine
   const auto result = compiled(text);
-  const auto took = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(took, std::chrono::seconds(5)) << text.substr(0, 40);
+  const auto took = (std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_LT(took, 5) << text.substr(0, 40);
   EXPECT_FALSE(result.program.diagnostics.empty()) << text.substr(0, 40);
 }
 
