@@ -21,6 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned most_jobs = 1000;
+/// Where tests are looked for if no place is given.
+const std::vector<std::string> test_paths{"."};
 
 struct TestOptions {
   std::vector<std::string> paths;
@@ -229,6 +231,9 @@ tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
       !options.shard.empty() || !options.only.empty())
     return tl::unexpected(Failure{
         ExitCode::Usage, "`--merge` runs nothing: it takes only `--format` and `--output`"});
+  if (options.paths == test_paths)
+    return tl::unexpected(Failure{
+        ExitCode::Usage, "`--merge` needs the files that shards wrote with `--format json`"});
   std::vector<testing::Part> parts;
   for (const auto& path : options.paths) {
     const auto text = read_text(path);
@@ -297,7 +302,7 @@ void add_test(CLI::App& app, Context& context) {
                   "orb test --shard 1/2 --format json > a.json\n"
                   "orb test --merge a.json b.json --format markdown");
   auto options = std::make_shared<TestOptions>();
-  options->paths = {"."};
+  options->paths = test_paths;
   command
       ->add_option("FILE", options->paths,
                    "test files, and folders to search for them; with --merge, results")

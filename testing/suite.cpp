@@ -334,6 +334,10 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
                                         structured::Files& from) {
   Suite suite;
   EachOnce files(from);
+  for (const auto& path : options.programs)
+    if (!files.read(path))
+      return tl::unexpected(Failure{
+          ExitCode::File, fmt::format("cannot read {}; check the name and the folder", path)});
   Reader reader(suite, files);
   std::vector<std::vector<std::size_t>> programs;
   for (auto& one : given) {

@@ -72,7 +72,8 @@ struct GivenFile {
 };
 
 /// Reads test files and what they name, through `files`. A file that does not name a program is
-/// tested with the one beside it. Fails where no test has the name `only`.
+/// tested with the one beside it. Fails where no test has the name `only`, and where one of the
+/// programs of `options` cannot be read.
 tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
                                         structured::Files& files);
 
