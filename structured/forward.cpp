@@ -353,6 +353,8 @@ private:
       auto& line = code_.lines[j];
       if (line.kind == LineKind::Let && line.variable == variable && equal(line.term, term)) {
         line.kind = LineKind::Nothing;
+        for (auto k = i; k <= j; ++k) // the value is read on
+          remove(last_reads_[k], variable);
         continue;
       }
       if (line.kind == LineKind::Label || ends_text(line) || writes(line, variable) ||

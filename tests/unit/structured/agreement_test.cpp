@@ -109,6 +109,11 @@ TEST(Agreement, CompiledProgramsDoWhatTheTextSays) {
     compare(seed);
 }
 
+TEST(Agreement, ProgramsThatHaveFoundSomething) {
+  for (const std::uint64_t seed : {5472, 10147})
+    compare(seed);
+}
+
 TEST(Agreement, MostRandomProgramsCompileAndRun) {
   // Programs that are all refused would prove nothing.
   int compiled_ones = 0;

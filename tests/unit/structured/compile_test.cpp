@@ -307,6 +307,17 @@ TEST(FilesOf, VeryManyAreOneFinding) {
   EXPECT_EQ(result.program.diagnostics.size(), 1U);
 }
 
+TEST(AnyBytes, SubsThatCallEachOtherVeryOftenAreTooLarge) {
+  std::string text = "s0\n";
+  for (int i = 0; i < 20; ++i) {
+    text += fmt::format("sub s{}\n", i);
+    for (int n = 0; n < 8; ++n)
+      text += fmt::format("  s{}\n", i + 1);
+    text += "end sub\n";
+  }
+  EXPECT_TRUE(compiled(text + "sub s20\n  print yaw\nend sub\n").has_errors());
+}
+
 TEST(FilesOf, MacrosAreCalledByName) {
   MapFiles files;
   files.texts["wink.macro"] = ".macro wink id=40\nrgb 0 255 0\ndelay 100\n";
