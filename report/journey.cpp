@@ -12,6 +12,8 @@ constexpr std::size_t pose_capacity = 8000;
 constexpr std::size_t led_capacity = 6000;
 constexpr std::size_t back_led_capacity = 2000;
 constexpr std::size_t place_capacity = 12000;
+constexpr std::size_t variables_capacity = 12000; // of all variables together
+constexpr std::size_t least_variable_capacity = 100;
 constexpr std::size_t sensor_capacity = 3000;
 constexpr std::size_t listed_at_each_end = 1000;
 constexpr std::size_t text_limit = 200;
@@ -38,6 +40,21 @@ void Journey::map_line(int robot_line, Place place) {
 
 void Journey::map_command(int macro, int command, Place place) {
   commands_.emplace(std::pair{macro, command}, place);
+}
+
+void Journey::set_variables(const std::vector<std::pair<std::string, std::string>>& names) {
+  if (names.empty())
+    return;
+  const auto capacity = std::max(variables_capacity / names.size(), least_variable_capacity);
+  for (const auto& [name, owner] : names)
+    variables_.push_back({name, owner, Series<std::int32_t>(capacity)});
+}
+
+void Journey::note(Duration t, std::size_t variable, std::int32_t value) {
+  auto& values = variables_[variable].values;
+  const auto before = values.empty() ? 0 : values.entries().back().value;
+  if (value != before)
+    values.push(t, value);
 }
 
 void Journey::happen(Duration t, Happening::Kind kind, std::string text, std::string label) {
@@ -194,7 +211,9 @@ Journey::Listed Journey::listed() const {
 bool Journey::thinned() const {
   return poses_.quantum() > Duration{} || led_.quantum() > Duration{} ||
          places_.quantum() > Duration{} || sensors_.quantum() > Duration{} ||
-         back_led_.quantum() > Duration{};
+         back_led_.quantum() > Duration{} ||
+         std::any_of(variables_.begin(), variables_.end(),
+                     [](const Variable& one) { return one.values.quantum() > Duration{}; });
 }
 
 } // namespace orb::report

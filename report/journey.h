@@ -111,6 +111,12 @@ public:
     double top_speed_cm_s = 0;
     std::array<std::uint64_t, Happening::kind_count> happenings{};
   };
+  /// A variable of the program by its name in the source; 0 until its first change.
+  struct Variable {
+    std::string name;
+    std::string owner;           ///< the sub that it belongs to; empty for the whole program's
+    Series<std::int32_t> values; ///< where a line has changed it
+  };
   struct End {
     Duration t{};
     std::string reason; ///< as in the trace
@@ -125,12 +131,16 @@ public:
   void map_line(int robot_line, Place place);
   void tell_places(Told told) { told_ = told; }
   void map_command(int macro, int command, Place place);
+  /// All variables at once: names and owners. They share the room that a report has.
+  void set_variables(const std::vector<std::pair<std::string, std::string>>& names);
   void add_wall(const vm::Wall& wall) { walls_.push_back(wall); }
   /// What the ball drives through; its walls come before those that were added.
   void set_course(Course course);
 
   // During the run: `t` counts from the start of the program.
   void add(Duration t, const vm::Event& event);
+  /// A line that has ended left `value` in the variable of that index.
+  void note(Duration t, std::size_t variable, std::int32_t value);
   /// Adds to the error that came last why it came; empty where nobody knows.
   void explain(const std::string& why);
   /// Reads the sensors, at most every 20 ms.
@@ -147,6 +157,7 @@ public:
   const Series<vm::Color>& led() const { return led_; }
   const Series<int>& back_led() const { return back_led_; }
   const Series<Place>& places() const { return places_; }
+  const std::vector<Variable>& variables() const { return variables_; }
   const Series<Sensors>& sensors() const { return sensors_; }
 
   /// The happenings listed; where some were left out, `left_out` stand before index `gap_at`.
@@ -193,6 +204,7 @@ private:
   Series<vm::Color> led_;
   Series<int> back_led_;
   Series<Place> places_;
+  std::vector<Variable> variables_;
   Series<Sensors> sensors_;
   std::vector<Happening> first_;
   std::deque<Happening> last_;

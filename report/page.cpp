@@ -117,6 +117,26 @@ ordered_json places(const Journey& journey) {
           {"line", plain(changes, [](const auto& entry) { return entry.value.line; })}};
 }
 
+/// Only variables that changed have anything to show.
+ordered_json variables(const Journey& journey) {
+  auto list = ordered_json::array();
+  for (const auto& variable : journey.variables()) {
+    const auto& entries = variable.values.entries();
+    if (entries.empty())
+      continue;
+    ordered_json one = {
+        {"name", variable.name},
+        {"t", times(entries)},
+        {"v", column(entries, [](const auto& entry) { return std::int64_t{entry.value}; })}};
+    if (!variable.owner.empty())
+      one["of"] = variable.owner;
+    if (variable.values.quantum() > Duration{})
+      one["cut"] = true;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 ordered_json files(const Journey& journey) {
   auto list = ordered_json::array();
   for (const auto& file : journey.files()) {
@@ -323,6 +343,7 @@ ordered_json run_data(const Journey& journey, std::string_view title,
                          {"value", plain(journey.back_led().entries(),
                                          [](const auto& entry) { return entry.value; })}}},
                        {"line", places(journey)},
+                       {"variables", variables(journey)},
                        {"sensors", sensors(journey)},
                        {"events", happenings(listed)}};
   if (journey.course())

@@ -65,6 +65,8 @@ function journey(id) {
     own.t.push(t);
     own.line.push(run.line.line[i]);
   });
+  const line_times = sums(run.line.t);
+  const variables = (run.variables ?? []).map(one => ({ ...one, t: sums(one.t), v: sums(one.v) }));
   const state_at = t => {
     const i = last_at(pose.t, t);
     if (i < 0) return { x: pose.x[0] ?? 0, y: pose.y[0] ?? 0, heading: pose.heading[0] ?? 0, speed: 0, index: -1 };
@@ -91,7 +93,7 @@ function journey(id) {
     color = lit;
   }
   const name = base_name(run.title);
-  return { run, name, pose, led, backled, steps, stretches, state_at, lamp_at, tail_at };
+  return { run, name, pose, led, backled, steps, line_times, variables, stretches, state_at, lamp_at, tail_at };
 }
 const main = journey("run"), before = journey("before");
 const runs = before ? [before, main] : [main];
@@ -575,6 +577,60 @@ function keep_in_view(pane, child) {
     pane.scrollTop += inner.top - outer.top - pane.clientHeight / 2;
 }
 
+/** To the line that ran before or after this moment, in whatever file it stands. */
+function step_line(by) {
+  const times = shown.line_times, last = last_at(times, now);
+  const wanted = by > 0 ? last + 1 : last_at(times, now - 1);
+  if (wanted < 0 || wanted >= times.length) { seek(by > 0 ? end : 0); return; }
+  const file = shown.run.line.file[wanted];
+  if (file !== shown_file) {
+    $("file").value = file;
+    show_file(file);
+  }
+  seek(times[wanted]);
+}
+$("line-back").addEventListener("click", () => step_line(-1));
+$("line-on").addEventListener("click", () => step_line(1));
+
+// ---- variables ----
+let variable_rows = [];
+function list_variables() {
+  $("variables-pane").hidden = !shown.variables.length;
+  document.querySelector(".board").classList.toggle("has-variables", shown.variables.length > 0);
+  variable_rows = shown.variables.map(one => {
+    const row = element("tr", { "data-variable": one.of ? `${one.of}.${one.name}` : one.name });
+    const name = element("th", { scope: "row" }, one.name);
+    if (one.of) name.append(element("span", {}, ` in ${one.of}`));
+    const value = element("td", { class: "value" });
+    const jumps = element("td", { class: "jumps" });
+    const to_change = by => {
+      const wanted = by > 0 ? last_at(one.t, now) + 1 : last_at(one.t, now - 1);
+      if (one.t[wanted] !== undefined) seek(one.t[wanted]);
+    };
+    const buttons = [["\u2039", -1, "previous"], ["\u203a", 1, "next"]].map(([sign, by, words]) => {
+      const button = element("button", { type: "button", "data-jump": words, "aria-label": `${words} change of ${one.name}` }, sign);
+      button.addEventListener("click", () => to_change(by));
+      return button;
+    });
+    jumps.append(...buttons);
+    row.append(name, value, jumps);
+    if (one.cut) row.title = "it changed more often than a report holds: some changes are left out";
+    return { row, value, buttons, one };
+  });
+  $("variables").tBodies[0].replaceChildren(...variable_rows.map(({ row }) => row));
+}
+function show_variables() {
+  const line_time = shown.line_times[last_at(shown.line_times, now)];
+  for (const { row, value, buttons, one } of variable_rows) {
+    const i = last_at(one.t, now);
+    const words = String(i < 0 ? 0 : one.v[i]);
+    if (value.textContent !== words) value.textContent = words;
+    row.classList.toggle("changed", i >= 0 && one.t[i] >= line_time);
+    buttons[0].disabled = last_at(one.t, now - 1) < 0;
+    buttons[1].disabled = i + 1 >= one.t.length;
+  }
+}
+
 // ---- list of events ----
 const kinds = {
   print: { words: "prints", icon: "M1 3h12v7H6l-3 3v-3H1z" },
@@ -659,6 +715,7 @@ function choose(one) {
   shown = one;
   for (const button of $("whose").children) button.setAttribute("aria-pressed", String(button.dataset.run === (one === main ? "run" : "before")));
   list_files();
+  list_variables();
   list_events();
 }
 if (before) {
@@ -831,6 +888,7 @@ function show() {
   slider.value = now;
   slider.setAttribute("aria-valuetext", `${seconds(now)} of ${seconds(end)} seconds`);
   show_line();
+  show_variables();
   show_event();
   show_lanes(state);
 }
@@ -872,6 +930,7 @@ document.addEventListener("keydown", event => {
     ArrowLeft: () => seek(now - by), ArrowRight: () => seek(now + by),
     Home: () => seek(0), End: () => seek(end),
     n: () => jump(1), p: () => jump(-1),
+    ".": () => step_line(1), ",": () => step_line(-1),
     "+": () => zoom_by(1.5), "=": () => zoom_by(1.5), "-": () => zoom_by(1 / 1.5), 0: fit,
     f: toggle_follow, t: next_theme, "?": () => $("keys").showModal(),
     " ": () => set_playing(!playing),
@@ -887,6 +946,9 @@ document.addEventListener("keydown", event => {
 choose(main);
 const everything = () => { draw_maps(); lanes.forEach(draw_lane); draw_axis(); show(); };
 draw_colors($("track"));
+for (const event of run.events) // where it hurt
+  if (event.kind === "bump" || event.kind === "error")
+    shape("path", { d: `M${(event.t / end * 1000).toFixed(2)} 0V10`, class: `tick ${event.kind}`, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, $("track"));
 draw_colors(led_art);
 /** The moment that the address asks for: `#t=3.2`, in seconds; nothing where it asks for none. */
 function asked_time() {

@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include "compiler/check.h"
+#include "run/named_values.h"
 #include "run/start.h"
 #include "run/want.h"
 #include "vm/ball_transport.h"
@@ -47,6 +48,8 @@ public:
     FirstCommand, ///< of a macro that plays while it arrives
   };
   void begin(vm::Ball& ball, From from) {
+    if (journey_ != nullptr && !load_.programs.empty())
+      names_.emplace(*load_.programs.front().program, *journey_);
     ball_ = &ball;
     start_ = ball.now();
     from_ = from;
@@ -132,6 +135,9 @@ private:
     if (journey_ == nullptr)
       return;
     journey_->add(t, event);
+    if (const auto* line = std::get_if<vm::event::Line>(&event);
+        line != nullptr && names_ && in_first_program())
+      names_->line_ended(t, line->line, ball_->machine(), *journey_);
     if (error != nullptr)
       journey_->explain(faults_.back().cause.seen);
     journey_->sample(t, ball_->body());
@@ -160,9 +166,12 @@ private:
 
   /// The error with what the source and the machine, which still stands there, say of it.
   const ProgramError& add_fault(const vm::event::Error& error) {
-    const bool first = ball_->basic_area() == target_.area || load_.programs.size() < 2;
-    return faults_.emplace_back(run::explain(*load_.programs[first ? 0 : 1].input, target_,
-                                             error.line, error.code, &ball_->machine()));
+    return faults_.emplace_back(run::explain(*load_.programs[in_first_program() ? 0 : 1].input,
+                                             target_, error.line, error.code, &ball_->machine()));
+  }
+
+  bool in_first_program() const {
+    return ball_->basic_area() == target_.area || load_.programs.size() < 2;
   }
 
   void look(const vm::Event& event) {
@@ -189,6 +198,7 @@ private:
   bool enough_ = false;
   Listener& listener_;
   report::Journey* journey_;
+  std::optional<NamedValues> names_; ///< for the journey, of the first program
   Search expected_;
   Search forbidden_;
   std::vector<ProgramError> faults_;

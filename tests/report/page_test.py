@@ -479,6 +479,74 @@ class Report(unittest.TestCase):
         self.assertIn("goroll 0,60,1", page.evaluate("document.getElementById('source').textContent"))
 
 
+    # ---- variables and lines
+
+    variable = staticmethod(lambda name: f"document.querySelector('[data-variable=\"{name}\"] .value')?.textContent")
+    press = staticmethod(lambda key: f"document.dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}', bubbles: true }}))")
+
+    def test_variables_have_their_names_and_values_at_every_moment(self):
+        text = ("array seen[3]\nturns = 0\nsub leg(n)\n  local twice\n  twice = n * 2 + rnd(0)\n"
+                "  seen[n] = twice\n  turns += twice\n  delay 20ms\nend sub\n"
+                "for i = 1 to 3\n  leg(i)\nnext i\nleg(3)\nprint turns, seen[2]\n")
+        run = Run(self.folder.name, "names", self.file("names.orb", text))
+        page = self.open(run)
+        page.evaluate(f"{seek}(document.getElementById('time').max)")
+        self.assertEqual(page.evaluate(self.variable("turns")), "18")
+        self.assertEqual(page.evaluate(self.variable("seen[2]")), "4")
+        self.assertIn("in leg", page.evaluate("document.getElementById('variables').textContent"))
+        page.evaluate(f"{seek}(0)")
+        self.assertEqual(page.evaluate(self.variable("turns")), "0")
+        # From change to change, and back.
+        jump = lambda words: page.evaluate(
+            f"document.querySelector('[data-variable=turns] [data-jump={words}]').click()")
+        seen = []
+        for _ in range(4):
+            jump("next")
+            seen.append((page.evaluate(now), page.evaluate(self.variable("turns"))))
+            self.assertTrue(page.evaluate(
+                "document.querySelector('[data-variable=turns]').classList.contains('changed')"))
+        self.assertEqual([value for _, value in seen], ["2", "6", "12", "18"])
+        jump("previous")
+        self.assertEqual(page.evaluate(now), seen[2][0])
+        self.assertEqual(page.evaluate(self.variable("turns")), "12")
+
+    def test_lines_are_stepped_forwards_and_backwards(self):
+        run = Run(self.folder.name, "steps", self.file("steps.bas", "10 A=1\n20 B=A+1\n30 A=B*7\n40 delay 50\n50 end\n"))
+        page = self.open(run)
+        page.evaluate(f"{seek}(0)")
+        states = []
+        for _ in range(4):
+            page.evaluate(self.press("."))
+            states.append([page.evaluate(what) for what in (now, reading("line"), self.variable("A"), self.variable("B"))])
+        self.assertEqual([state[1:] for state in states],
+                         [["1", "1", "0"], ["2", "1", "2"], ["3", "14", "2"], ["4", "14", "2"]])
+        for state in reversed(states[:-1]):
+            page.evaluate(self.press(","))
+            self.assertEqual([page.evaluate(what) for what in (now, reading("line"), self.variable("A"), self.variable("B"))], state)
+        page.evaluate("document.getElementById('line-on').click()")
+        self.assertEqual(page.evaluate(now), states[1][0])
+
+    def test_a_long_run_says_where_changes_are_left_out(self):
+        run = Run(self.folder.name, "counting", self.file("counting.bas", "10 A=A+1\n20 B=0-A\n30 goto 10\n"), "--for", "120s", lines=False)
+        page = self.open(run)
+        self.assertLess(run.size(), 2 * megabyte)
+        page.evaluate(f"{seek}(document.getElementById('time').max)")
+        last = int(page.evaluate(self.variable("A")))
+        self.assertGreater(last, 100_000)
+        self.assertIn("left out", page.evaluate("document.querySelector('[data-variable=A]').title"))
+        self.assertFalse(page.evaluate("document.getElementById('thinned').hidden"))
+
+    def test_a_run_without_variables_shows_no_pane(self):
+        page = self.open(Run(self.folder.name, "plain", self.file("plain.bas", "10 print 1\n")))
+        self.assertTrue(page.evaluate("document.getElementById('variables-pane').hidden"))
+
+    def test_bumps_stand_on_the_map_and_on_the_slider(self):
+        run = Run(self.folder.name, "bump", self.file("bump.bas", "10 goroll 90,200,1\n20 delay 1500\n30 end\n"), "--stimulus", "wall x=40")
+        page = self.open(run)
+        self.assertGreater(page.evaluate("document.querySelectorAll('[data-mark=bump]').length"), 0)
+        self.assertGreater(page.evaluate("document.querySelectorAll('[data-tick=bump]').length"), 0)
+
+
 class TestReport(unittest.TestCase):
     """The page of `orb test --report`: a picture of each run, and a replay of each failure."""
 
