@@ -948,7 +948,8 @@ const everything = () => { draw_maps(); lanes.forEach(draw_lane); draw_axis(); s
 draw_colors($("track"));
 for (const event of run.events) // where it hurt
   if (event.kind === "bump" || event.kind === "error")
-    shape("path", { d: `M${(event.t / end * 1000).toFixed(2)} 0V10`, class: `tick ${event.kind}`, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, $("track"));
+    for (const look of ["tick below", "tick"])
+      shape("path", { d: `M${(event.t / end * 1000).toFixed(2)} 0V10`, class: look, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, $("track"));
 draw_colors(led_art);
 /** The moment that the address asks for: `#t=3.2`, in seconds; nothing where it asks for none. */
 function asked_time() {

@@ -115,6 +115,27 @@ check('completion of commands', has_label((ask('completion', 1, 1) or {}).items,
 local back = ask('definition', 2, 6)
 check('definition of a macro', back and back[1] and back[1].range.start.line == 0, back)
 
+-- lenses
+
+local lenses = ask('codeLens', 0, 0)
+check('lenses', lenses and #lenses == 2 and lenses[1].command.command == 'orb.run', lenses)
+check('the lens has a command', type(vim.lsp.commands['orb.run']) == 'function', vim.lsp.commands)
+vim.lsp.commands['orb.run']({ arguments = { vim.uri_from_bufnr(0) } })
+local shown = vim.wait(patience_ms, function()
+  return table.concat(buffer(), '\n'):find('robot time', 1, true) ~= nil
+end, 10)
+check('the run is shown', shown, buffer())
+vim.cmd('bwipeout!')
+
 vim.lsp.stop_client(vim.lsp.get_active_clients())
 check('the server ends', vim.wait(patience_ms, function() return #vim.lsp.get_active_clients() == 0 end, 10))
+
+-- what the plugin gives nvim-dap
+
+package.loaded.dap = { adapters = {}, configurations = {} }
+require('orb').dap()
+local given = package.loaded.dap
+check('adapter', vim.deep_equal(given.adapters.orb, { type = 'executable', command = vim.g.orb_path, args = { 'dap' } }), given.adapters)
+check('configurations', given.configurations.orbstructured[1].program == '${file}', given.configurations)
+
 vim.cmd(failures == 0 and 'qall!' or 'cquit!')

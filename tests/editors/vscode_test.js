@@ -47,6 +47,7 @@ const editor = {
   commands: { registerCommand: (name, call) => { registered.commands[name] = call; return {}; } },
   tasks: { executeTask: (task) => { registered.task = task; return task; } },
   debug: {
+    breakpoints: [],
     registerDebugAdapterDescriptorFactory: (type, factory) => { registered.factories[type] = factory; return {}; },
     registerDebugConfigurationProvider: (type, provider) => { registered.providers[type] = provider; return {}; },
     startDebugging: (_, configuration) => { registered.launch = configuration; return true; },
@@ -161,6 +162,8 @@ async function main() {
   assert.deepStrictEqual(registered.task.execution.args, ['test', '/p/t.test', '--only', 'one']);
   await registered.commands['orb.debugTest']('file:///p/t.test', 'one');
   assert.deepStrictEqual([registered.launch.test, registered.launch.testName], ['/p/t.test', 'one']);
+
+  assert.strictEqual(registered.launch.stopOnEntry, true);
 
   await checkTests();
   extension.deactivate();

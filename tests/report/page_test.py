@@ -485,7 +485,7 @@ class Report(unittest.TestCase):
     press = staticmethod(lambda key: f"document.dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}', bubbles: true }}))")
 
     def test_variables_have_their_names_and_values_at_every_moment(self):
-        text = ("array seen[3]\nturns = 0\nsub leg(n)\n  local twice\n  twice = n * 2 + rnd(0)\n"
+        text = ("array seen[3]\nturns = 0\nsub leg(n)\n  local twice\n  twice = n * 2 + speed\n"
                 "  seen[n] = twice\n  turns += twice\n  delay 20ms\nend sub\n"
                 "for i = 1 to 3\n  leg(i)\nnext i\nleg(3)\nprint turns, seen[2]\n")
         run = Run(self.folder.name, "names", self.file("names.orb", text))

@@ -19,8 +19,10 @@ async function resolve(folder, configuration) {
   return made;
 }
 
+/// Stands still before the first line where nothing else would stop it.
 function start(configuration) {
-  return vscode.debug.startDebugging(undefined, { type, request: 'launch', name: 'orb', ...configuration });
+  const stopOnEntry = vscode.debug.breakpoints.length === 0;
+  return vscode.debug.startDebugging(undefined, { type, request: 'launch', name: 'orb', stopOnEntry, ...configuration });
 }
 
 function activate(context) {

@@ -46,10 +46,10 @@ TEST(NamedValues, AreTheLettersOfANumberedProgram) {
 
 TEST(NamedValues, AreTheNamesOfAStructuredProgram) {
   EXPECT_EQ(changes("a.orb", "array seen[3]\nturns = 0\nsub leg(n)\n  local twice\n"
-                             "  twice = n * 2 + rnd(0)\n  seen[n] = twice\n  turns += twice\n"
+                             "  twice = n * 2 + speed\n  seen[n] = twice\n  turns += twice\n"
                              "end sub\nfor i = 1 to 3\n  leg(i)\nnext i\nleg(3)\n"
                              "print turns, seen[2]\n"),
-            "i:1,2,3,4 n/leg:1,2,3 twice/leg:2,4,6 seen[1]:2 seen[2]:4 seen[3]:6 turns:2,6,12,18");
+            "i:1,2,3,4 n/leg:1,2,3 turns:2,6,12,18 twice/leg:2,4,6 seen[1]:2 seen[2]:4 seen[3]:6");
 }
 
 TEST(NamedValues, AreNoneOfAMacro) {
