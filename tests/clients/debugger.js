@@ -14,16 +14,17 @@ const { DebugClient } = require(support);
 
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "orb-debugger-"));
 const program = path.join(work, "hall.orb");
-fs.writeFileSync(program, `turns = 3
+fs.writeFileSync(program, `turns = 4 + dshake
 sub turn(by)
   turns = turns - 1
+  print 12 / turns
   goroll by, 100, 1
   delay 200ms
 end sub
 turn(90)
 turn(180)
-goroll 0, 0, 0
-print 6 / (turns - 1)
+turn(270)
+print turns / dshake
 `);
 
 async function session(name, act) {
@@ -43,13 +44,17 @@ async function main() {
     client.hitBreakpoint({ program }, { path: program, line: 4 }));
 
   await session("runs to the end", async (client) => {
-    const ended = client.waitForEvent("terminated");
+    const configure = async () => {
+      await client.waitForEvent("initialized");
+      await client.setExceptionBreakpointsRequest({ filters: [] });
+      await client.configurationDoneRequest();
+    };
     await Promise.all([
-      client.configurationSequence(),
+      configure(),
       client.launch({ program, seed: 3 }),
       client.assertOutput("stderr", "error: Divide by zero"),
-    ]).catch(() => ended);
-    await ended;
+      client.waitForEvent("terminated"),
+    ]);
   });
 
   await session("forwards and backwards", async (client) => {
@@ -59,11 +64,11 @@ async function main() {
       client.assertStoppedLocation("entry", { path: program, line: 1 }),
     ]);
     const stop = (reason, line) => client.assertStoppedLocation(reason, { path: program, line });
-    await Promise.all([client.nextRequest({ threadId: 1 }), stop("step", 3)]);
-    await Promise.all([client.nextRequest({ threadId: 1 }), stop("step", 4)]);
-    await Promise.all([client.stepBackRequest({ threadId: 1 }), stop("step", 3)]);
+    await Promise.all([client.stepInRequest({ threadId: 1 }), stop("step", 8)]);
+    await Promise.all([client.stepInRequest({ threadId: 1 }), stop("step", 3)]);
+    await Promise.all([client.stepBackRequest({ threadId: 1 }), stop("step", 8)]);
     const before = await client.evaluateRequest({ expression: "turns" });
-    assert.strictEqual(before.body.result, "3");
+    assert.strictEqual(before.body.result, "4");
     await client.send("setDataBreakpoints", { breakpoints: [{ dataId: "turns" }] });
     await Promise.all([client.continueRequest({ threadId: 1 }), stop("data breakpoint", 4)]);
     await client.send("setDataBreakpoints", { breakpoints: [] });
