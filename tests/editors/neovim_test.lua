@@ -130,6 +130,39 @@ vim.cmd('bwipeout!')
 vim.lsp.stop_client(vim.lsp.get_active_clients())
 check('the server ends', vim.wait(patience_ms, function() return #vim.lsp.get_active_clients() == 0 end, 10))
 
+-- the debugger, through a client of our own: nvim-dap speaks the same protocol
+
+local dap = dofile(vim.env.TESTS .. '/dap_client.lua')
+local session = dap.start(vim.env.ORB)
+vim.fn.writefile({ '10 A = 1', '20 B = A + 1', '30 A = B * 7', '40 end' }, 'steps.bas')
+check('initialize', session.ask('initialize', { adapterID = 'orb', linesStartAt1 = true }).success, 'no')
+local launched = session.tell('launch', { program = vim.fn.getcwd() .. '/steps.bas', stopAtEnd = true })
+check('initialized', session.wait('initialized') ~= nil, 'no event')
+local points = session.ask('setBreakpoints', {
+  source = { path = vim.fn.getcwd() .. '/steps.bas' }, breakpoints = { { line = 3 } },
+})
+check('a breakpoint', points.success and points.body.breakpoints[1].verified, points)
+session.ask('configurationDone')
+check('launch', session.answer(launched).success, session.answer(launched))
+local function where()
+  local trace = session.ask('stackTrace', { threadId = 1 })
+  return trace.success and trace.body.stackFrames[1] and trace.body.stackFrames[1].line
+end
+local function value_of(name)
+  local frame = session.ask('stackTrace', { threadId = 1 }).body.stackFrames[1]
+  local answer = session.ask('evaluate', { expression = name, frameId = frame.id, context = 'watch' })
+  return answer.success and answer.body.result or answer.message
+end
+local stopped = session.wait('stopped')
+check('it stops there', stopped and stopped.reason == 'breakpoint' and where() == 3, { stopped, where() })
+check('a value', value_of('B') == '2', value_of('B'))
+check('a step', session.ask('next', { threadId = 1 }).success and session.wait('stopped') and where() == 4, where())
+check('the new value', value_of('A') == '14', value_of('A'))
+check('a step back', session.ask('stepBack', { threadId = 1 }).success and session.wait('stopped') and where() == 3, where())
+check('the old value', value_of('A') == '1', value_of('A'))
+session.ask('disconnect')
+check('the debugger ends', session.ended() and session.code == 0, session.code)
+
 -- what the plugin gives nvim-dap
 
 package.loaded.dap = { adapters = {}, configurations = {} }
