@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "base/style.h"
 
+#include <functional>
 #include <string>
 
 namespace orb {
@@ -19,8 +20,11 @@ std::string render_summary(const std::vector<FileFindings>& files);
 /// All findings as one JSON document of schema `orb.check/1` (docs/findings.md).
 std::string render_json(const std::vector<FileFindings>& files);
 
+/// Where a rule is explained: an address, or empty.
+using HelpUri = std::function<std::string(const Rule&)>;
+
 /// All findings as one SARIF 2.1.0 log. Columns count code points; bytes that are not UTF-8 appear
-/// as U+FFFD.
-std::string render_sarif(const std::vector<FileFindings>& files);
+/// as U+FFFD. A finding keeps its fingerprint when lines above it come and go.
+std::string render_sarif(const std::vector<FileFindings>& files, const HelpUri& help_uri = {});
 
 } // namespace orb

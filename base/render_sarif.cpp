@@ -1,6 +1,10 @@
+#include "base/hash.h"
 #include "base/render.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
+#include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace orb {
@@ -57,16 +61,32 @@ Json location_of(const Source& source, Span span) {
             {"region", region_of(source, span)}}}};
 }
 
-Json rule_json(const Rule& rule) {
+Json rule_json(const Rule& rule, const HelpUri& help_uri) {
   Json json;
   json["id"] = rule.id;
   json["shortDescription"] = {{"text", rule.summary}};
   json["fullDescription"] = {{"text", rule.explanation.empty() ? rule.summary : rule.explanation}};
   json["defaultConfiguration"] = {{"level", level_of(rule.severity)}};
+  if (auto uri = help_uri ? help_uri(rule) : std::string(); !uri.empty())
+    json["helpUri"] = std::move(uri);
   if (rule.robot_error != 0)
     json["properties"] = {{"robotError", rule.robot_error}};
   return json;
 }
+
+/// What stays of a finding when others come and go above it: its rule, the text of its line, and
+/// which of several such it is.
+class Fingerprints {
+public:
+  std::string next(const Source& source, const Diagnostic& diagnostic) {
+    const auto line = source.line(source.position(diagnostic.span.begin).line);
+    const auto print = hash(fmt::format("{}\n{}", diagnostic.rule->id, trim(line)));
+    return fmt::format("{:016x}:{}", print, ++seen_[print]);
+  }
+
+private:
+  std::map<std::uint64_t, int> seen_;
+};
 
 Json fix_json(const Source& source, const Fix& fix) {
   Json replacements = Json::array();
@@ -109,7 +129,7 @@ Json result_json(const Source& source, const Diagnostic& diagnostic, std::size_t
 
 } // namespace
 
-std::string render_sarif(const std::vector<FileFindings>& files) {
+std::string render_sarif(const std::vector<FileFindings>& files, const HelpUri& help_uri) {
   std::vector<const Rule*> rules; // in the order of their first finding
   const auto index_of = [&](const Rule* rule) {
     for (std::size_t i = 0; i < rules.size(); ++i)
@@ -119,12 +139,19 @@ std::string render_sarif(const std::vector<FileFindings>& files) {
     return rules.size() - 1;
   };
   Json results = Json::array();
-  for (const auto& file : files)
-    for (const auto& diagnostic : file.diagnostics)
-      results.push_back(result_json(*file.source, diagnostic, index_of(diagnostic.rule)));
+  for (const auto& file : files) {
+    Fingerprints fingerprints;
+    for (const auto& diagnostic : file.diagnostics) {
+      auto result = result_json(*file.source, diagnostic, index_of(diagnostic.rule));
+      // The key under which code hosts look for it.
+      result["partialFingerprints"] = {
+          {"primaryLocationLineHash", fingerprints.next(*file.source, diagnostic)}};
+      results.push_back(std::move(result));
+    }
+  }
   Json rule_rows = Json::array();
   for (const auto* rule : rules)
-    rule_rows.push_back(rule_json(*rule));
+    rule_rows.push_back(rule_json(*rule, help_uri));
   Json driver;
   driver["name"] = "orb";
   driver["version"] = ORB_VERSION;

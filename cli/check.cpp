@@ -9,6 +9,7 @@
 #include "cli/target.h"
 #include "cli/watch.h"
 #include "disk/disk.h"
+#include "reference/knowledge.h"
 #include "testing/suite.h"
 
 #include <algorithm>
@@ -181,12 +182,22 @@ bool fix_one(Context& context, const Options& options, SourceFile& input) {
   return true;
 }
 
+/// The part of the documentation that explains a rule, as it was installed.
+std::string page_of(const std::vector<reference::Section>& sections, const Rule& rule) {
+  for (const auto& section : sections)
+    for (const auto& entry : section.entries)
+      if (entry.name == rule.id)
+        return fmt::format("{}/reference/{}.md#{}", ORB_DOCS, section.id, rule.id);
+  return {};
+}
+
 void print_findings(Context& context, const Options& options,
                     const std::vector<FileFindings>& files) {
   if (options.format == "json") {
     print_out(render_json(files));
   } else if (options.format == "sarif") {
-    print_out(render_sarif(files));
+    const auto sections = reference::knowledge();
+    print_out(render_sarif(files, [&](const Rule& rule) { return page_of(sections, rule); }));
   } else {
     const auto style = context.out_style();
     std::string out;

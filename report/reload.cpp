@@ -1,5 +1,7 @@
 #include "report/reload.h"
 
+#include "base/hash.h"
+
 #include <cstdint>
 #include <fmt/format.h>
 #include <string_view>
@@ -37,14 +39,6 @@ constexpr std::string_view script = R"(<script>
 }})();
 </script>
 )";
-
-/// FNV-1a.
-std::uint64_t hash(std::string_view text) {
-  std::uint64_t value = 14695981039346656037u;
-  for (const char c : text)
-    value = (value ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return value;
-}
 
 } // namespace
 

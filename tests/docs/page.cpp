@@ -34,7 +34,7 @@ constexpr auto languages = std::to_array<Language>(
      {"test", "orb check"},
      {"stimulus", "orb run -q \"$ROOT\"/examples/demo/square.bas --for 1s --stimulus"}});
 constexpr auto quiet_words = std::to_array<std::string_view>(
-    {"text", "json", "toml", "svg", "cpp", "cmake", "python", "lua"});
+    {"text", "json", "toml", "svg", "cpp", "cmake", "python", "lua", "yaml"});
 
 /// What stands between `<!-- KEY: ` and ` -->`; empty where the line is something else.
 std::string comment(std::string_view line, std::string_view key) {

@@ -10,7 +10,7 @@
 ///   ```sh            each line is a command, which must succeed; what it prints is not shown
 ///   ```console       `$ COMMAND`, then what it prints, which is compared
 ///   ```basic         a listing (also orb, macro, stimulus, test): `orb check` finds no error in it
-///   ```text          nothing to run (also json, toml, cpp, cmake, python)
+///   ```text          nothing to run (also json, toml, yaml, cpp, cmake, python)
 ///
 /// A line right above a fence, or on its own, says what a reader need not see:
 ///

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace orb {
 namespace {
@@ -80,7 +83,7 @@ void expect_fix(const Json& fix) {
 
 void expect_result(const Json& result, const Json& rules) {
   expect_only(result, {"ruleId", "ruleIndex", "level", "message", "locations", "relatedLocations",
-                       "fixes", "properties"});
+                       "fixes", "partialFingerprints", "properties"});
   expect_message(result["message"]);
   expect_level(result["level"]);
   const auto index = result["ruleIndex"].get<std::size_t>();
@@ -142,6 +145,34 @@ TEST(Sarif, IsAsTheSchemaAsks) {
   EXPECT_EQ(results[1]["message"]["text"], "byte \xEF\xBF\xBD is odd");
   EXPECT_EQ(results[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"],
             "a%20b%3C%C3%A9%3E.bas");
+}
+
+std::vector<std::string> fingerprints(std::string text, Span span) {
+  const Source source("a.bas", std::move(text));
+  FileFindings file{&source,
+                    {finding(bad_word, span, "bad"), finding(bad_word, span, "bad"),
+                     finding(odd_word, span, "odd")},
+                    {}};
+  std::vector<std::string> prints;
+  const auto log = Json::parse(render_sarif({file}));
+  for (const auto& result : log["runs"][0]["results"])
+    prints.push_back(result["partialFingerprints"]["primaryLocationLineHash"]);
+  return prints;
+}
+
+TEST(Sarif, AFingerprintOutlivesTheLinesAbove) {
+  const auto before = fingerprints("10 bad\n", {3, 6});
+  EXPECT_EQ(before, fingerprints("5 end\n\n  10 bad\n", {12, 15}));
+  EXPECT_EQ(std::set(before.begin(), before.end()).size(), 3U);
+  EXPECT_NE(before, fingerprints("10 worse\n", {3, 6}));
+}
+
+TEST(Sarif, ARuleSaysWhereItIsExplained) {
+  const Source source("a.bas", "10 bad\n");
+  const auto log = Json::parse(render_sarif(
+      {findings(source)}, [](const Rule& rule) { return "file:///" + std::string(rule.id); }));
+  const auto& rules = log["runs"][0]["tool"]["driver"]["rules"];
+  EXPECT_EQ(rules[0]["helpUri"], "file:///" + std::string(bad_word.id));
 }
 
 TEST(Sarif, WithoutFindingsIsValidToo) {
