@@ -76,10 +76,10 @@ Input used_macros(const structured::MacroFile& file) {
 }
 
 void read_structured(Input& input, const compiler::Target& target, Lint lint,
-                     structured::Files& files) {
+                     structured::Files& files, const std::vector<std::string>& kept) {
   const auto& name = input.source->name();
   auto compiled = std::make_unique<structured::Compiled>(
-      structured::compile(name, name, input.source->text(), target, files));
+      structured::compile(name, name, input.source->text(), target, files, kept));
   auto found = structured::findings_by_file(compiled->program);
   input.findings = told(std::move(found.front()), lint);
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -181,7 +181,8 @@ bool Input::has_errors() const {
 
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Lint lint, structured::Files& files) {
+                                        Lint lint, structured::Files& files,
+                                        const std::vector<std::string>& kept) {
   const auto content = content_of(name, language);
   if (!content && !is_built(text))
     return tl::unexpected(unknown_content(name));
@@ -189,7 +190,7 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
   input.source = std::make_unique<Source>(std::move(name), std::move(text));
   switch (content.value_or(Content::Basic)) {
   case Content::Basic: read_program(input, target, lint); break;
-  case Content::Structured: read_structured(input, target, lint, files); break;
+  case Content::Structured: read_structured(input, target, lint, files, kept); break;
   case Content::MacroSource: read_macro_source(input, lint); break;
   case Content::MacroBody:
   case Content::MacroImage:

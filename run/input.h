@@ -91,10 +91,12 @@ enum class Lint : std::uint8_t { On, Off };
 
 /// Reads the content of the file `name`. Bytes that are not a macro are a failure; mistakes of a
 /// source are findings. A name that says nothing will do where the text is a built image. What a
-/// structured program names is read through `files`, its paths counting from `name`.
+/// structured program names is read through `files`, its paths counting from `name`; its variables
+/// `kept` hold their values to the end (structured/compile.h).
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Lint lint, structured::Files& files);
+                                        Lint lint, structured::Files& files,
+                                        const std::vector<std::string>& kept = {});
 
 /// The first input that holds a program; null where none does.
 const Input* first_with_program(std::span<const Input> inputs);

@@ -125,6 +125,13 @@ struct CodeLine {
 
 struct CodeVariable {
   std::uint32_t symbol = none; ///< none: a temporary
+  bool kept = false;           ///< somebody may look at it at any time
+};
+
+/// A statement whose index is outside of its array wherever it runs.
+struct WrongIndex {
+  std::uint32_t statement = none;
+  compiler::Range index; ///< among the elements of all arrays
 };
 
 struct Code {
@@ -136,6 +143,7 @@ struct Code {
   std::vector<Case> cases;
   std::vector<CodeVariable> variables{CodeVariable{}}; ///< the index first
   std::vector<std::uint32_t> routines;                 ///< of each routine its entry label, or none
+  std::vector<WrongIndex> wrong_indices;               ///< found by use_values()
   std::uint32_t labels = 0;                            ///< how many there are
   bool too_large = false; ///< lowering gave up: no robot holds such a program
 

@@ -72,6 +72,41 @@ bool report_chain(Compiled& compiled, const Plan& plan) {
   return true;
 }
 
+/// The elements that a statement reads or sets.
+std::vector<std::uint32_t> elements_of(const Compiled& compiled, const Statement& statement) {
+  const auto& nodes = compiled.program.nodes;
+  std::vector<std::uint32_t> elements;
+  for (const auto& item : compiled.program.items_of(statement))
+    if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place ||
+        item.kind == ItemKind::Character)
+      for (auto n = nodes[item.value].first; n <= item.value; ++n)
+        if (nodes[n].kind == NodeKind::Element && compiled.names.of_node[n] != none)
+          elements.push_back(n);
+  return elements;
+}
+
+Diagnostic wrong_index(const Compiled& compiled, const WrongIndex& wrong) {
+  const auto& program = compiled.program;
+  const auto& statement = program.statements[wrong.statement];
+  const auto elements = elements_of(compiled, statement);
+  if (elements.size() != 1)
+    return finding(rules::ArrayIndex, statement.span,
+                   "an index is outside of its array wherever this runs");
+  const auto& array = compiled.names.symbols[compiled.names.of_node[elements.front()]];
+  const auto found = wrong.index.constant() ? fmt::format("found {}", wrong.index.lo - array.base)
+                                            : std::string("and the index is none of them");
+  return finding(rules::ArrayIndex, program.nodes[elements.front() - 1].span,
+                 fmt::format("`{}` has the elements 1 to {}, {}", program.name(array.name),
+                             array.value, found));
+}
+
+/// Says what can only stop the program, wherever the statement runs.
+bool report_indices(Compiled& compiled) {
+  for (const auto& wrong : compiled.code.wrong_indices)
+    compiled.program.diagnostics.push_back(wrong_index(compiled, wrong));
+  return !compiled.code.wrong_indices.empty();
+}
+
 bool has_program(const Program& program) {
   const auto& main = program.files.front();
   for (auto i = main.statements_begin; i < main.statements_end; ++i) {
@@ -132,8 +167,38 @@ bool Compiled::has_errors() const {
 
 namespace {
 
+/// The variable of the whole program that has a name, or none.
+std::uint32_t shared_variable(const Program& program, const Names& names, std::string_view name) {
+  for (std::uint32_t s = 0; s < names.symbols.size(); ++s)
+    if (names.symbols[s].kind == SymbolKind::Variable &&
+        equal_words(program.name(names.symbols[s].name), name))
+      return s;
+  return none;
+}
+
+std::uint32_t code_variable(const Code& code, std::uint32_t symbol) {
+  for (std::uint32_t v = 1; v < code.variables.size(); ++v)
+    if (code.variables[v].symbol == symbol)
+      return v;
+  return none;
+}
+
+void keep(Compiled& compiled, std::string_view name) {
+  const auto symbol = shared_variable(compiled.program, compiled.names, name);
+  if (symbol == none)
+    return;
+  auto& code = compiled.code;
+  auto variable = code_variable(code, symbol);
+  if (variable == none) { // nothing that runs sets it
+    variable = code.new_variable();
+    code.variables[variable].symbol = symbol;
+  }
+  code.variables[variable].kept = true;
+}
+
 /// Compiles what has been read; the findings say how far that went.
-void compile(Compiled& compiled, const compiler::Target& target) {
+void compile(Compiled& compiled, const compiler::Target& target,
+             const std::vector<std::string>& kept) {
   if (compiled.program.statements.empty() && !compiled.has_errors())
     compiled.program.diagnostics.push_back(
         finding(rules::NothingToRun, {0, 0}, "the file holds no statement",
@@ -147,11 +212,15 @@ void compile(Compiled& compiled, const compiler::Target& target) {
   if (report_chain(compiled, decided))
     return;
   compiled.code = lower(compiled.program, compiled.names, decided);
+  for (const auto& name : kept)
+    keep(compiled, name);
   optimise(compiled.code);
   if (compiled.code.too_large) {
     report_too_large(compiled, target);
     return;
   }
+  if (report_indices(compiled))
+    return;
   compiled.letters =
       choose_letters(compiled.code, wishes_of(compiled.program, compiled.names, compiled.code));
   if (compiled.letters.crowded_line != none) {
@@ -166,12 +235,21 @@ void compile(Compiled& compiled, const compiler::Target& target) {
 } // namespace
 
 Compiled compile(std::string name, std::string path, std::string_view text,
-                 const compiler::Target& target, Files& files) {
+                 const compiler::Target& target, Files& files,
+                 const std::vector<std::string>& kept) {
   Compiled compiled;
   compiled.program = read(std::move(name), std::move(path), text, files);
-  compile(compiled, target);
+  compile(compiled, target, kept);
   silence(compiled.program);
   return compiled;
+}
+
+std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view name) {
+  const auto symbol = shared_variable(compiled.program, compiled.names, name);
+  const auto variable = symbol == none ? none : code_variable(compiled.code, symbol);
+  if (variable >= compiled.letters.of.size() || compiled.letters.of[variable] == no_letter)
+    return std::nullopt;
+  return compiled.letters.of[variable];
 }
 
 Diagnostic nothing_to_run() {

@@ -9,6 +9,7 @@
 #include "structured/print.h"
 #include "structured/program.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +31,15 @@ struct Compiled {
 };
 
 /// Compiles a structured program. `path` is what the files it names count from; they are read
-/// through `files`. Any bytes will do.
+/// through `files`. Any bytes will do. The variables `kept` have a letter of their own and hold
+/// their values to the end, read or not: what somebody looks at from outside.
 Compiled compile(std::string name, std::string path, std::string_view text,
-                 const compiler::Target& target, Files& files);
+                 const compiler::Target& target, Files& files,
+                 const std::vector<std::string>& kept = {});
+
+/// The letter that holds a variable of the whole program, 0 for A; nothing where none has that
+/// name, or where it is neither kept nor in use.
+std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view name);
 
 /// That a program holds nothing that would run, which `check` allows and every other command
 /// refuses.

@@ -136,7 +136,10 @@ Flow read_flow(const Code& code) {
 
 void step_back(const Code& code, const Flow& flow, const Liveness& liveness, const CodeLine& line,
                std::span<std::uint64_t> live) {
-  each_write(code, line, [&](std::uint32_t v) { remove(live, v); });
+  each_write(code, line, [&](std::uint32_t v) {
+    if (!code.variables[v].kept)
+      remove(live, v);
+  });
   bool first = true;
   each_callee(code, line, [&](std::uint32_t callee) {
     const auto touched = flow.touched[callee];
@@ -166,6 +169,10 @@ public:
     liveness_.across = VariableSets(code.routines.size(), variables());
     liveness_.at_return = VariableSets(code.routines.size(), variables());
     live_.resize(liveness_.in.words());
+    for (std::uint32_t v = 0; v < variables(); ++v)
+      if (code.variables[v].kept)
+        for (std::size_t b = 0; b < flow.blocks.size(); ++b)
+          insert(liveness_.out[b], v);
   }
 
   Liveness run() {
@@ -198,7 +205,10 @@ private:
         return;
       }
       step(line, read_[b]);
-      each_write(code_, line, [&](std::uint32_t v) { insert(written_[b], v); });
+      each_write(code_, line, [&](std::uint32_t v) {
+        if (!code_.variables[v].kept)
+          insert(written_[b], v);
+      });
     }
   }
 

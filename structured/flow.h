@@ -113,7 +113,7 @@ inline bool falls_through(const CodeLine& line) {
          line.kind != LineKind::Switch && line.kind != LineKind::On;
 }
 
-/// Which variables are read later, before they are set again.
+/// Which variables are read later, before they are set again. Kept ones are live everywhere.
 struct Liveness {
   VariableSets in;        ///< of each block, at its begin
   VariableSets out;       ///< at its end

@@ -91,7 +91,7 @@ bool calls(const Token& token) {
 class Formatter {
 public:
   explicit Formatter(std::string_view text) {
-    parse(program_, "", "", text);
+    parse(program_, "", "", text.substr(skipped_mark(text)));
     text_ = std::string_view(program_.text).substr(0, program_.files.front().end);
   }
 

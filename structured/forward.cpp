@@ -158,7 +158,7 @@ private:
 
   bool move(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
-    if (variable == index_variable)
+    if (variable == index_variable || code_.variables[variable].kept)
       return false;
     const auto term = code_.lines[i].term;
     const auto last =
@@ -267,7 +267,8 @@ private:
   void copy(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
     const auto source = code_.lines[i].term;
-    if (variable == index_variable || code_.terms[source].kind != TermKind::Variable)
+    if (variable == index_variable || code_.variables[variable].kept ||
+        code_.terms[source].kind != TermKind::Variable)
       return;
     const auto original = code_.terms[source].left;
     if (original == index_variable || original == variable)

@@ -20,6 +20,8 @@ public:
   explicit Interference(const Code& code)
       : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)),
         edges(code.variables.size(), code.variables.size()), used(code.variables.size(), false) {
+    for (std::uint32_t v = 0; v < code.variables.size(); ++v)
+      used[v] = code.variables[v].kept;
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
       read_block(b);
   }

@@ -40,6 +40,7 @@ void optimise(Code& code) {
   if (code.too_large)
     return;
   use_values(code);
+  const auto wrong_indices = code.wrong_indices; // later not every place of a statement is left
   write_switches(code);
   clean_jumps(code);
   forward_values(code);
@@ -49,6 +50,7 @@ void optimise(Code& code) {
     clean_jumps(code);
     forward_values(code);
   }
+  code.wrong_indices = wrong_indices;
   cut_prints(code);
 }
 

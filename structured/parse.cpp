@@ -1100,7 +1100,8 @@ void parse(Program& program, std::string name, std::string path, std::string_vie
   program.statements.reserve(program.statements.size() + text.size() / 16);
   program.items.reserve(program.items.size() + text.size() / 12);
   program.nodes.reserve(program.nodes.size() + text.size() / 6);
-  Lines(program, program.text.data() + file.begin, program.text.data() + file.end).parse();
+  const auto* const begin = program.text.data() + file.begin;
+  Lines(program, begin + skipped_mark(text), program.text.data() + file.end).parse();
   file.statements_end = static_cast<std::uint32_t>(program.statements.size());
   link_blocks(program, file);
   program.files.push_back(std::move(file));

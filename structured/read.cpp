@@ -14,7 +14,7 @@
 namespace orb::structured {
 namespace {
 
-constexpr std::size_t most_files = 64;
+constexpr std::size_t most_files = 64; ///< of each kind
 
 bool is_declaration(Kind kind) {
   return kind == Kind::Const || kind == Kind::Array || kind == Kind::Sub || kind == Kind::EndSub ||
@@ -66,6 +66,13 @@ private:
                                            std::move(message), std::move(help)));
   }
 
+  /// Whether there are too many files of a kind to take another one; that is said once.
+  bool is_full(std::size_t& files, std::uint32_t i, std::string_view what) {
+    if (++files == most_files + 1)
+      report(rules::MissingFile, i, fmt::format("more than {} files are {}", most_files, what));
+    return files > most_files;
+  }
+
   void include(std::uint32_t i) {
     auto path = path_of(i);
     if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
@@ -76,13 +83,11 @@ private:
     if (std::any_of(program_.files.begin(), program_.files.end(),
                     [&](const File& file) { return file.path == path; }))
       return;
+    if (is_full(included_, i, "included"))
+      return;
     const auto text = read(path, i);
     if (!text)
       return;
-    if (program_.files.size() == most_files) {
-      report(rules::MissingFile, i, fmt::format("more than {} files are included", most_files));
-      return;
-    }
     if (auto refused = compiler::refuse_text(*text)) {
       report(*refused->rule, i, fmt::format("`{}`: {}", path, refused->message));
       return;
@@ -117,6 +122,8 @@ private:
     const auto path = path_of(i);
     if (std::any_of(program_.macro_files.begin(), program_.macro_files.end(),
                     [&](const MacroFile& file) { return file.path == path; }))
+      return;
+    if (is_full(used_, i, "used"))
       return;
     auto text = read(path, i);
     if (!text)
@@ -154,6 +161,8 @@ private:
 
   Program& program_;
   Files& files_;
+  std::size_t included_ = 0;
+  std::size_t used_ = 0;
   std::vector<std::string> open_; ///< the paths that lead to the file that is read
 };
 

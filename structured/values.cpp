@@ -3,6 +3,9 @@
 #include "spec/limits.h"
 #include "structured/ranges.h"
 
+#include <map>
+#include <optional>
+
 namespace orb::structured {
 namespace {
 
@@ -188,6 +191,10 @@ private:
       if (line.kind == LineKind::Switch)
         choose(i, state[line.variable]);
     });
+    code_.wrong_indices.clear();
+    for (const auto& [statement, index] : wrong_indices_)
+      if (index)
+        code_.wrong_indices.push_back({statement, *index});
     cut_unreached(reached);
     add_lines();
   }
@@ -236,6 +243,8 @@ private:
     // An index that is wrong for certain stays a test, and the robot finds it.
     const bool to_good = relation.comparison == Comparison::LessEqual ||
                          relation.comparison == Comparison::GreaterEqual;
+    if (line.guard && (to_good || outcome == Outcome::Always))
+      judge_index(line.origin, (outcome == Outcome::Never) == to_good, state[index_variable]);
     const bool always = outcome == Outcome::Always && (!line.guard || to_good);
     const bool never = outcome == Outcome::Never && (!line.guard || !to_good);
     const auto effects = code_.terms[relation.left].effects | code_.terms[relation.right].effects;
@@ -245,6 +254,18 @@ private:
       line.kind = LineKind::Goto;
     else if (never)
       line.kind = LineKind::Nothing;
+  }
+
+  /// One place where the index of a statement is tested; the statement may stand in several places
+  /// and have several indices.
+  void judge_index(std::uint32_t statement, bool wrong, Range index) {
+    const auto [at, fresh] = wrong_indices_.try_emplace(statement, std::nullopt);
+    if (!wrong)
+      at->second = std::nullopt;
+    else if (fresh)
+      at->second = index;
+    else if (at->second)
+      at->second = compiler::join(*at->second, index);
   }
 
   /// A test whose outcome is known but whose terms do something: it leads to the next line, from
@@ -300,6 +321,7 @@ private:
   Code& code_;
   Ranges ranges_;
   std::vector<Reads> reads_;
+  std::map<std::uint32_t, std::optional<Range>> wrong_indices_; ///< of statements; none: it may fit
   std::vector<std::pair<std::uint32_t, CodeLine>> added_; ///< lines, each to stand before another
 };
 

@@ -71,32 +71,57 @@ public:
 
   /// The index of a program with the files of `file`; an unreadable one is a problem of its own.
   std::size_t program(const std::string& path, const SuiteFile& file) {
+    return program(path, file, {});
+  }
+
+  /// The program that a test runs: the same, or, where the test wants to know what variables of a
+  /// structured program hold, one that keeps them.
+  std::size_t program_of(const Test& test, std::size_t program, const SuiteFile& file) {
+    std::vector<std::string> names;
+    for (const auto& one : test.expectations)
+      if (one.word == Word::Variable)
+        names.push_back(one.name.text);
+    const auto& plain = suite_.programs[program];
+    const auto* const first = run::first_with_program(plain.inputs);
+    if (names.empty() || !plain.problem.empty() || first == nullptr || !first->program->compiled)
+      return program;
+    const auto flashed = plain.packed_bytes;
+    const auto index = this->program(std::string(plain.name), file, std::move(names));
+    suite_.programs[index].packed_bytes = flashed;
+    return index;
+  }
+
+private:
+  std::size_t program(const std::string& path, const SuiteFile& file,
+                      std::vector<std::string> kept) {
     const auto& target = file.file.target;
     std::string key = fmt::format("{}\n{}\n{}\n{}", path, static_cast<int>(target.version),
                                   static_cast<int>(target.area), file.source->name());
     if (file.file.with.empty())
       key.resize(key.rfind('\n'));
+    for (const auto& name : kept)
+      key += fmt::format("\n={}", name);
     const auto [at, fresh] = known_.try_emplace(key, suite_.programs.size());
     if (fresh)
-      suite_.programs.push_back(prepare(path, file));
+      suite_.programs.push_back(prepare(path, file, kept));
     return at->second;
   }
 
-private:
-  Prepared prepare(const std::string& path, const SuiteFile& file) {
+  Prepared prepare(const std::string& path, const SuiteFile& file,
+                   const std::vector<std::string>& kept) {
     Prepared made;
     made.name = path;
     made.target = file.file.target;
     std::vector<run::Input> rest;
-    read(path, made, made.inputs);
+    read(path, made, made.inputs, kept);
     for (const auto& with : file.file.with)
-      read(structured::resolve_path(file.source->name(), with.text), made, rest);
+      read(structured::resolve_path(file.source->name(), with.text), made, rest, {});
     for (auto& one : rest)
       run::add_input(made.inputs, std::move(one));
     if (!made.problem.empty())
       return made;
     if (const auto* first = run::first_with_program(made.inputs))
-      made.packed_bytes =
+      made.packed_bytes = made.tested_bytes =
           compiler::build_image(first->program->parsed, compiler::Packing::Packed).bytes.size();
     for (const auto& input : made.inputs)
       for (const auto& macro : input.macros)
@@ -104,13 +129,15 @@ private:
     return made;
   }
 
-  void read(const std::string& path, Prepared& made, std::vector<run::Input>& inputs) {
+  void read(const std::string& path, Prepared& made, std::vector<run::Input>& inputs,
+            const std::vector<std::string>& kept) {
     auto text = files_.read(path);
     if (!text) {
       made.problem += fmt::format("cannot read {}\n", path);
       return;
     }
-    auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_);
+    auto input =
+        run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_, kept);
     if (!input) {
       made.problem += run::content_of(path, "")
                           ? input.error().message + "\n"
@@ -174,17 +201,28 @@ struct Lookup {
   std::string help;
 };
 
-/// The letter of a variable of a program with line numbers.
+std::vector<std::string_view> variables_of(const structured::Compiled& compiled) {
+  std::vector<std::string_view> names;
+  for (const auto& symbol : compiled.names.symbols)
+    if (symbol.kind == structured::SymbolKind::Variable)
+      names.push_back(compiled.program.name(symbol.name));
+  return names;
+}
+
+/// The letter of a variable.
 void find_variable(const Expectation& one, const Prepared& program, Lookup& found) {
   const auto& name = one.name.text;
   const auto* first = run::first_with_program(program.inputs);
   if (first == nullptr) {
     found.meaning.problem = "there is no program, only macros: no variable";
   } else if (first->program->compiled) {
-    found.meaning.problem = fmt::format(
-        "{} is a structured program: letters are shared, and `{}` may be gone in the end",
-        program.name, name);
-    found.help = "let the program print the value, and expect that";
+    const auto& compiled = *first->program->compiled;
+    if (const auto letter = structured::letter_of(compiled, name)) {
+      found.meaning.variable = *letter;
+    } else {
+      found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
+      found.help = meant(name, variables_of(compiled), "variable");
+    }
   } else if (name.size() == 1 && name[0] >= 'A' &&
              name[0] - 'A' < spec::value_of(spec::Limit::DirectVariables)) {
     found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
@@ -240,10 +278,27 @@ Lookup look_up(const Expectation& one, const SuiteFile& file, const Prepared& pr
   return found;
 }
 
+/// Says so where a test does not run the very program that is flashed.
+void tell_of_kept(SuiteFile& file, const Test& test, const Prepared& program) {
+  const auto first = std::find_if(test.expectations.begin(), test.expectations.end(),
+                                  [](const auto& one) { return one.word == Word::Variable; });
+  if (first == test.expectations.end() || program.tested_bytes == program.packed_bytes)
+    return;
+  file.file.diagnostics.push_back(
+      finding(rules::KeptVariable, first->name.span,
+              fmt::format("this test runs {} with its variables kept: {} bytes, {} are flashed",
+                          program.name, program.tested_bytes, program.packed_bytes)));
+}
+
 /// Tells what is wrong with the names of a file, taken in the program that it names itself.
-void check_names(SuiteFile& file, const Prepared* own) {
+void check_names(SuiteFile& file, const Suite& suite, Reader& reader,
+                 std::optional<std::size_t> named) {
   static const Prepared none;
-  for (const auto& test : file.file.tests)
+  for (const auto& test : file.file.tests) {
+    const auto* const own =
+        named ? &suite.programs[reader.program_of(test, *named, file)] : nullptr;
+    if (own != nullptr && own->problem.empty())
+      tell_of_kept(file, test, *own);
     for (const auto& one : test.expectations) {
       const bool of_course = one.word == Word::Inside || one.word == Word::Stay;
       if (of_course ? file.file.course && !file.course // told of the course already
@@ -254,6 +309,7 @@ void check_names(SuiteFile& file, const Prepared* own) {
         file.file.diagnostics.push_back(
             finding(*found.rule, one.name.span, found.meaning.problem, found.help));
     }
+  }
   sort_by_place(file.file.diagnostics);
 }
 
@@ -291,14 +347,15 @@ void read_course(SuiteFile& file, structured::Files& files) {
 }
 
 /// Adds the groups of one file, for the given programs or its own.
-void add_groups(Suite& suite, std::size_t index, const SuiteOptions& options,
+void add_groups(Suite& suite, Reader& reader, std::size_t index, const SuiteOptions& options,
                 const std::vector<std::size_t>& programs) {
   const auto& file = suite.files[index];
   for (std::size_t t = 0; t < file.file.tests.size(); ++t) {
     const auto& test = file.file.tests[t];
     if (!options.only.empty() && test.name.text != options.only)
       continue;
-    for (const auto program : programs) {
+    for (const auto given : programs) {
+      const auto program = reader.program_of(test, given, file);
       Group group{index, t, program, options.seeds.value_or(test.seeds), suite.cases, {}};
       for (const auto& one : test.expectations)
         group.meanings.push_back(look_up(one, file, suite.programs[program]).meaning);
@@ -353,11 +410,11 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
     for (const auto& path : options.programs)
       own.push_back(reader.program(path, file));
     const bool named = options.programs.empty() && !own.empty();
-    check_names(file, named ? &suite.programs[own.front()] : nullptr);
+    check_names(file, suite, reader, named ? std::optional(own.front()) : std::nullopt);
     suite.files.push_back(std::move(file));
   }
   for (std::size_t i = 0; i < suite.files.size(); ++i)
-    add_groups(suite, i, options, programs[i]);
+    add_groups(suite, reader, i, options, programs[i]);
   if (!options.only.empty() && suite.groups.empty() && !suite.has_errors())
     return tl::unexpected(no_such_test(suite, options.only));
   return suite;

@@ -24,8 +24,9 @@ struct Prepared {
   std::string name; ///< as the user wrote it, or as it was found
   std::vector<run::Input> inputs;
   compiler::Target target;
-  std::string problem; ///< why it cannot be run: its findings, or a sentence; else empty
-  std::size_t packed_bytes = 0;
+  std::string problem;          ///< why it cannot be run: its findings, or a sentence; else empty
+  std::size_t packed_bytes = 0; ///< of the image that is flashed
+  std::size_t tested_bytes = 0; ///< of the one that runs: more where it keeps variables
   std::map<std::string, int> macros; ///< ids by name
 };
 

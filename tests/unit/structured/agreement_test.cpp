@@ -46,6 +46,14 @@ bool may_remain(const Diagnostic& found) {
   return found.severity == Severity::Info;
 }
 
+/// Runs the robot's lines until they end, or for very long.
+void run(vm::Machine& machine, vm::NotebookHost& host, const std::string& text) {
+  auto chunk = compiler::load(text);
+  machine.start(std::move(chunk), 1, Instant{});
+  while (machine.running() && machine.next_event() != never && machine.lines() < 40000)
+    machine.run(std::max(machine.next_event(), machine.now()) + 10ms, host);
+}
+
 void compare(std::uint64_t seed) {
   const auto text = testing::RandomStructured(seed).write();
   NoFiles files;
@@ -75,10 +83,7 @@ void compare(std::uint64_t seed) {
   vm::NotebookHost host;
   prepare(host);
   vm::Machine machine(1'000'000, seed);
-  auto chunk = compiler::load(compiled.robot.text);
-  machine.start(std::move(chunk), 1, Instant{});
-  while (machine.running() && machine.next_event() != never && machine.lines() < 40000)
-    machine.run(std::max(machine.next_event(), machine.now()) + 10ms, host);
+  run(machine, host, compiled.robot.text);
 
   std::erase_if(host.notes, [](const std::string& note) { return note.starts_with("delay"); });
   if (plain.end == "running") {
@@ -112,6 +117,74 @@ TEST(Agreement, CompiledProgramsDoWhatTheTextSays) {
 TEST(Agreement, ProgramsThatHaveFoundSomething) {
   for (const std::uint64_t seed : {5472, 10147})
     compare(seed);
+}
+
+/// The variables that somebody looks at hold at the end what the text says, where it has one.
+void compare_kept(std::uint64_t seed) {
+  const auto text = testing::RandomStructured(seed).write();
+  NoFiles files;
+  const std::vector<std::string> kept{"alpha", "b", "count"};
+  const auto compiled = compile("random.orb", "random.orb", text, {}, files, kept);
+  if (compiled.robot.lines.empty() || compiled.has_errors())
+    return;
+  SCOPED_TRACE("seed " + std::to_string(seed) + ":\n" + text + "\n" + compiled.robot.text);
+  vm::NotebookHost plain_host;
+  prepare(plain_host);
+  TreeEvaluator plain(compiled.program, compiled.names, plain_host, seed);
+  plain.run(4000);
+  if (plain.end == "running")
+    return;
+  vm::NotebookHost host;
+  prepare(host);
+  vm::Machine machine(1'000'000, seed);
+  run(machine, host, compiled.robot.text);
+  ASSERT_EQ(host.printed, plain_host.printed);
+  for (std::uint32_t s = 0; s < compiled.names.symbols.size(); ++s) {
+    const auto name = std::string(compiled.program.name(compiled.names.symbols[s].name));
+    if (compiled.names.symbols[s].kind != SymbolKind::Variable ||
+        std::find(kept.begin(), kept.end(), name) == kept.end())
+      continue;
+    const auto letter = letter_of(compiled, name);
+    ASSERT_TRUE(letter.has_value()) << name;
+    ASSERT_EQ(machine.variable(*letter), plain.value_of(s)) << name;
+  }
+}
+
+TEST(Agreement, KeptVariablesHoldTheirValues) {
+  const auto programs = how_many() / 4;
+  for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
+    compare_kept(seed);
+}
+
+/// A statement whose index is said to be wrong never runs to its end.
+TEST(Agreement, IndicesThatAreErrorsAreWrong) {
+  std::size_t seen = 0;
+  for (std::uint64_t seed = 1; seed <= how_many(); ++seed) {
+    const auto text = testing::RandomStructured(seed).write();
+    NoFiles files;
+    const auto compiled = compile("random.orb", "random.orb", text, {}, files);
+    bool only_indices = compiled.has_errors();
+    for (const auto& found : compiled.program.diagnostics)
+      only_indices =
+          only_indices && (found.severity != Severity::Error || found.rule == &rules::ArrayIndex);
+    if (!only_indices)
+      continue;
+    vm::NotebookHost host;
+    prepare(host);
+    TreeEvaluator plain(compiled.program, compiled.names, host, seed);
+    plain.run(4000);
+    for (const auto& found : compiled.program.diagnostics)
+      for (std::uint32_t i = 0; i < compiled.program.statements.size(); ++i) {
+        const auto& statement = compiled.program.statements[i];
+        const bool simple = statement.kind == Kind::Assign || statement.kind == Kind::Print;
+        if (found.rule != &rules::ArrayIndex || !simple ||
+            found.span.begin < statement.span.begin || found.span.end > statement.span.end)
+          continue;
+        ++seen;
+        ASSERT_FALSE(plain.done[i]) << "seed " << seed << ": " << found.message << "\n" << text;
+      }
+  }
+  EXPECT_GT(seen, 0U);
 }
 
 TEST(Agreement, MostRandomProgramsCompileAndRun) {

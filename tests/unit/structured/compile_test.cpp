@@ -134,6 +134,60 @@ TEST(Lines, AChoiceThatIsKnownIsNoChoice) {
             "1 LEDC 1\n2 LEDC 4\n");
 }
 
+TEST(Lines, AnIndexThatCanOnlyBeWrongIsAnError) {
+  EXPECT_EQ(lines("array a[4]\ni = 7\na[i] = 3\nprint a[1]\n"),
+            "array-index: `a` has the elements 1 to 4, found 7\n");
+  EXPECT_EQ(lines("array a[4]\narray b[3]\nfor i = 5 to 9\n  b[i] = 1\nnext i\nprint a[1], b[1]\n"),
+            "array-index: `b` has the elements 1 to 3, and the index is none of them\n");
+  EXPECT_EQ(lines("array a[4]\narray b[3]\ni = 0\nb[i] = 1\nprint a[1], b[1]\n"),
+            "array-index: `b` has the elements 1 to 3, found 0\n");
+}
+
+TEST(Lines, AnIndexThatIsRightSomewhereIsNoError) {
+  const std::string text = "array a[4]\nset(2)\nset(7)\nprint a[1]\n"
+                           "sub set(i)\n  a[i] = 3\nend sub\n";
+  EXPECT_FALSE(compiled(text).has_errors());
+  EXPECT_FALSE(
+      compiled("array a[4]\ni = 7\nif yaw > 3 then i = 2\na[i] = 3\nprint a[1]\n").has_errors());
+}
+
+TEST(Lines, AWrongIndexIsMadeOneThatTheRobotRefuses) {
+  EXPECT_EQ(lines("array a[4]\ni = rnd(9)\na[i] = 3\nprint a[1]\n"),
+            "1 Y = rnd 9\n2 if Y > 4 then Y = 0\n3 Z = 3\n4 Y = 1\n5 print Z\n");
+}
+
+// ---- variables that somebody looks at
+
+std::string lines_keeping(std::string_view text, const std::vector<std::string>& kept) {
+  NoFiles files;
+  return compile("test.orb", "test.orb", text, {}, files, kept).robot.text;
+}
+
+TEST(Kept, EveryValueIsStored) {
+  const std::string_view text = "lap = 5\ndelay 1s\nlap += 1\nprint lap\n";
+  EXPECT_EQ(lines(text), "1 delay 1000\n2 print 6\n");
+  EXPECT_EQ(lines_keeping(text, {"LAP"}), "1 L = 5\n2 delay 1000\n3 L = 6\n4 print 6\n");
+}
+
+TEST(Kept, NoOtherVariableHasItsLetter) {
+  const std::string_view text = "a = rnd(9)\nprint a\nb = rnd(9)\nprint b, b\nprint b\n";
+  NoFiles files;
+  const auto result = compile("test.orb", "test.orb", text, {}, files, {"a"});
+  EXPECT_EQ(letter_of(result, "A"), 0);
+  EXPECT_NE(letter_of(result, "b"), 0);
+  EXPECT_EQ(result.robot.text.find("3 A ="), std::string::npos) << result.robot.text;
+}
+
+TEST(Kept, WhatNothingSetsIsZero) {
+  NoFiles files;
+  const auto result =
+      compile("test.orb", "test.orb", "print 1\nsub unused\n  x = 3\n  print x\nend sub\n", {},
+              files, {"x"});
+  EXPECT_TRUE(letter_of(result, "x").has_value());
+  EXPECT_FALSE(letter_of(result, "y").has_value());
+  EXPECT_EQ(result.robot.text, "1 print 1\n");
+}
+
 TEST(Lines, NegativeNumbersAreDifferences) {
   EXPECT_EQ(lines("locate -5, xpos + -3\n"), "1 locate 0-5,xpos - 3\n");
   EXPECT_EQ(lines("print xpos * -4\n"), "1 print xpos * (0-4)\n");
@@ -156,11 +210,11 @@ TEST(Limits, AConstantThatIsDeeperThanItsVariableStaysAVariable) {
 }
 
 TEST(Limits, AConstantWhoseFoldingIsTooDeepStandsAsItIs) {
-  const auto text = lines(
-      "input y\na = yaw\nb = speed\nsense()\nprint a, b, y\n"
-      "sub sense()\n  local v\n"
-      "  input y, 5, 9 - a - (v + 1 / (sqrt(y) + 9 * (4 - b))) } (sqrt(a) - v * 8) - rnd(7)\n"
-      "end sub\n");
+  const auto text =
+      lines("input y\na = yaw\nb = speed\nsense()\nprint a, b, y\n"
+            "sub sense()\n  local v\n"
+            "  input y, 5, 9 - a - (v + 1 / (sqrt(y) + 9 * (4 - b))) } (sqrt(a) - v * 8) - rnd(7)\n"
+            "end sub\n");
   EXPECT_EQ(text.find('V'), std::string::npos) << text;
 }
 
@@ -307,6 +361,28 @@ TEST(FilesOf, VeryManyAreOneFinding) {
   EXPECT_EQ(result.program.diagnostics.size(), 1U);
 }
 
+TEST(FilesOf, VeryManyOfOneFileAreOneFinding) {
+  MapFiles files;
+  std::string includes;
+  std::string uses;
+  for (int i = 0; i < 200; ++i) {
+    files.texts[fmt::format("f{}.orb", i)] = fmt::format("const c{} = 1\n", i);
+    files.texts[fmt::format("f{}.macro", i)] =
+        fmt::format(".macro m{} id={}\ndelay 1\n", i, i + 32);
+    includes += fmt::format("include \"f{}.orb\"\n", i);
+    uses += fmt::format("use \"f{}.macro\"\n", i);
+  }
+  for (const auto& text : {includes, uses}) {
+    const auto result = compile("m", "m", text + "print 1\n", {}, files);
+    ASSERT_EQ(result.program.diagnostics.size(), 1U);
+    EXPECT_EQ(result.program.diagnostics.front().rule, &rules::MissingFile);
+  }
+}
+
+TEST(AnyBytes, AMarkBeforeTheTextIsNoPartOfIt) {
+  EXPECT_EQ(lines("\xEF\xBB\xBFprint 1\n"), "1 print 1\n");
+}
+
 TEST(AnyBytes, SubsThatCallEachOtherVeryOftenAreTooLarge) {
   std::string text = "s0\n";
   for (int i = 0; i < 20; ++i) {
@@ -315,7 +391,7 @@ TEST(AnyBytes, SubsThatCallEachOtherVeryOftenAreTooLarge) {
       text += fmt::format("  s{}\n", i + 1);
     text += "end sub\n";
   }
-  EXPECT_TRUE(compiled(text + "sub s20\n  print yaw\nend sub\n").has_errors());
+  EXPECT_EQ(first_rule(compiled(text + "sub s20\n  print yaw\nend sub\n")), "program-too-large");
 }
 
 TEST(FilesOf, MacrosAreCalledByName) {

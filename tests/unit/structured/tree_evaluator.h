@@ -22,6 +22,7 @@ public:
                 std::uint64_t seed)
       : program_(program), names_(names), host_(host), seeds_(mix(seed)),
         values_(names.symbols.size(), 0) {
+    done.resize(program.statements.size());
     elements_.fill(0);
     seeds_ += 0x9E3779B97F4A7C15U;
     random_ = mix(seeds_);
@@ -44,6 +45,10 @@ public:
     }
   }
 
+  /// What a variable of the whole program holds.
+  std::int32_t value_of(std::uint32_t symbol) const { return values_[symbol]; }
+
+  std::vector<bool> done;      ///< of each statement without a block: it has run to its end
   std::string end;             ///< `end`, the robot's error, or `running`
   std::uint32_t statement = 0; ///< the last one that was begun
   std::uint64_t steps = 0;
@@ -239,6 +244,7 @@ private:
         arguments.push_back(item(node, n).value);
       call(names_.of_statement[here], arguments);
     }
+    done[here] = true;
     if (node.kind == Kind::Return) {
       result_ = size(node) > 0 ? value(item(node, 0).value) : 0;
       return Way::Return;
