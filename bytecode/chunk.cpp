@@ -99,7 +99,7 @@ namespace {
 
 std::string register_name(const Chunk& chunk, std::uint16_t index) {
   if (index <= index_variable)
-    return std::string(1, static_cast<char>('A' + index));
+    return std::string(1, spec::letter_name(index));
   if (index < first_temporary)
     return fmt::format("Z({})", index - first_element + 1);
   if (index < chunk.first_constant())

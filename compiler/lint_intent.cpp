@@ -12,7 +12,7 @@ namespace {
 
 using spec::Statement;
 
-constexpr auto letters = static_cast<std::size_t>(spec::value_of(spec::Limit::DirectVariables));
+constexpr auto letters = spec::letter_count;
 
 /// What a statement shows until the next one of its kind.
 enum class Shows : std::uint8_t { Nothing, Colour, Roll };
@@ -241,7 +241,7 @@ private:
     const auto turn = spec::info(Statement::Goroll).parameters()[0].greatest + 1;
     auto& d = findings_.add(rules::HeadingGrows, sum.span,
                             fmt::format("`{}` is a heading and grows forever; headings end at {}",
-                                        static_cast<char>('A' + letter), turn - 1),
+                                        spec::letter_name(letter), turn - 1),
                             fmt::format("write `({}) % {}`", text, turn));
     d.fix = Fix{d.help,
                 {{{sum.span.begin, sum.span.begin}, "("},

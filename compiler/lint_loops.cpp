@@ -11,14 +11,10 @@
 namespace orb::compiler {
 namespace {
 
-constexpr std::uint32_t indexed = 25; // Z in masks and stacks of loop variables
+constexpr std::uint32_t indexed = spec::letter_count; // Z in masks and stacks of loop variables
 
 std::uint32_t variable_of(const Item& item) {
   return item.kind == ItemKind::Letter ? item.value : indexed;
-}
-
-char name_of(std::uint32_t variable) {
-  return static_cast<char>('A' + variable);
 }
 
 bool is(const StatementNode& node, spec::Statement kind) {
@@ -160,8 +156,9 @@ private:
   void check_unended() {
     for (const auto& node : program_.statements)
       if (is(node, spec::Statement::For) && (stepped_ & bit(counter_of(node))) == 0)
-        findings_.add(rules::ForWithoutNext, node.span,
-                      fmt::format("the loop has no `next {}`", name_of(counter_of(node))));
+        findings_.add(
+            rules::ForWithoutNext, node.span,
+            fmt::format("the loop has no `next {}`", spec::letter_name(counter_of(node))));
   }
 
   // ---- as they run
@@ -326,8 +323,9 @@ private:
   /// is the one.
   void add_next_of_nobody(std::uint32_t i) {
     const auto& node = statement(i);
-    auto& d = findings_.add(rules::NextWithoutFor, node.span,
-                            fmt::format("there is no `for {}`", name_of(stepped_by(node))));
+    auto& d =
+        findings_.add(rules::NextWithoutFor, node.span,
+                      fmt::format("there is no `for {}`", spec::letter_name(stepped_by(node))));
     std::optional<std::uint32_t> innermost;
     for (auto at = first_state_[i]; at != none; at = states_[at].next) {
       const auto& loops = states_[at].loops;
@@ -340,9 +338,9 @@ private:
     }
     if (!innermost || !lacks_next(*innermost))
       return;
-    d.help = fmt::format("write `next {}`", name_of(*innermost));
+    d.help = fmt::format("write `next {}`", spec::letter_name(*innermost));
     d.fix = single_fix(d.help, program_.as<NextView>(node).variable.span,
-                       std::string(1, name_of(*innermost)));
+                       std::string(1, spec::letter_name(*innermost)));
   }
 
   Diagnostic& add_depth(const StatementNode& node, const State& state) {
@@ -368,7 +366,7 @@ private:
       findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
       return;
     }
-    const auto innermost = name_of(loops.innermost());
+    const auto innermost = spec::letter_name(loops.innermost());
     findings_.add(rules::NextWithoutFor, node.span,
                   fmt::format("the innermost loop counts in `{}`", innermost),
                   fmt::format("end it first: `next {}`", innermost));

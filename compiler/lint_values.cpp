@@ -12,15 +12,12 @@
 namespace orb::compiler {
 namespace {
 
-constexpr std::size_t letters = 25; // A to Y
-constexpr std::uint32_t index_letter = 24;
+using spec::letter_name;
+
+constexpr auto letters = spec::letter_count;
+constexpr std::uint32_t index_letter = letters - 1; // Y
 constexpr std::int32_t full_turn =
     spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1; // degrees
-static_assert(letters == spec::value_of(spec::Limit::DirectVariables));
-
-char letter_name(std::uint32_t index) {
-  return static_cast<char>('A' + index);
-}
 
 constexpr std::uint32_t bit(std::uint32_t n) {
   return std::uint32_t{1} << n;

@@ -1,7 +1,6 @@
 // What a debugger shows of a run that stands still, as names and values.
 
 #include "debug/debugger.h"
-#include "spec/ball.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -31,8 +30,8 @@ bool uses_array(const compiler::Program& program) {
                      [](const auto& one) { return one.kind == compiler::ItemKind::Indexed; });
 }
 
-std::string letter_name(std::size_t letter) {
-  return std::string(1, static_cast<char>('A' + letter));
+std::string name_of(std::size_t letter) {
+  return std::string(1, spec::letter_name(letter));
 }
 
 } // namespace
@@ -45,7 +44,7 @@ std::vector<Variable> Debugger::variables() const {
     return all;
   if (!input->program->compiled) {
     for (const auto letter : letters_in(input->program->parsed))
-      all.push_back({letter_name(letter), fmt::format("{}", machine.variable(letter)), "", letter});
+      all.push_back({name_of(letter), fmt::format("{}", machine.variable(letter)), "", letter});
     return all;
   }
   const auto& compiled = *input->program->compiled;
@@ -56,7 +55,7 @@ std::vector<Variable> Debugger::variables() const {
     if (line->symbols[i] != structured::none)
       all.push_back(
           {std::string(compiled.program.name(compiled.names.symbols[line->symbols[i]].name)),
-           fmt::format("{}", machine.variable(i)), letter_name(i), i});
+           fmt::format("{}", machine.variable(i)), name_of(i), i});
   std::sort(all.begin(), all.end(),
             [](const Variable& a, const Variable& b) { return a.name < b.name; });
   return all;
@@ -146,7 +145,7 @@ std::vector<Variable> Debugger::limits() const {
      spec::value_of(spec::Limit::RamBytes), "bytes");
   for (std::size_t i = 1; i <= loops; ++i) {
     const auto& loop = core.frames.loops[i];
-    const auto name = loop.variable < letters ? letter_name(loop.variable) : std::string("Z");
+    const auto name = loop.variable < letters ? name_of(loop.variable) : std::string("Z");
     all.push_back({fmt::format("for {}", name), fmt::format("to {} step {}", loop.end, loop.step),
                    "", std::nullopt});
   }

@@ -9,8 +9,7 @@
 
 namespace orb::debug {
 
-inline constexpr auto letters =
-    static_cast<std::size_t>(spec::value_of(spec::Limit::DirectVariables));
+inline constexpr auto letters = spec::letter_count;
 /// Of each letter a symbol of the structured program, or structured::none.
 using Holders = std::array<std::uint32_t, letters>;
 

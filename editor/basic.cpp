@@ -160,7 +160,7 @@ std::string letter_markdown(const Source& source, const Program& program,
           ? std::string(
                 "**`Z`** (variable): the element of the indexed set that `Y` names, 1 to 25")
           : fmt::format("**`{}`** (variable): a whole number of 32 bits, 0 when the program begins",
-                        static_cast<char>('A' + letter));
+                        spec::letter_name(letter));
   return fmt::format("{}\n\n- set: {}\n- read: {}\n", what, set, read);
 }
 

@@ -150,7 +150,7 @@ std::map<std::uint32_t, char> letters_of(const Compiled& compiled) {
     const auto symbol = compiled.code.variables[v].symbol;
     if (symbol != none && compiled.letters.of[v] != structured::no_letter)
       letters[compiled.names.symbols[symbol].span.begin] =
-          static_cast<char>('A' + compiled.letters.of[v]);
+          spec::letter_name(compiled.letters.of[v]);
   }
   return letters;
 }

@@ -303,7 +303,7 @@ public:
 
 private:
   std::string name_of_letter(std::size_t letter) const {
-    return names_ == nullptr ? std::string(1, static_cast<char>('A' + letter)) : (*names_)[letter];
+    return names_ == nullptr ? std::string(1, spec::letter_name(letter)) : (*names_)[letter];
   }
 
   /// An expression as the source may have it; empty where it holds what the source does not name,
@@ -523,7 +523,7 @@ public:
   static std::string name_of(const vm::Loop& loop) {
     return loop.variable == bytecode::element_by_index
                ? "Z"
-               : std::string(1, static_cast<char>('A' + loop.variable));
+               : std::string(1, spec::letter_name(loop.variable));
   }
 
   Cause next_without_loop() const {

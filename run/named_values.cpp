@@ -13,8 +13,6 @@ namespace {
 using compiler::ItemKind;
 using compiler::NodeKind;
 
-constexpr std::size_t index_letter = bytecode::first_element - 1; // Y says which element Z is
-
 /// Calls `call` with the number of each line that runs and its statements.
 template <class Call>
 void each_line(const compiler::Program& program, Call call) {
@@ -54,7 +52,7 @@ void NamedValues::take_letters(const compiler::Program& program, Known& known) {
           continue;
         const auto [at, fresh] = variables.try_emplace(item.value, known.size());
         if (fresh)
-          known.emplace_back(std::string(1, static_cast<char>('A' + item.value)), "");
+          known.emplace_back(std::string(1, spec::letter_name(item.value)), "");
         lines_[number].held.push_back({item.value, at->second});
       }
   });
@@ -115,7 +113,7 @@ void NamedValues::line_ended(Duration t, int line, const vm::Machine& machine,
     journey.note(t, variable, machine.variable(place));
   if (!found->second.sets_element)
     return;
-  const auto element = machine.variable(index_letter);
+  const auto element = machine.variable(bytecode::index_variable);
   const auto variable = elements_.find(static_cast<std::size_t>(element));
   if (element > 0 && variable != elements_.end())
     journey.note(t, variable->second,

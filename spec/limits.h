@@ -38,4 +38,10 @@ constexpr std::int32_t value_of(Limit limit) {
   return info(limit).value;
 }
 
+/// The variables that have letters of their own: A, B and so on.
+inline constexpr auto letter_count = static_cast<std::size_t>(value_of(Limit::DirectVariables));
+constexpr char letter_name(std::size_t letter) {
+  return static_cast<char>('A' + letter);
+}
+
 } // namespace orb::spec

@@ -267,8 +267,7 @@ std::string readable(const Compiled& compiled) {
     if (symbol == none || compiled.letters.of[v] == no_letter)
       continue;
     const auto name = compiled.program.name(compiled.names.symbols[symbol].name);
-    const auto line =
-        fmt::format("' {}: {}\n", static_cast<char>('A' + compiled.letters.of[v]), name);
+    const auto line = fmt::format("' {}: {}\n", spec::letter_name(compiled.letters.of[v]), name);
     if (variables.find(line) == std::string::npos)
       variables += line;
   }

@@ -259,7 +259,7 @@ private:
 
   void end_loop(State state) {
     auto& step = ways_.steps[state.step];
-    const auto name = static_cast<char>('A' + variable_of(state.step));
+    const auto name = spec::letter_name(variable_of(state.step));
     const auto loop = state.loop_depth > 0 ? state.loops[state.loop_depth - 1] : none;
     if (loop == none || variable_of(loop) != variable_of(state.step))
       return stop(state,

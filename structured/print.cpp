@@ -75,7 +75,7 @@ private:
   void put_label(std::uint32_t label) { put(std::int64_t{numbers_[label]}); }
   void put_variable(std::uint32_t variable) {
     const auto letter = letters_.of[variable];
-    put(static_cast<char>('A' + (letter == no_letter ? 0 : letter)));
+    put(spec::letter_name(letter == no_letter ? 0 : letter));
     if (const auto symbol = code_.variables[variable].symbol; symbol != none)
       result_.names.push_back({letter, symbol});
   }
