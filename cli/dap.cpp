@@ -1,28 +1,16 @@
 #include "editor/dap.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/wire.h"
 #include "editor/wire.h"
 
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <memory>
-#include <poll.h>
 #include <unistd.h>
 
 namespace orb::cli {
 namespace {
-
-void print_all(const std::vector<std::string>& messages) {
-  for (const auto& message : messages)
-    print_out(editor::frame(message));
-}
-
-/// Whether the client has said something, or is gone.
-bool client_speaks() {
-  pollfd input{STDIN_FILENO, POLLIN, 0};
-  return ::poll(&input, 1, 0) > 0;
-}
 
 /// Serves until the client says `disconnect` or goes away.
 ExitCode serve() {
@@ -33,7 +21,7 @@ ExitCode serve() {
   std::array<char, 65536> bytes{};
   for (;;) {
     while (adapter.busy() && !client_speaks())
-      print_all(adapter.work(client_speaks));
+      send_all(adapter.work(client_speaks));
     const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR)
       continue;
@@ -41,8 +29,8 @@ ExitCode serve() {
       return adapter.ended() ? ExitCode::Done : ExitCode::BadInput; // gone without a word
     reader.feed({bytes.data(), static_cast<std::size_t>(n)});
     while (const auto event = reader.next()) {
-      print_all(event->is_error ? adapter.receive_garbage(event->text)
-                                : adapter.receive(event->text));
+      send_all(event->is_error ? adapter.receive_garbage(event->text)
+                               : adapter.receive(event->text));
       if (adapter.ended())
         return ExitCode::Done;
     }
@@ -56,9 +44,8 @@ void add_dap(CLI::App& app, Context& context) {
       add_command(app, "dap", "serve debuggers over stdin and stdout (Debug Adapter Protocol)",
                   "orb dap\n"
                   "orb dap --stdio");
-  auto stdio = std::make_shared<bool>(false);
-  command->add_flag("--stdio", *stdio, "for editors that insist on it; it changes nothing");
-  command->callback([&context, stdio] { context.exit = serve(); });
+  add_stdio_flag(*command);
+  command->callback([&context] { context.exit = serve(); });
 }
 
 } // namespace orb::cli

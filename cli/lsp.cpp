@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/wire.h"
 #include "editor/language_server.h"
 #include "editor/wire.h"
 #include "run/input.h"
@@ -9,17 +10,10 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <memory>
-#include <poll.h>
 #include <unistd.h>
 
 namespace orb::cli {
 namespace {
-
-void print_all(const std::vector<std::string>& messages) {
-  for (const auto& message : messages)
-    print_out(editor::frame(message));
-}
 
 /// The files that an editor's folders hold.
 class DiskFolders final : public editor::Folders {
@@ -50,12 +44,6 @@ public:
   }
 };
 
-/// Whether something can be read without waiting.
-bool has_input() {
-  pollfd in{STDIN_FILENO, POLLIN, 0};
-  return ::poll(&in, 1, 0) > 0;
-}
-
 /// Serves until the client says `exit` or goes away.
 ExitCode serve() {
   DiskFiles disk;
@@ -65,7 +53,7 @@ ExitCode serve() {
   std::array<char, 65536> bytes{};
   for (bool open = true; open || server.has_waiting();) {
     // What has arrived is taken before the next answer, so that it can cancel what waits.
-    if (open && (!server.has_waiting() || has_input())) {
+    if (open && (!server.has_waiting() || client_speaks())) {
       const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
       if (n < 0 && errno == EINTR)
         continue;
@@ -78,7 +66,7 @@ ExitCode serve() {
           server.take(event->text);
       }
     }
-    print_all(server.answer_next());
+    send_all(server.answer_next());
     if (const auto well = server.ended_well())
       return *well ? ExitCode::Done : ExitCode::BadInput;
   }
@@ -92,9 +80,8 @@ void add_lsp(CLI::App& app, Context& context) {
       add_command(app, "lsp", "serve editors over stdin and stdout (Language Server Protocol)",
                   "orb lsp\n"
                   "orb lsp --stdio");
-  auto stdio = std::make_shared<bool>(false);
-  command->add_flag("--stdio", *stdio, "for editors that insist on it; it changes nothing");
-  command->callback([&context, stdio] { context.exit = serve(); });
+  add_stdio_flag(*command);
+  command->callback([&context] { context.exit = serve(); });
 }
 
 } // namespace orb::cli

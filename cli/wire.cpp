@@ -1,0 +1,25 @@
+#include "cli/wire.h"
+
+#include "cli/commands.h"
+#include "editor/wire.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace orb::cli {
+
+void send_all(const std::vector<std::string>& messages) {
+  for (const auto& message : messages)
+    print_out(editor::frame(message));
+}
+
+bool client_speaks() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return ::poll(&input, 1, 0) > 0;
+}
+
+void add_stdio_flag(CLI::App& command) {
+  command.add_flag("--stdio")->description("for editors that insist on it; it changes nothing");
+}
+
+} // namespace orb::cli
