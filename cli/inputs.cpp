@@ -65,8 +65,7 @@ void add_stimulus_option(CLI::App& command, std::vector<std::string>& stimuli) {
 }
 
 bool is_stimulus_line(const std::string& given) {
-  return (given.starts_with("at ") || given.starts_with("wall ")) &&
-         !std::filesystem::exists(given);
+  return vm::is_stimulus_line(given) && !std::filesystem::exists(given);
 }
 
 tl::expected<std::vector<vm::TimedStimulus>, Failure>
@@ -85,8 +84,7 @@ read_stimuli(const Context& context, const std::vector<std::string>& given) {
     }
     events.insert(events.end(), script.events.begin(), script.events.end());
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  vm::sort_by_time(events);
   return events;
 }
 
@@ -113,9 +111,9 @@ bool print_findings(const Context& context, const Source& source,
                     const std::vector<Diagnostic>& findings) {
   bool errors = false;
   for (const auto& diagnostic : findings) {
-    const bool is_error = diagnostic.severity == Severity::Error;
-    errors = errors || is_error;
-    if (is_error || (!context.quiet && diagnostic.severity == Severity::Warning) ||
+    const bool error = is_error(diagnostic);
+    errors = errors || error;
+    if (error || (!context.quiet && diagnostic.severity == Severity::Warning) ||
         context.verbosity > 0)
       print_err(render_text(source, diagnostic, context.err_style()));
   }

@@ -16,7 +16,7 @@ tl::unexpected<Failure> failed(ExitCode code, std::string message) {
 /// The first error among findings, with its place; nothing where there is none.
 std::optional<std::string> first_error(const Source& source, const std::vector<Diagnostic>& found) {
   for (const auto& one : found)
-    if (one.severity == Severity::Error) {
+    if (is_error(one)) {
       const auto place = source.position(one.span.begin);
       return fmt::format("{}:{}:{}: {}", source.name(), place.line, place.column, one.message);
     }
@@ -61,7 +61,7 @@ tl::expected<void, Failure> read_stimuli(const Launch& launch, structured::Files
                                          Launched& made) {
   auto& events = made.options.stimuli;
   for (const auto& one : launch.stimuli) {
-    const bool is_line = one.starts_with("at ") || one.starts_with("wall ");
+    const bool is_line = vm::is_stimulus_line(one);
     auto text = is_line ? tl::expected<std::string, Failure>(one) : text_of(one, files);
     if (!text)
       return tl::unexpected(text.error());
@@ -71,8 +71,7 @@ tl::expected<void, Failure> read_stimuli(const Launch& launch, structured::Files
       return failed(ExitCode::BadInput, *std::move(wrong));
     events.insert(events.end(), script.events.begin(), script.events.end());
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  vm::sort_by_time(events);
   return {};
 }
 

@@ -278,8 +278,7 @@ private:
   void complete(Test& test) {
     auto stimuli = head_;
     stimuli.insert(stimuli.end(), test.stimuli.begin(), test.stimuli.end());
-    std::stable_sort(stimuli.begin(), stimuli.end(),
-                     [](const auto& a, const auto& b) { return a.at < b.at; });
+    vm::sort_by_time(stimuli);
     test.stimuli = std::move(stimuli);
     test.stimulus_lines.insert(test.stimulus_lines.begin(), head_lines_.begin(), head_lines_.end());
     if (!has_tests_) {

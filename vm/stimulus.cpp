@@ -239,9 +239,17 @@ StimulusScript parse_stimulus(const Source& source) {
   StimulusScript script;
   for (std::uint32_t line = 1; line <= source.line_count(); ++line)
     read_stimulus_line(source, line, script);
-  std::stable_sort(script.events.begin(), script.events.end(),
-                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  sort_by_time(script.events);
   return script;
+}
+
+bool is_stimulus_line(std::string_view text) {
+  return text.starts_with("at ") || text.starts_with("wall ");
+}
+
+void sort_by_time(std::vector<TimedStimulus>& events) {
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
 }
 
 } // namespace orb::vm

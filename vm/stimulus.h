@@ -90,6 +90,12 @@ struct StimulusScript {
 
 StimulusScript parse_stimulus(const Source& source);
 
+/// Whether a text is itself a line of a script, such as `at 2s shake`, where a file could be named.
+bool is_stimulus_line(std::string_view text);
+
+/// Orders by time; equals stay as they are.
+void sort_by_time(std::vector<TimedStimulus>& events);
+
 /// Reads one line (from 1) of a text that may hold other lines, too, and adds to `script`.
 void read_stimulus_line(const Source& source, std::uint32_t line, StimulusScript& script);
 
