@@ -21,21 +21,10 @@ using compiler::WordKind;
 
 void color_word(Palette& palette, Span span, compiler::Word word) {
   switch (word.kind) {
-  case WordKind::Statement: {
-    const auto& row = spec::statements[word.index];
-    if (directs_the_flow(row))
-      palette.add(span, Color::Keyword);
-    else
-      palette.add(span, Color::Function, Robots);
-    break;
-  }
+  case WordKind::Statement: color_statement(palette, span, spec::statements[word.index]); break;
   case WordKind::Particle: palette.add(span, Color::Keyword); break;
   case WordKind::Function: palette.add(span, Color::Function, Robots); break;
-  case WordKind::Variable: {
-    const bool fixed = spec::variables[word.index].access != spec::Access::ReadWrite;
-    palette.add(span, Color::Variable, Robots | (fixed ? Fixed : Plain));
-    break;
-  }
+  case WordKind::Variable: color_system(palette, span, spec::variables[word.index]); break;
   case WordKind::Letter:
   case WordKind::Unknown: break;
   }
@@ -105,10 +94,7 @@ std::vector<Fold> folds(const Source& source) {
 std::vector<Span> around(const Source& source, std::uint32_t offset) {
   const auto program = compiler::parse(source.text());
   std::vector<Span> spans;
-  const auto add = [&](Span span) {
-    if (touches(span, offset))
-      spans.push_back(span);
-  };
+  const auto add = [&](Span span) { spans.push_back(span); };
   for (const auto& token : tokens_at(source, offset, basic_lexis))
     add(token.span);
   for (const auto& node : program.nodes)

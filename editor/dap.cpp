@@ -1,12 +1,14 @@
 #include "editor/dap.h"
 
 #include "base/duration.h"
+#include "base/source.h"
 #include "base/text.h"
 #include "base/utf8.h"
 #include "debug/debugger.h"
 #include "debug/launch.h"
 #include "debug/shell.h"
 #include "editor/wording.h"
+#include "vm/stimulus.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -151,9 +153,7 @@ struct DebugAdapter::State final : debug::Console {
   }
   Json source(std::uint32_t file) const {
     const auto& name = debugger->sources().files()[file].name;
-    const auto slash = name.rfind('/');
-    return {{"name", name.substr(slash == std::string::npos ? 0 : slash + 1)},
-            {"path", absolute(name)}};
+    return {{"name", file_name(name)}, {"path", absolute(name)}};
   }
   /// The file of the run that the client names; nothing where it is another.
   std::optional<std::uint32_t> file_of(const Json& source) const {
@@ -403,7 +403,7 @@ Answer DebugAdapter::State::launch(const Json& arguments) {
   for (const auto& file : texts_of(member(arguments, "files")))
     wanted.files.push_back(path(file));
   for (const auto& one : texts_of(member(arguments, "stimulus")))
-    wanted.stimuli.push_back(one.starts_with("at ") || one.starts_with("wall ") ? one : path(one));
+    wanted.stimuli.push_back(vm::is_stimulus_line(one) ? one : path(one));
   wanted.course = path(text_of(member(arguments, "course")));
   wanted.test = path(text_of(member(arguments, "test")));
   wanted.test_name = text_of(member(arguments, "testName"));
@@ -678,9 +678,7 @@ Answer DebugAdapter::State::evaluate(const Json& arguments) {
 
 /// A command of the debug console; an error without words where it is none.
 Answer DebugAdapter::State::console(std::string_view line) {
-  const auto blank = std::min(line.find(' '), line.size());
-  const auto word = line.substr(0, blank);
-  const auto rest = trim(line.substr(blank));
+  const auto [word, rest] = debug::split(line);
   const auto said = [](std::string text) {
     return Json{{"result", std::move(text)}, {"variablesReference", 0}};
   };
@@ -763,7 +761,6 @@ void DebugAdapter::State::take(const Stop& why) {
   }
   case Stop::Reason::Fault: return stopped("exception", why, "Error of the robot");
   case Stop::Reason::Time: return stopped("pause", why, "Time reached");
-  case Stop::Reason::Pause:
   case Stop::Reason::GivenUp: return stopped("pause", why);
   case Stop::Reason::Begin: return stopped("entry", why, "Beginning of the run");
   case Stop::Reason::Input:

@@ -113,6 +113,13 @@ struct LanguageService {
   std::vector<Hint> (*hints)(const Source& source, const LanguageOptions& options) = nullptr;
 };
 
+/// What a language answers that has no such thing.
+namespace nothing {
+Occurrences occurrences(const Source& source, std::uint32_t offset, const LanguageOptions& options);
+std::optional<std::string> format(const Source& source);
+std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& options);
+} // namespace nothing
+
 extern const LanguageService basic_service;
 extern const LanguageService structured_service;
 extern const LanguageService macro_service;

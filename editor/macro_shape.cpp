@@ -102,10 +102,7 @@ std::vector<Fold> folds(const Source& source) {
 std::vector<Span> around(const Source& source, std::uint32_t offset) {
   const auto program = assembler::parse(source.text());
   std::vector<Span> spans;
-  const auto add = [&](Span span) {
-    if (touches(span, offset))
-      spans.push_back(span);
-  };
+  const auto add = [&](Span span) { spans.push_back(span); };
   for (const auto& token : tokens_at(source, offset, macro_lexis))
     add(token.span);
   for (const auto& statement : program.statements) {

@@ -44,6 +44,18 @@ void color_token(Palette& palette, const Token& token) {
   }
 }
 
+void color_statement(Palette& palette, Span span, const spec::StatementInfo& row) {
+  if (directs_the_flow(row))
+    palette.add(span, Color::Keyword);
+  else
+    palette.add(span, Color::Function, Robots);
+}
+
+void color_system(Palette& palette, Span span, const spec::VariableInfo& row) {
+  palette.add(span, Color::Variable,
+              Robots | (row.access == spec::Access::ReadWrite ? Plain : Fixed));
+}
+
 std::vector<Fold> comment_folds(const Source& source, char comment) {
   std::vector<Fold> folds;
   std::uint32_t first = 0;

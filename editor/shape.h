@@ -104,7 +104,7 @@ struct LanguageShape {
   /// In the order of the text, none over another, none over more than one line.
   std::vector<Colored> (*colors)(const Source& source, const LanguageOptions& options);
   std::vector<Fold> (*folds)(const Source& source);
-  /// Everything that is a unit and holds `offset`, in any order; the text and its lines excepted.
+  /// Units that may hold `offset`, in any order; the text and its lines excepted. nested() chooses.
   std::vector<Span> (*around)(const Source& source, std::uint32_t offset);
   std::optional<Signature> (*signature)(const Source& source, std::uint32_t offset,
                                         const LanguageOptions& options);
@@ -135,6 +135,10 @@ private:
 
 /// Adds what is told by the kind of a token alone; a word is nothing by itself.
 void color_token(Palette& palette, const Token& token);
+
+/// Adds a word that is a statement of the robot, or one of its variables.
+void color_statement(Palette& palette, Span span, const spec::StatementInfo& row);
+void color_system(Palette& palette, Span span, const spec::VariableInfo& row);
 
 /// Runs of lines that hold only a comment.
 std::vector<Fold> comment_folds(const Source& source, char comment);

@@ -30,26 +30,15 @@ std::vector<Symbol> outline(const Source&) {
   return {};
 }
 
-Occurrences occurrences(const Source&, std::uint32_t, const LanguageOptions&) {
-  return {};
-}
-
 tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::string_view,
                                            const LanguageOptions&) {
   return tl::unexpected(std::string("nothing in a stimulus script can be renamed"));
 }
 
-std::optional<std::string> format(const Source&) {
-  return std::nullopt;
-}
-
-std::vector<Rewrite> rewrites(const Source&, const LanguageOptions&) {
-  return {};
-}
-
 } // namespace
 
-const LanguageService stimulus_service = {check,  hover,  suggest,  outline,        occurrences,
-                                          rename, format, rewrites, &stimulus_shape};
+const LanguageService stimulus_service = {
+    check,  hover,           suggest,           outline,        nothing::occurrences,
+    rename, nothing::format, nothing::rewrites, &stimulus_shape};
 
 } // namespace orb::editor

@@ -44,7 +44,7 @@ void color_name(Palette& palette, const Reading& reading, const NameUse& use) {
   }
   switch (reading.names.symbols[use.meaning.symbol].kind) {
   case SymbolKind::Variable:
-  case SymbolKind::Local: palette.add(use.span, Color::Variable, set); break;
+  case SymbolKind::Local:
   case SymbolKind::Array: palette.add(use.span, Color::Variable, set); break;
   case SymbolKind::Parameter: palette.add(use.span, Color::Parameter, set); break;
   case SymbolKind::Constant: palette.add(use.span, Color::Variable, Fixed | declared); break;
@@ -57,18 +57,9 @@ void color_word(Palette& palette, Span span, structured::Word word) {
   switch (word.kind) {
   case WordKind::Name: break;
   case WordKind::Keyword: palette.add(span, Color::Keyword); break;
-  case WordKind::Statement:
-    if (directs_the_flow(spec::statements[word.index]))
-      palette.add(span, Color::Keyword);
-    else
-      palette.add(span, Color::Function, Robots);
-    break;
+  case WordKind::Statement: color_statement(palette, span, spec::statements[word.index]); break;
   case WordKind::Function: palette.add(span, Color::Function, Robots); break;
-  case WordKind::Variable: {
-    const bool fixed = spec::variables[word.index].access != spec::Access::ReadWrite;
-    palette.add(span, Color::Variable, Robots | (fixed ? Fixed : Plain));
-    break;
-  }
+  case WordKind::Variable: color_system(palette, span, spec::variables[word.index]); break;
   }
 }
 
@@ -117,10 +108,7 @@ std::vector<Span> around(const Source& source, std::uint32_t offset) {
   const auto reading = read_structured(source, {});
   const auto& program = reading.program;
   std::vector<Span> spans;
-  const auto add = [&](Span span) {
-    if (touches(span, offset))
-      spans.push_back(span);
-  };
+  const auto add = [&](Span span) { spans.push_back(span); };
   for (const auto& token : tokens_at(source, offset, structured_lexis))
     add(token.span);
   for (const auto& node : program.nodes)

@@ -120,26 +120,15 @@ std::vector<Symbol> outline(const Source& source) {
   return symbols;
 }
 
-Occurrences occurrences(const Source&, std::uint32_t, const LanguageOptions&) {
-  return {};
-}
-
 tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::string_view,
                                            const LanguageOptions&) {
   return tl::unexpected(std::string("nothing in a test file can be renamed"));
 }
 
-std::optional<std::string> format(const Source&) {
-  return std::nullopt;
-}
-
-std::vector<Rewrite> rewrites(const Source&, const LanguageOptions&) {
-  return {};
-}
-
 } // namespace
 
-const LanguageService test_service = {check,  hover,  suggest,  outline,    occurrences,
-                                      rename, format, rewrites, &test_shape};
+const LanguageService test_service = {
+    check,  hover,           suggest,           outline,    nothing::occurrences,
+    rename, nothing::format, nothing::rewrites, &test_shape};
 
 } // namespace orb::editor

@@ -35,15 +35,21 @@ void color_lines(Palette& palette, const Source& source) {
   }
 }
 
+/// The files that a test file names.
+std::vector<testing::Named> files_in(const testing::TestFile& file) {
+  std::vector<testing::Named> names;
+  for (const auto* name : {&file.program, &file.course})
+    if (*name)
+      names.push_back(**name);
+  names.insert(names.end(), file.with.begin(), file.with.end());
+  return names;
+}
+
 std::vector<Colored> test_colors(const Source& source, const LanguageOptions&) {
   const auto file = testing::parse(source);
   Palette palette;
-  const auto is_path = [&](const testing::Named& name) { palette.add(name.span, Color::String); };
-  for (const auto* name : {&file.program, &file.course})
-    if (*name)
-      is_path(**name);
-  for (const auto& name : file.with)
-    is_path(name);
+  for (const auto& name : files_in(file))
+    palette.add(name.span, Color::String);
   for (const auto& test : file.tests)
     for (const auto& one : test.expectations) {
       if (!one.name.text.empty())
@@ -114,17 +120,10 @@ std::optional<Signature> test_signature(const Source& source, std::uint32_t offs
 }
 
 std::vector<Link> test_links(const Source& source) {
-  const auto file = testing::parse(source);
   const auto folder = path_of_uri(source.name());
   std::vector<Link> links;
-  const auto add = [&](const testing::Named& name) {
+  for (const auto& name : files_in(testing::parse(source)))
     links.push_back({name.span, structured::resolve_path(folder, name.text)});
-  };
-  for (const auto* name : {&file.program, &file.course})
-    if (*name)
-      add(**name);
-  for (const auto& name : file.with)
-    add(name);
   return links;
 }
 

@@ -1,5 +1,6 @@
 // What the orbBasic tables know.
 
+#include "base/text.h"
 #include "compiler/foreign.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
@@ -60,7 +61,6 @@ std::string example(const spec::StatementInfo& row) {
 
 /// Whether a usage line names `word` as a word of its own.
 bool names(std::string_view usage, std::string_view word) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   for (auto at = usage.find(word); at != std::string_view::npos; at = usage.find(word, at + 1)) {
     const auto end = at + word.size();
     if ((at == 0 || !is_letter(usage[at - 1])) && (end == usage.size() || !is_letter(usage[end])))
