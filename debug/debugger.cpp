@@ -1,8 +1,6 @@
 #include "debug/debugger.h"
 
-#include "base/duration.h"
 #include "base/text.h"
-#include "spec/ball.h"
 
 #include <algorithm>
 #include <cctype>
@@ -33,13 +31,18 @@ std::string fault_text(const run::ProgramError& fault) {
   return text;
 }
 
-/// The array of a structured program of that name; null where there is none.
-const structured::Symbol* array_of(const structured::Compiled& compiled, std::string_view name) {
+/// The symbol of a structured program that has that name, and is what is looked for; or null.
+template <class Is>
+const structured::Symbol* symbol_called(const structured::Compiled& compiled, std::string_view name,
+                                        Is is) {
   for (const auto& symbol : compiled.names.symbols)
-    if (symbol.kind == structured::SymbolKind::Array &&
-        equal_words(compiled.program.name(symbol.name), name))
+    if (is(symbol) && equal_words(compiled.program.name(symbol.name), name))
       return &symbol;
   return nullptr;
+}
+
+auto is_a(structured::SymbolKind kind) {
+  return [kind](const structured::Symbol& symbol) { return symbol.kind == kind; };
 }
 
 } // namespace
@@ -382,12 +385,11 @@ std::optional<std::size_t> Debugger::register_of(std::string_view name) const {
 std::string Debugger::missing(std::string_view name) const {
   const auto* input = sources_.input(timeline_->ball().basic_area());
   if (input != nullptr && input->program->compiled) {
-    const auto& compiled = *input->program->compiled;
-    for (const auto& symbol : compiled.names.symbols)
-      if (equal_words(compiled.program.name(symbol.name), name))
-        return fmt::format("the robot does not hold `{}` here: it is not needed any more, or the "
-                           "compiler knew its value",
-                           name);
+    const auto any = [](const structured::Symbol&) { return true; };
+    if (symbol_called(*input->program->compiled, name, any) != nullptr)
+      return fmt::format("the robot does not hold `{}` here: it is not needed any more, or the "
+                         "compiler knew its value",
+                         name);
   }
   return fmt::format("there is no variable `{}` here", name);
 }
@@ -397,11 +399,9 @@ std::optional<std::int32_t> Debugger::variable(std::string_view name) const {
     return timeline_->ball().machine().variable(*found);
   const auto* input = sources_.input(timeline_->ball().basic_area());
   if (input != nullptr && input->program->compiled) {
-    const auto& compiled = *input->program->compiled;
-    for (const auto& symbol : compiled.names.symbols)
-      if (symbol.kind == structured::SymbolKind::Constant &&
-          equal_words(compiled.program.name(symbol.name), name))
-        return symbol.value;
+    const auto constant = is_a(structured::SymbolKind::Constant);
+    if (const auto* found = symbol_called(*input->program->compiled, name, constant))
+      return found->value;
   }
   if (equal_words(name, time_word))
     return static_cast<std::int32_t>((moving_at_ ? *moving_at_ : timeline_->time()) /
@@ -419,7 +419,8 @@ std::optional<std::size_t> Debugger::element_register(std::string_view name,
   std::int32_t base = 0;
   std::int32_t size = bytecode::element_count;
   if (input->program->compiled) {
-    const auto* array = array_of(*input->program->compiled, name);
+    const auto* array =
+        symbol_called(*input->program->compiled, name, is_a(structured::SymbolKind::Array));
     if (array == nullptr)
       return std::nullopt;
     base = array->base;

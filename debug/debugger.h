@@ -55,7 +55,6 @@ struct Stop {
     Step,
     Breakpoint,
     Fault, ///< the robot's error: `text`
-    Pause, ///< as it was asked to
     Time,  ///< the instant that was asked for
     Input, ///< it waits for a number
     End,

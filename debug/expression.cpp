@@ -154,8 +154,7 @@ tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
   auto program = std::make_shared<structured::Program>();
   structured::parse(*program, "expression", "", fmt::format("{}{} then end\n", lead, text));
   const auto wrong =
-      std::find_if(program->diagnostics.begin(), program->diagnostics.end(),
-                   [](const Diagnostic& one) { return one.severity == Severity::Error; });
+      std::find_if(program->diagnostics.begin(), program->diagnostics.end(), is_error);
   if (wrong != program->diagnostics.end())
     return tl::unexpected(wrong->help.empty() ? wrong->message
                                               : fmt::format("{}; {}", wrong->message, wrong->help));

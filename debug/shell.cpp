@@ -12,17 +12,6 @@
 namespace orb::debug {
 namespace {
 
-struct Split {
-  std::string_view word;
-  std::string_view rest;
-};
-
-Split split(std::string_view line) {
-  line = trim(line);
-  const auto blank = std::min(line.find_first_of(" \t"), line.size());
-  return {line.substr(0, blank), trim(line.substr(blank))};
-}
-
 tl::expected<std::string, std::string> said(std::string text) {
   return text;
 }
@@ -32,6 +21,12 @@ tl::unexpected<std::string> wrong_because(std::string text) {
 }
 
 } // namespace
+
+Split split(std::string_view line) {
+  line = trim(line);
+  const auto blank = std::min(line.find_first_of(" \t"), line.size());
+  return {line.substr(0, blank), trim(line.substr(blank))};
+}
 
 std::optional<tl::expected<std::string, std::string>> change_by_words(Debugger& debugger,
                                                                       std::string_view line) {
@@ -101,7 +96,7 @@ std::span<const Shell::Row> Shell::rows() {
   return table;
 }
 
-/// The command of that name, or the only one that begins so.
+/// The command of that name, or the first that begins so.
 const Shell::Row* Shell::find(std::string_view word) const {
   const Row* found = nullptr;
   for (const auto& row : rows()) {
@@ -128,8 +123,8 @@ void Shell::obey(std::string_view line, const GiveUp& give_up) {
   std::vector<std::string_view> words;
   for (const auto& one : rows())
     words.push_back(one.word);
-  wrong(
-      fmt::format("`{}` is no command; {}", word, did_you_mean(word, words, "`help` lists them")));
+  wrong(fmt::format("`{}` is not a command; {}", word,
+                    did_you_mean(word, words, "`help` lists them")));
 }
 
 // --- moving -------------------------------------------------------------------------------------
@@ -188,7 +183,6 @@ void Shell::report(const Stop& stop) {
                              stop.text.empty() ? "" : ": ", stop.text));
     break;
   case Stop::Reason::Fault: console_.say(fmt::format("error: {}", stop.text)); break;
-  case Stop::Reason::Pause:
   case Stop::Reason::GivenUp: console_.say("interrupted"); break;
   case Stop::Reason::Input: console_.say("it waits for a number: `input 42`"); break;
   case Stop::Reason::End:

@@ -12,6 +12,13 @@
 
 namespace orb::debug {
 
+/// The word that a line begins with, and the rest of it without blanks around.
+struct Split {
+  std::string_view word;
+  std::string_view rest;
+};
+Split split(std::string_view line);
+
 /// What a line that changes something led to: `set`, `input`, and what happens to the ball
 /// (`shake`, `push 90 120`). Nothing where the line is none of these.
 std::optional<tl::expected<std::string, std::string>> change_by_words(Debugger& debugger,
@@ -33,8 +40,6 @@ public:
   /// The line that is about to run, as it is shown after each move.
   void show_place();
   bool done() const { return done_; }
-  /// The program ended with an error of the robot.
-  bool faulted() const { return debugger_.fault().has_value(); }
 
   /// A command, as `help` shows it.
   struct Row {

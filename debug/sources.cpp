@@ -1,6 +1,7 @@
 #include "debug/sources.h"
 
 #include "base/text.h"
+#include "run/start.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,9 +17,7 @@ Sources::Sources(std::span<const run::Input> inputs, const run::Options& options
     if (input.program) {
       const bool first = programs_.empty();
       main_file_ = first ? file : main_file_;
-      const auto other =
-          options.target.area == spec::Area::Ram ? spec::Area::Flash : spec::Area::Ram;
-      add_program(input, first ? options.target.area : other, file);
+      add_program(input, run::area_of(programs_.size(), options), file);
     }
     for (const auto& macro : input.macros) {
       macro_names_[macro.image.id] = macro.name;

@@ -144,9 +144,7 @@ Timeline::Next Timeline::next() const {
 }
 
 std::int32_t Timeline::sensor(spec::Variable variable) const {
-  const bool timer = variable == spec::Variable::TimerA || variable == spec::Variable::TimerB ||
-                     variable == spec::Variable::TimerC;
-  return timer ? ball_->machine().timer(variable, instant()) : ball_->peek(variable);
+  return ball_->peek(variable, instant());
 }
 
 bool Timeline::over() const {

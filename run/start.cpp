@@ -10,10 +10,6 @@
 namespace orb::run {
 namespace {
 
-spec::Area other(spec::Area area) {
-  return area == spec::Area::Ram ? spec::Area::Flash : spec::Area::Ram;
-}
-
 tl::expected<void, Failure> deliver(uploader::Session& session,
                                     const uploader::Delivery& delivery) {
   uploader::NullProgress progress;
@@ -28,7 +24,8 @@ uploader::MacroJob job_of(const Macro& macro) {
   return {macro.image, uploader::natural_kind(macro.image), false, false};
 }
 
-tl::expected<void, Failure> deliver(const Load& load, spec::Area area, uploader::Session& session) {
+tl::expected<void, Failure> deliver(const Load& load, const Options& options,
+                                    uploader::Session& session) {
   uploader::Delivery delivery;
   // The last temporary macro stays, and the first is the one to run.
   for (auto macro = load.macros.rbegin(); macro != load.macros.rend(); ++macro)
@@ -37,7 +34,7 @@ tl::expected<void, Failure> deliver(const Load& load, spec::Area area, uploader:
   // Flash first: on its way there a program passes through RAM.
   for (const auto there : {spec::Area::Flash, spec::Area::Ram})
     for (std::size_t i = 0; i < load.programs.size(); ++i) {
-      if ((i == 0 ? area : other(area)) != there)
+      if (area_of(i, options) != there)
         continue;
       const auto& [input, program] = load.programs[i];
       const auto bytes = as_bytes(program->image.bytes);
@@ -102,6 +99,11 @@ Load load_of(std::span<const Input> inputs) {
   return load;
 }
 
+spec::Area area_of(std::size_t program, const Options& options) {
+  const auto other = options.target.area == spec::Area::Ram ? spec::Area::Flash : spec::Area::Ram;
+  return program == 0 ? options.target.area : other;
+}
+
 std::optional<Failure> objection(const Load& load) {
   if (load.programs.size() > 2)
     return Failure{ExitCode::Usage, "a ball holds two programs: one in RAM, one in flash"};
@@ -145,7 +147,7 @@ bool streams(const Load& load) {
 
 tl::expected<void, Failure> upload(const Load& load, const Options& options, vm::Ball& ball,
                                    uploader::Session& session) {
-  if (auto done = deliver(load, options.target.area, session); !done)
+  if (auto done = deliver(load, options, session); !done)
     return done;
   ball.advance_to(ball.now() + 1s - ball.now().time_since_epoch() % 1s);
   ball.take_output();

@@ -27,6 +27,9 @@ struct Load {
 };
 Load load_of(std::span<const Input> inputs);
 
+/// Where the programs go: the first to where the options say, a second one to the other area.
+spec::Area area_of(std::size_t program, const Options& options);
+
 /// That the inputs cannot be run; nothing where they can.
 std::optional<Failure> objection(const Load& load);
 

@@ -110,8 +110,8 @@ public:
 
   // What can be seen.
   const Body& body() const { return body_; }
-  /// What a program would read, without what reading clears; of a timer, as of now.
-  std::int32_t peek(spec::Variable variable) const;
+  /// What a program would read, without what reading clears; of a timer, as of `at`.
+  std::int32_t peek(spec::Variable variable, Instant at) const;
   Color led() const { return lamps_.shown(); }
   /// Nobody is connected and nobody has set a colour: it shows who it is.
   bool blinks() const { return lamps_.next_blink(lamp_situation()) != never; }

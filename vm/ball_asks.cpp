@@ -33,7 +33,7 @@ constexpr auto scales = [] {
 std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   ball_.now_ = now;
   ball_.body_.advance_to(now);
-  const auto value = ball_.peek(variable);
+  const auto value = ball_.peek(variable, ball_.now_);
   if (variable == Variable::Cmdroll)
     ball_.drive_.take_new_roll();
   else if (variable == Variable::Cmdrgb)
@@ -43,7 +43,7 @@ std::int32_t Ball::Asks::OfProgram::read(Variable variable, Instant now) {
   return value;
 }
 
-std::int32_t Ball::peek(Variable variable) const {
+std::int32_t Ball::peek(Variable variable, Instant at) const {
   const auto steps = [&](double value) {
     const auto& row = spec::info(variable);
     value = scales[static_cast<std::size_t>(variable)].of(value);
@@ -52,7 +52,7 @@ std::int32_t Ball::peek(Variable variable) const {
   switch (variable) {
   case Variable::TimerA:
   case Variable::TimerB:
-  case Variable::TimerC: return programs_.machine().timer(variable, now_);
+  case Variable::TimerC: return programs_.machine().timer(variable, at);
   case Variable::Ctrl: return body_.stabilized() ? 1 : 0;
   case Variable::Speed: return body_.speed();
   case Variable::Yaw: return rounded(body_.yaw_deg()) % spec::ball::full_circle;
