@@ -20,6 +20,7 @@ constexpr const char* bare_flag = "true";
 struct BallArguments {
   std::optional<std::string> pty;
   std::string tcp;
+  std::optional<std::string> bluez;
   int count = 1;
   double speed = 1;
   std::uint64_t seed = 1;
@@ -52,7 +53,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   options.speed = arguments.speed;
   options.state_file = arguments.state;
   options.log_file = arguments.log;
-  options.pty = arguments.pty.has_value() || arguments.tcp.empty();
+  options.pty = arguments.pty.has_value() || (arguments.tcp.empty() && !arguments.bluez);
   options.pty_link = arguments.pty.value_or(bare_flag) == bare_flag ? "" : *arguments.pty;
   if (!arguments.tcp.empty()) {
     options.tcp = parse_address(arguments.tcp);
@@ -72,6 +73,15 @@ void run_ball(Context& context, const BallArguments& arguments) {
     if (!plan)
       return fail(context, {ExitCode::Usage, plan.error()});
     options.fault = *plan;
+  }
+  if (arguments.bluez) {
+    options.bluez.emplace();
+    if (*arguments.bluez != bare_flag) {
+      const auto plan = protocol::parse_ble_fault_plan(*arguments.bluez);
+      if (!plan)
+        return fail(context, {ExitCode::Usage, plan.error()});
+      options.bluez = *plan;
+    }
   }
   auto stimulus = read_stimuli(context, arguments.stimuli);
   if (!stimulus)
@@ -106,13 +116,19 @@ void add_ball(CLI::App& app, Context& context) {
   auto* command = add_command(app, "ball", "serve virtual balls that real clients can connect to",
                               "orb ball\norb ball --tcp 127.0.0.1:4242\n"
                               "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
-                              "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7");
+                              "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7\n"
+                              "orb ball --bluez=pieces=1..20,drop-once@services");
   auto arguments = std::make_shared<BallArguments>();
   // A flag, because flags take a value only after `=`.
   command
       ->add_flag("--pty", arguments->pty,
                  "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
       ->type_name("LINK");
+  command
+      ->add_flag("--bluez", arguments->bluez,
+                 "serve behind a Bluetooth LE of its own, on a private D-Bus; with =PLAN, a faulty "
+                 "one: pieces=1..20,late=2s,drop@services,lose=1%")
+      ->type_name("PLAN");
   command->add_option("--tcp", arguments->tcp, "serve on HOST:PORT; port 0 picks a free one")
       ->type_name("HOST:PORT");
   command

@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 
 #include "cli/options.h"
+#include "uploader/bluez.h"
 #include "vm/native.h"
 
 #include <algorithm>
@@ -43,9 +44,11 @@ private:
 
 std::string version(const CLI::App& app) {
   auto text = fmt::format("orb {}", ORB_VERSION);
-  if (app.count("--verbose") > 0) // its variable is set only after the version is asked for
+  if (app.count("--verbose") > 0) { // its variable is set only after the version is asked for
     text += vm::has_native_code() ? "\nmachine code for orbBasic: x86-64"
                                   : "\nmachine code for orbBasic: none, programs are interpreted";
+    text += uploader::has_ble() ? "\nBluetooth LE: BlueZ" : "\nBluetooth LE: none";
+  }
   return text;
 }
 

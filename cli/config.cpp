@@ -1,7 +1,9 @@
 #include "cli/config.h"
 
+#include "base/text.h"
 #include "cli/context.h"
 #include "cli/options.h"
+#include "cli/save_ball.h"
 #include "disk/disk.h"
 
 #include <CLI/CLI.hpp>
@@ -37,7 +39,7 @@ constexpr auto project_options = std::to_array<std::string_view>({
     "target", "ram", "area", "executive", "firmware",                  // the ball
     "deny", "warn", "allow", "max-errors",                             // the rules' levels
     "pack", "fold-delays", "renumber",                                 // layout
-    "for", "lines-per-second", "seed", "speed", "timeout", "attempts", // budgets
+    "for", "lines-per-second", "seed", "speed", "timeout", "connect-timeout", "attempts", // budgets
 });
 
 /// Whether the file is the user's or root's: what somebody else has put into a folder above is not
@@ -75,14 +77,11 @@ ConfigError problem(const std::string& file, std::string_view what) {
   return {fmt::format("{}: {}", file, what)};
 }
 
-tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) {
-  const auto file = path.string();
-  const auto text = disk::read(file);
-  if (!text)
-    return tl::unexpected(ConfigError{text.error().message});
+tl::expected<void, ConfigError> read_text_into(Config& config, const std::string& file,
+                                               const std::string& text) {
   std::vector<CLI::ConfigItem> items;
   try {
-    std::istringstream stream(*text);
+    std::istringstream stream(text);
     items = CLI::ConfigTOML().from_config(stream);
   } catch (const CLI::Error& error) {
     return tl::unexpected(problem(file, fmt::format("not understood: {}", error.what())));
@@ -106,6 +105,13 @@ tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) 
     }
   }
   return {};
+}
+
+tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) {
+  const auto text = disk::read(path.string());
+  if (!text)
+    return tl::unexpected(ConfigError{text.error().message});
+  return read_text_into(config, path.string(), *text);
 }
 
 /// The commands that a setting of section `command` speaks to.
@@ -167,7 +173,117 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
   return {};
 }
 
+/// A line without what stands around it.
+std::string_view trimmed(const std::string& line) {
+  return trim(std::string_view(line).substr(0, line.find('\r')));
+}
+
+/// `[balls]`, whatever follows it.
+bool opens_section(const std::string& line, std::string_view name) {
+  const auto text = trimmed(line);
+  return text.starts_with("[") && text.find(']') != text.npos &&
+         trim(text.substr(1, text.find(']') - 1)) == name;
+}
+
+/// Whether a line gives `name` a value: `name = …`.
+bool sets(const std::string& line, std::string_view name) {
+  const auto text = trimmed(line);
+  const auto equals = text.find('=');
+  return equals != text.npos && trim(text.substr(0, equals)) == name;
+}
+
+/// What follows the value of a line: blanks and a comment, or nothing.
+std::string comment_of(const std::string& line) {
+  const auto open = line.find('"', line.find('='));
+  const auto close = open == line.npos ? open : line.find('"', open + 1);
+  const auto hash = line.find('#', close == line.npos ? line.find('=') : close);
+  return hash == line.npos ? std::string() : "  " + line.substr(hash);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+/// The text with `name = "url"` in its section of balls.
+std::string with_ball(const std::string& text, const std::string& name, const std::string& url) {
+  auto lines = lines_of(text);
+  const auto opened = std::ranges::find_if(
+      lines, [](const auto& line) { return opens_section(line, balls_section); });
+  const auto setting = fmt::format("{} = \"{}\"", name, url);
+  if (opened == lines.end()) {
+    if (!lines.empty() && !lines.back().empty())
+      lines.emplace_back();
+    lines.push_back(fmt::format("[{}]", balls_section));
+    lines.push_back(setting);
+  } else {
+    const auto end = std::find_if(opened + 1, lines.end(),
+                                  [](const auto& line) { return trimmed(line).starts_with("["); });
+    const auto old =
+        std::find_if(opened + 1, end, [&](const auto& line) { return sets(line, name); });
+    if (old != end) {
+      *old = setting + comment_of(*old);
+    } else {
+      auto after = end; // the last line of the section that says something
+      while (trimmed(*(after - 1)).empty())
+        --after;
+      lines.insert(after, setting);
+    }
+  }
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+bool is_ball_name(const std::string& name) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) {
+    return is_letter(c) || is_digit(c) || c == '-' || c == '_';
+  });
+}
+
+tl::unexpected<Failure> unsaved(ExitCode code, std::string message) {
+  return tl::unexpected(Failure{code, std::move(message)});
+}
+
 } // namespace
+
+tl::expected<std::string, Failure> save_ball(const std::string& name, const std::string& url) {
+  if (!is_ball_name(name))
+    return unsaved(ExitCode::Usage,
+                   fmt::format("`{}` is not a name for a ball: letters, digits, - and _", name));
+  if (url.find_first_of("\"\\\n\r") != url.npos)
+    return unsaved(ExitCode::Usage, fmt::format("`{}` cannot stand in a configuration file", url));
+  const auto path = user_file();
+  if (!path)
+    return unsaved(ExitCode::File, "there is no place for a configuration: neither "
+                                   "XDG_CONFIG_HOME nor HOME is set");
+  const auto file = path->string();
+  std::error_code error;
+  std::string text;
+  if (fs::exists(*path, error)) {
+    auto read = disk::read(file);
+    if (!read)
+      return unsaved(ExitCode::File, read.error().message);
+    text = *std::move(read);
+  } else if (fs::create_directories(path->parent_path(), error); error) {
+    return unsaved(ExitCode::File,
+                   fmt::format("cannot make the folder of {}: {}", file, error.message()));
+  }
+  const auto edited = with_ball(text, name, url);
+  Config config; // what will be read of it
+  if (auto read = read_text_into(config, file, edited); !read)
+    return unsaved(ExitCode::Usage, read.error().message);
+  if (config.balls[name] != url)
+    return unsaved(
+        ExitCode::Usage,
+        fmt::format("{0}: the balls in it are written in a way that is not edited; write "
+                    "`{1} = \"{2}\"` there",
+                    file, name, url));
+  if (const auto written = disk::write(file, as_bytes(edited)); !written)
+    return unsaved(ExitCode::File, written.error().message);
+  return file;
+}
 
 tl::expected<Config, ConfigError> load_config() {
   Config config;

@@ -123,11 +123,19 @@ bool check_node(Checkup& checkup, const Endpoint& endpoint) {
 /// Opens the link and greets the ball.
 void check_ball(Context& context, Checkup& checkup, const PortOptions& options) {
   const InterruptGuard guard;
-  auto link = open_link(context, options);
+  auto told = false; // why it does not open
+  auto link = open_link(context, options, [&](protocol::BleStep, const auto& found) {
+    told = !found;
+    if (found)
+      checkup.good(*found);
+    else if (found.error().failure != uploader::BleFailure::Interrupted)
+      checkup.bad(found.error().seen, remedy(found.error().failure));
+  });
   if (!link) {
     if (link.error().code == ExitCode::Interrupted)
       return fail(context, link.error());
-    checkup.bad("the link does not open", link.error().message);
+    if (!told)
+      checkup.bad("the link does not open", link.error().message);
     return;
   }
   checkup.good(fmt::format("{} opens", link->name));
@@ -166,6 +174,7 @@ void run(Context& context, const PortOptions& options, const std::string& format
   case Scheme::Serial:
   case Scheme::Pty: reachable = check_node(checkup, *endpoint); break;
   case Scheme::Rfcomm: check_bluetooth(checkup); break;
+  case Scheme::Ble:
   case Scheme::Tcp:
   case Scheme::Replay: break;
   case Scheme::Sim: {
@@ -190,7 +199,8 @@ void run(Context& context, const PortOptions& options, const std::string& format
 void add_doctor(CLI::App& app, Context& context) {
   auto* command = add_command(app, "doctor", "find out why a connection fails, and how to fix it",
                               "orb doctor --port /dev/rfcomm0\n"
-                              "orb doctor --port rfcomm://68:86:E7:00:11:22");
+                              "orb doctor --port rfcomm://68:86:E7:00:11:22\n"
+                              "orb doctor --port ble://SK-1A2B");
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
   auto format = std::make_shared<std::string>("text");

@@ -109,6 +109,36 @@ Json info_json(const std::string& port, const uploader::Greeting& greeting) {
   return json;
 }
 
+/// Whether a robot takes a command; nothing where it does not say. It is asked with one that
+/// changes nothing.
+std::optional<bool> takes(uploader::Session& session, ApiCommand command, const Bytes& data) {
+  const auto answer = request(session, command, data);
+  if (!answer && answer.error().kind != uploader::Report::Kind::Refused)
+    return std::nullopt;
+  if (answer)
+    return true;
+  const auto code = static_cast<spec::ResponseCode>(answer.error().code);
+  return code != spec::ResponseCode::BadCommand && code != spec::ResponseCode::BadDevice &&
+         code != spec::ResponseCode::Unsupported;
+}
+
+std::string_view yes_or_no(std::optional<bool> answer) {
+  return !answer ? "not said" : *answer ? "yes" : "no";
+}
+
+/// What the firmware of a robot over Bluetooth LE can do is written down nowhere, so it is asked.
+void ask_for_programs(uploader::Session& session, std::string& text, Json& json) {
+  const auto nothing = Bytes{static_cast<std::uint8_t>(spec::Area::Ram)}; // is appended
+  const auto basic = takes(session, ApiCommand::AppendOrbbasicFragment, nothing);
+  const auto macros = takes(session, ApiCommand::GetMacroStatus, {});
+  text += fmt::format("takes     orbBasic programs: {}, macros: {}\n", yes_or_no(basic),
+                      yes_or_no(macros));
+  if (basic)
+    json["takes"]["orbBasic"] = *basic;
+  if (macros)
+    json["takes"]["macros"] = *macros;
+}
+
 void run(Context& context, const PortOptions& options, const std::string& format) {
   with_ball(context, options,
             [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
@@ -126,6 +156,8 @@ void run(Context& context, const PortOptions& options, const std::string& format
                 print_error(context, radio.error().message);
                 return exit_code(radio.error().kind);
               }
+              if (link.is_ble)
+                ask_for_programs(session, text, json);
               if (format == "json")
                 print_json(json);
               else
@@ -139,7 +171,8 @@ void run(Context& context, const PortOptions& options, const std::string& format
 void add_info(CLI::App& app, Context& context) {
   auto* command = add_command(app, "info", "show a ball's model, versions, battery and name",
                               "orb info --port /dev/rfcomm0\n"
-                              "orb info --port rfcomm://68:86:E7:00:11:22");
+                              "orb info --port rfcomm://68:86:E7:00:11:22\n"
+                              "orb info --port ble://SK-1A2B");
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
   auto format = std::make_shared<std::string>("text");

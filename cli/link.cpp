@@ -6,6 +6,7 @@
 #include "cli/interrupt.h"
 #include "compiler/load.h"
 #include "disk/disk.h"
+#include "uploader/ble.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
 
@@ -34,20 +35,28 @@ std::uint8_t draw_first_seq() {
 
 void add_port_options(CLI::App& command, PortOptions& options) {
   command
-      .add_option("-p,--port", options.port,
-                  "where the ball is: a path, rfcomm://, tcp://, pty://, replay://, sim: or @ball")
+      .add_option(
+          "-p,--port", options.port,
+          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim: or @ball")
       ->envname("ORB_PORT")
       ->type_name("URL")
       ->capture_default_str();
   command.add_option("--record", options.record, "write what passes over the link to this file")
       ->type_name("FILE");
+  const auto is_time = [](const std::string& text) {
+    const auto time = parse_duration(text, 1s);
+    return time && *time > Duration{} ? std::string()
+                                      : "`" + text + "` is not a time such as 2s or 500ms";
+  };
   command.add_option("--timeout", options.answer, "how long to wait for one answer")
       ->type_name("TIME")
-      ->check([](const std::string& text) {
-        const auto time = parse_duration(text, 1s);
-        return time && *time > Duration{} ? std::string()
-                                          : "`" + text + "` is not a time such as 2s or 500ms";
-      })
+      ->check(is_time)
+      ->capture_default_str();
+  command
+      .add_option("--connect-timeout", options.step,
+                  "how long a step to a robot over Bluetooth LE may take")
+      ->type_name("TIME")
+      ->check(is_time)
       ->capture_default_str();
 }
 
@@ -82,12 +91,24 @@ tl::expected<Endpoint, Failure> find_endpoint(const Context& context, const Port
   return *endpoint;
 }
 
+uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& options) {
+  uploader::Budgets budgets;
+  budgets.answer = parse_duration(options.answer, 1s).value_or(budgets.answer);
+  if (endpoint.scheme != Scheme::Ble)
+    return budgets;
+  budgets.scan = budgets.ble_connect = budgets.services =
+      parse_duration(options.step, 1s).value_or(budgets.scan);
+  return uploader::ble_budgets(budgets);
+}
+
 } // namespace
 
-tl::expected<void, Failure> check_port(const Context& context, const PortOptions& options) {
-  if (const auto endpoint = find_endpoint(context, options); !endpoint)
+tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
+                                                      const PortOptions& options) {
+  const auto endpoint = find_endpoint(context, options);
+  if (!endpoint)
     return tl::unexpected(endpoint.error());
-  return {};
+  return budgets_for(*endpoint, options);
 }
 
 namespace {
@@ -113,8 +134,9 @@ tl::expected<void, Failure> open_replay(Link& link, const std::string& path) {
   return {};
 }
 
-tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint) {
-  auto opened = uploader::open(endpoint, link.budgets, InterruptGuard::asked);
+tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
+                                      const uploader::OnBleStep& on_step) {
+  auto opened = uploader::open(endpoint, link.budgets, InterruptGuard::asked, on_step);
   if (!opened)
     return failure(opened.error().kind == protocol::LinkError::Kind::Interrupted
                        ? ExitCode::Interrupted
@@ -127,7 +149,8 @@ tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint) {
 
 } // namespace
 
-tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options) {
+tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options,
+                                      const uploader::OnBleStep& on_step) {
   const auto endpoint = find_endpoint(context, options);
   if (!endpoint)
     return tl::unexpected(endpoint.error());
@@ -138,14 +161,15 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   Link link;
   link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
-  link.budgets.answer = parse_duration(options.answer, 1s).value_or(link.budgets.answer);
+  link.is_ble = endpoint->scheme == Scheme::Ble;
+  link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
   if (link.is_sim)
     open_sim(link);
   else if (endpoint->scheme == Scheme::Replay)
     opened = open_replay(link, endpoint->path);
   else
-    opened = open_real(link, *endpoint);
+    opened = open_real(link, *endpoint, on_step);
   if (!opened)
     return tl::unexpected(opened.error());
   link.record_file = options.record;

@@ -2,6 +2,7 @@
 
 #include "cli/context.h"
 #include "protocol/recording.h"
+#include "uploader/ble_error.h"
 #include "uploader/budgets.h"
 #include "uploader/upload.h"
 #include "vm/ball.h"
@@ -23,9 +24,11 @@ struct PortOptions {
   std::string port = "sim:";
   std::string record;        ///< a file for the bytes of both directions; empty for none
   std::string answer = "2s"; ///< the wait for one answer
+  std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE
 };
 
-/// Adds `--port`, which the environment may give as ORB_PORT, `--record` and `--timeout`.
+/// Adds `--port`, which the environment may give as ORB_PORT, `--record`, `--timeout` and
+/// `--connect-timeout`.
 void add_port_options(CLI::App& command, PortOptions& options);
 
 /// Hears the wire for a recording and for `-vv`.
@@ -43,6 +46,7 @@ private:
 /// An open link to a ball and a session on it.
 struct Link {
   bool is_sim = false;
+  bool is_ble = false;
   std::string name; ///< the port, for messages
   uploader::Budgets budgets;
   std::uint8_t first_seq = 0;
@@ -56,11 +60,14 @@ struct Link {
   ExitCode finish(const Context& context, ExitCode exit) const;
 };
 
-/// Whether the options name a port at all, in words where not; nothing is opened.
-tl::expected<void, Failure> check_port(const Context& context, const PortOptions& options);
+/// The waits of the port that the options name, or why they name none; nothing is opened.
+tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
+                                                      const PortOptions& options);
 
-/// Opens the link that the options name: a URL, a bare path or `@ball`.
-tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options);
+/// Opens the link that the options name: a URL, a bare path or `@ball`. `on_step` hears of the
+/// steps of Bluetooth LE.
+tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options,
+                                      const uploader::OnBleStep& on_step = {});
 
 /// Opens the link, greets the ball, lets `work` do its job and closes: the shape of the small
 /// commands. Errors are printed; the exit code is left in the context.

@@ -40,6 +40,8 @@ std::string describe_progress(const Status& status, Duration sending_for) {
       text += fmt::format(", {:.1f} s left",
                           static_cast<double>(status.bytes_total - status.bytes_sent) / rate);
   }
+  if (status.bytes_sent == 0 && status.expected > Duration{})
+    text += fmt::format(", about {:.1f} s", static_cast<double>(status.expected.count()) / 1e9);
   return text;
 }
 

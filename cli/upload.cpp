@@ -122,8 +122,12 @@ tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
 
 void print_plan(std::string_view name, const uploader::Plan& plan) {
   const auto sent = packets(plan, 0);
-  auto text = fmt::format("{}: {} bytes to {} in {} packets, over within {:g} s\n", name, plan.size,
-                          to_string(plan.route), sent.size(),
+  const auto pieces = plan.link_pieces == 0
+                          ? std::string()
+                          : fmt::format(" and {} pieces, about {:.1f} s", plan.link_pieces,
+                                        static_cast<double>(plan.expected.count()) / 1e9);
+  auto text = fmt::format("{}: {} bytes to {} in {} packets{}, over within {:g} s\n", name,
+                          plan.size, to_string(plan.route), sent.size(), pieces,
                           static_cast<double>(plan.deadline.count()) / 1e9);
   if (!plan.note.empty())
     text += fmt::format("note: {}\n", plan.note);
@@ -135,10 +139,8 @@ void print_plan(std::string_view name, const uploader::Plan& plan) {
   print_out(text);
 }
 
-ExitCode dry_run(const Context& context, const Options& options,
-                 const uploader::Delivery& delivery) {
-  uploader::Budgets budgets;
-  budgets.answer = parse_duration(options.port.answer, 1s).value_or(budgets.answer);
+ExitCode dry_run(const Context& context, const Options& options, const uploader::Delivery& delivery,
+                 uploader::Budgets budgets) {
   budgets.attempts = options.attempts;
   for (const auto& macro : delivery.macros) {
     const auto plan = make_plan(macro.job, budgets);
@@ -203,8 +205,9 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
 }
 
 void upload(Context& context, const Options& options) {
-  if (const auto port = check_port(context, options.port); !port)
-    return cli::fail(context, port.error());
+  const auto budgets = port_budgets(context, options.port);
+  if (!budgets)
+    return cli::fail(context, budgets.error());
   const auto inputs = load_all(context, options);
   if (!inputs)
     return cli::fail(context, inputs.error());
@@ -215,7 +218,7 @@ void upload(Context& context, const Options& options) {
   const auto delivery = arrange(options, *inputs);
   if (!delivery)
     return cli::fail(context, {ExitCode::Usage, delivery.error()});
-  context.exit = options.dry_run ? dry_run(context, options, *delivery)
+  context.exit = options.dry_run ? dry_run(context, options, *delivery, *budgets)
                                  : send(context, options, *delivery, lookup_of(*inputs));
 }
 

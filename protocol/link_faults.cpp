@@ -1,8 +1,8 @@
 #include "protocol/link_faults.h"
 
-#include "base/duration.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "protocol/plan_words.h"
 
 #include <algorithm>
 #include <array>
@@ -29,43 +29,15 @@ constexpr std::array<std::string_view, 14> words = {
     "drop=", "flip=",  "dup=", "dup-request=", "storm=", "delay=",       "split",
     "merge", "stale=", "cut@", "cut-answer@",  "flip@",  "flip-answer@", "seed="};
 
-tl::unexpected<std::string> wrong(std::string_view item, std::string_view what) {
-  return tl::unexpected(fmt::format("`{}` in the fault plan: {}", item, what));
-}
-
-std::optional<double> read_rate(std::string_view text) {
-  if (!text.ends_with("%"))
-    return std::nullopt;
-  text.remove_suffix(1);
-  const auto percent = parse_number<double>(text);
-  if (!percent || *percent < 0 || *percent > percents)
-    return std::nullopt;
-  return *percent / percents;
-}
-
-/// `300ms`, `0.2s`, or a bare number of milliseconds.
-std::optional<Duration> read_delay(std::string_view text) {
-  const auto time = parse_duration(text, 1ms);
-  return time && *time <= 1h ? time : std::nullopt;
-}
-
 bool read_delay_range(std::string_view text, FaultPlan& plan) {
-  const auto dots = text.find("..");
-  const auto least = read_delay(dots == text.npos ? text : text.substr(0, dots));
-  const auto most = read_delay(dots == text.npos ? text : text.substr(dots + 2));
+  const auto [first, last] = split_range(text);
+  const auto least = read_delay(first);
+  const auto most = read_delay(last);
   if (!least || !most || *most < *least)
     return false;
   plan.delay_least = *least;
   plan.delay_most = *most;
   return true;
-}
-
-/// The name of an item, `=` or `@` included, and what follows it.
-std::pair<std::string_view, std::string_view> split_item(std::string_view item) {
-  const auto at = item.find_first_of("=@");
-  if (at == item.npos)
-    return {item, {}};
-  return {item.substr(0, at + 1), item.substr(at + 1)};
 }
 
 /// Where an item's value goes, by the kind of value it takes; null where it takes another kind.
@@ -91,26 +63,27 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
   if (auto* rate = rate_of(plan, name)) {
     const auto read = read_rate(value);
     if (!read)
-      return wrong(item, "a rate is written in percent, such as `1%` or `0.1%`");
+      return wrong_word(item, "a rate is written in percent, such as `1%` or `0.1%`");
     *rate = *read;
     return {};
   }
   if (auto* place = place_of(plan, name)) {
     *place = parse_number<std::uint64_t>(value);
     if (!*place)
-      return wrong(item, "a place is a whole number, such as `cut@1234`");
+      return wrong_word(item, "a place is a whole number, such as `cut@1234`");
     return {};
   }
   if (name == "delay=") {
     if (!read_delay_range(value, plan))
-      return wrong(item, "a delay is written `50..300ms` or `200ms`, at most one hour");
+      return wrong_word(item, "a delay is written `50..300ms` or `200ms`, at most one hour");
     return {};
   }
   if (name == "seed=" || name == "stale=") {
     constexpr std::uint64_t most_stale = 1000; // more than any link was seen to keep
     const auto count = parse_number<std::uint64_t>(value);
     if (!count || (name == "stale=" && *count > most_stale))
-      return wrong(item, name == "seed=" ? "a seed is a whole number" : "a number from 0 to 1000");
+      return wrong_word(item,
+                        name == "seed=" ? "a seed is a whole number" : "a number from 0 to 1000");
     if (name == "seed=")
       plan.seed = *count;
     else
@@ -121,9 +94,10 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
     (item == "split" ? plan.split : plan.merge) = true;
     return {};
   }
-  return wrong(item, fmt::format("unknown; {}",
-                                 did_you_mean(name, words,
-                                              fmt::format("there are {}", fmt::join(words, " ")))));
+  return wrong_word(
+      item,
+      fmt::format("unknown; {}",
+                  did_you_mean(name, words, fmt::format("there are {}", fmt::join(words, " ")))));
 }
 
 void add_rate(std::string& out, std::string_view name, double rate) {
@@ -137,14 +111,10 @@ tl::expected<FaultPlan, std::string> parse_fault_plan(std::string_view text) {
   FaultPlan plan;
   if (text == "none")
     return plan;
-  while (true) {
-    const auto comma = std::min(text.find(','), text.size());
-    if (const auto read = read_item(text.substr(0, comma), plan); !read)
-      return tl::unexpected(read.error());
-    if (comma == text.size())
-      return plan;
-    text.remove_prefix(comma + 1);
-  }
+  const auto read = read_words(text, [&](std::string_view item) { return read_item(item, plan); });
+  if (!read)
+    return tl::unexpected(read.error());
+  return plan;
 }
 
 std::string to_string(const FaultPlan& plan) {

@@ -4,6 +4,7 @@
 #include "protocol/recording.h"
 #include "serve/pty_link.h"
 #include "serve/tcp_link.h"
+#include "vm/bluetooth.h"
 #include "vm/state.h"
 
 #include <algorithm>
@@ -37,8 +38,10 @@ bool only_later(ssize_t result) {
 
 } // namespace
 
-ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int index)
-    : io_(io), options_(options), index_(index), ball_(ball_options(options, index)), timer_(io) {
+ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int index,
+                       FakeBluez* bluez)
+    : io_(io), options_(options), index_(index), bluez_(bluez), ball_(ball_options(options, index)),
+      timer_(io) {
   if (options.fault)
     pipe_.emplace(*options.fault);
   ball_.schedule(options.stimulus);
@@ -94,6 +97,17 @@ tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place)
   return {};
 }
 
+/// Under the name that such a robot has: its kind, and the end of its address.
+void ServedBall::open_ble(FakeBluez& bluez) {
+  const auto options = ball_options(options_, index_);
+  const auto model =
+      options.firmware == spec::Firmware::Bb8 ? spec::BleModel::Bb8 : spec::BleModel::SprkPlus;
+  const auto address = vm::bluetooth_address(options.seed);
+  constexpr std::size_t told = 4; // digits of the address
+  links_.push_back(bluez.make_robot(
+      std::string(spec::info(model).prefix) + address.substr(address.size() - told), address));
+}
+
 tl::expected<void, IoError> ServedBall::open() {
   if (auto loaded = load(); !loaded)
     return loaded;
@@ -107,6 +121,8 @@ tl::expected<void, IoError> ServedBall::open() {
   if (options_.pty)
     if (auto opened = open_pty(); !opened)
       return opened;
+  if (bluez_ != nullptr)
+    open_ble(*bluez_);
   return options_.tcp ? open_tcp(*options_.tcp) : tl::expected<void, IoError>{};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "serve/fake_bluez.h"
 #include "serve/link.h"
 #include "serve/packet_spacer.h"
 #include "serve/server.h"
@@ -17,8 +18,9 @@ class ServedBall final : private Door {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// The `index`-th ball of those that `options` ask for; they must outlive it.
-  ServedBall(asio::io_context& io, const ServeOptions& options, int index);
+  /// The `index`-th ball of those that `options` ask for; they and `bluez` must outlive it.
+  /// `bluez` is null where there is no Bluetooth LE.
+  ServedBall(asio::io_context& io, const ServeOptions& options, int index, FakeBluez* bluez);
 
   /// Opens its links and files.
   tl::expected<void, IoError> open();
@@ -40,6 +42,7 @@ private:
   tl::expected<void, IoError> load();
   tl::expected<void, IoError> open_pty();
   tl::expected<void, IoError> open_tcp(const ServeOptions::Tcp& place);
+  void open_ble(FakeBluez& bluez);
 
   Instant now() const;
   Instant real_time() const;
@@ -62,6 +65,7 @@ private:
   asio::io_context& io_;
   const ServeOptions& options_;
   int index_;
+  FakeBluez* bluez_;
   vm::Ball ball_;
   std::optional<protocol::FaultPipe> pipe_;
   Clock::time_point start_;

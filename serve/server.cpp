@@ -14,10 +14,16 @@ tl::expected<void, IoError> serve(const ServeOptions& options) {
   asio::signal_set signals(io, SIGINT, SIGTERM);
   signals.async_wait([&io](asio::error_code, int) { io.stop(); });
 
+  std::optional<FakeBluez> bluez;
+  if (options.bluez) {
+    bluez.emplace(io, *options.bluez);
+    if (auto opened = bluez->open(); !opened)
+      return opened;
+  }
   std::vector<std::unique_ptr<ServedBall>> balls;
   std::string addresses;
   for (int i = 0; i < options.count; ++i) {
-    balls.push_back(std::make_unique<ServedBall>(io, options, i));
+    balls.push_back(std::make_unique<ServedBall>(io, options, i, bluez ? &*bluez : nullptr));
     if (auto opened = balls.back()->open(); !opened)
       return opened;
     addresses += balls.back()->addresses();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/io_error.h"
+#include "protocol/ble_faults.h"
 #include "protocol/link_faults.h"
 #include "vm/ball.h"
 #include "vm/stimulus.h"
@@ -24,6 +25,8 @@ struct ServeOptions {
   std::optional<Tcp> tcp;
   bool pty = false;
   std::string pty_link; ///< a symlink to the slave; empty for none
+  /// Behind a Bluetooth LE that there is not, with these faults.
+  std::optional<protocol::BleFaultPlan> bluez;
   int count = 1;
   double speed = 1; ///< seconds of the ball per second
   vm::BallOptions ball;

@@ -170,6 +170,16 @@ TEST(Floors, OnlyCoursesSeeXml) {
   expect_only({"report"}, {"pugixml"});
 }
 
+/// Which files name D-Bus.
+TEST(Floors, OnlyBluezSeesDBus) {
+  expect_only({"uploader", "serve"}, {"sdbus-c++"});
+  for (const auto* room : {"uploader", "serve"})
+    for (const auto& file : files_below(root / room, {".h", ".cpp"}))
+      if (file.filename().string().find("bluez") == std::string::npos) {
+        EXPECT_EQ(read_all(file).find("<sdbus-c++"), std::string::npos) << file;
+      }
+}
+
 // The browser links everything but the edge.
 TEST(Floors, OnlyTheEdgeSeesFilesSocketsAndTheConsole) {
   expect_only({"cli", "serve", "disk", "uploader"},

@@ -20,6 +20,23 @@ struct Budgets {
   Duration connect = 6s;
   /// How often a link is tried to be opened.
   int opens = 3;
+  /// For bluetoothd to answer, and for a robot to acknowledge a word of the greeting over LE.
+  Duration ble_answer = 3s;
+  /// For a robot to be seen over LE; it shows itself several times a second, to a radio that
+  /// listens part of the time.
+  Duration scan = 10s;
+  /// For a connection over LE; the kernel's own limit is 20 s, and there are three tries.
+  Duration ble_connect = 10s;
+  /// For the characteristics of a robot to be known.
+  Duration services = 10s;
+  /// For all pieces of a packet over LE: the longest has 13, and an interval lasts at most 100 ms.
+  Duration ble_send = 5s;
+  /// What a piece and its receipt take over LE, about two intervals of 15 to 50 ms [?].
+  Duration receipt = 60ms;
+  /// The most bytes that the link takes at once; 0 where it takes any number.
+  std::size_t piece = 0;
+  /// For a packet to be handed to the link; none where a link takes it at once.
+  Duration send{};
   /// How often a command is sent that does no harm twice. At 10 % loss each way six of them all
   /// fail once in 20 000 times.
   int sends = 6;
@@ -54,7 +71,17 @@ struct Budgets {
     return sum;
   }
   /// The longest that a command can take which is sent until it is answered.
-  constexpr Duration ask() const { return sends * answer + backoffs(sends); }
+  constexpr Duration ask() const { return sends * (send + answer) + backoffs(sends); }
+  /// The longest that it takes to open a link.
+  constexpr Duration open() const {
+    const auto once = piece == 0 ? connect : ble_connect + services + 4 * ble_answer;
+    const auto before = piece == 0 ? Duration{} : 2 * ble_answer + scan;
+    return before + opens * once + backoffs(opens);
+  }
+  /// How many pieces the link makes of a packet.
+  constexpr std::size_t pieces(std::size_t packet) const {
+    return piece == 0 ? 1 : (packet + piece - 1) / piece;
+  }
 };
 
 } // namespace orb::uploader

@@ -16,10 +16,10 @@ namespace orb::uploader {
 namespace {
 
 constexpr std::string_view forms =
-    "`/dev/rfcomm0`, `serial:///dev/rfcomm0`, `rfcomm://AA:BB:CC:DD:EE:FF`, `tcp://host:port`, "
-    "`pty:///path`, `replay://file` or `sim:`";
+    "`/dev/rfcomm0`, `serial:///dev/rfcomm0`, `rfcomm://AA:BB:CC:DD:EE:FF`, `ble://NAME`, "
+    "`tcp://host:port`, `pty:///path`, `replay://file` or `sim:`";
 
-constexpr std::array<std::string_view, 6> schemes = {"serial://", "rfcomm://", "tcp://",
+constexpr std::array<std::string_view, 7> schemes = {"serial://", "rfcomm://", "ble://", "tcp://",
                                                      "pty://",    "replay://", "sim:"};
 constexpr std::uint8_t channel_most = 30; // RFCOMM server channels are 1 to 30
 
@@ -32,18 +32,14 @@ std::optional<unsigned> read_number(std::string_view text, int base, unsigned mo
   return value && *value <= most ? value : std::nullopt;
 }
 
+constexpr std::size_t address_size = 17; // of the text AA:BB:CC:DD:EE:FF
+
 tl::expected<Endpoint, std::string> read_rfcomm(Endpoint endpoint, std::string_view rest) {
-  constexpr std::size_t text_size = 17; // AA:BB:CC:DD:EE:FF
-  const auto address = rest.substr(0, text_size);
-  for (std::size_t i = 0; i < endpoint.address.size(); ++i) {
-    const auto byte = address.size() == text_size
-                          ? read_number(address.substr(i * 3, 2), 16, UINT8_MAX)
-                          : std::nullopt;
-    if (!byte || (i > 0 && address[i * 3 - 1] != ':'))
-      return wrong(endpoint.text, "a Bluetooth address is written `rfcomm://AA:BB:CC:DD:EE:FF`");
-    endpoint.address[i] = static_cast<std::uint8_t>(*byte);
-  }
-  rest.remove_prefix(text_size);
+  const auto address = parse_bluetooth_address(rest.substr(0, address_size));
+  if (!address)
+    return wrong(endpoint.text, "a Bluetooth address is written `rfcomm://AA:BB:CC:DD:EE:FF`");
+  endpoint.address = *address;
+  rest.remove_prefix(address_size);
   if (rest.empty())
     return endpoint;
   const auto channel =
@@ -70,6 +66,17 @@ tl::expected<Endpoint, std::string> read_tcp(Endpoint endpoint, std::string_view
   return endpoint;
 }
 
+tl::expected<Endpoint, std::string> read_ble(Endpoint endpoint, std::string_view rest) {
+  if (rest.empty())
+    return wrong(endpoint.text, "write `ble://` and the robot's name or address, such as "
+                                "`ble://SK-1A2B`; `orb ports` lists them");
+  if (const auto address = parse_bluetooth_address(rest))
+    endpoint.address = *address;
+  else
+    endpoint.name = rest;
+  return endpoint;
+}
+
 tl::expected<Endpoint, std::string> read_path(Endpoint endpoint, std::string_view rest) {
   if (rest.empty())
     return wrong(endpoint.text, "a path is missing");
@@ -78,6 +85,23 @@ tl::expected<Endpoint, std::string> read_path(Endpoint endpoint, std::string_vie
 }
 
 } // namespace
+
+std::optional<BluetoothAddress> parse_bluetooth_address(std::string_view text) {
+  if (text.size() != address_size)
+    return std::nullopt;
+  BluetoothAddress address{};
+  for (std::size_t i = 0; i < address.size(); ++i) {
+    const auto byte = read_number(text.substr(i * 3, 2), 16, UINT8_MAX);
+    if (!byte || (i > 0 && text[i * 3 - 1] != ':'))
+      return std::nullopt;
+    address[i] = static_cast<std::uint8_t>(*byte);
+  }
+  return address;
+}
+
+std::string to_string(const BluetoothAddress& address) {
+  return fmt::format("{:02X}", fmt::join(address, ":"));
+}
 
 tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
   Endpoint endpoint;
@@ -100,6 +124,10 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
   if (url.starts_with("rfcomm://")) {
     endpoint.scheme = Scheme::Rfcomm;
     return read_rfcomm(endpoint, rest_of("rfcomm://"));
+  }
+  if (url.starts_with("ble://")) {
+    endpoint.scheme = Scheme::Ble;
+    return read_ble(endpoint, rest_of("ble://"));
   }
   if (url.starts_with("tcp://")) {
     endpoint.scheme = Scheme::Tcp;

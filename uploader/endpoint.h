@@ -1,12 +1,14 @@
 #pragma once
 
 #include "protocol/transport.h"
+#include "uploader/ble_error.h"
 #include "uploader/budgets.h"
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -16,6 +18,7 @@ namespace orb::uploader {
 enum class Scheme : std::uint8_t {
   Serial, ///< `serial:///dev/rfcomm0`, or the bare path
   Rfcomm, ///< `rfcomm://AA:BB:CC:DD:EE:FF[/1]`
+  Ble,    ///< `ble://AA:BB:CC:DD:EE:FF` or `ble://NAME`: open_ble() makes the link
   Tcp,    ///< `tcp://host:port`
   Pty,    ///< `pty:///path`
   Sim,    ///< `sim:`, a ball in this process: whoever holds one makes the link
@@ -29,11 +32,16 @@ struct Endpoint {
   Scheme scheme = Scheme::Sim;
   std::string path; ///< Serial, Pty, Replay
   std::string host; ///< Tcp
+  std::string name; ///< Ble: what the robot advertises; empty where the address is given
   std::uint16_t port = 0;
   BluetoothAddress address{};
   std::uint8_t channel = 1;
   std::string text; ///< the URL as it was given, for messages
 };
+
+/// `AA:BB:CC:DD:EE:FF`, read and written.
+std::optional<BluetoothAddress> parse_bluetooth_address(std::string_view text);
+std::string to_string(const BluetoothAddress& address);
 
 /// Reads a URL; the error is a sentence that says which forms there are.
 tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url);
@@ -44,8 +52,10 @@ using Stop = std::function<int()>;
 /// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
 /// try can help. Not for Sim and Replay. The error says what helps; it is Interrupted within
 /// stop_notice of `stop`, and so is a write of the link that cannot go on when `stop` is one more.
+/// `on_step` hears of the steps of Bluetooth LE.
 tl::expected<std::unique_ptr<protocol::Transport>, protocol::LinkError>
-open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop);
+open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
+     const OnBleStep& on_step = {});
 
 /// The bytes of a `sockaddr_rc` for connect(2): family, the address with its last byte first,
 /// channel. Written by hand because the kernel's header comes with the GPL.

@@ -1,6 +1,7 @@
 // The links that the operating system gives: each is an Asio stream behind the Transport interface.
 
-#include "uploader/endpoint.h"
+#include "uploader/ble.h"
+#include "uploader/bluez.h"
 
 #include <algorithm>
 #include <array>
@@ -282,6 +283,7 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
   case Scheme::Pty: return open_serial(endpoint, stop);
   case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets, stop);
   case Scheme::Tcp: return open_tcp(endpoint, budgets, stop);
+  case Scheme::Ble:
   case Scheme::Replay:
   case Scheme::Sim: break;
   }
@@ -290,7 +292,14 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
 
 } // namespace
 
-Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
+Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
+            const OnBleStep& on_step) {
+  if (endpoint.scheme == Scheme::Ble) {
+    auto opened = open_ble(make_bluez_gatt(endpoint), budgets, stop, on_step);
+    if (!opened)
+      return tl::unexpected(describe_open_error(endpoint, opened.error()));
+    return *std::move(opened);
+  }
   // Only a radio link fails now and works a moment later: the ball may be waking up.
   const auto times = endpoint.scheme == Scheme::Rfcomm ? budgets.opens : 1;
   auto opened = open_once(endpoint, budgets, stop);

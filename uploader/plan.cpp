@@ -57,11 +57,12 @@ std::size_t pieces_of(const Step& step, std::size_t shortened) {
 
 /// One packet that must arrive exactly once.
 Duration once_time(const Budgets& budgets) {
-  return (1 + budgets.resends) * budgets.answer + budgets.backoffs(1 + budgets.resends);
+  return (1 + budgets.resends) * (budgets.send + budgets.answer) +
+         budgets.backoffs(1 + budgets.resends);
 }
 
 Duration step_time(const Step& step, const Budgets& budgets) {
-  const auto seq_moves = seq_moves_most * budgets.answer;
+  const auto seq_moves = seq_moves_most * (budgets.send + budgets.answer);
   const auto once = once_time(budgets);
   switch (step.kind) {
   case StepKind::Prepare:
@@ -86,8 +87,8 @@ Duration step_time(const Step& step, const Budgets& budgets) {
 Duration deadline(const Plan& plan, const Budgets& budgets) {
   constexpr int greeting_questions = 3;
   constexpr int counting_questions = 8; // whether the ball counts at all, and as we do
-  auto time = budgets.opens * budgets.connect + budgets.backoffs(budgets.opens) + budgets.drain +
-              budgets.backoffs(plan.attempts) + (greeting_questions + 1) * budgets.ask();
+  auto time = budgets.open() + budgets.drain + budgets.backoffs(plan.attempts) +
+              (greeting_questions + 1) * budgets.ask();
   auto times = plan.attempts;
   for (const auto& step : plan.steps) {
     time += times * step_time(step, budgets);
@@ -97,6 +98,17 @@ Duration deadline(const Plan& plan, const Budgets& budgets) {
       times = 1;
   }
   return time;
+}
+
+/// What a link in pieces makes of the plan: each piece waits for its receipt, each packet for its
+/// answer.
+void count_pieces(Plan& plan, const Budgets& budgets) {
+  if (budgets.piece == 0)
+    return;
+  const auto sent = packets(plan, 0);
+  for (const auto& packet : sent)
+    plan.link_pieces += budgets.pieces(encode(packet).size());
+  plan.expected = static_cast<int>(plan.link_pieces + sent.size()) * budgets.receipt;
 }
 
 // Programs.
@@ -299,6 +311,7 @@ tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Capabilitie
   if (job.start_line)
     plan.steps.push_back(
         {StepKind::Start, ApiCommand::ExecuteOrbbasicProgram, run_data(job.area, *job.start_line)});
+  count_pieces(plan, budgets);
   plan.deadline = deadline(plan, budgets);
   return plan;
 }
@@ -328,6 +341,7 @@ tl::expected<Plan, PlanError> make_plan(const MacroJob& job, const Budgets& budg
   plan.steps.push_back({StepKind::Barrier, count});
   if (job.run && plan.route != Route::StreamedMacro)
     plan.steps.push_back({StepKind::Start, ApiCommand::RunMacro, u8(image.id)});
+  count_pieces(plan, budgets);
   plan.deadline = deadline(plan, budgets);
   return plan;
 }

@@ -129,6 +129,7 @@ public:
       : session_(session), plan_(plan), progress_(progress) {
     status_.bytes_total = plan.size;
     status_.packets_total = plan.pieces;
+    status_.expected = plan.expected;
   }
 
   /// Walks the steps, from the first again where the content may have arrived otherwise than once.

@@ -71,6 +71,7 @@ struct Status {
   std::size_t packets = 0;       ///< that were answered for and carry them
   std::size_t packets_total = 0; ///< planned; resends and short fragments add to it
   int attempt = 1;
+  Duration expected{}; ///< about how long all of it takes, where that is known beforehand
 };
 
 /// Is told how an upload goes on.

@@ -1,6 +1,7 @@
 // Device 00h: what every robot of the vendor has.
 
 #include "spec/unit.h"
+#include "vm/bluetooth.h"
 #include "vm/dispatch.h"
 
 #include <algorithm>
@@ -29,17 +30,16 @@ std::string_view own_name(const Profile& profile) {
   return profile.name.empty() ? default_name : std::string_view(profile.name);
 }
 
-/// A ball's address follows from its seed, so that the balls of one server differ: 24 bits of its
-/// own.
-std::string own_address(std::uint64_t seed) {
-  return fmt::format("{}{:06X}", address_prefix, seed % (1U << 24));
-}
-
 std::int64_t centivolts(const Body& body) {
   return std::lround(spec::scale_of("0.01 V").of(body.battery_v()));
 }
 
 } // namespace
+
+/// 24 bits of the seed behind the block of the vendor.
+std::string bluetooth_address(std::uint64_t seed) {
+  return fmt::format("{}{:06X}", address_prefix, seed % (1U << 24));
+}
 
 HANDLE(Ping) {
   return {};
@@ -59,7 +59,8 @@ HANDLE(SetDeviceName) {
 
 HANDLE(GetBluetoothInfo) {
   return call.answer({as_bytes(clip_utf8(own_name(profile_), reported_name_size)),
-                      as_bytes(own_address(seed_)), 0, id_colors[0], id_colors[1], id_colors[2]});
+                      as_bytes(bluetooth_address(seed_)), 0, id_colors[0], id_colors[1],
+                      id_colors[2]});
 }
 
 HANDLE(SetAutoReconnect) {
@@ -190,7 +191,7 @@ std::string Dispatcher::level_1() {
       "[Network]\nRx good:{}, bad:{}, Tx:{}\nRx overruns:{}, Tx:{}\n", counters_.good,
       counters_.bad_checksum + counters_.bad_did + counters_.bad_cid + counters_.bad_dlen,
       host_->link().sent(), counters_.overruns, host_->link().dropped());
-  out += fmt::format("Dev name: {}, BTA:{}\n", own_name(profile_), own_address(seed_));
+  out += fmt::format("Dev name: {}, BTA:{}\n", own_name(profile_), bluetooth_address(seed_));
   out += fmt::format("[Options]\nPermanent:{:08X}, Temporary:{:08X}\nTrip points:{}, {}\n",
                      settings.permanent_flags, settings.temporary_flags, settings.low_battery_cv,
                      settings.critical_battery_cv);

@@ -1,13 +1,16 @@
 // Uploads over bad links, many times and in virtual time, and looks at the ball afterwards: is what
 // the uploader says the truth? Prints tables, exits with 1 when it lied, hung or failed too often.
 //
-//   reliability [--uploads N] [--document FILE]
+//   reliability [--uploads N] [--ble N] [--document FILE]
 //
-// N uploads per fault profile (default 1000); all other parts are complete at any N. With
+// N uploads per fault profile (default 1000, and as many over Bluetooth LE); all other parts are
+// complete at any N. With
 // --document the result takes the place of the first sections of docs/reliability.md.
 
 #include "compiler/load.h"
 #include "protocol/link_faults.h"
+#include "tests/fakes/gatt_ball.h"
+#include "uploader/ble.h"
 #include "uploader/upload.h"
 #include "vm/ball.h"
 #include "vm/ball_transport.h"
@@ -106,8 +109,9 @@ struct Run {
   Duration deadline{};
 };
 
-Run upload_once(protocol::Transport& link, const ProgramJob& job, std::uint8_t first_seq) {
-  uploader::Session session(link, uploader::Budgets{}, first_seq);
+Run upload_once(protocol::Transport& link, const ProgramJob& job, std::uint8_t first_seq,
+                const uploader::Budgets& budgets = {}) {
+  uploader::Session session(link, budgets, first_seq);
   uploader::NullProgress progress;
   const auto start = session.now();
   uploader::Delivery delivery;
@@ -115,7 +119,7 @@ Run upload_once(protocol::Transport& link, const ProgramJob& job, std::uint8_t f
   Run run;
   run.report = deliver(session, delivery, uploader::BatteryPolicy::Refuse, progress);
   run.took = session.now() - start;
-  run.deadline = make_plan(job, uploader::default_capabilities(), uploader::Budgets{})->deadline;
+  run.deadline = make_plan(job, uploader::default_capabilities(), budgets)->deadline;
   return run;
 }
 
@@ -222,6 +226,30 @@ Tally run_profile(std::string_view words, int uploads, Counting counting = Count
   return tally;
 }
 
+/// The same above a GATT: packets in pieces of 20 bytes, notifications of 1 to 20. The faults of
+/// the plan happen to the packets, those of `gatt` to the pieces.
+Tally run_ble(std::string_view words, protocol::BleFaultPlan gatt, int uploads) {
+  constexpr Duration piece_interval = 30ms;
+  auto plan = words.empty() ? FaultPlan{} : *protocol::parse_fault_plan(words);
+  gatt.pieces_least = 1;
+  const auto budgets = uploader::ble_budgets({});
+  Tally tally;
+  for (int i = 1; i <= uploads; ++i) {
+    plan.seed = gatt.seed = static_cast<std::uint64_t>(i);
+    const auto job = job_for(plan.seed);
+    const auto ball = make_ball(plan.seed);
+    auto link = uploader::open_ble(
+        std::make_unique<test::GattBall>(connect(*ball, plan), gatt, piece_interval), budgets,
+        [] { return 0; }, {});
+    const auto first_seq = static_cast<std::uint8_t>(Random{plan.seed * 7919}.next());
+    if (link)
+      tally.add(upload_once(**link, job, first_seq, budgets), *ball, job);
+    else
+      tally.add({{Report::Kind::NoBall, Content::Unchanged, {}, 0}, {}, {}}, *ball, job);
+  }
+  return tally;
+}
+
 std::string tally_cells(const Tally& tally) {
   return fmt::format("{} ok, {} reported, {} wrong", tally.done, tally.reported,
                      tally.wrong + tally.untrue);
@@ -245,20 +273,28 @@ struct Page {
   }
 };
 
-void add_profiles(Page& page, int uploads) {
-  page.add(fmt::format("## Fault profiles\n\n"
-                       "{} uploads each of a {}-line program ({} bytes, 5 fragments), seeds 1 to "
-                       "{}; every other one\ninto flash through RAM. Rates are per packet and "
-                       "direction.\n\n"
-                       "| profile | orb | success | longest | sphero.js 0.9.2 | sphero-pwn 0.5.3 "
-                       "|\n|---|---|---|---|---|---|\n",
-                       uploads, sixty_lines, job_for(1).image.size(), uploads));
+void add_profiles(Page& page, int uploads, int ble_uploads) {
+  page.add(
+      fmt::format("## Fault profiles\n\n"
+                  "{} uploads each of a {}-line program ({} bytes, 5 fragments), seeds 1 to "
+                  "{}; every other one\ninto flash through RAM. Rates are per packet and "
+                  "direction. Over Bluetooth LE the same packets travel in\npieces, answers in "
+                  "pieces of any size ([below](#bluetooth-le)).\n\n"
+                  "| profile | orb | success | longest | orb over Bluetooth LE | longest "
+                  "| sphero.js 0.9.2 | sphero-pwn 0.5.3 "
+                  "|\n|---|---|---|---|---|---|---|---|\n",
+                  uploads, sixty_lines, job_for(1).image.size(), uploads));
   for (const auto& profile : profiles) {
     const auto tally = run_profile(profile.plan, uploads);
     const auto success = static_cast<double>(tally.done) / tally.runs;
-    page.add(fmt::format("| `{}` | {} | {:.2f} % | {:.1f} s | {} | {} |\n", profile.plan,
-                         tally_cells(tally), success * 100, seconds(tally.longest),
-                         profile.sphero_js, profile.sphero_pwn));
+    const auto ble = run_ble(profile.plan, {}, ble_uploads);
+    page.add(fmt::format("| `{}` | {} | {:.2f} % | {:.1f} s | {} | {:.1f} s | {} | {} |\n",
+                         profile.plan, tally_cells(tally), success * 100, seconds(tally.longest),
+                         tally_cells(ble), seconds(ble.longest), profile.sphero_js,
+                         profile.sphero_pwn));
+    page.check(ble.honest() && ble.done >= profile.least_success * ble.runs - 1,
+               fmt::format("{} over Bluetooth LE: {}, {} overdue", profile.plan, tally_cells(ble),
+                           ble.overdue));
     page.check(tally.honest(), fmt::format("{}: {} wrong, {} untrue, {} overdue", profile.plan,
                                            tally.wrong, tally.untrue, tally.overdue));
     page.check(success >= profile.least_success,
@@ -268,6 +304,36 @@ void add_profiles(Page& page, int uploads) {
       "\nNo upload took longer than the deadline of its plan, {:.0f} s.\n\n",
       seconds(
           make_plan(job_for(2), uploader::default_capabilities(), uploader::Budgets{})->deadline)));
+}
+
+/// What goes wrong with pieces alone.
+constexpr auto ble_profiles = std::to_array<std::string_view>(
+    {"lose=0%", "lose=1%", "lose=5%", "refuse=0.1%", "refuse=1%", "lose=1%,refuse=1%",
+     "drop-once@connect", "drop-once@services", "drop-once@anti-dos", "drop-once@tx-power",
+     "drop-once@wake", "drop-once@subscribe"});
+
+void add_ble(Page& page, int uploads) {
+  page.add(fmt::format(
+      "## Bluetooth LE\n\n"
+      "The same program, {} uploads each, over everything that is ours but D-Bus: a fake of the "
+      "robot's\ncharacteristics takes the place of BlueZ, so that time is virtual here, too. "
+      "Written pieces have 20 bytes\nand are acknowledged after 30 ms, notifications have 1 to 20 "
+      "bytes. `lose`: notifications that never come;\n`refuse`: written pieces that are not "
+      "acknowledged, of which every other one has arrived; `drop-once`: the link\nis lost in that "
+      "step of the connection, the first time.\n\n| profile | orb | longest |\n|---|---|---|\n",
+      uploads));
+  for (const auto words : ble_profiles) {
+    const auto tally = run_ble({}, *protocol::parse_ble_fault_plan(words), uploads);
+    page.add(fmt::format("| `{}` | {} | {:.1f} s |\n", words, tally_cells(tally),
+                         seconds(tally.longest)));
+    page.check(tally.honest(),
+               fmt::format("{}: {}, {} overdue", words, tally_cells(tally), tally.overdue));
+  }
+  page.add(fmt::format(
+      "\nNo upload took longer than the deadline of its plan, {:.0f} s. What goes "
+      "through D-Bus is counted in\n[Over D-Bus](#over-d-bus).\n\n",
+      seconds(make_plan(job_for(2), uploader::default_capabilities(), uploader::ble_budgets({}))
+                  ->deadline)));
 }
 
 /// The share of wrong successes that doubled requests can cause. A fragment arrives once with
@@ -518,11 +584,14 @@ void write(const std::string& document, const std::string& text) {
 
 int main(int argc, char** argv) {
   int uploads = 1000;
+  int ble_uploads = 1000;
   std::string document;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string_view option = argv[i];
     if (option == "--uploads")
       uploads = std::atoi(argv[i + 1]);
+    else if (option == "--ble")
+      ble_uploads = std::atoi(argv[i + 1]);
     else if (option == "--document")
       document = argv[i + 1];
   }
@@ -539,7 +608,8 @@ a doubled answer); what they were not measured with is marked –.
 
 )",
                        uploads));
-  add_profiles(page, uploads);
+  add_profiles(page, uploads, ble_uploads);
+  add_ble(page, ble_uploads);
   add_doubled_requests(page, uploads);
   add_flips(page);
   add_cuts(page);

@@ -1,0 +1,667 @@
+#include "serve/fake_bluez.h"
+
+#include <fmt/format.h>
+
+#if defined(ORB_BLE)
+
+#include "base/random.h"
+#include "serve/private_bus.h"
+
+#include <algorithm>
+#include <array>
+#include <asio/post.hpp>
+#include <asio/steady_timer.hpp>
+#include <map>
+#include <sdbus-c++/sdbus-c++.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace orb::serve {
+namespace {
+
+using protocol::BleStep;
+using spec::BleCharacteristic;
+using Properties = std::map<std::string, sdbus::Variant>;
+
+constexpr auto service_name = "org.bluez";
+constexpr auto adapter_interface = "org.bluez.Adapter1";
+constexpr auto device_interface = "org.bluez.Device1";
+constexpr auto service_interface = "org.bluez.GattService1";
+constexpr auto characteristic_interface = "org.bluez.GattCharacteristic1";
+constexpr auto adapter_path = "/org/bluez/hci0";
+constexpr auto adapter_address = "00:11:22:33:44:55"; // of nobody
+
+/// A device is seen before it has told its name.
+constexpr auto seen_after = std::chrono::milliseconds{20};
+constexpr auto named_after = std::chrono::milliseconds{20};
+constexpr std::int16_t strongest = -48; // dBm; each further robot is farther away
+constexpr std::int16_t farther = 7;     // dB
+
+constexpr double half = 0.5;
+
+sdbus::Error bluez_error(std::string_view name, const std::string& message) {
+  return {fmt::format("org.bluez.Error.{}", name), message};
+}
+
+sdbus::Error not_connected() {
+  return bluez_error("Failed", "Not connected");
+}
+
+/// Tells whoever listens that properties have other values, or none any more. Written by hand,
+/// because a property that is gone sometimes cannot be said otherwise.
+void tell(sdbus::IObject& object, const std::string& interface, const Properties& changed,
+          const std::vector<std::string>& gone = {}) {
+  auto signal = object.createSignal("org.freedesktop.DBus.Properties", "PropertiesChanged");
+  signal << interface << changed << gone;
+  object.emitSignal(signal);
+}
+
+/// A property whose value does not change.
+template <class Value>
+void constant(sdbus::IObject& object, const char* interface, const char* name, Value value) {
+  object.registerProperty(name).onInterface(interface).withGetter(
+      [value = std::move(value)] { return value; });
+}
+
+} // namespace
+
+/// bluetoothd and the adapter.
+class FakeBluez::Computer {
+public:
+  Computer(asio::io_context& io, const protocol::BleFaultPlan& plan)
+      : io_(io), plan_(plan), random_{plan.seed}, socket_(io) {}
+  Computer(const Computer&) = delete;
+  Computer& operator=(const Computer&) = delete;
+  ~Computer() { socket_.release(); }
+
+  tl::expected<void, IoError> open();
+  std::string bus() const { return bus_.address(); }
+
+  void add(Robot& robot) { robots_.push_back(&robot); }
+  void remove(Robot& robot) { std::erase(robots_, &robot); }
+  /// How strongly a robot is received.
+  std::int16_t strength(const Robot& robot) const;
+  bool listens() const { return !listeners_.empty(); }
+
+  asio::io_context& io() { return io_; }
+  const protocol::BleFaultPlan& plan() const { return plan_; }
+  Random& random() { return random_; }
+  sdbus::IConnection& connection() { return *connection_; }
+
+  /// Does something later.
+  void after(Duration time, std::function<void()> act);
+  /// The adapter is pulled out.
+  void vanish();
+
+private:
+  void pump();
+  void publish();
+  void start_discovery(const std::string& client);
+  void stop_discovery(const std::string& client);
+  void forget(const std::string& client);
+
+  asio::io_context& io_;
+  const protocol::BleFaultPlan& plan_;
+  Random random_;
+  PrivateBus bus_;
+  std::unique_ptr<sdbus::IConnection> connection_;
+  asio::posix::stream_descriptor socket_; ///< the connection's own
+  std::unique_ptr<sdbus::IObject> adapter_;
+  std::vector<std::string> listeners_; ///< clients that scan
+  std::vector<Robot*> robots_;
+};
+
+/// A robot: its device and characteristics on the bus, and the client's end of a link to the ball.
+class FakeBluez::Robot final : public Link {
+public:
+  Robot(Computer& computer, std::string name, const std::string& address)
+      : Link(computer.io()), computer_(computer), name_(std::move(name)), peer_(computer.io()),
+        drop_once_(computer.plan().drop_once) {
+    for (std::size_t i = 0; i + 1 < address.size(); i += 2)
+      address_ += (i > 0 ? ":" : "") + address.substr(i, 2);
+    path_ = fmt::format("{}/dev_{}", adapter_path, address_);
+    std::ranges::replace(path_, ':', '_');
+    computer_.add(*this);
+  }
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+  ~Robot() override { computer_.remove(*this); }
+
+  std::string address() const override {
+    return fmt::format("ble ble://{} DBUS_SYSTEM_BUS_ADDRESS={}", name_, computer_.bus());
+  }
+  void start(Door& door) override { door_ = &door; }
+  void hang_up() override {
+    stream_.close();
+    disconnect();
+  }
+  bool can_hang_up() const override { return true; }
+
+  /// It is heard: first without its name.
+  void advertise();
+  /// Nobody listens any more, so nobody knows how strongly it is received.
+  void fade();
+  void forget(const std::string& client);
+  void unpublish();
+
+private:
+  struct Characteristic {
+    std::unique_ptr<sdbus::IObject> object;
+    std::string notified; ///< the client that is notified; empty for none
+  };
+  using Result = sdbus::Result<>;
+
+  void publish_device();
+  void publish_services();
+  void publish_characteristic(const spec::BleCharacteristicInfo& row, std::size_t number);
+  bool publishes(const spec::BleCharacteristicInfo& row) const;
+
+  void connect(Result&& result);
+  void disconnect();
+  void resolve();
+  /// Whether the plan ends the link in this step; then it is done.
+  bool strikes(BleStep step, Result& result);
+  bool strikes(BleStep step);
+
+  void write(BleCharacteristic characteristic, const Bytes& value, Result&& result);
+  void take(BleCharacteristic characteristic, const Bytes& value);
+  void start_notify(BleCharacteristic characteristic, Result&& result);
+  void stop_notify(BleCharacteristic characteristic);
+  void set_notified(BleCharacteristic characteristic, const std::string& client);
+  void await_packets();
+  void notify(ByteView bytes);
+
+  Computer& computer_;
+  std::string name_;
+  std::string address_;
+  std::string path_;
+  Door* door_ = nullptr;
+  asio::posix::stream_descriptor peer_;
+  std::unique_ptr<sdbus::IObject> device_;
+  std::vector<std::unique_ptr<sdbus::IObject>> services_;
+  std::map<BleCharacteristic, Characteristic> characteristics_;
+  std::array<std::uint8_t, 4096> buffer_{}; // bytes; more than a ball says at once
+  std::optional<BleStep> drop_once_;
+  bool known_ = false; ///< it has told its name
+  bool heard_ = false; ///< how strongly is known
+  bool connected_ = false;
+  bool resolved_ = false;
+  bool admitted_ = false; ///< the right word was written
+  std::uint64_t session_ = 0;
+};
+
+// The computer.
+
+tl::expected<void, IoError> FakeBluez::Computer::open() {
+  if (auto started = bus_.start(plan_.denied ? service_name : ""); !started)
+    return started;
+  if (plan_.no_daemon)
+    return {};
+  try {
+    connection_ = sdbus::createSessionBusConnectionWithAddress(bus_.address());
+    connection_->requestName(service_name);
+    connection_->addObjectManager("/", sdbus::floating_slot);
+    connection_->addMatch(
+        "type='signal',sender='org.freedesktop.DBus',member='NameOwnerChanged'",
+        [this](sdbus::Message& signal) {
+          std::string name, before, now;
+          signal >> name >> before >> now;
+          if (now.empty())
+            forget(name);
+        },
+        sdbus::floating_slot);
+    if (!plan_.no_adapter)
+      publish();
+    socket_.assign(connection_->getEventLoopPollData().fd);
+  } catch (const sdbus::Error& error) {
+    return tl::unexpected(IoError{"cannot be bluetoothd: " + error.getMessage()});
+  }
+  pump();
+  return {};
+}
+
+void FakeBluez::Computer::publish() {
+  adapter_ = sdbus::createObject(*connection_, adapter_path);
+  auto& adapter = *adapter_;
+  const auto client = [&adapter] { return adapter.getCurrentlyProcessedMessage()->getSender(); };
+  adapter.registerMethod("SetDiscoveryFilter")
+      .onInterface(adapter_interface)
+      .implementedAs([](const Properties&) {});
+  adapter.registerMethod("StartDiscovery").onInterface(adapter_interface).implementedAs([=, this] {
+    start_discovery(client());
+  });
+  adapter.registerMethod("StopDiscovery").onInterface(adapter_interface).implementedAs([=, this] {
+    stop_discovery(client());
+  });
+  adapter.registerMethod("RemoveDevice")
+      .onInterface(adapter_interface)
+      .implementedAs([](const sdbus::ObjectPath&) {});
+  constant(adapter, adapter_interface, "Address", std::string(adapter_address));
+  constant(adapter, adapter_interface, "Name", std::string("orb"));
+  constant(adapter, adapter_interface, "Alias", std::string("orb"));
+  constant(adapter, adapter_interface, "Powered", !plan_.adapter_off);
+  adapter.registerProperty("Discovering").onInterface(adapter_interface).withGetter([this] {
+    return listens();
+  });
+  adapter.finishRegistration();
+}
+
+/// Everything that has come from the bus, then what comes next.
+void FakeBluez::Computer::pump() {
+  try {
+    while (connection_->processPendingRequest())
+      ;
+    const auto again = [this](asio::error_code error) {
+      if (!error)
+        pump();
+    };
+    socket_.cancel();
+    socket_.async_wait(asio::posix::descriptor_base::wait_read, again);
+    constexpr short write_event = 4; // POLLOUT: something waits to be sent
+    if ((connection_->getEventLoopPollData().events & write_event) != 0)
+      socket_.async_wait(asio::posix::descriptor_base::wait_write, again);
+  } catch (const sdbus::Error&) {
+    // The bus is gone, and with it everybody who could ask.
+  }
+}
+
+void FakeBluez::Computer::after(Duration time, std::function<void()> act) {
+  auto timer = std::make_unique<asio::steady_timer>(io_, time);
+  auto& waiting = *timer;
+  waiting.async_wait([timer = std::move(timer), act = std::move(act)](asio::error_code error) {
+    if (!error)
+      act();
+  });
+}
+
+std::int16_t FakeBluez::Computer::strength(const Robot& robot) const {
+  const auto at = std::ranges::find(robots_, &robot) - robots_.begin();
+  return static_cast<std::int16_t>(strongest - farther * at);
+}
+
+void FakeBluez::Computer::start_discovery(const std::string& client) {
+  if (std::ranges::find(listeners_, client) != listeners_.end())
+    throw bluez_error("InProgress", "Operation already in progress");
+  listeners_.push_back(client);
+  after(seen_after, [this] {
+    if (listens() && !plan_.away)
+      for (auto* robot : robots_)
+        robot->advertise();
+  });
+}
+
+void FakeBluez::Computer::stop_discovery(const std::string& client) {
+  std::erase(listeners_, client);
+  if (!listens())
+    for (auto* robot : robots_)
+      robot->fade();
+}
+
+/// A client is gone, and what it had asked for.
+void FakeBluez::Computer::forget(const std::string& client) {
+  if (std::ranges::find(listeners_, client) != listeners_.end())
+    stop_discovery(client);
+  for (auto* robot : robots_)
+    robot->forget(client);
+}
+
+void FakeBluez::Computer::vanish() {
+  for (auto* robot : robots_)
+    robot->unpublish();
+  if (adapter_) {
+    adapter_->emitInterfacesRemovedSignal();
+    adapter_.reset();
+  }
+}
+
+// The robot on the bus.
+
+void FakeBluez::Robot::advertise() {
+  if (connected_)
+    return;
+  if (!device_) {
+    publish_device();
+    device_->emitInterfacesAddedSignal();
+  }
+  computer_.after(named_after, [this] {
+    if (!device_ || !computer_.listens())
+      return;
+    known_ = heard_ = true;
+    publish_device();
+    tell(*device_, device_interface,
+         {{"Name", name_}, {"Alias", name_}, {"RSSI", computer_.strength(*this)}});
+  });
+}
+
+void FakeBluez::Robot::fade() {
+  if (!std::exchange(heard_, false) || !device_)
+    return;
+  publish_device();
+  tell(*device_, device_interface, {}, {"RSSI"});
+}
+
+/// Anew, because which properties it has changes.
+void FakeBluez::Robot::publish_device() {
+  device_.reset();
+  device_ = sdbus::createObject(computer_.connection(), path_);
+  auto& device = *device_;
+  device.registerMethod("Connect").onInterface(device_interface).implementedAs([this](Result&& r) {
+    connect(std::move(r));
+  });
+  // Answered before it is told: who hears that the link is gone may not wait for the answer.
+  device.registerMethod("Disconnect")
+      .onInterface(device_interface)
+      .implementedAs([this](Result&& r) {
+        r.returnResults();
+        disconnect();
+      });
+  constant(device, device_interface, "Address", address_);
+  constant(device, device_interface, "AddressType", std::string("random"));
+  constant(device, device_interface, "Adapter", sdbus::ObjectPath(adapter_path));
+  constant(device, device_interface, "UUIDs", std::vector<std::string>());
+  for (const auto* name : {"Paired", "Trusted", "Blocked", "LegacyPairing"})
+    constant(device, device_interface, name, false);
+  constant(device, device_interface, "Alias", known_ ? name_ : address_);
+  if (known_)
+    constant(device, device_interface, "Name", name_);
+  if (heard_)
+    constant(device, device_interface, "RSSI", computer_.strength(*this));
+  device.registerProperty("Connected").onInterface(device_interface).withGetter([this] {
+    return connected_;
+  });
+  device.registerProperty("ServicesResolved").onInterface(device_interface).withGetter([this] {
+    return resolved_;
+  });
+  device.finishRegistration();
+}
+
+bool FakeBluez::Robot::publishes(const spec::BleCharacteristicInfo& row) const {
+  return !computer_.plan().newer || row.service != spec::BleService::Robot;
+}
+
+/// They stay when the link ends, as BlueZ keeps them.
+void FakeBluez::Robot::publish_services() {
+  if (!services_.empty())
+    return;
+  for (const auto& row : spec::ble_services) {
+    auto object = sdbus::createObject(computer_.connection(),
+                                      fmt::format("{}/service{:04x}", path_, services_.size()));
+    constant(*object, service_interface, "UUID", std::string(row.uuid));
+    constant(*object, service_interface, "Device", sdbus::ObjectPath(path_));
+    constant(*object, service_interface, "Primary", true);
+    object->finishRegistration();
+    object->emitInterfacesAddedSignal();
+    services_.push_back(std::move(object));
+  }
+  for (std::size_t number = 0; number < spec::ble_characteristics.size(); ++number)
+    if (publishes(spec::ble_characteristics[number]))
+      publish_characteristic(spec::ble_characteristics[number], number);
+}
+
+void FakeBluez::Robot::publish_characteristic(const spec::BleCharacteristicInfo& row,
+                                              std::size_t number) {
+  const auto service =
+      fmt::format("{}/service{:04x}", path_, static_cast<std::size_t>(row.service));
+  // Client libraries read the handle from the path.
+  constexpr std::size_t first_handle = 16;
+  auto object = sdbus::createObject(computer_.connection(),
+                                    fmt::format("{}/char{:04x}", service, first_handle + number));
+  const auto which = row.characteristic;
+  const auto notifies = which == BleCharacteristic::Answers;
+  constant(*object, characteristic_interface, "UUID", std::string(row.uuid));
+  constant(*object, characteristic_interface, "Service", sdbus::ObjectPath(service));
+  constant(*object, characteristic_interface, "Flags",
+           notifies ? std::vector<std::string>{"notify"}
+                    : std::vector<std::string>{"write", "write-without-response"});
+  object->registerProperty("Notifying")
+      .onInterface(characteristic_interface)
+      .withGetter([this, which] { return !characteristics_[which].notified.empty(); });
+  object->registerMethod("WriteValue")
+      .onInterface(characteristic_interface)
+      .implementedAs([this, which](Result&& result, const Bytes& value, const Properties&) {
+        write(which, value, std::move(result));
+      });
+  object->registerMethod("StartNotify")
+      .onInterface(characteristic_interface)
+      .implementedAs([this, which](Result&& result) { start_notify(which, std::move(result)); });
+  object->registerMethod("StopNotify")
+      .onInterface(characteristic_interface)
+      .implementedAs([this, which] { stop_notify(which); });
+  object->finishRegistration();
+  object->emitInterfacesAddedSignal();
+  characteristics_[which].object = std::move(object);
+}
+
+void FakeBluez::Robot::unpublish() {
+  disconnect();
+  for (auto& [which, characteristic] : characteristics_)
+    if (characteristic.object)
+      characteristic.object->emitInterfacesRemovedSignal();
+  characteristics_.clear();
+  for (const auto& service : services_)
+    service->emitInterfacesRemovedSignal();
+  services_.clear();
+  if (device_)
+    device_->emitInterfacesRemovedSignal();
+  device_.reset();
+}
+
+// Its link.
+
+bool FakeBluez::Robot::strikes(BleStep step) {
+  const auto& plan = computer_.plan();
+  const auto once = drop_once_ == step;
+  if (once)
+    drop_once_.reset();
+  if (plan.vanish == step)
+    computer_.vanish();
+  else if (once || plan.drop == step)
+    disconnect(); // the ball hears of it from its end
+  else
+    return false;
+  return true;
+}
+
+bool FakeBluez::Robot::strikes(BleStep step, Result& result) {
+  const auto& plan = computer_.plan();
+  if (plan.vanish != step && plan.drop != step && drop_once_ != step)
+    return false;
+  // Whoever is called now is not taken away under its own feet.
+  asio::post(computer_.io(), [this, step, result = std::move(result)] {
+    static_cast<void>(strikes(step));
+    result.returnError(bluez_error("Failed", "le-connection-abort-by-local"));
+  });
+  return true;
+}
+
+void FakeBluez::Robot::connect(Result&& result) {
+  if (strikes(BleStep::Connect, result))
+    return;
+  if (connected_)
+    return result.returnResults();
+  std::array<int, 2> ends{};
+  if (!door_->admits() ||
+      ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()) != 0)
+    return result.returnError(bluez_error("Failed", "br-connection-busy"));
+  stream_.assign(ends[0]);
+  peer_.assign(ends[1]);
+  connected_ = true;
+  admitted_ = false;
+  ++session_;
+  result.returnResults();
+  tell(*device_, device_interface, {{"Connected", true}});
+  door_->enter(*this);
+  await_packets();
+  computer_.after(computer_.plan().late, [this, session = session_] {
+    if (session == session_ && connected_ && !strikes(BleStep::Services))
+      resolve();
+  });
+}
+
+void FakeBluez::Robot::resolve() {
+  publish_services();
+  resolved_ = true;
+  tell(*device_, device_interface, {{"ServicesResolved", true}});
+}
+
+void FakeBluez::Robot::disconnect() {
+  if (!connected_)
+    return;
+  connected_ = resolved_ = false;
+  ++session_;
+  peer_.close();
+  for (auto& [which, characteristic] : characteristics_)
+    if (!characteristic.notified.empty())
+      set_notified(which, {});
+  tell(*device_, device_interface, {{"ServicesResolved", false}, {"Connected", false}});
+}
+
+/// bluetoothd keeps the link of a client that has ended, but tells it nothing any more.
+void FakeBluez::Robot::forget(const std::string& client) {
+  for (auto& [which, characteristic] : characteristics_)
+    if (characteristic.notified == client)
+      set_notified(which, {});
+}
+
+void FakeBluez::Robot::set_notified(BleCharacteristic characteristic, const std::string& client) {
+  auto& entry = characteristics_[characteristic];
+  entry.notified = client;
+  tell(*entry.object, characteristic_interface, {{"Notifying", !client.empty()}});
+}
+
+void FakeBluez::Robot::write(BleCharacteristic characteristic, const Bytes& value,
+                             Result&& result) {
+  if (!connected_)
+    return result.returnError(not_connected());
+  if (const auto step = protocol::step_of(characteristic); step && strikes(*step, result))
+    return;
+  if (characteristic == BleCharacteristic::Answers)
+    return result.returnError(bluez_error("NotPermitted", "Write not permitted"));
+  if (value.size() > spec::ble_piece_bytes) // a robot does not know long writes
+    return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x06"));
+  if (characteristic == BleCharacteristic::Commands &&
+      computer_.random().chance(computer_.plan().refuse)) {
+    if (computer_.random().chance(half))
+      take(characteristic, value);
+    return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x0e"));
+  }
+  if (computer_.plan().interval == Duration{}) {
+    result.returnResults();
+    return take(characteristic, value);
+  }
+  auto timer = std::make_unique<asio::steady_timer>(computer_.io(), computer_.plan().interval);
+  auto& waiting = *timer;
+  waiting.async_wait([this, timer = std::move(timer), characteristic, value, session = session_,
+                      result = std::move(result)](asio::error_code error) {
+    if (error)
+      return;
+    if (session != session_)
+      return result.returnError(not_connected());
+    result.returnResults();
+    take(characteristic, value);
+  });
+}
+
+/// What the robot does with what was written, after the receipt has left.
+void FakeBluez::Robot::take(BleCharacteristic characteristic, const Bytes& value) {
+  for (const auto& row : spec::ble_greeting)
+    if (row.characteristic == characteristic && characteristic == BleCharacteristic::AntiDos)
+      admitted_ = as_text(value) == row.bytes;
+  // A wrong word is answered by silence.
+  if (characteristic == BleCharacteristic::Commands && admitted_ && !computer_.plan().mute)
+    static_cast<void>(::write(peer_.native_handle(), value.data(), value.size()));
+}
+
+void FakeBluez::Robot::start_notify(BleCharacteristic characteristic, Result&& result) {
+  const auto& entry = characteristics_[characteristic];
+  const auto client = entry.object->getCurrentlyProcessedMessage()->getSender();
+  if (strikes(BleStep::Subscribe, result))
+    return;
+  if (computer_.plan().held)
+    return result.returnError(bluez_error("NotPermitted", "Notify acquired"));
+  if (characteristic != BleCharacteristic::Answers)
+    return result.returnError(bluez_error("NotSupported", "Operation is not supported"));
+  result.returnResults();
+  if (connected_) // else it is answered, and nothing comes
+    set_notified(characteristic, client);
+}
+
+void FakeBluez::Robot::stop_notify(BleCharacteristic characteristic) {
+  if (characteristics_[characteristic].notified.empty())
+    throw bluez_error("Failed", "No notify session started");
+  set_notified(characteristic, {});
+}
+
+void FakeBluez::Robot::await_packets() {
+  peer_.async_read_some(asio::buffer(buffer_),
+                        [this, session = session_](asio::error_code error, std::size_t size) {
+                          if (session != session_)
+                            return;
+                          if (error)
+                            return disconnect(); // the ball has hung up
+                          notify(ByteView(buffer_).first(size));
+                          await_packets();
+                        });
+}
+
+void FakeBluez::Robot::notify(ByteView bytes) {
+  auto& answers = characteristics_[BleCharacteristic::Answers];
+  const auto& plan = computer_.plan();
+  while (!bytes.empty()) {
+    const auto most =
+        plan.pieces_least + computer_.random().below(plan.pieces_most - plan.pieces_least + 1);
+    const auto piece = bytes.first(std::min(bytes.size(), most));
+    if (!answers.notified.empty() && !computer_.random().chance(plan.lose))
+      tell(*answers.object, characteristic_interface,
+           {{"Value", Bytes(piece.begin(), piece.end())}});
+    bytes = bytes.subspan(piece.size());
+  }
+}
+
+// What others see.
+
+FakeBluez::FakeBluez(asio::io_context& io, const protocol::BleFaultPlan& plan)
+    : computer_(std::make_unique<Computer>(io, plan)) {}
+
+FakeBluez::~FakeBluez() = default;
+
+tl::expected<void, IoError> FakeBluez::open() {
+  return computer_->open();
+}
+
+std::string FakeBluez::bus() const {
+  return computer_->bus();
+}
+
+std::unique_ptr<Link> FakeBluez::make_robot(std::string name, std::string address) {
+  return std::make_unique<Robot>(*computer_, std::move(name), address);
+}
+
+} // namespace orb::serve
+
+#else
+
+namespace orb::serve {
+
+class FakeBluez::Computer {};
+class FakeBluez::Robot {};
+
+FakeBluez::FakeBluez(asio::io_context&, const protocol::BleFaultPlan&) {}
+FakeBluez::~FakeBluez() = default;
+
+tl::expected<void, IoError> FakeBluez::open() {
+  return tl::unexpected(IoError{"this orb was built without Bluetooth LE; install "
+                                "`libsdbus-c++-dev` and build orb again"});
+}
+std::string FakeBluez::bus() const {
+  return {};
+}
+std::unique_ptr<Link> FakeBluez::make_robot(std::string, std::string) {
+  return nullptr;
+}
+
+} // namespace orb::serve
+
+#endif

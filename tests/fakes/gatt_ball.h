@@ -1,0 +1,147 @@
+#pragma once
+
+#include "base/random.h"
+#include "protocol/ble_faults.h"
+#include "uploader/gatt.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace orb::test {
+
+/// A robot's GATT above any transport, without BlueZ and D-Bus and in the time of that transport:
+/// what BlueZ would say of it, with its faults.
+class GattBall final : public uploader::Gatt {
+public:
+  /// `interval` passes from a piece to its receipt.
+  GattBall(std::unique_ptr<protocol::Transport> ball, const protocol::BleFaultPlan& plan,
+           Duration interval)
+      : ball_(std::move(ball)), plan_(plan), interval_(interval), random_{plan.seed} {}
+
+  Instant now() const override { return ball_->now(); }
+
+  tl::expected<std::string, uploader::BleError> go(protocol::BleStep step,
+                                                   const uploader::Patience& patience) override {
+    ++steps_taken;
+    if (step == protocol::BleStep::Connect)
+      connected_ = true;
+    if (strikes(step))
+      return tl::unexpected(lost());
+    if (step == protocol::BleStep::Services && now() + plan_.late > patience.deadline) {
+      pass(patience.deadline - now());
+      return tl::unexpected(
+          uploader::BleError{uploader::BleFailure::NotResolved, "its services are not known"});
+    }
+    pass(step == protocol::BleStep::Services ? plan_.late : interval_);
+    return std::string(protocol::info(step).word);
+  }
+
+  bool has(spec::BleCharacteristic characteristic) const override {
+    return !plan_.newer || spec::info(characteristic).service != spec::BleService::Robot;
+  }
+
+  tl::expected<void, uploader::BleError> write(spec::BleCharacteristic characteristic,
+                                               ByteView bytes, const uploader::Patience&) override {
+    longest_piece = std::max(longest_piece, bytes.size());
+    if (const auto step = protocol::step_of(characteristic); step && strikes(*step))
+      return tl::unexpected(lost());
+    for (const auto& row : spec::ble_greeting)
+      if (row.characteristic == characteristic)
+        greeting += std::string(row.bytes) + "|";
+    pass(interval_);
+    if (characteristic != spec::BleCharacteristic::Commands)
+      return {};
+    const auto refused = random_.chance(plan_.refuse);
+    constexpr double half = 0.5;
+    if (!refused || random_.chance(half))
+      if (!ball_->write(bytes))
+        connected_ = false;
+    if (!connected_)
+      return tl::unexpected(lost());
+    if (refused)
+      return tl::unexpected(
+          uploader::BleError{uploader::BleFailure::Refused, "no receipt for a piece"});
+    return {};
+  }
+
+  tl::expected<void, uploader::BleError> subscribe(const uploader::Patience&) override {
+    if (strikes(protocol::BleStep::Subscribe))
+      return tl::unexpected(lost());
+    if (plan_.held)
+      return tl::unexpected(uploader::BleError{uploader::BleFailure::Held, "held"});
+    subscribed_ = true;
+    return {};
+  }
+
+  void rest(const uploader::Patience& patience) override { pass(patience.deadline - now()); }
+
+  /// A piece at a time, as notifications come.
+  tl::expected<Bytes, uploader::BleError> read(Instant deadline) override {
+    while (pieces_.empty()) {
+      if (!connected_)
+        return tl::unexpected(lost());
+      auto read = ball_->read(deadline);
+      if (!read) {
+        connected_ = false;
+        return tl::unexpected(lost());
+      }
+      if (read->empty())
+        return Bytes{};
+      cut(*read);
+    }
+    return std::exchange(pieces_, {});
+  }
+
+  std::size_t longest_piece = 0;
+  std::string greeting; ///< the words that were written, with a | after each
+  int steps_taken = 0;
+
+private:
+  static uploader::BleError lost() { return {uploader::BleFailure::Lost, "the link was lost"}; }
+
+  bool strikes(protocol::BleStep step) {
+    const auto once = plan_.drop_once == step;
+    if (once)
+      plan_.drop_once.reset();
+    if (once || plan_.drop == step)
+      connected_ = false;
+    return once || plan_.drop == step;
+  }
+
+  /// Time goes by; what the ball says meanwhile waits.
+  void pass(Duration time) {
+    const auto until = now() + time;
+    while (now() < until) {
+      auto read = ball_->read(until);
+      if (!read) {
+        connected_ = false;
+        return;
+      }
+      cut(*read);
+    }
+  }
+
+  void cut(ByteView bytes) {
+    while (!bytes.empty()) {
+      const auto size =
+          plan_.pieces_least + random_.below(plan_.pieces_most - plan_.pieces_least + 1);
+      const auto piece = bytes.first(std::min(bytes.size(), size));
+      if (subscribed_ && !random_.chance(plan_.lose))
+        pieces_.insert(pieces_.end(), piece.begin(), piece.end());
+      bytes = bytes.subspan(piece.size());
+    }
+  }
+
+  std::unique_ptr<protocol::Transport> ball_;
+  protocol::BleFaultPlan plan_;
+  Duration interval_;
+  Random random_;
+  Bytes pieces_;
+  bool connected_ = false;
+  bool subscribed_ = false;
+};
+
+} // namespace orb::test

@@ -1,0 +1,64 @@
+// Stands in for the RFCOMM of the kernel, where there is no radio: preloaded, it turns a Bluetooth
+// socket into one of TCP, and connecting to the address ORB_SHIM_ROBOT (twelve digits, as the
+// kernel keeps them: the last byte first) on channel 1 into connecting to the port ORB_SHIM_PORT of
+// this machine. Everything else about the socket is the kernel's own.
+
+#include <arpa/inet.h>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <dlfcn.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+namespace {
+
+constexpr int rfcomm_protocol = 3;     // BTPROTO_RFCOMM
+constexpr socklen_t address_size = 10; // of sockaddr_rc
+constexpr unsigned char robot_channel = 1;
+
+template <class Function>
+Function* next(const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
+}
+
+/// The errno with which connecting to the address ends before it begins; 0 where the robot is
+/// there.
+int refusal(const unsigned char* bytes) {
+  char text[13];
+  for (int i = 0; i < 6; ++i)
+    std::snprintf(text + 2 * i, 3, "%02X", bytes[2 + i]);
+  const char* robot = std::getenv("ORB_SHIM_ROBOT");
+  if (robot == nullptr || std::strcmp(text, robot) != 0)
+    return EHOSTDOWN;
+  return bytes[8] == robot_channel ? 0 : ECONNREFUSED;
+}
+
+} // namespace
+
+extern "C" int socket(int family, int type, int protocol) noexcept {
+  const auto real = next<int(int, int, int)>("socket");
+  if (family == AF_BLUETOOTH && protocol == rfcomm_protocol)
+    return real(AF_INET, type, 0);
+  return real(family, type, protocol);
+}
+
+extern "C" int connect(int socket, const sockaddr* address, socklen_t size) {
+  const auto real = next<int(int, const sockaddr*, socklen_t)>("connect");
+  if (address->sa_family != AF_BLUETOOTH)
+    return real(socket, address, size);
+  if (size != address_size) {
+    errno = EINVAL;
+    return -1;
+  }
+  if (const int error = refusal(reinterpret_cast<const unsigned char*>(address)); error != 0) {
+    errno = error;
+    return -1;
+  }
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(static_cast<in_port_t>(std::atoi(std::getenv("ORB_SHIM_PORT"))));
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return real(socket, reinterpret_cast<const sockaddr*>(&place), sizeof place);
+}

@@ -1,0 +1,230 @@
+#include "uploader/ble.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::uploader {
+namespace {
+
+using protocol::BleStep;
+using protocol::LinkError;
+using spec::BleCharacteristic;
+
+struct FailureInfo {
+  BleFailure failure;
+  std::string_view remedy;
+  bool again; ///< whether a later try can help
+};
+
+// clang-format off
+constexpr auto failures = std::to_array<FailureInfo>({
+    {BleFailure::NotBuilt,     "install `libsdbus-c++-dev` and build orb again; `orb --version -v` says whether it has it", false},
+    {BleFailure::NoBus,        "`sudo systemctl start dbus`; in a container, let /run/dbus/system_bus_socket in", false},
+    {BleFailure::NoDaemon,     "`sudo systemctl start bluetooth`; it is in the package `bluez`", false},
+    {BleFailure::NotAllowed,   "`sudo usermod -aG bluetooth $USER`, then log in again", false},
+    {BleFailure::NoAdapter,    "plug one in; `bluetoothctl list` shows them", false},
+    {BleFailure::AdapterOff,   "`bluetoothctl power on`; where that fails, `rfkill unblock bluetooth`", false},
+    {BleFailure::AdapterGone,  "plug it in again, into another port where it sits loose", false},
+    {BleFailure::NotFound,     "take it off the charger, shake it awake, hold it near, and end the app that may hold it", false},
+    {BleFailure::Ambiguous,    "name one by its address; `orb ports` lists them", false},
+    {BleFailure::NotConnected, "shake the robot awake, hold it near, and end the app or the phone that may hold it", true},
+    {BleFailure::NotResolved,  "hold the robot near and try again; `bluetoothctl remove ADDRESS` lets the computer ask afresh", true},
+    {BleFailure::Newer,        "orb flashes robots of API v1: SPRK+, BB-8, Ollie, and Sphero over rfcomm://", false},
+    {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` lets the computer ask afresh", true},
+    {BleFailure::Held,         "end that program; `bluetoothctl disconnect ADDRESS` lets go of the robot", false},
+    {BleFailure::Lost,         "hold the robot near, charge it, and try again", true},
+    {BleFailure::Interrupted,  "", false},
+});
+// clang-format on
+
+constexpr const FailureInfo& info(BleFailure failure) {
+  return failures[static_cast<std::size_t>(failure)];
+}
+
+consteval bool failures_are_in_order() {
+  for (std::size_t i = 0; i < failures.size(); ++i)
+    if (failures[i].failure != static_cast<BleFailure>(i))
+      return false;
+  return true;
+}
+static_assert(failures_are_in_order());
+
+/// Pieces out, notifications in.
+class BleTransport final : public protocol::Transport {
+public:
+  BleTransport(std::unique_ptr<Gatt> gatt, const Budgets& budgets, Stop stop)
+      : gatt_(std::move(gatt)), budgets_(budgets), stop_(std::move(stop)) {}
+
+  Instant now() const override { return gatt_->now(); }
+
+  tl::expected<void, LinkError> write(ByteView packet) override {
+    const Patience patience{now() + budgets_.send,
+                            [this, asked = stop_()] { return stop_() > asked ? 1 : 0; }};
+    while (!packet.empty()) {
+      const auto piece = packet.first(std::min(packet.size(), budgets_.piece));
+      if (const auto written = gatt_->write(BleCharacteristic::Commands, piece, patience); !written)
+        return lose(written.error());
+      packet = packet.subspan(piece.size());
+    }
+    return {};
+  }
+
+  tl::expected<Bytes, LinkError> read(Instant deadline) override {
+    auto read = gatt_->read(deadline);
+    if (!read)
+      return link_error(read.error());
+    return *std::move(read);
+  }
+
+private:
+  static tl::unexpected<LinkError> link_error(const BleError& error) {
+    return tl::unexpected(LinkError{LinkError::Kind::Closed,
+                                    fmt::format("{}; {}", error.seen, remedy(error.failure))});
+  }
+
+  /// A piece that was not acknowledged may have arrived, so it is never sent again: the packet is
+  /// lost, unless the link is.
+  static tl::expected<void, LinkError> lose(const BleError& error) {
+    if (error.failure == BleFailure::Refused)
+      return {};
+    if (error.failure == BleFailure::Interrupted)
+      return tl::unexpected(LinkError{LinkError::Kind::Interrupted, "interrupted"});
+    return link_error(error);
+  }
+
+  std::unique_ptr<Gatt> gatt_;
+  Budgets budgets_;
+  Stop stop_;
+};
+
+/// The steps to one robot, each within its budget.
+class Opening {
+public:
+  Opening(Gatt& gatt, const Budgets& budgets, const Stop& stop, const OnBleStep& on_step)
+      : gatt_(gatt), budgets_(budgets), stop_(stop), on_step_(on_step) {}
+
+  tl::expected<void, BleError> run() {
+    for (const auto step : {BleStep::Bus, BleStep::Adapter, BleStep::Find})
+      if (auto done = take(step); !done)
+        return give_up(done.error());
+    for (int time = 1;; ++time) {
+      auto done = connect();
+      if (done)
+        return {};
+      if (time >= budgets_.opens || !info(done.error().failure).again || stop_() > 0)
+        return give_up(done.error());
+      gatt_.rest(patience(budgets_.backoff(time)));
+    }
+  }
+
+private:
+  Patience patience(Duration budget) const { return {gatt_.now() + budget, stop_}; }
+
+  tl::expected<void, BleError> connect() {
+    for (const auto step : {BleStep::Connect, BleStep::Services})
+      if (auto done = take(step); !done)
+        return done;
+    if (auto known = check_characteristics(); !known)
+      return known;
+    for (const auto& row : spec::ble_greeting) {
+      step_ = *protocol::step_of(row.characteristic);
+      if (auto written =
+              gatt_.write(row.characteristic, as_bytes(row.bytes), patience(budgets_.ble_answer));
+          !written)
+        return written;
+      tell(std::string(row.summary));
+    }
+    step_ = BleStep::Subscribe;
+    if (auto subscribed = gatt_.subscribe(patience(budgets_.ble_answer)); !subscribed)
+      return subscribed;
+    tell("its answers are subscribed to");
+    return {};
+  }
+
+  tl::expected<void, BleError> take(BleStep step) {
+    step_ = step;
+    auto found = gatt_.go(step, patience(budget(step)));
+    if (!found)
+      return tl::unexpected(found.error());
+    tell(*std::move(found));
+    return {};
+  }
+
+  Duration budget(BleStep step) const {
+    switch (step) {
+    case BleStep::Find: return budgets_.scan;
+    case BleStep::Connect: return budgets_.ble_connect;
+    case BleStep::Services: return budgets_.services;
+    case BleStep::Bus:
+    case BleStep::Adapter:
+    case BleStep::AntiDos:
+    case BleStep::TxPower:
+    case BleStep::Wake:
+    case BleStep::Subscribe: break;
+    }
+    return budgets_.ble_answer;
+  }
+
+  tl::expected<void, BleError> check_characteristics() const {
+    for (const auto& row : spec::ble_characteristics)
+      if (!gatt_.has(row.characteristic))
+        return tl::unexpected(
+            BleError{BleFailure::Newer,
+                     fmt::format("this robot speaks the newer protocol: it lacks characteristic {}",
+                                 row.uuid)});
+    return {};
+  }
+
+  /// A step that is taken again is not told again.
+  void tell(std::string found) {
+    if (!told_ || step_ > *told_) {
+      told_ = step_;
+      if (on_step_)
+        on_step_(step_, std::move(found));
+    }
+  }
+
+  tl::unexpected<BleError> give_up(const BleError& error) {
+    if (on_step_)
+      on_step_(step_, tl::unexpected(error));
+    return tl::unexpected(error);
+  }
+
+  Gatt& gatt_;
+  const Budgets& budgets_;
+  const Stop& stop_;
+  const OnBleStep& on_step_;
+  BleStep step_{};
+  std::optional<BleStep> told_;
+};
+
+} // namespace
+
+std::string_view remedy(BleFailure failure) {
+  return info(failure).remedy;
+}
+
+tl::expected<std::unique_ptr<protocol::Transport>, BleError> open_ble(std::unique_ptr<Gatt> gatt,
+                                                                      const Budgets& budgets,
+                                                                      const Stop& stop,
+                                                                      const OnBleStep& on_step) {
+  if (const auto opened = Opening(*gatt, budgets, stop, on_step).run(); !opened)
+    return tl::unexpected(opened.error());
+  return std::make_unique<BleTransport>(std::move(gatt), budgets, stop);
+}
+
+LinkError describe_open_error(const Endpoint& endpoint, const BleError& error) {
+  if (error.failure == BleFailure::Interrupted)
+    return {LinkError::Kind::Interrupted, error.seen};
+  return {LinkError::Kind::CannotOpen,
+          fmt::format("cannot open {}: {}; {}", endpoint.text, error.seen, remedy(error.failure))};
+}
+
+Budgets ble_budgets(Budgets budgets) {
+  budgets.piece = spec::ble_piece_bytes;
+  budgets.send = budgets.ble_send;
+  return budgets;
+}
+
+} // namespace orb::uploader

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "protocol/ble.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace orb::uploader {
+
+/// Why there is no way to a robot over Bluetooth LE.
+enum class BleFailure : std::uint8_t {
+  NotBuilt,
+  NoBus,
+  NoDaemon,
+  NotAllowed,
+  NoAdapter,
+  AdapterOff,
+  AdapterGone,
+  NotFound,
+  Ambiguous,
+  NotConnected,
+  NotResolved,
+  Newer,
+  Refused,
+  Held,
+  Lost,
+  Interrupted
+};
+
+struct BleError {
+  BleFailure failure{};
+  std::string seen; ///< what happened, in words
+};
+
+/// What helps after a failure.
+std::string_view remedy(BleFailure failure);
+
+/// Hears of each step to a robot once: what was found, or why it ends there.
+using OnBleStep =
+    std::function<void(protocol::BleStep step, const tl::expected<std::string, BleError>& found)>;
+
+} // namespace orb::uploader

@@ -1,0 +1,382 @@
+#include "uploader/bluez.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#if defined(ORB_BLE)
+
+#include "uploader/bluez_bus.h"
+
+namespace orb::uploader {
+namespace {
+
+using bluez::Bus;
+using bluez::CallError;
+using protocol::BleStep;
+using spec::BleCharacteristic;
+
+BleError interrupted() {
+  return {BleFailure::Interrupted, "interrupted; the ball is unchanged"};
+}
+
+bool stopped(const Patience& patience) {
+  return patience.stop && patience.stop() > 0;
+}
+
+double seconds(Duration time) {
+  return static_cast<double>(time.count()) / 1e9;
+}
+
+/// What is said of a device in lists of them.
+SeenDevice describe(const Bus& bus, const std::string& path) {
+  SeenDevice device;
+  const auto* const interface = bluez::device_interface;
+  device.address = bus.get<std::string>(path, interface, "Address").value_or("");
+  device.name = bus.get<std::string>(path, interface, "Name").value_or("");
+  if (const auto rssi = bus.get<std::int16_t>(path, interface, "RSSI"))
+    device.rssi = *rssi;
+  device.connected = bus.get<bool>(path, interface, "Connected").value_or(false);
+  return device;
+}
+
+/// A device that is there now: it was heard in this scan, or is connected.
+bool is_near(const SeenDevice& device) {
+  return device.rssi || device.connected;
+}
+
+std::string strength(const SeenDevice& device) {
+  return device.rssi ? fmt::format("{} dBm", *device.rssi) : std::string("connected");
+}
+
+class BluezGatt final : public Gatt {
+public:
+  explicit BluezGatt(const Endpoint& endpoint) : endpoint_(endpoint) {}
+  BluezGatt(const BluezGatt&) = delete;
+  BluezGatt& operator=(const BluezGatt&) = delete;
+
+  /// A robot that stays connected is awake, and nobody else finds it; but what another program
+  /// has is left to it.
+  ~BluezGatt() override {
+    if (ours_ && connected())
+      static_cast<void>(
+          bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
+  }
+
+  Instant now() const override { return bluez::steady_now(); }
+
+  tl::expected<std::string, BleError> go(BleStep step, const Patience& patience) override {
+    switch (step) {
+    case BleStep::Bus: return ask_for_daemon(patience);
+    case BleStep::Adapter: return choose_adapter();
+    case BleStep::Find: return look_for_robot(patience);
+    case BleStep::Connect: return connect(patience);
+    case BleStep::Services: return resolve(patience);
+    case BleStep::AntiDos:
+    case BleStep::TxPower:
+    case BleStep::Wake:
+    case BleStep::Subscribe: break;
+    }
+    return {};
+  }
+
+  bool has(BleCharacteristic characteristic) const override {
+    return !path_of(characteristic).empty();
+  }
+
+  tl::expected<void, BleError> write(BleCharacteristic characteristic, ByteView bytes,
+                                     const Patience& patience) override {
+    step_ = protocol::step_of(characteristic);
+    const bluez::Options options{{"type", std::string("request")}}; // that is, with a receipt
+    const auto written =
+        bus_->call(path_of(characteristic), bluez::characteristic_interface, "WriteValue", patience,
+                   Bytes(bytes.begin(), bytes.end()), options);
+    if (!written || !connected())
+      return failed(BleFailure::Refused, "the robot does not take what is written to it",
+                    written ? CallError{} : written.error());
+    return {};
+  }
+
+  tl::expected<void, BleError> subscribe(const Patience& patience) override {
+    step_ = BleStep::Subscribe;
+    const auto path = path_of(BleCharacteristic::Answers);
+    constexpr auto held = "another program has the robot's answers";
+    // Two programs at once would each read the answers to both.
+    if (bus_->get<bool>(path, bluez::characteristic_interface, "Notifying").value_or(false))
+      return tl::unexpected(BleError{BleFailure::Held, held});
+    bus_->collect(path);
+    const auto started = bus_->call(path, bluez::characteristic_interface, "StartNotify", patience);
+    if (!started && started.error().is("NotPermitted"))
+      return tl::unexpected(BleError{BleFailure::Held, held});
+    if (!started || !connected())
+      return failed(BleFailure::Refused, "the robot's answers cannot be subscribed to",
+                    started ? CallError{} : started.error());
+    step_.reset();
+    ours_ = true;
+    return {};
+  }
+
+  void rest(const Patience& patience) override {
+    static_cast<void>(bus_->wait(patience, [] { return false; }));
+  }
+
+  tl::expected<Bytes, BleError> read(Instant deadline) override {
+    static_cast<void>(bus_->wait({deadline, {}}, [&] { return bus_->has_bytes() || lost(); }));
+    if (bus_->has_bytes())
+      return bus_->take();
+    if (lost())
+      return failed(BleFailure::Lost, "", {});
+    return Bytes{};
+  }
+
+private:
+  bool flag(const char* property) const {
+    return bus_->get<bool>(device_, bluez::device_interface, property).value_or(false);
+  }
+  bool connected() const { return flag("Connected"); }
+  bool lost() const { return !bus_->alive() || !connected(); }
+
+  std::string path_of(BleCharacteristic characteristic) const {
+    for (const auto& path : bus_->all(bluez::characteristic_interface))
+      if (path.starts_with(device_ + "/") &&
+          equal_words(
+              bus_->get<std::string>(path, bluez::characteristic_interface, "UUID").value_or(""),
+              spec::info(characteristic).uuid))
+        return path;
+    return {};
+  }
+
+  /// Why something did not work: the adapter first, then the link, then the thing itself.
+  tl::unexpected<BleError> failed(BleFailure failure, std::string_view what,
+                                  const CallError& call) const {
+    if (call.interrupted)
+      return tl::unexpected(interrupted());
+    if (auto error = bluez::trouble(*bus_, adapter_))
+      return tl::unexpected(*std::move(error));
+    if (call.is("AccessDenied"))
+      return tl::unexpected(BleError{BleFailure::NotAllowed, "you may not use Bluetooth"});
+    if (failure != BleFailure::NotConnected && !connected())
+      return tl::unexpected(BleError{
+          BleFailure::Lost, step_ ? fmt::format("the link was lost while {}", info(*step_).doing)
+                                  : std::string("the link was lost")});
+    return tl::unexpected(BleError{failure, call.message.empty()
+                                                ? std::string(what)
+                                                : fmt::format("{}: {}", what, call.message)});
+  }
+
+  tl::expected<std::string, BleError> ask_for_daemon(const Patience& patience) {
+    auto bus = Bus::open(patience);
+    if (!bus)
+      return tl::unexpected(bus.error());
+    bus_ = *std::move(bus);
+    return std::string("bluetoothd answers");
+  }
+
+  tl::expected<std::string, BleError> choose_adapter() {
+    auto adapter = bluez::find_adapter(*bus_);
+    if (!adapter)
+      return adapter;
+    adapter_ = *std::move(adapter);
+    if (auto error = bluez::trouble(*bus_, adapter_))
+      return tl::unexpected(*std::move(error));
+    return fmt::format("the adapter {} is on", adapter_.substr(adapter_.rfind('/') + 1));
+  }
+
+  bool is_meant(const SeenDevice& device) const {
+    return endpoint_.name.empty() ? equal_words(device.address, to_string(endpoint_.address))
+                                  : device.name == endpoint_.name;
+  }
+
+  /// The devices that are near and are the one that is meant, by their paths.
+  std::vector<std::string> candidates() const {
+    std::vector<std::string> paths;
+    for (const auto& path : bus_->all(bluez::device_interface))
+      if (const auto device = describe(*bus_, path); is_near(device) && is_meant(device))
+        paths.push_back(path);
+    return paths;
+  }
+
+  tl::expected<std::string, BleError> look_for_robot(const Patience& patience) {
+    const auto start = now();
+    auto found = candidates();
+    if (found.empty()) {
+      const bluez::Discovery discovery(*bus_, adapter_, patience);
+      if (!discovery.started() && !discovery.started().error().is("InProgress"))
+        return failed(BleFailure::NotFound, "no scan can be started", discovery.started().error());
+      static_cast<void>(bus_->wait(patience, [&] {
+        found = candidates();
+        return !found.empty() || bluez::trouble(*bus_, adapter_);
+      }));
+      if (found.empty())
+        return not_found(patience.deadline - start, patience);
+      return meet(found); // how strongly it is received is known only now
+    }
+    return meet(found);
+  }
+
+  tl::expected<std::string, BleError> meet(const std::vector<std::string>& found) {
+    if (found.size() > 1)
+      return tl::unexpected(
+          BleError{BleFailure::Ambiguous,
+                   fmt::format("{} robots are called `{}`", found.size(), endpoint_.name)});
+    device_ = found.front();
+    const auto device = describe(*bus_, device_);
+    return fmt::format("{} is near ({})", device.name.empty() ? device.address : device.name,
+                       strength(device));
+  }
+
+  tl::expected<std::string, BleError> not_found(Duration budget, const Patience& patience) const {
+    if (stopped(patience))
+      return tl::unexpected(interrupted());
+    if (auto error = bluez::trouble(*bus_, adapter_))
+      return tl::unexpected(*std::move(error));
+    std::vector<std::string> names;
+    std::size_t others = 0;
+    for (const auto& path : bus_->all(bluez::device_interface)) {
+      const auto device = describe(*bus_, path);
+      if (is_near(device) && spec::find_ble_name(device.name) != nullptr)
+        names.push_back(fmt::format("{} ({})", device.name, strength(device)));
+      else if (is_near(device))
+        ++others;
+    }
+    const auto robots =
+        names.empty() ? std::string("no other robot") : fmt::format("{}", fmt::join(names, ", "));
+    return tl::unexpected(
+        BleError{BleFailure::NotFound,
+                 fmt::format("no `{}` was seen within {:.1f} s, but {}{}",
+                             endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
+                             seconds(budget), robots,
+                             others > 0 ? fmt::format(" and {}", plural(others, "other device"))
+                                        : std::string())});
+  }
+
+  tl::expected<std::string, BleError> connect(const Patience& patience) {
+    step_ = BleStep::Connect;
+    const auto before = connected();
+    const auto called = bus_->call(device_, bluez::device_interface, "Connect", patience);
+    if (!called && !called.error().is("AlreadyConnected")) {
+      // A call that is not waited for any more goes on.
+      static_cast<void>(
+          bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
+      return failed(BleFailure::NotConnected, "the robot does not connect", called.error());
+    }
+    ours_ = !before;
+    return std::string(before ? "it was connected already" : "it is connected");
+  }
+
+  /// Connect answers before the services are known.
+  tl::expected<std::string, BleError> resolve(const Patience& patience) {
+    step_ = BleStep::Services;
+    const auto start = now();
+    static_cast<void>(bus_->wait(patience, [&] { return flag("ServicesResolved") || lost(); }));
+    if (stopped(patience))
+      return tl::unexpected(interrupted());
+    if (lost() || !flag("ServicesResolved"))
+      return failed(BleFailure::NotResolved,
+                    fmt::format("the robot did not say within {:.1f} s what it can do",
+                                seconds(patience.deadline - start)),
+                    {});
+    return std::string("its services are known");
+  }
+
+  Endpoint endpoint_;
+  std::unique_ptr<Bus> bus_;
+  std::string adapter_;
+  std::string device_;
+  bool ours_ = false;           ///< the link to the robot
+  std::optional<BleStep> step_; ///< for messages
+};
+
+} // namespace
+
+bool has_ble() {
+  return true;
+}
+
+std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
+  return std::make_unique<BluezGatt>(endpoint);
+}
+
+tl::expected<std::vector<SeenDevice>, BleError>
+scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
+         const std::function<void(std::size_t)>& progress) {
+  const Patience answers{bluez::steady_now() + budgets.ble_answer, stop};
+  auto bus = Bus::open(answers);
+  if (!bus)
+    return tl::unexpected(bus.error());
+  const auto adapter = bluez::find_adapter(**bus);
+  if (!adapter)
+    return tl::unexpected(adapter.error());
+  if (auto error = bluez::trouble(**bus, *adapter))
+    return tl::unexpected(*std::move(error));
+  std::map<std::string, SeenDevice> seen; // by path; what advertises itself seldom stays in
+  const bluez::Discovery discovery(**bus, *adapter, answers);
+  if (!discovery.started() && discovery.started().error().is("AccessDenied"))
+    return tl::unexpected(BleError{BleFailure::NotAllowed, "you may not use Bluetooth"});
+  const Patience patience{bluez::steady_now() + time, stop};
+  std::optional<BleError> error;
+  static_cast<void>((*bus)->wait(patience, [&] {
+    for (const auto& path : (*bus)->all(bluez::device_interface))
+      if (auto device = describe(**bus, path); is_near(device))
+        seen[path] = std::move(device);
+    progress(seen.size());
+    error = bluez::trouble(**bus, *adapter);
+    return error.has_value();
+  }));
+  if (error)
+    return tl::unexpected(*std::move(error));
+  if (stopped(patience))
+    return tl::unexpected(interrupted());
+  std::vector<SeenDevice> devices;
+  for (auto& [path, device] : seen)
+    devices.push_back(std::move(device));
+  std::ranges::stable_sort(devices, std::greater(), [](const SeenDevice& device) {
+    return device.connected ? 0 : device.rssi.value_or(-1000); // weaker than anything received
+  });
+  return devices;
+}
+
+} // namespace orb::uploader
+
+#else
+
+namespace orb::uploader {
+namespace {
+
+const BleError not_built{BleFailure::NotBuilt, "this orb was built without Bluetooth LE"};
+
+class NoGatt final : public Gatt {
+public:
+  Instant now() const override { return {}; }
+  tl::expected<std::string, BleError> go(protocol::BleStep, const Patience&) override {
+    return tl::unexpected(not_built);
+  }
+  bool has(spec::BleCharacteristic) const override { return false; }
+  tl::expected<void, BleError> write(spec::BleCharacteristic, ByteView, const Patience&) override {
+    return tl::unexpected(not_built);
+  }
+  tl::expected<void, BleError> subscribe(const Patience&) override {
+    return tl::unexpected(not_built);
+  }
+  void rest(const Patience&) override {}
+  tl::expected<Bytes, BleError> read(Instant) override { return tl::unexpected(not_built); }
+};
+
+} // namespace
+
+bool has_ble() {
+  return false;
+}
+
+std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint&) {
+  return std::make_unique<NoGatt>();
+}
+
+tl::expected<std::vector<SeenDevice>, BleError> scan_ble(Duration, const Budgets&, const Stop&,
+                                                         const std::function<void(std::size_t)>&) {
+  return tl::unexpected(not_built);
+}
+
+} // namespace orb::uploader
+
+#endif

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "base/time.h"
+#include "uploader/ble_error.h"
+#include "uploader/endpoint.h"
+
+namespace orb::uploader {
+
+/// How long something is waited for.
+struct Patience {
+  Instant deadline;
+  Stop stop; ///< asked while it is waited
+};
+
+/// One robot as the Bluetooth LE of a computer shows it. It ends a wait within stop_notice of its
+/// patience.
+class Gatt {
+public:
+  virtual ~Gatt() = default;
+
+  virtual Instant now() const = 0;
+
+  /// Takes one of the steps from Bus to Services; what was found, in words.
+  virtual tl::expected<std::string, BleError> go(protocol::BleStep step,
+                                                 const Patience& patience) = 0;
+
+  /// Whether the robot has it; known after the step Services.
+  virtual bool has(spec::BleCharacteristic characteristic) const = 0;
+
+  /// Writes at most spec::ble_piece_bytes and waits for the receipt. A piece that fails may have
+  /// arrived.
+  virtual tl::expected<void, BleError> write(spec::BleCharacteristic characteristic, ByteView bytes,
+                                             const Patience& patience) = 0;
+
+  /// From now on read() has what the robot sends.
+  virtual tl::expected<void, BleError> subscribe(const Patience& patience) = 0;
+
+  /// Lets time pass.
+  virtual void rest(const Patience& patience) = 0;
+
+  /// What has been notified of, as soon as there is a byte; nothing when `deadline` passes first.
+  virtual tl::expected<Bytes, BleError> read(Instant deadline) = 0;
+};
+
+} // namespace orb::uploader
