@@ -35,12 +35,14 @@ std::optional<fs::path> user_file() {
 
 /// What a project's file may set: it comes with what somebody else has written. No output, and
 /// nothing that writes.
+// clang-format off
 constexpr auto project_options = std::to_array<std::string_view>({
-    "target", "ram", "area", "executive", "firmware",                  // the ball
-    "deny", "warn", "allow", "max-errors",                             // the rules' levels
-    "pack", "fold-delays", "renumber",                                 // layout
+    "target", "ram", "area", "executive", "firmware",                                     // the ball
+    "deny", "warn", "allow", "max-errors",                                                // the rules' levels
+    "pack", "fold-delays", "renumber",                                                    // layout
     "for", "lines-per-second", "seed", "speed", "timeout", "connect-timeout", "attempts", // budgets
 });
+// clang-format on
 
 /// Whether the file is the user's or root's: what somebody else has put into a folder above is not
 /// obeyed. Root in the user's name (sudo) takes what is the user's.
@@ -197,7 +199,9 @@ std::string comment_of(const std::string& line) {
   const auto open = line.find('"', line.find('='));
   const auto close = open == line.npos ? open : line.find('"', open + 1);
   const auto hash = line.find('#', close == line.npos ? line.find('=') : close);
-  return hash == line.npos ? std::string() : "  " + line.substr(hash);
+  if (hash == line.npos)
+    return {};
+  return close == line.npos ? "  " + line.substr(hash) : line.substr(close + 1);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {

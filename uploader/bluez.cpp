@@ -239,15 +239,14 @@ private:
       else if (is_near(device))
         ++others;
     }
-    const auto robots =
-        names.empty() ? std::string("no other robot") : fmt::format("{}", fmt::join(names, ", "));
-    return tl::unexpected(
-        BleError{BleFailure::NotFound,
-                 fmt::format("no `{}` was seen within {:.1f} s, but {}{}",
-                             endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
-                             seconds(budget), robots,
-                             others > 0 ? fmt::format(" and {}", plural(others, "other device"))
-                                        : std::string())});
+    const auto robots = names.empty() ? std::string(", nor any other robot")
+                                      : fmt::format(", but {}", fmt::join(names, ", "));
+    return tl::unexpected(BleError{
+        BleFailure::NotFound,
+        fmt::format("no `{}` was seen within {:.1f} s{}{}",
+                    endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
+                    seconds(budget), robots,
+                    others > 0 ? fmt::format("; {} that are no robots", others) : std::string())});
   }
 
   tl::expected<std::string, BleError> connect(const Patience& patience) {
