@@ -490,8 +490,8 @@ void FakeBluez::Robot::connect(Result&& result) {
   connected_ = true;
   admitted_ = false;
   ++session_;
+  tell(*device_, device_interface, {{"Connected", true}}); // before it is answered, as BlueZ does
   result.returnResults();
-  tell(*device_, device_interface, {{"Connected", true}});
   door_->enter(*this);
   await_packets();
   computer_.after(computer_.plan().late, [this, session = session_] {

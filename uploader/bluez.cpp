@@ -252,6 +252,7 @@ private:
   tl::expected<std::string, BleError> connect(const Patience& patience) {
     step_ = BleStep::Connect;
     const auto before = connected();
+    static_cast<void>(bus_->has_risen(device_, "Connected")); // earlier
     const auto called = bus_->call(device_, bluez::device_interface, "Connect", patience);
     if (!called && !called.error().is("AlreadyConnected")) {
       // A call that is not waited for any more goes on.
@@ -259,6 +260,16 @@ private:
           bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
       return failed(BleFailure::NotConnected, "the robot does not connect", called.error());
     }
+    // The answer can come before the property says so, and the link be gone again by then.
+    auto risen = before;
+    static_cast<void>(bus_->wait(patience, [&] {
+      risen = risen || connected() || bus_->has_risen(device_, "Connected");
+      return risen || !bus_->alive();
+    }));
+    if (stopped(patience))
+      return tl::unexpected(interrupted());
+    if (!risen)
+      return failed(BleFailure::NotConnected, "the robot does not connect", {});
     ours_ = !before;
     return std::string(before ? "it was connected already" : "it is connected");
   }

@@ -147,6 +147,8 @@ void Bus::take_in(sdbus::Message& signal) {
         const auto bytes = value.get<Bytes>();
         collected_.insert(collected_.end(), bytes.begin(), bytes.end());
       }
+      if (value.containsValueOfType<bool>() && value.get<bool>())
+        risen_.emplace(signal.getPath(), name);
       properties[name] = value;
     }
     for (const auto& name : gone)

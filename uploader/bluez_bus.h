@@ -8,7 +8,9 @@
 #include <memory>
 #include <optional>
 #include <sdbus-c++/sdbus-c++.h>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// bluetoothd as a tree of objects with properties. Only files named bluez… see D-Bus.
@@ -75,6 +77,12 @@ public:
     return at->second.template get<Value>();
   }
 
+  /// Whether the property has become true since this was last asked, whatever it is now: what comes
+  /// and goes between two looks is not missed.
+  bool has_risen(const std::string& path, const std::string& property) {
+    return risen_.erase({path, property}) > 0;
+  }
+
   /// Whether bluetoothd is still there.
   bool alive() const { return alive_; }
 
@@ -96,6 +104,7 @@ private:
   std::unique_ptr<sdbus::IConnection> connection_;
   std::vector<sdbus::Slot> matches_;
   std::map<std::string, Interfaces> objects_;
+  std::set<std::pair<std::string, std::string>> risen_; ///< paths and properties
   bool alive_ = true;
   std::string collected_from_;
   Bytes collected_;
