@@ -4,6 +4,7 @@
 #include "cli/json.h"
 #include "cli/link.h"
 #include "cli/ports.h"
+#include "uploader/bluez.h"
 #include "uploader/endpoint.h"
 
 #include <cerrno>
@@ -91,6 +92,18 @@ void check_bluetooth(Checkup& checkup) {
   if (fs::is_empty(adapters_folder, error) || error)
     checkup.bad("there is no Bluetooth adapter", "plug one in; `bluetoothctl list` shows them");
   check_rfkill(checkup);
+}
+
+/// What robots over Bluetooth LE need of the computer; none is looked for.
+void check_ble(Checkup& checkup) {
+  const auto gatt = uploader::make_bluez_gatt({});
+  for (const auto step : {protocol::BleStep::Bus, protocol::BleStep::Adapter}) {
+    const auto found = gatt->go(step, {gatt->now() + uploader::Budgets{}.ble_answer, {}});
+    if (!found)
+      return checkup.bad(fmt::format("Bluetooth LE: {}", found.error().seen),
+                         remedy(found.error().failure));
+    checkup.good(fmt::format("Bluetooth LE: {}", *found));
+  }
 }
 
 /// Whether the node is there, is a device and may be opened; it is not opened here.
@@ -183,6 +196,7 @@ void run(Context& context, const PortOptions& options, const std::string& format
       system.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer",
                               port.url, port.what, port.url));
     check_bluetooth(system);
+    check_ble(system);
     break;
   }
   }

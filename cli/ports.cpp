@@ -83,8 +83,9 @@ Json describe(const uploader::SeenDevice& device, const std::vector<uploader::Se
   return json;
 }
 
-/// Listens for robots over Bluetooth LE. Why that cannot be is a note.
-std::vector<uploader::SeenDevice> scan(const Context& context, Duration time) {
+/// Listens for robots over Bluetooth LE. Why that cannot be is a note; only an interruption fails.
+tl::expected<std::vector<uploader::SeenDevice>, Failure> scan(const Context& context,
+                                                              Duration time) {
   using namespace std::chrono;
   if (time == Duration{})
     return {};
@@ -98,14 +99,16 @@ std::vector<uploader::SeenDevice> scan(const Context& context, Duration time) {
   });
   if (devices)
     return *std::move(devices);
+  if (devices.error().failure == uploader::BleFailure::Interrupted)
+    return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
   print_note(context, fmt::format("nobody listened for Bluetooth LE: {}; {}", devices.error().seen,
                                   remedy(devices.error().failure)));
   return {};
 }
 
 /// Robots first; what is none is counted, and listed with -v.
-void add_robots(const Context& context, Duration time, Json& ports) {
-  const auto devices = scan(context, time);
+void add_robots(const Context& context, const std::vector<uploader::SeenDevice>& devices,
+                Json& ports) {
   std::size_t others = 0;
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) != nullptr)
@@ -122,11 +125,14 @@ void add_robots(const Context& context, Duration time, Json& ports) {
       ports.push_back(describe(device, devices));
 }
 
-void list(const Context& context, const Options& options) {
+void list(Context& context, const Options& options) {
+  const auto devices = scan(context, *parse_duration(options.scan, 1s)); // the option is checked
+  if (!devices)
+    return fail(context, devices.error());
   auto ports = Json::array();
   for (const auto& port : find_ports(context.config))
     ports.push_back({{"url", port.url}, {"what", port.what}});
-  add_robots(context, *parse_duration(options.scan, 1s), ports); // the option is checked
+  add_robots(context, *devices, ports);
   const bool none = ports.empty();
   ports.push_back({{"url", "sim:"}, {"what", "a ball in this process"}});
   if (options.format == "json")

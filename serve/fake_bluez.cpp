@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
 #include <map>
 #include <sdbus-c++/sdbus-c++.h>
@@ -164,6 +163,8 @@ private:
   /// Whether the plan ends the link in this step; then it is done.
   bool strikes(BleStep step, Result& result);
   bool strikes(BleStep step);
+  /// Lets `answer` have the result of a call later.
+  void keep(Result&& result, Duration time, std::function<void(Result&)> answer);
 
   void write(BleCharacteristic characteristic, const Bytes& value, Result&& result);
   void take(BleCharacteristic characteristic, const Bytes& value);
@@ -184,6 +185,9 @@ private:
   std::map<BleCharacteristic, Characteristic> characteristics_;
   std::array<std::uint8_t, 4096> buffer_{}; // bytes; more than a ball says at once
   std::optional<BleStep> drop_once_;
+  /// Calls that are not answered yet, by number: none of them may outlive the connection.
+  std::map<std::uint64_t, Result> kept_;
+  std::uint64_t calls_ = 0;
   bool known_ = false; ///< it has told its name
   bool heard_ = false; ///< how strongly is known
   bool connected_ = false;
@@ -469,11 +473,18 @@ bool FakeBluez::Robot::strikes(BleStep step, Result& result) {
   if (plan.vanish != step && plan.drop != step && drop_once_ != step)
     return false;
   // Whoever is called now is not taken away under its own feet.
-  asio::post(computer_.io(), [this, step, result = std::move(result)] {
+  keep(std::move(result), {}, [this, step](Result& kept) {
     static_cast<void>(strikes(step));
-    result.returnError(bluez_error("Failed", "le-connection-abort-by-local"));
+    kept.returnError(bluez_error("Failed", "le-connection-abort-by-local"));
   });
   return true;
+}
+
+void FakeBluez::Robot::keep(Result&& result, Duration time, std::function<void(Result&)> answer) {
+  kept_.emplace(++calls_, std::move(result));
+  computer_.after(time, [this, number = calls_, answer = std::move(answer)] {
+    answer(kept_.extract(number).mapped());
+  });
 }
 
 void FakeBluez::Robot::connect(Result&& result) {
@@ -551,17 +562,13 @@ void FakeBluez::Robot::write(BleCharacteristic characteristic, const Bytes& valu
     result.returnResults();
     return take(characteristic, value);
   }
-  auto timer = std::make_unique<asio::steady_timer>(computer_.io(), computer_.plan().interval);
-  auto& waiting = *timer;
-  waiting.async_wait([this, timer = std::move(timer), characteristic, value, session = session_,
-                      result = std::move(result)](asio::error_code error) {
-    if (error)
-      return;
-    if (session != session_)
-      return result.returnError(not_connected());
-    result.returnResults();
-    take(characteristic, value);
-  });
+  keep(std::move(result), computer_.plan().interval,
+       [this, characteristic, value, session = session_](Result& kept) {
+         if (session != session_)
+           return kept.returnError(not_connected());
+         kept.returnResults();
+         take(characteristic, value);
+       });
 }
 
 /// What the robot does with what was written, after the receipt has left.

@@ -13,12 +13,9 @@ namespace {
 
 using bluez::Bus;
 using bluez::CallError;
+using bluez::interrupted;
 using protocol::BleStep;
 using spec::BleCharacteristic;
-
-BleError interrupted() {
-  return {BleFailure::Interrupted, "interrupted; the ball is unchanged"};
-}
 
 bool stopped(const Patience& patience) {
   return patience.stop && patience.stop() > 0;
@@ -255,9 +252,10 @@ private:
     static_cast<void>(bus_->has_risen(device_, "Connected")); // earlier
     const auto called = bus_->call(device_, bluez::device_interface, "Connect", patience);
     if (!called && !called.error().is("AlreadyConnected")) {
-      // A call that is not waited for any more goes on.
-      static_cast<void>(
-          bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
+      // A call that is not waited for any more goes on; but what another program has is left to it.
+      if (!before)
+        static_cast<void>(
+            bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
       return failed(BleFailure::NotConnected, "the robot does not connect", called.error());
     }
     // The answer can come before the property says so, and the link be gone again by then.

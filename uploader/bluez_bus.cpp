@@ -16,7 +16,7 @@ constexpr auto manager_interface = "org.freedesktop.DBus.ObjectManager";
 
 BleError describe(const CallError& error) {
   if (error.interrupted)
-    return {BleFailure::Interrupted, "interrupted; the ball is unchanged"};
+    return interrupted();
   if (error.is("AccessDenied"))
     return {BleFailure::NotAllowed, "you may not use Bluetooth"};
   if (error.name.empty())
@@ -25,6 +25,10 @@ BleError describe(const CallError& error) {
 }
 
 } // namespace
+
+BleError interrupted() {
+  return {BleFailure::Interrupted, interrupted_opening};
+}
 
 Instant steady_now() {
   return Instant(
@@ -65,8 +69,14 @@ tl::expected<void, CallError> Bus::read_objects(const Patience& patience) {
         objects_[path] = std::move(interfaces);
     });
   } catch (const sdbus::Error& error) {
-    return tl::unexpected(CallError{error.getName(), error.getMessage()});
+    return tl::unexpected(uncalled(error));
   }
+}
+
+/// A call that cannot be sent: is the bus itself gone? That shows when it is listened to.
+CallError Bus::uncalled(const sdbus::Error& error) {
+  static_cast<void>(wait({steady_now(), {}}, [] { return true; }));
+  return {error.getName(), error.getMessage()};
 }
 
 tl::expected<void, CallError> Bus::finish(sdbus::IProxy& proxy, const sdbus::MethodCall& message,

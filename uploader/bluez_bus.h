@@ -55,7 +55,7 @@ public:
       static_cast<void>((message << ... << arguments));
       return finish(*proxy, message, patience, {});
     } catch (const sdbus::Error& error) {
-      return tl::unexpected(CallError{error.getName(), error.getMessage()});
+      return tl::unexpected(uncalled(error));
     }
   }
 
@@ -97,6 +97,7 @@ private:
 
   tl::expected<void, CallError> finish(sdbus::IProxy& proxy, const sdbus::MethodCall& message,
                                        const Patience& patience, const OnReply& on_reply);
+  CallError uncalled(const sdbus::Error& error);
   tl::expected<void, CallError> read_objects(const Patience& patience);
   void subscribe();
   void take_in(sdbus::Message& signal);
@@ -109,6 +110,9 @@ private:
   std::string collected_from_;
   Bytes collected_;
 };
+
+/// That nobody waits any more.
+BleError interrupted();
 
 /// The steady clock as an Instant.
 Instant steady_now();

@@ -49,6 +49,9 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url);
 /// How often waiting was asked to stop, as by Ctrl-C.
 using Stop = std::function<int()>;
 
+/// What is said of a link that nobody waits for any more before it is open.
+inline constexpr auto interrupted_opening = "interrupted; the ball is unchanged";
+
 /// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
 /// try can help. Not for Sim and Replay. The error says what helps; it is Interrupted within
 /// stop_notice of `stop`, and so is a write of the link that cannot go on when `stop` is one more.

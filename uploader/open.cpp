@@ -182,7 +182,7 @@ Opened open_serial(const Endpoint& endpoint, const Stop& stop) {
 
 /// Nothing has been sent while a link is being opened.
 tl::unexpected<LinkError> interrupted() {
-  return failed(LinkError::Kind::Interrupted, "interrupted; the ball is unchanged");
+  return failed(LinkError::Kind::Interrupted, interrupted_opening);
 }
 
 /// Lets `wait` wait for short times until it is true, or until nobody waits any more.
