@@ -1,7 +1,8 @@
 // Stands in for the RFCOMM of the kernel, where there is no radio: preloaded, it turns a Bluetooth
 // socket into one of TCP, and connecting to the address ORB_SHIM_ROBOT (twelve digits, as the
 // kernel keeps them: the last byte first) on channel 1 into connecting to the port ORB_SHIM_PORT of
-// this machine. Everything else about the socket is the kernel's own.
+// this machine. As in the kernel, a channel is connected once for a computer: the file ORB_SHIM_LOCK
+// says whether it is. Everything else about the socket is the kernel's own.
 
 #include <arpa/inet.h>
 #include <cerrno>
@@ -9,7 +10,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 
 namespace {
@@ -35,6 +38,12 @@ int refusal(const unsigned char* bytes) {
   return bytes[8] == robot_channel ? 0 : ECONNREFUSED;
 }
 
+/// Whether no other process has the channel; it is ours until this process ends.
+bool take_channel() {
+  static const int file = ::open(std::getenv("ORB_SHIM_LOCK"), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  return ::flock(file, LOCK_EX | LOCK_NB) == 0;
+}
+
 } // namespace
 
 extern "C" int socket(int family, int type, int protocol) noexcept {
@@ -54,6 +63,10 @@ extern "C" int connect(int socket, const sockaddr* address, socklen_t size) {
   }
   if (const int error = refusal(reinterpret_cast<const unsigned char*>(address)); error != 0) {
     errno = error;
+    return -1;
+  }
+  if (!take_channel()) {
+    errno = EBUSY;
     return -1;
   }
   sockaddr_in place{};
