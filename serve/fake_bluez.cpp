@@ -166,7 +166,7 @@ private:
   /// Lets `answer` have the result of a call later.
   void keep(Result&& result, Duration time, std::function<void(Result&)> answer);
 
-  void write(BleCharacteristic characteristic, const Bytes& value, Result&& result);
+  void on_write(BleCharacteristic characteristic, const Bytes& value, Result&& result);
   void take(BleCharacteristic characteristic, const Bytes& value);
   void start_notify(BleCharacteristic characteristic, Result&& result);
   void stop_notify(BleCharacteristic characteristic);
@@ -425,7 +425,7 @@ void FakeBluez::Robot::publish_characteristic(const spec::BleCharacteristicInfo&
   object->registerMethod("WriteValue")
       .onInterface(characteristic_interface)
       .implementedAs([this, which](Result&& result, const Bytes& value, const Properties&) {
-        write(which, value, std::move(result));
+        on_write(which, value, std::move(result));
       });
   object->registerMethod("StartNotify")
       .onInterface(characteristic_interface)
@@ -542,8 +542,8 @@ void FakeBluez::Robot::set_notified(BleCharacteristic characteristic, const std:
   tell(*entry.object, characteristic_interface, {{"Notifying", !client.empty()}});
 }
 
-void FakeBluez::Robot::write(BleCharacteristic characteristic, const Bytes& value,
-                             Result&& result) {
+void FakeBluez::Robot::on_write(BleCharacteristic characteristic, const Bytes& value,
+                                Result&& result) {
   if (!connected_)
     return result.returnError(not_connected());
   if (const auto step = protocol::step_of(characteristic); step && strikes(*step, result))

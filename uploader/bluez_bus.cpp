@@ -11,7 +11,6 @@
 namespace orb::uploader::bluez {
 namespace {
 
-constexpr auto properties_interface = "org.freedesktop.DBus.Properties";
 constexpr auto manager_interface = "org.freedesktop.DBus.ObjectManager";
 
 BleError describe(const CallError& error) {
