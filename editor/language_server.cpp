@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 namespace orb::editor {
@@ -48,6 +49,7 @@ struct Document {
   Source source;
   const LanguageService* language = nullptr;
   std::optional<std::int64_t> version;
+  std::set<std::string> reads = {}; ///< the paths that its findings were made from
 
   const LanguageShape& shape() const { return *language->shape; }
 };
@@ -121,6 +123,8 @@ struct LanguageServer::State final : structured::Files, Wording {
 
   /// An open document, else what the disk holds.
   std::optional<std::string> read(const std::string& path) override {
+    if (reads != nullptr)
+      reads->insert(path);
     for (const auto& [uri, document] : documents)
       if (path_of_uri(uri) == path)
         return std::string(document.source.text());
@@ -129,7 +133,8 @@ struct LanguageServer::State final : structured::Files, Wording {
 
   structured::Files* disk;
   Folders* folders;
-  std::vector<std::string> roots; ///< the paths of the folders that the editor has open
+  std::set<std::string>* reads = nullptr; ///< where `read` notes what it is asked for
+  std::vector<std::string> roots;         ///< the paths of the folders that the editor has open
   std::map<std::string, Document> documents;
   std::deque<Waiting> waiting;
   LanguageOptions options;
@@ -168,7 +173,8 @@ struct LanguageServer::State final : structured::Files, Wording {
   void did_open(const Json& params);
   void did_change(const Json& params);
   void did_close(const Json& params);
-  void publish(const std::string& uri, const Document& document);
+  void publish(const std::string& uri, Document& document);
+  void publish_readers(const std::string& uri);
 
   // Requests.
   Answer initialize(const Json& params);
@@ -346,6 +352,9 @@ void LanguageServer::State::notification(const std::string& method, const Json& 
     did_change(params);
   else if (method == "textDocument/didClose")
     did_close(params);
+  else if (method == "workspace/didChangeWatchedFiles")
+    for (const auto& change : member(params, "changes"))
+      publish_readers(text_of(member(change, "uri")));
 }
 
 Answer LanguageServer::State::request(const std::string& method, const Json& params) {
@@ -446,6 +455,7 @@ void LanguageServer::State::did_open(const Json& params) {
     document.version = version.get<std::int64_t>();
   const auto [place, inserted] = documents.insert_or_assign(uri, std::move(document));
   publish(uri, place->second);
+  publish_readers(uri);
 }
 
 void LanguageServer::State::did_change(const Json& params) {
@@ -491,12 +501,15 @@ void LanguageServer::State::did_change(const Json& params) {
     document.source = Source(uri, std::move(text));
   }
   publish(uri, document);
+  publish_readers(uri);
 }
 
 void LanguageServer::State::did_close(const Json& params) {
   const auto uri = text_of(member(member(params, "textDocument"), "uri"));
-  if (documents.erase(uri) > 0)
-    notify("textDocument/publishDiagnostics", {{"uri", uri}, {"diagnostics", Json::array()}});
+  if (documents.erase(uri) == 0)
+    return;
+  notify("textDocument/publishDiagnostics", {{"uri", uri}, {"diagnostics", Json::array()}});
+  publish_readers(uri); // from now on they see what the disk holds
 }
 
 std::vector<Diagnostic> LanguageServer::State::check(const Document& document) const {
@@ -518,14 +531,25 @@ Json LanguageServer::State::diagnostic(const std::string& uri, const Document& d
   return json;
 }
 
-void LanguageServer::State::publish(const std::string& uri, const Document& document) {
+void LanguageServer::State::publish(const std::string& uri, Document& document) {
   auto list = Json::array();
+  document.reads.clear();
+  reads = &document.reads;
   for (const auto& one : check(document))
     list.push_back(diagnostic(uri, document, one));
+  reads = nullptr;
   Json params{{"uri", uri}, {"diagnostics", std::move(list)}};
   if (document.version)
     params["version"] = *document.version;
   notify("textDocument/publishDiagnostics", std::move(params));
+}
+
+/// The findings of the open documents that include, use or test the file that `uri` names.
+void LanguageServer::State::publish_readers(const std::string& uri) {
+  const auto path = path_of_uri(uri);
+  for (auto& [other, document] : documents)
+    if (other != uri && document.reads.contains(path))
+      publish(other, document);
 }
 
 Answer LanguageServer::State::hover(const Asked& asked) const {

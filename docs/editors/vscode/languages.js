@@ -1,5 +1,6 @@
 // Starts `orb lsp` when the first program, macro, test or stimulus script is opened.
 
+const { workspace } = require('vscode');
 const { LanguageClient } = require('vscode-languageclient/node');
 const { settings, programs } = require('./settings');
 
@@ -11,6 +12,7 @@ function activate() {
   client = new LanguageClient('orb', 'orb', { run: command, debug: command }, {
     documentSelector: [...programs, 'orbtest', 'orbstimulus'].map((language) => ({ language })),
     initializationOptions: { target },
+    synchronize: { fileEvents: workspace.createFileSystemWatcher('**/*.{orb,bas,macro,svg}') },
   });
   return client.start();
 }

@@ -3,11 +3,24 @@
 #include "editor/language_server.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace orb::editor {
+
+/// Files that a test has.
+class Disk final : public structured::Files {
+public:
+  std::map<std::string, std::string> texts;
+
+  std::optional<std::string> read(const std::string& path) override {
+    const auto found = texts.find(path);
+    return found == texts.end() ? std::nullopt : std::optional(found->second);
+  }
+};
 
 /// A scripted editor: speaks to a server in this process and keeps what it answered.
 class LspClient {

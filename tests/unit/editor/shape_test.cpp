@@ -16,16 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Disk final : public structured::Files {
-public:
-  std::map<std::string, std::string> texts;
-
-  std::optional<std::string> read(const std::string& path) override {
-    const auto found = texts.find(path);
-    return found == texts.end() ? std::nullopt : std::optional(found->second);
-  }
-};
-
 /// `word:color` of each coloured piece, with `+` and the numbers of its traits.
 std::string colored(const LanguageService& language, const std::string& text,
                     const LanguageOptions& options = {}) {

@@ -3,6 +3,7 @@
 #include "tests/unit/editor/client.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace orb::editor {
@@ -209,6 +210,37 @@ TEST_F(TwoFiles, HoverSaysWhatTheOtherFileSays) {
 TEST_F(TwoFiles, NamesOfTheOtherFileAreSuggested) {
   client.document = main;
   EXPECT_TRUE(client.suggests(2, 0, "leg"));
+}
+
+TEST(Structured, AFileThatChangesOnTheDiskIsReadAgain) {
+  Disk disk;
+  LanguageServer server(&disk);
+  const auto uris_after = [&](const std::string& method, nlohmann::json params) {
+    std::vector<std::string> uris;
+    for (const auto& out : server.receive(nlohmann::json{
+             {"jsonrpc", "2.0"},
+             {"method", method},
+             {"params", std::move(params)}}.dump())) {
+      const auto found = nlohmann::json::parse(out)["params"];
+      uris.push_back(
+          fmt::format("{} {}", found["uri"].get<std::string>(), found["diagnostics"].size()));
+    }
+    return uris;
+  };
+  const auto changed = [&](const char* uri) {
+    return uris_after("workspace/didChangeWatchedFiles", {{"changes", {{{"uri", uri}}}}});
+  };
+  using Uris = std::vector<std::string>;
+  server.receive(R"({"jsonrpc":"2.0","id":1,"method":"initialize","params":{}})");
+  const auto opened = uris_after(
+      "textDocument/didOpen",
+      {{"textDocument", {{"uri", "file:///w/a.orb"}, {"text", "include \"b.orb\"\nleg\n"}}}});
+  EXPECT_EQ(opened, Uris{"file:///w/a.orb 1"}) << "there is no b.orb";
+  disk.texts["/w/b.orb"] = "sub leg\n  print 1\nend sub\n";
+  EXPECT_EQ(changed("file:///w/b.orb"), Uris{"file:///w/a.orb 0"});
+  EXPECT_EQ(changed("file:///w/c.orb"), Uris{});
+  disk.texts.clear();
+  EXPECT_EQ(changed("file:///w/b.orb"), Uris{"file:///w/a.orb 1"});
 }
 
 TEST(Structured, AnyTextIsAnswered) {
