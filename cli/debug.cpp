@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <unistd.h>
@@ -64,6 +65,12 @@ void debug_it(Context& context, const DebugOptions& options) {
   auto launch = options.launch;
   if (launch.files.empty() && launch.test.empty())
     return fail(context, {ExitCode::Usage, "name a program, or a test file with `--test`"});
+  if (!launch.test_name.empty() && launch.test.empty())
+    return fail(context,
+                {ExitCode::Usage, "`--only` names a test of the file that `--test` names"});
+  if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
+    return fail(context, {ExitCode::Usage, "`--test` brings its course and what happens: leave "
+                                           "`--course` and `--stimulus` out"});
   launch.seed = options.seed;
   if (options.disconnected)
     launch.client = run::Client::Absent;
@@ -99,7 +106,9 @@ void add_debug(CLI::App& app, Context& context) {
       ->type_name("FILE.test");
   command->add_option("--only", launch.test_name, "the one test of that file, by its name")
       ->type_name("NAME");
-  command->add_option("--seed", options->seed, "where random numbers begin")->capture_default_str();
+  command->add_option("--seed", options->seed, "where random numbers begin")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
   command->add_option("--input", launch.numbers, "numbers for `input`")->delimiter(',');
   command->add_flag("--disconnected", options->disconnected, "no client is connected");
   command->add_option("--do", options->commands, "a command to begin with; may be given again")

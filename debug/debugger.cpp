@@ -1,5 +1,6 @@
 #include "debug/debugger.h"
 
+#include "base/suggest.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace orb::debug {
 namespace {
 
 constexpr std::string_view time_word = "time";
+constexpr std::string_view letter_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 constexpr std::string_view array_word = "Z"; ///< of programs with line numbers
 
 /// A letter's number where the name is one: A is 0, Y is 24.
@@ -63,6 +65,37 @@ Debugger::start(std::span<const run::Input> inputs, const run::Options& options,
   return debugger;
 }
 
+tl::expected<Expression, std::string> Debugger::expression(std::string_view text) const {
+  auto parsed = Expression::parse(text);
+  if (!parsed)
+    return parsed;
+  const auto known = names();
+  for (const auto name : parsed->names())
+    if (std::none_of(known.begin(), known.end(),
+                     [&](std::string_view one) { return equal_words(one, name); }))
+      return tl::unexpected(
+          fmt::format("there is no variable `{}`{}", name,
+                      closest(name, known) ? "; " + did_you_mean(name, known, "") : ""));
+  return parsed;
+}
+
+/// What an expression may name, here or elsewhere in the run.
+std::vector<std::string_view> Debugger::names() const {
+  std::vector<std::string_view> all{time_word};
+  const auto* input = sources_.input(timeline_->ball().basic_area());
+  if (input != nullptr && input->program->compiled) {
+    const auto& compiled = *input->program->compiled;
+    for (const auto& symbol : compiled.names.symbols)
+      if (!is_a(structured::SymbolKind::Sub)(symbol) &&
+          !is_a(structured::SymbolKind::Function)(symbol))
+        all.push_back(compiled.program.name(symbol.name));
+  } else if (input != nullptr) {
+    for (const auto& letter : letter_words)
+      all.emplace_back(&letter, 1);
+  }
+  return all;
+}
+
 // --- breakpoints --------------------------------------------------------------------------------
 
 Breakpoint& Debugger::add(Breakpoint breakpoint) {
@@ -70,8 +103,8 @@ Breakpoint& Debugger::add(Breakpoint breakpoint) {
   return breakpoints_.emplace_back(std::move(breakpoint));
 }
 
-void Debugger::remove(int id) {
-  std::erase_if(breakpoints_, [&](const Breakpoint& one) { return one.id == id; });
+bool Debugger::remove(int id) {
+  return std::erase_if(breakpoints_, [&](const Breakpoint& one) { return one.id == id; }) > 0;
 }
 
 void Debugger::remove_all(Breakpoint::Kind kind, std::optional<std::uint32_t> file) {

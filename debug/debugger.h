@@ -99,9 +99,13 @@ public:
   Timeline& timeline() { return *timeline_; }
   const Timeline& timeline() const { return *timeline_; }
 
+  /// An expression to wait for; a sentence where it is none, or no name of the program.
+  tl::expected<Expression, std::string> expression(std::string_view text) const;
+
   // Breakpoints. An id is never given twice.
   Breakpoint& add(Breakpoint breakpoint);
-  void remove(int id);
+  /// False where there is none.
+  bool remove(int id);
   void remove_all(Breakpoint::Kind kind, std::optional<std::uint32_t> file = std::nullopt);
   const std::vector<Breakpoint>& breakpoints() const { return breakpoints_; }
   void stop_at_faults(bool stop) { stop_at_faults_ = stop; }
@@ -158,6 +162,7 @@ private:
 
   Stop run(const GiveUp& give_up);
   Stop stop_of(Halt halt);
+  std::vector<std::string_view> names() const;
   const Sources::Line* program_line() const;
   std::size_t depth(Thread thread) const;
   int robot_line() const; ///< that is about to run, waits, or has failed

@@ -16,7 +16,7 @@ using structured::Node;
 using structured::NodeKind;
 using Value = tl::expected<std::int32_t, std::string>;
 
-constexpr std::string_view lead = "if ";
+constexpr std::string_view lead = "print "; ///< takes conditions, one after the other
 
 class Evaluator {
 public:
@@ -152,16 +152,16 @@ tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
   Expression expression;
   expression.text_ = text;
   auto program = std::make_shared<structured::Program>();
-  structured::parse(*program, "expression", "", fmt::format("{}{} then end\n", lead, text));
+  structured::parse(*program, "expression", "", fmt::format("{}{}\n", lead, text));
   const auto wrong =
       std::find_if(program->diagnostics.begin(), program->diagnostics.end(), is_error);
   if (wrong != program->diagnostics.end())
     return tl::unexpected(wrong->help.empty() ? wrong->message
                                               : fmt::format("{}; {}", wrong->message, wrong->help));
-  const bool is_if = !program->statements.empty() &&
-                     program->statements.front().kind == structured::Kind::If &&
-                     !program->items_of(program->statements.front()).empty();
-  if (!is_if)
+  const bool is_one = program->statements.size() == 1 &&
+                      program->statements.front().kind == structured::Kind::Print &&
+                      !program->items_of(program->statements.front()).empty();
+  if (!is_one)
     return tl::unexpected(fmt::format("`{}` is not an expression", text));
   const auto& item = program->items_of(program->statements.front()).front();
   const auto span = item.span;
@@ -170,6 +170,14 @@ tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
   expression.root_ = item.value;
   expression.program_ = std::move(program);
   return expression;
+}
+
+std::vector<std::string_view> Expression::names() const {
+  std::vector<std::string_view> all;
+  for (const auto& node : program_->nodes)
+    if (node.kind == NodeKind::Name || node.kind == NodeKind::Element)
+      all.push_back(program_->name(static_cast<std::uint32_t>(node.value)));
+  return all;
 }
 
 Value Expression::value(const Meaning& meaning) const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <vector>
 
 namespace orb::debug {
 
@@ -35,6 +36,8 @@ public:
   const std::string& text() const { return text_; }
   /// Whether it is true or false, not a number.
   bool is_condition() const { return program_->nodes[root_].is_condition(); }
+  /// The names in it that the program gives a meaning.
+  std::vector<std::string_view> names() const;
   /// Its value; 1 and 0 of a condition. What keeps it from having one is a sentence.
   tl::expected<std::int32_t, std::string> value(const Meaning& meaning) const;
 

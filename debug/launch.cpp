@@ -18,7 +18,8 @@ std::optional<std::string> first_error(const Source& source, const std::vector<D
   for (const auto& one : found)
     if (is_error(one)) {
       const auto place = source.position(one.span.begin);
-      return fmt::format("{}:{}:{}: {}", source.name(), place.line, place.column, one.message);
+      return fmt::format("{}:{}:{}: {}{}{}", source.name(), place.line, place.column, one.message,
+                         one.help.empty() ? "" : "; ", one.help);
     }
   return std::nullopt;
 }

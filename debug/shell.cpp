@@ -218,14 +218,25 @@ std::optional<Spot> Shell::spot_of(std::string_view text) const {
     text.remove_prefix(colon + 1);
   }
   const auto line = parse_number<std::uint32_t>(trim(text));
-  const auto runs = line ? sources.runs(file, *line) : std::nullopt;
+  const auto runs = line && *line > 0 ? sources.runs(file, *line) : std::nullopt;
   return runs ? std::optional(Spot{file, *runs}) : std::nullopt;
+}
+
+/// Why nothing can stop at `text`.
+std::string Shell::no_place(std::string_view text) const {
+  const auto colon = text.rfind(':');
+  if (colon != std::string_view::npos && !debugger_.sources().file(text.substr(0, colon)))
+    return fmt::format("`{}` is no file of this run", text.substr(0, colon));
+  const auto line = trim(text.substr(colon == std::string_view::npos ? 0 : colon + 1));
+  if (parse_number<std::uint32_t>(line))
+    return fmt::format("nothing runs from line {} on", line);
+  return fmt::format("no sub that is called is named `{}`", text);
 }
 
 void Shell::add_break(std::string_view rest, const GiveUp&) {
   Breakpoint one;
   if (const auto at = rest.find(" if "); at != std::string_view::npos) {
-    auto condition = Expression::parse(rest.substr(at + 4));
+    auto condition = debugger_.expression(rest.substr(at + 4));
     if (!condition)
       return wrong(condition.error());
     one.only_if = *std::move(condition);
@@ -240,7 +251,7 @@ void Shell::add_break(std::string_view rest, const GiveUp&) {
     one.spots = debugger_.sources().subs(rest);
   }
   if (one.spots.empty())
-    return wrong(fmt::format("nothing that runs is called `{}`", rest));
+    return wrong(no_place(rest));
   const auto spot = one.spots.front();
   one.text =
       one.kind == Breakpoint::Kind::Sub ? std::string(rest) : debugger_.sources().words(spot);
@@ -250,7 +261,7 @@ void Shell::add_break(std::string_view rest, const GiveUp&) {
 }
 
 void Shell::add_watch(std::string_view rest, const GiveUp&) {
-  auto expression = Expression::parse(rest);
+  auto expression = debugger_.expression(rest);
   if (!expression)
     return wrong(expression.error());
   Breakpoint one;
@@ -266,8 +277,10 @@ void Shell::add_watch(std::string_view rest, const GiveUp&) {
 void Shell::add_log(std::string_view rest, const GiveUp&) {
   const auto [place, text] = split(rest);
   const auto spot = spot_of(place);
-  if (!spot || text.empty())
+  if (text.empty())
     return wrong("write `log LINE TEXT`");
+  if (!spot)
+    return wrong(no_place(place));
   Breakpoint one;
   one.spots = {*spot};
   one.log = text;
@@ -279,9 +292,10 @@ void Shell::drop(std::string_view rest, const GiveUp&) {
   const auto id = parse_number<int>(rest);
   if (!rest.empty() && !id)
     return wrong("write `d NUMBER`; `i breaks` lists them");
-  const auto all = debugger_.breakpoints();
-  for (const auto& one : all)
-    if (!id || one.id == *id)
+  if (id && !debugger_.remove(*id))
+    return wrong(fmt::format("there is no breakpoint {}; `i breaks` lists them", *id));
+  if (!id)
+    for (const auto all = debugger_.breakpoints(); const auto& one : all)
       debugger_.remove(one.id);
 }
 
@@ -313,6 +327,8 @@ void Shell::list(std::string_view rest, const GiveUp&) {
   if (!middle)
     middle = Spot{debugger_.sources().main_file(), 1};
   const auto& source = *debugger_.sources().files()[middle->file].source;
+  if (middle->line > source.line_count())
+    return wrong(fmt::format("{} has {}", source.name(), plural(source.line_count(), "line")));
   const auto first = middle->line > around ? middle->line - around : 1;
   for (auto line = first; line <= std::min(middle->line + around, source.line_count()); ++line)
     console_.say(fmt::format("{} {:4}  {}", here == Spot{middle->file, line} ? '>' : ' ', line,
@@ -323,6 +339,18 @@ void Shell::show(const std::vector<Variable>& all) {
   for (const auto& one : all)
     console_.say(
         fmt::format("{} = {}{}{}", one.name, one.value, one.note.empty() ? "" : "  ", one.note));
+}
+
+/// `1: leg, hall.orb:3 if n = 2`.
+std::string Shell::described(const Breakpoint& one) const {
+  auto text = fmt::format("{}: {}", one.id, one.text);
+  if (one.kind == Breakpoint::Kind::Sub)
+    text += fmt::format(", {}", debugger_.sources().words(one.spots.front()));
+  if (one.only_if)
+    text += fmt::format(" if {}", one.only_if->text());
+  if (!one.log.empty())
+    text += fmt::format(" says `{}`", one.log);
+  return text;
 }
 
 void Shell::info(std::string_view rest, const GiveUp&) {
@@ -340,8 +368,7 @@ void Shell::info(std::string_view rest, const GiveUp&) {
   }
   if (is("breaks")) {
     for (const auto& one : debugger_.breakpoints())
-      console_.say(fmt::format("{}: {}{}{}", one.id, one.text, one.only_if ? " if " : "",
-                               one.only_if ? one.only_if->text() : std::string()));
+      console_.say(described(one));
     return;
   }
   if (!rest.empty() && !is("variables"))

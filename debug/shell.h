@@ -80,6 +80,8 @@ private:
   void report(const Stop& stop);
   void wrong(std::string_view text) { console_.say(text); }
   std::optional<Spot> spot_of(std::string_view text) const;
+  std::string no_place(std::string_view text) const;
+  std::string described(const Breakpoint& one) const;
   void show(const std::vector<Variable>& all);
 
   Debugger& debugger_;

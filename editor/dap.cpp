@@ -391,9 +391,46 @@ Answer DebugAdapter::State::initialize(const Json& arguments) {
   return can;
 }
 
+namespace {
+
+/// What an argument of `launch` is not, though it should be; nothing where all fit.
+std::optional<std::string> mistyped(const Json& arguments) {
+  const auto is_text = [](const Json& json) { return json.is_string(); };
+  const auto is_flag = [](const Json& json) { return json.is_boolean(); };
+  const auto is_count = [](const Json& json) { return number_of(json).value_or(-1) >= 0; };
+  const auto is_number = [](const Json& json) {
+    const auto number = number_of(json);
+    return number && *number == static_cast<std::int32_t>(*number);
+  };
+  const auto all = [](auto is) {
+    return [is](const Json& json) {
+      return json.is_array() && std::all_of(json.begin(), json.end(), is);
+    };
+  };
+  const auto texts = all(is_text);
+  const auto text_or_texts = [&](const Json& json) { return is_text(json) || texts(json); };
+  const auto numbers = all(is_number);
+  std::optional<std::string> wrong;
+  const auto expect = [&](std::initializer_list<const char*> names, auto is, const char* what) {
+    for (const auto* name : names)
+      if (const auto& json = member(arguments, name); !wrong && !json.is_null() && !is(json))
+        wrong = fmt::format("`{}` is {}", name, what);
+  };
+  expect({"program", "course", "test", "testName", "lang", "cwd"}, is_text, "a text");
+  expect({"files", "stimulus"}, text_or_texts, "a text or a list of texts");
+  expect({"disconnected", "stopOnEntry", "stopAtEnd", "noDebug"}, is_flag, "true or false");
+  expect({"seed"}, is_count, "a whole number from 0");
+  expect({"input"}, numbers, "a list of whole numbers");
+  return wrong;
+}
+
+} // namespace
+
 Answer DebugAdapter::State::launch(const Json& arguments) {
   if (debugger != nullptr)
     return refuse("a program is launched already");
+  if (auto wrong = mistyped(arguments))
+    return refuse(*std::move(wrong));
   const auto base = text_of(member(arguments, "cwd"));
   const auto path = [&](const std::string& given) {
     return given.empty() || given.front() == '/' || base.empty() ? given : base + "/" + given;
@@ -408,13 +445,10 @@ Answer DebugAdapter::State::launch(const Json& arguments) {
   wanted.test = path(text_of(member(arguments, "test")));
   wanted.test_name = text_of(member(arguments, "testName"));
   wanted.language = text_of(member(arguments, "lang"));
-  if (const auto seed = number_of(member(arguments, "seed")); seed && *seed >= 0)
+  if (const auto seed = number_of(member(arguments, "seed")))
     wanted.seed = static_cast<std::uint64_t>(*seed);
-  if (const auto& input = member(arguments, "input"); input.is_array())
-    for (const auto& one : input)
-      if (const auto number = number_of(one);
-          number && *number == static_cast<std::int32_t>(*number))
-        wanted.numbers.push_back(static_cast<std::int32_t>(*number));
+  for (const auto& one : member(arguments, "input"))
+    wanted.numbers.push_back(one.get<std::int32_t>());
   if (flag_of(member(arguments, "disconnected")))
     wanted.client = run::Client::Absent;
   if (wanted.files.front().empty()) {
@@ -453,9 +487,10 @@ Answer DebugAdapter::State::configuration_done() {
 namespace {
 
 /// Takes over what all kinds of breakpoints can say; what is wrong with it, or nothing.
-std::optional<std::string> read_conditions(const Json& json, Breakpoint& one) {
+std::optional<std::string> read_conditions(const debug::Debugger& debugger, const Json& json,
+                                           Breakpoint& one) {
   if (const auto condition = text_of(member(json, "condition")); !trim(condition).empty()) {
-    auto expression = debug::Expression::parse(condition);
+    auto expression = debugger.expression(condition);
     if (!expression)
       return expression.error();
     one.only_if = *std::move(expression);
@@ -500,7 +535,7 @@ Json DebugAdapter::State::set_breakpoint(const Json& json, std::optional<std::ui
   if (!line)
     return unverified("`line` is missing");
   Breakpoint one;
-  if (auto wrong = read_conditions(json, one))
+  if (auto wrong = read_conditions(*debugger, json, one))
     return unverified(*std::move(wrong));
   const auto runs = debugger->sources().runs(*file, *line);
   if (!runs)
@@ -524,7 +559,7 @@ Answer DebugAdapter::State::set_function_breakpoints(const Json& arguments) {
     one.kind = Breakpoint::Kind::Sub;
     one.text = trim(text_of(member(wanted[i], "name")));
     one.spots = debugger->sources().subs(one.text);
-    const auto wrong = read_conditions(wanted[i], one);
+    const auto wrong = read_conditions(*debugger, wanted[i], one);
     if (one.spots.empty() || wrong || !debugs) {
       list.push_back(unverified(
           wrong ? *wrong
@@ -542,7 +577,7 @@ Answer DebugAdapter::State::set_function_breakpoints(const Json& arguments) {
 
 Answer DebugAdapter::State::data_breakpoint_info(const Json& arguments) {
   const auto name = text_of(member(arguments, "name"));
-  const auto expression = debug::Expression::parse(name);
+  const auto expression = debugger->expression(name);
   if (!expression)
     return Json{{"dataId", nullptr}, {"description", expression.error()}};
   return Json{{"dataId", expression->text()},
@@ -557,9 +592,9 @@ Answer DebugAdapter::State::set_data_breakpoints(const Json& arguments) {
   auto list = Json::array();
   const auto& wanted = member(arguments, "breakpoints");
   for (std::size_t i = 0; wanted.is_array() && i < wanted.size(); ++i) {
-    auto expression = debug::Expression::parse(text_of(member(wanted[i], "dataId")));
+    auto expression = debugger->expression(text_of(member(wanted[i], "dataId")));
     Breakpoint one;
-    const auto wrong = read_conditions(wanted[i], one);
+    const auto wrong = read_conditions(*debugger, wanted[i], one);
     if (!expression || wrong || !debugs) {
       list.push_back(unverified(!expression ? expression.error() : wrong.value_or("it only runs")));
       continue;
