@@ -34,6 +34,7 @@ struct Letter {
   const Node* first_used = nullptr; ///< null where nothing reads it
   bool assigned = false;            ///< by let, read or input
   bool counted = false;             ///< by for
+  bool clears = false;              ///< what it is set to clears a sensor: that is the purpose
 };
 
 /// What is known about A to Y on the way through a straight run of lines.
@@ -95,7 +96,17 @@ private:
       if (letter.first_set == nullptr)
         letter.first_set = &item;
       (statement.kind == spec::Statement::For ? letter.counted : letter.assigned) = true;
+      if (statement.kind == spec::Statement::Let)
+        letter.clears = letter.clears || clears(program_.as<LetView>(statement).expression);
     }
+  }
+
+  bool clears(const Item& expression) const {
+    for (auto n = program_.nodes[expression.value].first; n <= expression.value; ++n)
+      if (program_.nodes[n].kind == NodeKind::System &&
+          spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
+        return true;
+    return false;
   }
 
   void check_letters() {
@@ -104,7 +115,8 @@ private:
       const auto& letter = letters_[i];
       const bool used = letter.first_used != nullptr;
       const bool set = letter.first_set != nullptr;
-      if (set && !used && !letter.counted && !(i == index_letter && indexed_used_)) {
+      if (set && !used && !letter.counted && !letter.clears &&
+          !(i == index_letter && indexed_used_)) {
         findings_.add(rules::UnusedVariable, letter.first_set->span,
                       fmt::format("`{}` is set but never used", letter_name(i)));
       } else if (used && !set) {
