@@ -205,7 +205,10 @@ struct LanguageServer::State final : structured::Files, Wording {
 
   Json callable(const std::string& uri, const Source& root, const Callable& one) const;
   Json locations(const Asked& asked, const Occurrences& names, bool definitions, bool uses) const;
-  LanguageOptions surroundings() const;
+  LanguageOptions surroundings(const std::vector<Source>& closed = {}) const;
+  std::vector<Source> closed_programs(const Document& document) const;
+  template <typename Visit>
+  void each_closed_file(Visit visit) const;
   std::string uri_of(const Source& source) const;
   Json diagnostic(const std::string& uri, const Document& document, const Diagnostic& one) const;
   std::vector<Diagnostic> check(const Document& document) const;
@@ -581,12 +584,39 @@ Answer LanguageServer::State::completion(const Asked& asked) const {
   return Json{{"isIncomplete", false}, {"items", std::move(list)}};
 }
 
-LanguageOptions LanguageServer::State::surroundings() const {
+LanguageOptions LanguageServer::State::surroundings(const std::vector<Source>& closed) const {
   auto all = options;
+  for (const auto& program : closed)
+    all.open.push_back(&program);
   for (const auto& [uri, document] : documents)
     if (document.language == &structured_service)
       all.open.push_back(&document.source);
   return all;
+}
+
+/// Calls `visit` with the path and the text of each file of the open folders that is not open.
+template <typename Visit>
+void LanguageServer::State::each_closed_file(Visit visit) const {
+  if (folders == nullptr || disk == nullptr)
+    return;
+  for (const auto& root : roots)
+    for (const auto& path : folders->sources(root)) {
+      auto text = documents.contains(uri_of_path(path)) ? std::nullopt : disk->read(path);
+      if (text)
+        visit(path, *std::move(text));
+    }
+}
+
+/// The programs on the disk that may include a structured program.
+std::vector<Source> LanguageServer::State::closed_programs(const Document& document) const {
+  std::vector<Source> programs;
+  if (document.language != &structured_service)
+    return programs;
+  each_closed_file([&](const std::string& path, std::string text) {
+    if (&language_of("", uri_of_path(path)) == document.language)
+      programs.emplace_back(path, std::move(text));
+  });
+  return programs;
 }
 
 /// A program's file is named by its path; an open text by its URI.
@@ -622,7 +652,9 @@ Answer LanguageServer::State::definition(const Asked& asked) const {
 Answer LanguageServer::State::references(const Asked& asked) const {
   const auto& source = asked.document.source;
   const auto& declared = member(member(asked.params, "context"), "includeDeclaration");
-  return locations(asked, asked.document.language->occurrences(source, asked.at, surroundings()),
+  const auto closed = closed_programs(asked.document);
+  const auto all = surroundings(closed);
+  return locations(asked, asked.document.language->occurrences(source, asked.at, all),
                    !declared.is_boolean() || declared.get<bool>(), true);
 }
 
@@ -654,7 +686,8 @@ Answer LanguageServer::State::prepare_rename(const Asked& asked) const {
 Answer LanguageServer::State::rename(const Asked& asked) const {
   const auto& [uri, document, params, at] = asked;
   const auto name = text_of(member(params, "newName"));
-  const auto renaming = document.language->rename(document.source, at, name, surroundings());
+  const auto closed = closed_programs(document);
+  const auto renaming = document.language->rename(document.source, at, name, surroundings(closed));
   if (!renaming)
     return refuse(RpcError::RequestFailed, renaming.error());
   auto changed = workspace_edit(uri, edits(document.source, renaming->edits));
@@ -864,15 +897,10 @@ Answer LanguageServer::State::workspace_symbols(const std::string& query) const 
   };
   for (const auto& [uri, document] : documents)
     add(uri, document.source, *document.language);
-  if (folders == nullptr || disk == nullptr)
-    return list;
-  for (const auto& root : roots)
-    for (const auto& path : folders->sources(root)) {
-      const auto uri = uri_of_path(path);
-      auto text = documents.contains(uri) ? std::nullopt : disk->read(path);
-      if (text)
-        add(uri, Source(uri, *std::move(text)), language_of("", uri));
-    }
+  each_closed_file([&](const std::string& path, std::string text) {
+    const auto uri = uri_of_path(path);
+    add(uri, Source(uri, std::move(text)), language_of("", uri));
+  });
   return list;
 }
 
