@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <set>
 
 namespace orb::structured {
 namespace {
@@ -55,22 +56,58 @@ public:
   Linker(Program& program, const File& file) : program_(program), file_(file) {}
 
   void run() {
+    nested_ = balanced();
     for (auto i = file_.statements_begin; i < file_.statements_end; ++i) {
-      auto& statement = program_.statements[i];
-      if (closes_block(statement.kind))
+      const auto role = program_.statements[i].role();
+      if (closes_block(role))
         close(i);
-      else if (parts_block(statement.kind))
+      else if (parts_block(role))
         part(i);
-      statement.depth = static_cast<std::uint16_t>(open_.size());
-      if (opens_block(statement.kind))
+      else if (opens_block(role))
         open(i);
     }
     while (!open_.empty())
       leave_open();
+    set_depths();
+    // The right word for what ends nothing would end nothing either.
+    std::erase_if(program_.diagnostics, [&](const Diagnostic& one) {
+      return one.rule == &rules::ForeignWord && stray_.contains(one.span.begin);
+    });
   }
 
 private:
+  Kind role(std::uint32_t i) const { return program_.statements[i].role(); }
+
+  /// Whether there are as many ends of subs as subs.
+  bool balanced() const {
+    int open = 0;
+    for (auto i = file_.statements_begin; i < file_.statements_end; ++i)
+      open += is_routine(role(i)) ? 1 : ends_routine(role(i)) ? -1 : 0;
+    return open <= 0;
+  }
+  static bool is_routine(Kind kind) { return kind == Kind::Sub || kind == Kind::Function; }
+  static bool ends_routine(Kind kind) { return kind == Kind::EndSub || kind == Kind::EndFunction; }
+
+  /// A block that is never closed counts for nothing.
+  void set_depths() {
+    std::uint16_t depth = 0;
+    for (auto i = file_.statements_begin; i < file_.statements_end; ++i) {
+      auto& statement = program_.statements[i];
+      const auto role = statement.role();
+      if (closes_block(role) && statement.opener != none)
+        --depth;
+      statement.depth = depth;
+      if (opens_block(role) && !endless_.contains(i))
+        ++depth;
+    }
+  }
+
   void open(std::uint32_t i) {
+    // Subs do not nest: where ends are missing, a sub ends the one above it.
+    if (is_routine(role(i)) && !nested_)
+      while (routines_ > 0)
+        leave_open();
+    routines_ += is_routine(role(i)) ? 1 : 0;
     if (open_.size() == deepest && !too_deep_) {
       too_deep_ = true;
       report(rules::NestingDepth, i, fmt::format("more than {} blocks are open here", deepest),
@@ -82,11 +119,18 @@ private:
 
   /// Ends the innermost block, which has no end of its own.
   void leave_open() {
-    const auto& opener = program_.statements[open_.back()];
-    const auto* block = by_opener(opener.kind);
-    report(rules::UnclosedBlock, open_.back(),
-           fmt::format("this `{}` is never closed", block->word),
-           fmt::format("write `{}` after its last line", block->end_words));
+    const auto i = open_.back();
+    const auto* block = by_opener(role(i));
+    if (i != excused_)
+      report(rules::UnclosedBlock, i, fmt::format("this `{}` is never closed", block->word),
+             fmt::format("write `{}` after its last line", block->end_words));
+    endless_.insert(i);
+    missing_.push_back(block->end);
+    pop();
+  }
+
+  void pop() {
+    routines_ -= is_routine(role(open_.back())) ? 1 : 0;
     open_.pop_back();
     last_.pop_back();
   }
@@ -100,9 +144,8 @@ private:
   /// Closes blocks without an end until `fits` says yes; false where no open block does.
   template <typename Fits>
   bool find(Fits fits) {
-    const auto at = std::find_if(open_.rbegin(), open_.rend(), [&](std::uint32_t opener) {
-      return fits(program_.statements[opener].kind);
-    });
+    const auto at = std::find_if(open_.rbegin(), open_.rend(),
+                                 [&](std::uint32_t opener) { return fits(role(opener)); });
     if (at == open_.rend())
       return false;
     for (auto n = at - open_.rbegin(); n > 0; --n)
@@ -111,23 +154,35 @@ private:
   }
 
   void close(std::uint32_t i) {
-    const auto kind = program_.statements[i].kind;
+    const auto kind = role(i);
     if (!find([&](Kind opener) { return by_opener(opener)->end == kind; })) {
-      report_stray(i);
+      stray_end(i);
       return;
     }
     link(i);
-    open_.pop_back();
-    last_.pop_back();
+    pop();
+  }
+
+  /// An end without a block: it may come too late, or be the wrong one of the innermost block.
+  void stray_end(std::uint32_t i) {
+    const auto late = std::find(missing_.begin(), missing_.end(), role(i));
+    if (late != missing_.end()) {
+      missing_.erase(late);
+      program_.statements[i].kind = program_.statements[i].meant = Kind::Broken;
+      return;
+    }
+    report_stray(i);
+    if (!open_.empty())
+      excused_ = open_.back();
   }
 
   void part(std::uint32_t i) {
-    const auto kind = program_.statements[i].kind;
+    const auto kind = role(i);
     if (!find([&](Kind opener) { return parts(kind, opener); })) {
       report_stray(i);
       return;
     }
-    if (program_.statements[last_.back()].kind == Kind::Else)
+    if (role(last_.back()) == Kind::Else)
       report(rules::BlockEnd, i, "the `else` above is the last part of its block",
              "move the `else` to the end");
     link(i);
@@ -138,15 +193,19 @@ private:
     const auto word = std::string(program_.text_of(statement.word));
     std::string help;
     if (!open_.empty()) {
-      const auto* block = by_opener(program_.statements[open_.back()].kind);
+      const auto* block = by_opener(role(open_.back()));
       help = fmt::format("the open block is a `{}`; `{}` closes it", block->word, block->end_words);
     }
+    stray_.insert(statement.word.begin);
     report(rules::BlockEnd, i, fmt::format("no open block takes this `{}`", word), std::move(help));
-    statement.kind = Kind::Broken;
+    statement.kind = statement.meant = Kind::Broken;
   }
 
+  /// Of a line that does not parse all is said.
   void report(const Rule& rule, std::uint32_t i, std::string message, std::string help) {
     const auto& statement = program_.statements[i];
+    if (statement.kind == Kind::Broken)
+      return;
     program_.diagnostics.push_back(
         finding(rule, statement.word.size() > 0 ? statement.word : statement.span,
                 std::move(message), std::move(help)));
@@ -156,6 +215,12 @@ private:
   const File& file_;
   std::vector<std::uint32_t> open_; ///< the openers, outermost first
   std::vector<std::uint32_t> last_; ///< of each: its last part so far
+  std::set<std::uint32_t> endless_; ///< openers without an end
+  std::vector<Kind> missing_;       ///< their ends, which may come yet
+  std::uint32_t excused_ = none;    ///< an opener that has a wrong end
+  std::set<std::uint32_t> stray_;   ///< where ends without a block begin
+  int routines_ = 0;                ///< open subs and functions
+  bool nested_ = false;             ///< subs stand inside of each other
   bool too_deep_ = false;
 };
 
@@ -205,6 +270,11 @@ bool closes_block(Kind kind) {
 bool is_loop(Kind kind) {
   return kind == Kind::While || kind == Kind::Repeat || kind == Kind::RepeatTimes ||
          kind == Kind::Loop || kind == Kind::For;
+}
+
+bool declares(Kind kind) {
+  return kind == Kind::Const || kind == Kind::Array || kind == Kind::Sub ||
+         kind == Kind::Function || kind == Kind::Use || kind == Kind::Include;
 }
 
 void link_blocks(Program& program, const File& file) {

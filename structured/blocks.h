@@ -30,4 +30,7 @@ bool parts_block(Kind kind);
 bool closes_block(Kind kind);
 bool is_loop(Kind kind);
 
+/// Whether a statement declares something for the whole program.
+bool declares(Kind kind);
+
 } // namespace orb::structured

@@ -28,6 +28,7 @@ public:
     }
     check_jumps();
     check_recursion();
+    check_unused();
   }
 
 private:
@@ -64,8 +65,18 @@ private:
   }
 
   void report_condition(std::uint32_t node) {
+    if (names_unknown(node))
+      return;
     report(rules::ConditionAsValue, program_.nodes[node].span, "a condition is not a number",
            "write `if … then` and set the value there");
+  }
+
+  /// Whether a name in an expression is unknown, which has been reported.
+  bool names_unknown(std::uint32_t root) const {
+    for (auto n = program_.nodes[root].first; n <= root; ++n)
+      if (program_.nodes[n].kind == NodeKind::Name && names_.of_node[n] == none)
+        return true;
+    return false;
   }
 
   void check_node(std::uint32_t n, bool is_root) {
@@ -123,20 +134,28 @@ private:
 
   /// Keeps the open blocks; the end of a block has its opener's depth.
   void follow(std::uint32_t i, const Statement& statement) {
-    if (opens_block(statement.kind))
+    if (opens_block(statement.role()))
       open_.push_back(i);
-    else if (closes_block(statement.kind) && statement.opener != none && !open_.empty())
-      open_.pop_back();
+    else if (closes_block(statement.role()) && statement.opener != none)
+      while (!open_.empty() && open_.back() >= statement.opener) // those without an end too
+        open_.pop_back();
   }
 
   bool in_loop() const {
     return std::any_of(open_.begin(), open_.end(),
-                       [&](std::uint32_t opener) { return is_loop(at(opener).kind); });
+                       [&](std::uint32_t opener) { return is_loop(at(opener).role()); });
   }
 
   bool in_select() const {
     return std::any_of(open_.begin(), open_.end(),
-                       [&](std::uint32_t opener) { return at(opener).kind == Kind::Select; });
+                       [&](std::uint32_t opener) { return at(opener).role() == Kind::Select; });
+  }
+
+  /// Whether the line that begins the sub around a statement does not parse.
+  bool in_broken_routine() const {
+    return std::any_of(open_.begin(), open_.end(), [&](std::uint32_t opener) {
+      return at(opener).meant == Kind::Sub || at(opener).meant == Kind::Function;
+    });
   }
 
   void misplaced(const Statement& statement, std::string message, std::string help = {}) {
@@ -147,15 +166,13 @@ private:
   void check_place(std::uint32_t i, const Statement& statement) {
     const auto routine = names_.routine_of[i];
     const auto word = program_.text_of(statement.word);
-    const bool declares = statement.kind == Kind::Const || statement.kind == Kind::Array ||
-                          statement.kind == Kind::Use || statement.kind == Kind::Include ||
-                          statement.kind == Kind::Sub || statement.kind == Kind::Function;
-    if (declares && statement.depth > 0)
+    if (declares(statement.kind) && statement.depth > 0)
       misplaced(statement, fmt::format("`{}` stands inside a block", word),
                 "declarations stand at top level");
     if ((statement.kind == Kind::Exit || statement.kind == Kind::Continue) && !in_loop())
       misplaced(statement, fmt::format("`{}` stands outside of loops", word));
-    if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1))
+    if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1) &&
+        !in_broken_routine())
       misplaced(statement,
                 routine == 0 ? "`local` stands outside of subs and functions"
                              : "`local` stands inside a block",
@@ -177,8 +194,9 @@ private:
 
   void check_return(std::uint32_t routine, const Statement& statement) {
     if (routine == 0) {
-      misplaced(statement, "`return` stands outside of subs and functions",
-                "`end` ends the program");
+      if (!in_broken_routine())
+        misplaced(statement, "`return` stands outside of subs and functions",
+                  "`end` ends the program");
       return;
     }
     const auto& symbol = names_.symbols[names_.routines[routine].symbol];
@@ -278,13 +296,16 @@ private:
   bool require_constant(const Item& part) {
     if (value_of(part))
       return true;
-    for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
-      if (program_.nodes[n].is_condition() ||
-          (program_.nodes[n].kind == NodeKind::Name && names_.of_node[n] == none))
-        return false; // said already
+    if (program_.nodes[part.value].is_condition() || names_unknown(part.value))
+      return false; // said already
     report(rules::NotConstant, part.span, "the value is not known when the program is compiled",
            "use literals and constants that are declared above");
     return false;
+  }
+
+  bool is_quotient(std::uint32_t node) const {
+    const auto divide = static_cast<std::uint8_t>(spec::Operator::Divide);
+    return program_.nodes[node].kind == NodeKind::Binary && program_.nodes[node].what == divide;
   }
 
   void check_sleep(const Statement& statement) {
@@ -300,7 +321,7 @@ private:
                  fmt::format("`{}` is not a whole number of seconds", program_.text_of(node.span)),
                  "`sleep` counts in seconds");
       } else if (node.kind == NodeKind::Name && names_.of_node[n] != none &&
-                 names_.symbols[names_.of_node[n]].duration) {
+                 names_.symbols[names_.of_node[n]].duration && !is_quotient(time.value)) {
         written = true;
         report(rules::SecondsExpected, node.span,
                fmt::format("`{}` is in milliseconds, `sleep` counts in seconds",
@@ -325,13 +346,16 @@ private:
 
   void check_for(const Statement& statement) {
     const auto variable = variable_of(statement);
-    for (const auto opener : open_)
-      if (variable != none && at(opener).kind == Kind::For && variable_of(at(opener)) == variable) {
-        const auto name = program_.text_of(item(statement, 0).span);
-        auto& d = report(rules::LoopVariable, item(statement, 0).span,
-                         fmt::format("the loop around this one counts in `{}` already", name));
-        d.notes.push_back({at(opener).span, fmt::format("this loop counts in `{}`", name)});
-      }
+    const auto around = std::find_if(open_.rbegin(), open_.rend(), [&](std::uint32_t opener) {
+      return variable != none && at(opener).kind == Kind::For &&
+             variable_of(at(opener)) == variable;
+    });
+    if (around != open_.rend()) {
+      const auto name = program_.text_of(item(statement, 0).span);
+      auto& d = report(rules::LoopVariable, item(statement, 0).span,
+                       fmt::format("the loop around this one counts in `{}` already", name));
+      d.notes.push_back({at(*around).span, fmt::format("this loop counts in `{}`", name)});
+    }
     if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
       report(rules::WrongUse, item(statement, 0).span, "a loop counts in a variable");
     if (size(statement) < 4 || !require_constant(item(statement, 3)))
@@ -344,6 +368,8 @@ private:
     if (size(statement) == 0 || statement.opener == none)
       return;
     const auto& loop = at(statement.opener);
+    if (loop.kind != Kind::For)
+      return;
     const auto name = program_.nodes[item(statement, 0).value].value;
     const auto& counter = program_.nodes[item(loop, 0).value];
     if (counter.kind == NodeKind::Name && counter.value != name)
@@ -496,6 +522,18 @@ private:
     const auto& symbol = names_.symbols[names_.routines[callee].symbol];
     report(rules::Recursion, symbol.span, fmt::format("{}`{}`", circle, name_of(callee)),
            "use a loop");
+  }
+
+  // ---- unused names
+
+  void check_unused() {
+    if (any_error(program_.diagnostics))
+      return; // what reads it may be what is wrong
+    for (const auto& symbol : names_.symbols)
+      if (!symbol.read && (symbol.kind == SymbolKind::Variable || symbol.kind == SymbolKind::Local))
+        report(rules::UnusedName, symbol.span,
+               fmt::format("`{}` is {}", program_.name(symbol.name),
+                           symbol.kind == SymbolKind::Local ? "never read" : "set but never read"));
   }
 
   std::string_view name_of(std::uint32_t routine) const {

@@ -3,6 +3,7 @@
 #include "compiler/image.h"
 #include "compiler/parse.h"
 #include "spec/limits.h"
+#include "structured/blocks.h"
 #include "structured/check.h"
 #include "structured/choices.h"
 #include "structured/lower.h"
@@ -114,8 +115,7 @@ bool has_program(const Program& program) {
     if (statement.kind == Kind::Sub || statement.kind == Kind::Function) {
       if (statement.next != none)
         i = statement.next;
-    } else if (statement.kind != Kind::Const && statement.kind != Kind::Array &&
-               statement.kind != Kind::Use && statement.kind != Kind::Include) {
+    } else if (!declares(statement.kind)) {
       return true;
     }
   }

@@ -1,9 +1,12 @@
 #include "structured/messages.h"
 
 #include "base/suggest.h"
+#include "spec/limits.h"
 #include "structured/rules.h"
 #include "structured/words.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <optional>
 
@@ -22,6 +25,105 @@ Diagnostic malformed(const Program& program, Span found, std::string_view what,
                  std::move(help));
 }
 
+/// What stands before a place, blanks and the ends of lines apart.
+char sign_before(std::string_view text, std::uint32_t at) {
+  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
+    --at;
+  return at == 0 ? '\n' : text[at - 1];
+}
+
+bool begins_line(std::string_view text, std::uint32_t at) {
+  while (at > 0 && is_blank(text[at - 1]))
+    --at;
+  return at == 0 || is_line_end(text[at - 1]);
+}
+
+using Place = compiler::Foreign::Place;
+
+/// Where structured programs say it in another way than numbered ones.
+constexpr auto structured_words = std::to_array<compiler::Foreign>({
+    {"set", Place::Statement, "", "leave it out: `x = 5`"},
+    {"int", Place::Statement, "", "leave it out: `x = 5`"},
+    {"clear", Place::Statement, "", "variables are 0 when a program starts; or write `x = 0`"},
+    {"begin", Place::Statement, "", "blocks need no `begin`; leave the line out"},
+    {"def", Place::Statement, "", "write `sub name` … `end sub`"},
+    {"func", Place::Statement, "", "write `function name()` … `end function`"},
+    {"proc", Place::Statement, "", "write `sub name` … `end sub`"},
+    {"procedure", Place::Statement, "", "write `sub name` … `end sub`"},
+    {"void", Place::Statement, "", "write `sub name` … `end sub`"},
+    {"switch", Place::Statement, "", "write `select e`, `case 1` … `end select`"},
+    {"foreach", Place::Statement, "", "write `for n = 1 to 4` … `next n`"},
+    {"forever", Place::Statement, "", "write `loop` … `end loop`"},
+    {"rand", Place::Value, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"random", Place::Value, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"randint", Place::Value, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"sqr", Place::Value, "sqrt", "write `sqrt(x)`"},
+    {"is", Place::Value, "",
+     "`case` names values: `case 6 to 100`; for other questions write `if`"},
+    {"mod", Place::Value, "%", "write `a % b`"},
+    {"!", Place::Value, "", "write `not`"},
+    {"^", Place::Value, "", "there are no powers: write `a * a`"},
+    {"{", Place::Value, "", "blocks need no braces; they end with `next`, `end if`, `end while` …"},
+    {"}", Place::Value, "", "blocks need no braces; they end with `next`, `end if`, `end while` …"},
+    {"do", Place::Value, "", "leave it out"},
+    {"times", Place::Value, "", "leave it out: `repeat 5`"},
+});
+
+/// The word that begins the line of a place.
+std::string_view first_word(std::string_view text, std::uint32_t at) {
+  while (at > 0 && !is_line_end(text[at - 1]))
+    --at;
+  while (at < text.size() && is_blank(text[at]))
+    ++at;
+  const char* const begin = text.data() + at;
+  const char* const end = end_of_name(begin, text.data() + text.size());
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+/// What stands after a complete statement.
+Diagnostic trailing(const Program& program, Span found) {
+  const auto text = program.text_of(found);
+  const auto statement = first_word(program.text, found.begin);
+  const char before = sign_before(program.text, found.begin);
+  if (before == ',' && begins_line(program.text, found.begin))
+    return malformed(program, found, "the comma above continues its line",
+                     "to print a blank at the end write `, ;`");
+  if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name)
+    return malformed(program, found, "the index of an element stands in brackets",
+                     fmt::format("write `{}[1] = 2`", statement));
+  if (text == ":")
+    return finding(rules::ForeignWord, found, "`:` does not separate statements",
+                   "write one statement on a line");
+  if (text == "+" && before == '"')
+    return malformed(program, found, "texts are not added",
+                     "write what to print side by side: `print \"x is \" x`");
+  if (is_digit(before) &&
+      (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
+    return malformed(program, found, "a unit stands right after its number", "write `500ms`");
+  if (equal_words(statement, "loop"))
+    return malformed(program, found, "`loop` goes on forever",
+                     "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
+  const auto word = find_word(statement);
+  if (word.kind == WordKind::Statement &&
+      spec::statements[word.index].form == spec::Form::Arguments && is_name_char(before) &&
+      is_name_char(text.front()))
+    return malformed(program, found, "the statement is complete",
+                     "values are parted by commas: `RGB 255, 0, 0`");
+  return malformed(program, found, "the statement is complete");
+}
+
+/// A value that is missing at the end of a line shows in the next one, but is to be written there.
+Diagnostic missing_value(const Program& program, Span found) {
+  const std::string_view text = program.text;
+  auto end = found.begin;
+  while (end > 0 && (is_blank(text[end - 1]) || is_line_end(text[end - 1])))
+    --end;
+  if (!begins_line(text, found.begin) || end == 0 || is_name_char(text[end - 1]))
+    return malformed(program, found, "a value is missing");
+  return finding(rules::MalformedLine, {end - 1, end},
+                 fmt::format("a value is missing after `{}`", text[end - 1]));
+}
+
 /// Values after a name without parentheses: a statement that is misspelt, or a call.
 Diagnostic naked_arguments(const Program& program, Span found) {
   auto end = found.begin;
@@ -30,7 +132,12 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   auto begin = end;
   while (begin > 0 && is_name_char(program.text[begin - 1]))
     --begin;
+  if (auto known = foreign(program, {begin, end}, Place::Statement))
+    return *std::move(known);
   const auto word = std::string(program.text_of({begin, end}));
+  if (spec::find_operator(program.text[found.begin]))
+    return malformed(program, found, "a value is no statement",
+                     fmt::format("write `{0} = {0} + 1`, or `print {0}`", word));
   std::vector<std::string_view> statements;
   for (const auto& row : spec::statements)
     statements.push_back(row.word);
@@ -46,19 +153,6 @@ bool assigns(std::string_view text, std::size_t at) {
   if (at < text.size() && std::string_view("+-*/%").find(text[at]) != std::string_view::npos)
     ++at;
   return at < text.size() && text[at] == '=';
-}
-
-/// What stands before a place, blanks and the ends of lines apart.
-char sign_before(std::string_view text, std::uint32_t at) {
-  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
-    --at;
-  return at == 0 ? '\n' : text[at - 1];
-}
-
-bool begins_line(std::string_view text, std::uint32_t at) {
-  while (at > 0 && is_blank(text[at - 1]))
-    --at;
-  return at == 0 || is_line_end(text[at - 1]);
 }
 
 /// A word of the language where the line makes sense only with a name: `heading = 90`.
@@ -137,40 +231,79 @@ std::string settable() {
   return fmt::format("of the robot's variables only these can be set: {}", all);
 }
 
+Diagnostic bad_number(Span found, std::string_view text) {
+  if (text.starts_with('#'))
+    return finding(rules::BadNumber, found, fmt::format("`{}` is not a colour", text),
+                   "a colour has six digits: `#FF8000`");
+  const bool hex = text.size() > 2 && to_lower(text[1]) == 'x' &&
+                   text.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
+  if (hex || std::all_of(text.begin(), text.end(), is_digit))
+    return finding(
+        rules::BadNumber, found,
+        fmt::format("`{}` is above {}", text, spec::value_of(spec::Limit::GreatestInteger)));
+  return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
+                 "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");
+}
+
+/// Values of a statement in parentheses, as other languages call their functions.
+Diagnostic parenthesised(const Program& program, Span found) {
+  const auto statement = first_word(program.text, found.begin);
+  auto d = finding(rules::MalformedLine, found,
+                   fmt::format("`{}` takes its values without parentheses", statement),
+                   "leave the parentheses out");
+  d.fix =
+      Fix{d.help,
+          {Edit{{found.begin, found.begin + 1}, is_blank(program.text[found.begin - 1]) ? "" : " "},
+           Edit{{found.end - 1, found.end}, ""}},
+          Safety::Safe};
+  return d;
+}
+
 } // namespace
 
 Diagnostic explain(const Program& program, Reason reason, Span found) {
   const auto text = std::string(program.text_of(found));
   if (!text.empty() && is_foreign(text.front()))
     return foreign_character(program, found);
+  if (reason == Reason::ExpectedExpression && sign_before(program.text, found.begin) == '{')
+    return finding(rules::MalformedLine, found, "`{` shifts left, and no value follows it",
+                   "blocks need no braces; they end with `next`, `end if`, `end while` …");
+  if (reason == Reason::ExpectedExpression && text == "#")
+    return malformed(program, found, "a colour is no value",
+                     "it stands alone after `RGB`: `RGB #FF8000`");
+  const bool other_expected = reason <= Reason::ExpectedParenthesis;
+  if (other_expected || reason == Reason::NotAStatement)
+    if (auto known = foreign(program, found, Place::Value))
+      return *std::move(known);
   if (const auto word = word_for_name(program, reason, found))
     return reserved(program, *word);
   switch (reason) {
-  case Reason::Trailing:
-    if (text == ":")
-      return finding(rules::ForeignWord, found, "`:` does not separate statements",
-                     "write one statement on a line");
-    if (text == "+" && sign_before(program.text, found.begin) == '"')
-      return malformed(program, found, "texts are not added",
-                       "write what to print side by side: `print \"x is \" x`");
-    return malformed(program, found, "the statement is complete");
+  case Reason::Trailing: return trailing(program, found);
   case Reason::ExpectedStatement: return malformed(program, found, "a statement is missing");
   case Reason::ExpectedExpression:
-    if (begins_line(program.text, found.begin) && sign_before(program.text, found.begin) == '{')
-      return finding(rules::MalformedLine, found, "`{` shifts left, and no value follows it",
-                     "blocks need no braces; they end with `next`, `end if`, `end while` …");
-    return malformed(program, found, "a value is missing");
+    if (text.starts_with('"'))
+      return malformed(program, found, "a text is no value",
+                       "texts stand in `print` only, without parentheses: `print \"hello\"`");
+    return missing_value(program, found);
   case Reason::ExpectedPlace:
     return malformed(program, found, "a variable or an element belongs here");
   case Reason::ExpectedName: return malformed(program, found, "a name belongs here");
-  case Reason::ExpectedEquals: return malformed(program, found, "`=` is missing");
+  case Reason::ExpectedEquals:
+    return malformed(
+        program, found, "`=` is missing",
+        equal_words(first_word(program.text, found.begin), "for") ? "write `for n = 1 to 4`" : "");
   case Reason::ExpectedThen:
     return malformed(
         program, found, "`then` is missing",
         "write `if … then` and the statement, or `if … then` alone and `end if` below");
   case Reason::ExpectedTo: return malformed(program, found, "`to` is missing");
   case Reason::ExpectedComma: return malformed(program, found, "more values are missing");
-  case Reason::ExpectedBracket: return malformed(program, found, "a bracket is missing");
+  case Reason::ExpectedBracket:
+    return malformed(program, found, "a bracket is missing",
+                     text == "(" ? "the size of an array stands in brackets: `array a[5]`"
+                     : equal_words(first_word(program.text, found.begin), "dim")
+                         ? "a variable needs no declaration: leave the line out"
+                         : "");
   case Reason::ExpectedParenthesis: return malformed(program, found, "a parenthesis is missing");
   case Reason::ExpectedOperand:
     return malformed(program, found, "a function takes its value in parentheses", functions());
@@ -190,9 +323,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(
         rules::ReservedName, found,
         fmt::format("the name has {} characters; the limit is {}", found.size(), longest_name));
-  case Reason::BadNumber:
-    return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
-                   "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");
+  case Reason::BadNumber: return bad_number(found, text);
   case Reason::FractionOfMillisecond:
     return finding(rules::BadNumber, found,
                    fmt::format("`{}` is not a whole number of milliseconds", text));
@@ -216,6 +347,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::On:
     return finding(rules::ForeignWord, found, "there is no `on`",
                    "write `select e`, `case 1` … `end select`");
+  case Reason::Parenthesised: return parenthesised(program, found);
   }
   return finding(rules::MalformedLine, found, "the line does not parse");
 }
@@ -230,6 +362,35 @@ Diagnostic habit(const Program& program, Span found, std::string_view instead,
     d.help = written.empty() ? "leave it out" : fmt::format("write `{}`", written);
     d.fix = Fix{d.help, {Edit{found, std::string(written)}}, Safety::Safe};
   }
+  return d;
+}
+
+Diagnostic single_quotes(const Program& program, Span text) {
+  const auto inner = program.text_of({text.begin + 1, text.end - 1});
+  auto d = finding(rules::ForeignWord, text, "`'` begins a comment, not a text",
+                   fmt::format("write `\"{}\"`", inner));
+  if (inner.find('"') == std::string_view::npos)
+    d.fix = Fix{d.help, {Edit{text, fmt::format("\"{}\"", inner)}}, Safety::Safe};
+  return d;
+}
+
+std::optional<Diagnostic> foreign(const Program& program, Span word, Place place) {
+  const auto text = program.text_of(word);
+  const auto row = std::find_if(structured_words.begin(), structured_words.end(),
+                                [&](const compiler::Foreign& one) {
+                                  return one.place == place && equal_words(one.spelling, text);
+                                });
+  const auto* const known =
+      row != structured_words.end() ? &*row : compiler::find_foreign(text, place);
+  if (known == nullptr)
+    return std::nullopt;
+  auto d = habit(program, word, {}, known->help);
+  if (find_word(text).kind == WordKind::Statement)
+    d.message = fmt::format("`{}` is a statement, not a value", text);
+  if (!known->instead.empty() && !known->instead.starts_with('-'))
+    d.fix = Fix{fmt::format("write `{}`", known->instead),
+                {Edit{word, std::string(known->instead)}},
+                Safety::Unsafe};
   return d;
 }
 

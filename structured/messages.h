@@ -1,8 +1,10 @@
 #pragma once
 
 #include "base/diagnostic.h"
+#include "compiler/foreign.h"
 #include "structured/program.h"
 
+#include <optional>
 #include <string_view>
 
 namespace orb::structured {
@@ -37,6 +39,7 @@ enum class Reason : std::uint8_t {
   LineNumber,
   Gosub,
   On,
+  Parenthesised, ///< `goroll(0, 80, 1)`
 };
 
 /// Puts into words why a line does not parse; `found` is the token at which that shows.
@@ -46,5 +49,13 @@ Diagnostic explain(const Program& program, Reason reason, Span found);
 /// empty `instead` has no fix.
 Diagnostic habit(const Program& program, Span found, std::string_view instead,
                  std::string_view help = {});
+
+/// `print 'hello'`: a text in single quotes, which is a comment.
+Diagnostic single_quotes(const Program& program, Span text);
+
+/// What to write instead of a word or sign of another language, or nothing where it is none that is
+/// known.
+std::optional<Diagnostic> foreign(const Program& program, Span word,
+                                  compiler::Foreign::Place place);
 
 } // namespace orb::structured

@@ -155,13 +155,14 @@ public:
   }
   /// Puts one broken statement in place of all since `mark`.
   void fail(const Mark& mark, const Stop& stop, const char* begin, const char* limit) {
+    const auto meant = meaning_of(mark, stop, limit);
     program_.statements.resize(mark.statements);
     program_.items.resize(mark.items);
     program_.nodes.resize(mark.nodes);
     program_.diagnostics.resize(mark.diagnostics);
     const auto found = stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin, limit);
     report(explain(program_, stop.reason, found));
-    this->begin(Kind::Broken, span(begin, begin));
+    this->begin(Kind::Broken, span(begin, begin)).meant = meant;
     begin_line();
   }
   void begin_line() { depth_ = brackets_ = 0; }
@@ -186,6 +187,16 @@ public:
   }
 
 private:
+  /// What the line that begins at `mark` would have been. An `if` opens a block only where the line
+  /// ends: otherwise a statement may have been meant to follow.
+  Kind meaning_of(const Mark& mark, const Stop& stop, const char* limit) const {
+    if (mark.statements == program_.statements.size())
+      return Kind::Broken;
+    const auto& first = program_.statements[mark.statements];
+    const bool goes_on = stop.reason == Reason::ExpectedThen && token(stop.begin, limit).size() > 0;
+    return first.one_line || goes_on ? Kind::Broken : first.kind;
+  }
+
   template <typename T>
   static std::uint32_t size(const std::vector<T>& vector) {
     return static_cast<std::uint32_t>(vector.size());
@@ -641,10 +652,11 @@ private:
     const auto mark = builder_.mark();
     try {
       if (is_digit(*p))
-        throw Stop{Reason::LineNumber, p};
+        return numbered(p);
       statement(in, Position::Line);
       builder_.begin_line();
       skip_blanks(in);
+      skip_foreign_end(in);
       if (!at_end(in) && !skip_foreign_comment(in))
         throw Stop{Reason::Trailing, in.current()};
     } catch (const Stop& stop) {
@@ -652,6 +664,15 @@ private:
       return resume(p, stop.begin);
     }
     return in.current();
+  }
+
+  /// A line with a number, which is said of the first one: the others have it for the same reason.
+  const char* numbered(const char* p) {
+    if (!numbered_)
+      builder_.report(explain(program_, Reason::LineNumber, builder_.token(p, end_)));
+    numbered_ = true;
+    builder_.begin(Kind::Broken, builder_.span(p, p));
+    return find_line_end(p, end_);
   }
 
   /// Where parsing goes on after a line that does not parse: the end of the line on which it
@@ -662,11 +683,35 @@ private:
       --last;
     const bool joined = last > begin && !is_name_char(last[-1]) && last[-1] != ')' &&
                         last[-1] != ']' && last[-1] != '"';
-    return find_line_end(joined ? at : last, end_);
+    return find_line_end(joined && !begins_statement(last, at) ? at : last, end_);
+  }
+
+  /// Whether what stands at `at` is on another line than what ends at `last`, and a word that can
+  /// only begin a statement.
+  bool begins_statement(const char* last, const char* at) const {
+    if (std::none_of(last, at, is_line_end) || at == end_ || !begins_name(*at))
+      return false;
+    const char* const end = end_of_name(at, end_);
+    const auto word = find_word({at, static_cast<std::size_t>(end - at)});
+    return word.kind == WordKind::Statement ||
+           (word.kind == WordKind::Keyword && !is_function(word) && !word.is(Keyword::Not));
   }
 
   static bool at_end(const Input& in) {
     return in.empty() || is_line_end(*in.current()) || *in.current() == '\'';
+  }
+
+  /// `;` and `:` at the end of a line, which other languages want there.
+  bool skip_foreign_end(Input& in, std::string_view instead = " ") {
+    if (in.empty() || (*in.current() != ';' && *in.current() != ':'))
+      return false;
+    Input ahead(in.current() + 1, end_, "");
+    skip_blanks(ahead);
+    if (!at_end(ahead))
+      return false;
+    builder_.report(habit(program_, builder_.span(in.current(), in.current() + 1), instead));
+    in.bump(static_cast<std::size_t>(ahead.current() - in.current()));
+    return true;
   }
 
   /// `//` and `#` as they begin comments elsewhere, and `rem`.
@@ -711,7 +756,7 @@ private:
     if (name.empty()) {
       if (*in.current() != '?')
         throw Stop{at_end(in) ? Reason::ExpectedStatement : Reason::NotAStatement, in.current()};
-      simple<g::output>(in, Kind::Print, {in.current(), 1});
+      print_line(in, {in.current(), 1});
       return;
     }
     const auto word = find_word(name);
@@ -735,10 +780,29 @@ private:
   void leave_line(Input& in, Kind kind, std::string_view word) {
     bare(in, kind, word);
     const auto loop = peek_name(in); // `exit for`, as elsewhere
+    if (kind == Kind::Exit && leave_routine(in, word, loop))
+      return;
     if (is_loop_word(loop) || equal_words(loop, "do")) {
-      builder_.report(habit(program_, span(loop), " "));
+      builder_.report(habit(program_, builder_.span(word.data(), loop.data() + loop.size()), word));
       in.bump(loop.size());
     }
+  }
+
+  /// `exit sub` and `exit function`.
+  bool leave_routine(Input& in, std::string_view word, std::string_view routine) {
+    const bool function = find_word(routine).is(Keyword::Function);
+    if (!function && !find_word(routine).is(Keyword::Sub))
+      return false;
+    const auto both = builder_.span(word.data(), routine.data() + routine.size());
+    builder_.report(habit(program_, both, function ? "return 0" : "return"));
+    in.bump(routine.size());
+    builder_.statement().kind = Kind::Return;
+    if (function) {
+      builder_.leaf(NodeKind::Number, 0, 0, both);
+      builder_.expression(ItemKind::Expression);
+    }
+    builder_.finish(in.current());
+    return true;
   }
 
   void repeat_line(Input& in, std::string_view word) {
@@ -808,7 +872,8 @@ private:
   void conditional(Input& in, Kind kind, std::string_view word) {
     begin(in, kind, word);
     tail<g::one_value>(in);
-    if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_)) {
+    if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) &&
+        !skip_foreign_end(in, " then")) {
       if (!at_end(in) || kind == Kind::If)
         throw Stop{Reason::ExpectedThen, in.current()};
     }
@@ -837,15 +902,63 @@ private:
     builder_.finish(in.current());
   }
 
+  /// `do`, `do while c` and `do until c`; their `loop` decides what they are.
+  struct Do {
+    std::uint32_t statement;
+    std::size_t finding; ///< a Diagnostic
+  };
+
   /// `loop` begins a block here and ends one elsewhere.
   void loop_line(Input& in, std::string_view word) {
-    if (do_lines_ == 0) {
+    if (do_lines_.empty()) {
       bare(in, Kind::Loop, word);
       return;
     }
-    --do_lines_;
-    builder_.report(habit(program_, span(word), "end loop"));
-    bare(in, Kind::EndLoop, word);
+    const auto begun = do_lines_.back();
+    do_lines_.pop_back();
+    const auto role = program_.statements[begun.statement].role();
+    bare(in, role == Kind::While ? Kind::EndWhile : Kind::EndLoop, word);
+    const auto after = peek_name(in);
+    const bool until = find_word(after).is(Keyword::Until);
+    auto& opener = program_.statements[begun.statement];
+    if (opener.kind == Kind::Loop && (until || find_word(after).is(Keyword::While))) {
+      opener.kind = Kind::Repeat;
+      program_.diagnostics[begun.finding] = habit(program_, opener.word, "repeat");
+      last_test(in, word, after, until);
+      return;
+    }
+    builder_.report(habit(program_, span(word), words_of_end(builder_.statement().kind)));
+  }
+
+  /// `loop until c` and `loop while c`.
+  void last_test(Input& in, std::string_view word, std::string_view after, bool until) {
+    in.bump(after.size());
+    skip_blanks(in);
+    builder_.statement().kind = Kind::Until;
+    const auto both = builder_.span(word.data(), after.data() + after.size());
+    condition(in, both, until, "until");
+  }
+
+  /// The condition after `words` of another language, which is written after `instead` here: as it
+  /// is, or its opposite.
+  void condition(Input& in, Span words, bool as_is, std::string_view instead) {
+    const char* const begin = in.current();
+    tail<g::one_value>(in);
+    builder_.finish(in.current());
+    if (as_is) {
+      builder_.report(habit(program_, words, instead));
+      return;
+    }
+    const auto text =
+        program_.text_of({builder_.span(begin, begin).begin, builder_.statement().span.end});
+    builder_.unary(NodeKind::Not, 0, builder_.last().span);
+    program_.items.back().value = builder_.nodes() - 1;
+    auto d = habit(program_, words, {}, fmt::format("write `{} not ({})`", instead, text));
+    d.fix = Fix{d.help,
+                {Edit{{words.begin, builder_.statement().span.end},
+                      fmt::format("{} not ({})", instead, text)}},
+                Safety::Safe};
+    builder_.report(std::move(d));
   }
 
   void robot(Input& in, spec::Statement robot, std::string_view word, Position position) {
@@ -868,7 +981,7 @@ private:
         tail<g::one_value>(in);
       builder_.finish(in.current());
       return;
-    case spec::Statement::Print: simple<g::output>(in, Kind::Print, word); return;
+    case spec::Statement::Print: print_line(in, word); return;
     case spec::Statement::End: end_line(in, word, position); return;
     case spec::Statement::Let:
     case spec::Statement::Input:
@@ -893,6 +1006,7 @@ private:
     case spec::Statement::Mackill: break;
     }
     begin(in, Kind::Robot, word).robot = robot;
+    refuse_parentheses(in);
     switch (spec::info(robot).form) {
     case spec::Form::Entry: tail<g::entry>(in); break;
     case spec::Form::Values: tail<g::values>(in); break;
@@ -907,6 +1021,41 @@ private:
     case spec::Form::Output: break;
     }
     builder_.finish(in.current());
+  }
+
+  void print_line(Input& in, std::string_view word) {
+    simple<g::output>(in, Kind::Print, word);
+    const auto& statement = builder_.statement();
+    if (statement.items_begin != statement.items_end || in.empty() || *in.current() != '\'')
+      return;
+    const char* const line_end = find_line_end(in.current(), end_);
+    const char* const quote = std::find(in.current() + 1, line_end, '\'');
+    if (quote == line_end || quote == in.current() + 1)
+      return;
+    Input rest(quote + 1, end_, "");
+    skip_blanks(rest);
+    if (at_end(rest))
+      builder_.report(single_quotes(program_, builder_.span(in.current(), quote + 1)));
+  }
+
+  /// `goroll(0, 80, 1)`: a parenthesis around several values and the whole rest of the line.
+  void refuse_parentheses(const Input& in) const {
+    const char* const begin = in.current();
+    if (in.empty() || *begin != '(')
+      return;
+    int depth = 0;
+    bool comma = false;
+    for (const char* p = begin; p != end_ && !is_line_end(*p) && *p != '\''; ++p) {
+      depth += *p == '(' ? 1 : *p == ')' ? -1 : 0;
+      comma = comma || (*p == ',' && depth == 1);
+      if (depth > 0)
+        continue;
+      Input rest(p + 1, end_, "");
+      skip_blanks(rest);
+      if (comma && at_end(rest))
+        throw Stop{Reason::Parenthesised, begin, p + 1};
+      return;
+    }
   }
 
   void if_line(Input& in, std::string_view word, Position position) {
@@ -933,7 +1082,12 @@ private:
     in.bump(word.size());
     skip_blanks(in);
     const auto what = peek_name(in);
-    const auto kind = end_of_block(what);
+    auto kind = end_of_block(what);
+    if (equal_words(what, "for")) {
+      kind = Kind::Next;
+      builder_.report(habit(program_, builder_.span(word.data(), what.data() + what.size()),
+                            words_of_end(Kind::Next)));
+    }
     if (!kind) {
       builder_.begin(Kind::Robot, span(word)).robot = spec::Statement::End;
       builder_.finish(in.current());
@@ -954,8 +1108,12 @@ private:
     const char next = ahead == end_ ? '\n' : *ahead;
     const char after = ahead == end_ || ahead + 1 == end_ ? '\n' : ahead[1];
     const bool signs = std::string_view("+-*/%").find(next) != std::string_view::npos;
-    if (next == '=' || next == '[' || (signs && after == '=')) {
+    if (next == '=' || next == '[' || ((signs || next == ':') && after == '=')) {
       assignment(in);
+      return;
+    }
+    if ((next == '+' || next == '-') && after == next) {
+      step(in, name, {ahead, 2});
       return;
     }
     if (next == ':' && position == Position::Line) {
@@ -982,7 +1140,10 @@ private:
     builder_.begin(Kind::Assign, builder_.span(in.current(), in.current()));
     tail<g::place>(in);
     const char* const sign = in.current();
-    if (!in.empty() && *sign != '=') {
+    if (!in.empty() && *sign == ':' && sign + 1 != end_ && sign[1] == '=') {
+      builder_.report(habit(program_, builder_.span(sign, sign + 2), "="));
+      in.bump(1);
+    } else if (!in.empty() && *sign != '=') {
       const auto operation = spec::find_operator(*sign);
       if (!operation || sign + 1 == end_ || sign[1] != '=' || *sign == '{' || *sign == '}' ||
           *sign == '&' || *sign == '|')
@@ -995,6 +1156,24 @@ private:
     }
     tail<g::equals>(in);
     tail<g::one_value>(in);
+    builder_.finish(in.current());
+  }
+
+  /// `n++` and `n--`, with or without a blank before the signs.
+  void step(Input& in, std::string_view name, std::string_view signs) {
+    if (name.size() > longest_name)
+      throw Stop{Reason::NameTooLong, name.data()};
+    auto& statement = builder_.begin(Kind::Assign, builder_.span(name.data(), name.data()));
+    statement.operation = static_cast<std::uint8_t>(*spec::find_operator(signs.front()));
+    builder_.leaf(NodeKind::Name, 0, static_cast<std::int32_t>(builder_.intern(span(name))),
+                  span(name));
+    builder_.expression(ItemKind::Place);
+    builder_.leaf(NodeKind::Number, 0, 1, span(signs));
+    builder_.expression(ItemKind::Expression);
+    const bool apart = name.data() + name.size() != signs.data();
+    builder_.report(
+        habit(program_, span(signs), fmt::format("{}{}= 1", apart ? "" : " ", signs.front())));
+    in.bump(static_cast<std::size_t>(signs.data() + signs.size() - in.current()));
     builder_.finish(in.current());
   }
 
@@ -1017,16 +1196,22 @@ private:
     builder_.finish(in.current());
   }
 
-  /// `do` alone on its line: a loop without an end.
   bool do_line(Input& in, std::string_view name) {
-    const char* ahead = name.data() + name.size();
-    while (ahead != end_ && is_blank(*ahead))
-      ++ahead;
-    if (ahead != end_ && !is_line_end(*ahead) && *ahead != '\'')
-      throw Stop{Reason::NotAStatement, name.data()};
-    ++do_lines_;
-    builder_.report(habit(program_, span(name), "loop"));
+    do_lines_.push_back(
+        {static_cast<std::uint32_t>(program_.statements.size()), program_.diagnostics.size()});
     bare(in, Kind::Loop, name);
+    const auto after = peek_name(in);
+    const bool until = find_word(after).is(Keyword::Until);
+    if (until || find_word(after).is(Keyword::While)) {
+      builder_.statement().kind = Kind::While;
+      in.bump(after.size());
+      skip_blanks(in);
+      condition(in, builder_.span(name.data(), after.data() + after.size()), !until, "while");
+    } else if (at_end(in)) {
+      builder_.report(habit(program_, span(name), "loop"));
+    } else {
+      throw Stop{Reason::NotAStatement, name.data()};
+    }
     return true;
   }
 
@@ -1057,11 +1242,13 @@ private:
                        : equal_words(name.substr(0, 3), "end") ? name.substr(3)
                                                                : std::string_view();
     if (const auto end = end_of_block(ended)) {
+      only_on_line(position, name);
       builder_.report(habit(program_, span(name), words_of_end(*end)));
       bare(in, *end, name);
       return true;
     }
     if (is("elif") || is("elsif")) {
+      only_on_line(position, name);
       builder_.report(habit(program_, span(name), "elseif"));
       conditional(in, Kind::ElseIf, name);
       return true;
@@ -1071,8 +1258,10 @@ private:
       bare(in, Kind::Exit, name);
       return true;
     }
-    if (is("do"))
+    if (is("do")) {
+      only_on_line(position, name);
       return do_line(in, name);
+    }
     if (is("var") || is("let") || is("call") || is("dim"))
       return declaration(in, name, position);
     return false;
@@ -1083,7 +1272,8 @@ private:
   const char* base_;
   const char* begin_;
   const char* end_;
-  int do_lines_ = 0; ///< `do` without its `loop` yet
+  std::vector<Do> do_lines_; ///< without their `loop` yet
+  bool numbered_ = false;    ///< a line with a number has been seen
 };
 
 } // namespace

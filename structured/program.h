@@ -116,6 +116,7 @@ struct Statement {
   spec::Statement robot = spec::Statement::End;
   std::uint8_t operation = none_operation; ///< Assign: a spec::Operator
   bool one_line = false;                   ///< If, Else, EndIf: of an `if` on one line
+  Kind meant = Kind::Broken;               ///< Broken: what the line began as, where that shows
   std::uint16_t depth = 0;                 ///< how many blocks are open around it
   std::uint32_t items_begin = 0;
   std::uint32_t items_end = 0;
@@ -127,6 +128,9 @@ struct Statement {
   Span span;
 
   static constexpr std::uint8_t none_operation = 0xFF;
+
+  /// Where it stands among the blocks: a line that does not parse still opens or closes one.
+  Kind role() const { return kind == Kind::Broken ? meant : kind; }
 };
 
 /// One file's share of the text and of the statements.

@@ -3,6 +3,7 @@
 #include "assembler/assemble.h"
 #include "compiler/check.h"
 #include "compiler/rules.h"
+#include "structured/blocks.h"
 #include "structured/parse.h"
 #include "structured/rules.h"
 #include "structured/words.h"
@@ -17,9 +18,8 @@ namespace {
 constexpr std::size_t most_files = 64; ///< of each kind
 
 bool is_declaration(Kind kind) {
-  return kind == Kind::Const || kind == Kind::Array || kind == Kind::Sub || kind == Kind::EndSub ||
-         kind == Kind::Function || kind == Kind::EndFunction || kind == Kind::Use ||
-         kind == Kind::Include || kind == Kind::Broken;
+  return declares(kind) || kind == Kind::EndSub || kind == Kind::EndFunction ||
+         kind == Kind::Broken;
 }
 
 class Reader {

@@ -4,6 +4,8 @@
 #include "base/suggest.h"
 #include "bytecode/arithmetic.h"
 #include "spec/limits.h"
+#include "structured/blocks.h"
+#include "structured/messages.h"
 #include "structured/rules.h"
 #include "structured/words.h"
 
@@ -34,10 +36,13 @@ public:
       : program_(program), broken_(any_error(program.diagnostics)) {}
 
   Names run() {
-    incomplete_ = std::any_of(
-        program_.diagnostics.begin(), program_.diagnostics.end(), [](const Diagnostic& one) {
-          return one.rule == &rules::MissingFile || one.rule == &rules::BadMacroFile;
-        });
+    incomplete_ =
+        std::any_of(program_.diagnostics.begin(), program_.diagnostics.end(),
+                    [](const Diagnostic& one) {
+                      return one.rule == &rules::MissingFile || one.rule == &rules::BadMacroFile;
+                    }) ||
+        std::any_of(program_.statements.begin(), program_.statements.end(),
+                    [](const Statement& one) { return declares(one.meant); });
     names_.routines.emplace_back();
     names_.of_node.assign(program_.nodes.size(), none);
     names_.of_statement.assign(program_.statements.size(), none);
@@ -48,7 +53,6 @@ public:
     declare_variables();
     look_up_all();
     check_constants();
-    check_unused();
     return std::move(names_);
   }
 
@@ -319,7 +323,6 @@ private:
         symbol.name = name;
         symbol.statement = i;
         symbol.span = item.span;
-        symbol.read = statement.kind == Kind::For;
         shared_[name] = add(symbol);
       }
     });
@@ -340,7 +343,8 @@ private:
     const auto& statement = program_.statements[i];
     // `RGB orange` names a colour where nothing else has that name.
     const bool colour = statement.kind == Kind::Robot && statement.robot == spec::Statement::Rgb &&
-                        statement.items_end - statement.items_begin == 1;
+                        statement.items_end - statement.items_begin < 3;
+    const bool only = statement.items_end - statement.items_begin == 1;
     for (const auto& item : program_.items_of(statement)) {
       if (item.kind != ItemKind::Expression && item.kind != ItemKind::Place &&
           item.kind != ItemKind::Character)
@@ -355,7 +359,9 @@ private:
         if (colour && kind == NodeKind::Name && symbol_of(n) == none &&
             find_colour(program_.text_of(program_.nodes[n].span)))
           continue;
-        if (place && n == item.value)
+        if (colour && only && kind == NodeKind::Name && n == item.value && symbol_of(n) == none)
+          report_colour(program_.nodes[n].span);
+        else if (place && n == item.value)
           look_up_place(n, statement);
         else
           look_up_value(n, i);
@@ -373,7 +379,8 @@ private:
     const auto index = symbol_of(n);
     const bool element = node.kind == NodeKind::Element;
     if (index == none) {
-      report_unknown(node, element);
+      if (statement.kind != Kind::Next) // which has the name of its loop or is wrong anyway
+        report_unknown(node, element);
       return;
     }
     auto& symbol = names_.symbols[index];
@@ -382,12 +389,28 @@ private:
                           symbol.kind == SymbolKind::Parameter;
     if (element ? symbol.kind != SymbolKind::Array : !variable) {
       names_.of_node[n] = none;
-      report_wrong(node, symbol, element ? "it has no elements" : "it cannot be set");
+      report_wrong(node, symbol,
+                   element                               ? "it has no elements"
+                   : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
+                   : symbol.kind == SymbolKind::Array    ? "an element has an index"
+                                                         : "it cannot be set");
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, "a loop counts in a variable, not in an element");
     }
-    if (statement.kind == Kind::For)
+    // A loop counts in its variable; of a sensor that clears it is the reading that counts.
+    if (statement.kind == Kind::For || (statement.kind == Kind::Assign && clears(statement)))
       symbol.read = true;
+  }
+
+  /// Whether a statement reads what reading clears.
+  bool clears(const Statement& statement) const {
+    for (const auto& item : program_.items_of(statement))
+      if (item.kind == ItemKind::Expression)
+        for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
+          if (program_.nodes[n].kind == NodeKind::System &&
+              spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
+            return true;
+    return false;
   }
 
   void look_up_value(std::uint32_t n, std::uint32_t statement) {
@@ -416,10 +439,12 @@ private:
                                                : "it cannot be called");
     else if (node.kind == NodeKind::Call)
       check_call(index, node.count, node.span);
-    if (symbol.kind == SymbolKind::Constant && rank_[symbol.statement] > rank_[statement])
+    if (symbol.kind == SymbolKind::Constant && rank_[symbol.statement] > rank_[statement]) {
+      names_.of_node[n] = none;
       report(rules::NotConstant, node.span,
              fmt::format("the constant `{}` is declared below", program_.name(symbol.name)),
              "move its declaration up");
+    }
   }
 
   void wrong(std::uint32_t n, const Symbol& symbol, std::string_view why) {
@@ -477,6 +502,13 @@ private:
                     node.span.begin +
                         static_cast<std::uint32_t>(
                             program_.name(static_cast<std::uint32_t>(node.value)).size())};
+    if (report_foreign(span, compiler::Foreign::Place::Value))
+      return;
+    if (find_colour(program_.text_of(span))) {
+      report(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
+             "a colour stands alone after `RGB`: `RGB red`");
+      return;
+    }
     std::vector<std::string_view> candidates;
     for (const auto& symbol : names_.symbols)
       candidates.push_back(program_.name(symbol.name));
@@ -488,7 +520,17 @@ private:
                                              : "is not a function");
   }
 
+  void report_colour(Span span) {
+    const auto names = colour_names();
+    const auto name = program_.text_of(span);
+    report(rules::UnknownName, span, fmt::format("`{}` is neither a colour nor a variable", name),
+           did_you_mean(name, names,
+                        fmt::format("colours are {}, or `#FF8000`", fmt::join(names, ", "))));
+  }
+
   void report_unknown_word(Span span) {
+    if (report_foreign(span, compiler::Foreign::Place::Statement))
+      return;
     std::vector<std::string_view> candidates;
     for (const auto& symbol : names_.symbols)
       if (symbol.kind == SymbolKind::Sub)
@@ -498,6 +540,14 @@ private:
     for (const auto& row : keywords)
       candidates.push_back(row.word);
     suggest(span, candidates, "is neither a statement nor a sub");
+  }
+
+  /// Says what a word of another language is here; false where it is none.
+  bool report_foreign(Span span, compiler::Foreign::Place place) {
+    auto known = foreign(program_, span, place);
+    if (known && !incomplete_)
+      program_.diagnostics.push_back(*std::move(known));
+    return known.has_value();
   }
 
   void suggest(Span span, const std::vector<std::string_view>& candidates, std::string_view what) {
@@ -512,34 +562,6 @@ private:
       d.help = fmt::format("did you mean `{}`?", *meant);
       d.fix = Fix{fmt::format("write `{}`", *meant), {Edit{span, *meant}}, Safety::Unsafe};
     }
-  }
-
-  // ---- unused names
-
-  void check_unused() {
-    for (const auto& found : program_.diagnostics)
-      if (found.severity == Severity::Error)
-        return; // what reads it may be what is wrong
-    for (const auto& symbol : names_.symbols) {
-      if (symbol.read || (symbol.kind != SymbolKind::Variable && symbol.kind != SymbolKind::Local))
-        continue;
-      if (symbol.kind == SymbolKind::Variable && clears(symbol.statement))
-        continue;
-      report(rules::UnusedName, symbol.span,
-             fmt::format("`{}` is {}", program_.name(symbol.name),
-                         symbol.kind == SymbolKind::Local ? "never read" : "set but never read"));
-    }
-  }
-
-  /// Whether a statement reads what reading clears, so that the assignment has a purpose.
-  bool clears(std::uint32_t i) const {
-    for (const auto& item : program_.items_of(program_.statements[i]))
-      if (item.kind == ItemKind::Expression)
-        for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
-          if (program_.nodes[n].kind == NodeKind::System &&
-              spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
-            return true;
-    return false;
   }
 
   Program& program_;

@@ -102,4 +102,11 @@ std::optional<std::uint32_t> find_colour(std::string_view name) {
   return std::nullopt;
 }
 
+std::vector<std::string_view> colour_names() {
+  std::vector<std::string_view> names;
+  for (const auto& colour : colours)
+    names.push_back(colour.name);
+  return names;
+}
+
 } // namespace orb::structured

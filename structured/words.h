@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace orb::structured {
 
@@ -98,5 +99,8 @@ std::string_view spelling(Word word);
 
 /// 0xRRGGBB of a colour name of CSS: the sixteen basic ones and `orange`.
 std::optional<std::uint32_t> find_colour(std::string_view name);
+
+/// The names of all colours.
+std::vector<std::string_view> colour_names();
 
 } // namespace orb::structured
