@@ -1,5 +1,8 @@
 "use strict";
-(() => {
+/** Plays runs back on the parts of the page that are there: `load()` takes the data of a run, of the
+ *  report's own or, again and again, of one that still goes on. `keys`: within what its keys work;
+ *  `on_moment`: is told the lines that ran last, file by file, when the moment changes. */
+function orb_player({ keys = document, on_moment = null } = {}) {
 const $ = id => document.getElementById(id);
 const svg_ns = "http://www.w3.org/2000/svg";
 
@@ -49,9 +52,7 @@ const column = (list, scale) => sums(list).map(value => value / scale);
 
 const base_name = path => path.split("/").pop() || path;
 
-function journey(id) {
-  const run = JSON.parse($(id).textContent);
-  if (!run) return null;
+function journey(run) {
   const pose = {
     t: sums(run.pose.t), x: column(run.pose.x, 1000), y: column(run.pose.y, 1000),
     heading: column(run.pose.heading, 10), speed: column(run.pose.speed, 100),
@@ -95,10 +96,16 @@ function journey(id) {
   const name = base_name(run.title);
   return { run, name, pose, led, backled, steps, line_times, variables, stretches, state_at, lamp_at, tail_at };
 }
-const main = journey("run"), before = journey("before");
-const runs = before ? [before, main] : [main];
-const run = main.run, pose = main.pose, led = main.led, backled = main.backled;
-const end = Math.max(1, ...runs.map(one => one.run.end.t));
+// What is played back; take() sets it.
+let main, before, runs, end;
+let now = 0, playing = false, last_frame = 0;
+let live = false; // it still runs: what is shown next continues what is shown
+function take(run, run_before) {
+  main = journey(run);
+  before = run_before ? journey(run_before) : null;
+  runs = before ? [before, main] : [main];
+  end = Math.max(1, ...runs.map(one => one.run.end.t));
+}
 
 const css_color = rgb => "#" + rgb.toString(16).padStart(6, "0");
 const rgb_words = rgb => `${rgb >> 16}, ${rgb >> 8 & 255}, ${rgb & 255}`;
@@ -108,22 +115,26 @@ const position_words = state => `${state.x.toFixed(1)}, ${state.y.toFixed(1)} cm
 const speed_words = state => `${state.speed.toFixed(1)} cm/s`;
 
 // ---- heading of the page ----
-document.title = `${main.name} · orb run`;
-// A name breaks after a sign, never inside a word.
-main.name.split(/(?<=[-_.])/).forEach((part, i) => $("title").append(...i ? [element("wbr")] : [], part));
-$("title").title = run.title;
-$("outcome").textContent = run.end.text;
-$("outcome").className = run.end.reason === "error" ? "bad" : "";
-for (const [name, value, id] of run.totals) {
-  const box = element("div");
-  box.append(element("dt", {}, name), element("dd", { "data-total": id }, value));
-  const other = before?.run.totals.find(total => total[2] === id);
-  if (other) box.append(element("dd", { class: "before", "data-before": id }, `before ${other[1]}`));
-  $("totals").append(box);
-}
-if (run.thinned) {
+function show_heading() {
+  const { run } = main;
+  if ($("title")) {
+    document.title = `${main.name} · orb run`;
+    // A name breaks after a sign, never inside a word.
+    $("title").replaceChildren(...main.name.split(/(?<=[-_.])/).flatMap((part, i) => i ? [element("wbr"), part] : [part]));
+    $("title").title = run.title;
+  }
+  $("outcome").textContent = run.end.text;
+  $("outcome").className = run.end.reason === "error" ? "bad" : "";
+  $("totals").replaceChildren();
+  for (const [name, value, id] of run.totals) {
+    const box = element("div");
+    box.append(element("dt", {}, name), element("dd", { "data-total": id }, value));
+    const other = before?.run.totals.find(total => total[2] === id);
+    if (other) box.append(element("dd", { class: "before", "data-before": id }, `before ${other[1]}`));
+    $("totals").append(box);
+  }
   $("thinned").textContent = run.thinned;
-  $("thinned").hidden = false;
+  $("thinned").hidden = !run.thinned;
 }
 
 // ---- theme ----
@@ -148,17 +159,18 @@ show_theme();
 const view = { zoom: 1, x: 0, y: 0, follow: false };
 const least = list => list.reduce((a, b) => Math.min(a, b), list[0] ?? 0);
 const most = list => list.reduce((a, b) => Math.max(a, b), list[0] ?? 0);
-const box = (() => {
+let box, moved, mapped;
+function survey() {
   const corners = runs.flatMap(one => one.run.course ? [one.run.course.low, one.run.course.high] : []);
   const x = runs.flatMap(one => one.pose.x).concat(corners.map(corner => corner[0]));
   const y = runs.flatMap(one => one.pose.y).concat(corners.map(corner => corner[1]));
   const [left, right, low, high] = [least(x), most(x), least(y), most(y)];
-  return { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
-})();
-const spread = axis => { const list = runs.flatMap(one => one.pose[axis]); return most(list) - least(list); };
-const moved = spread("x") > 1 || spread("y") > 1;
-/** A map has a scale where something lies on it; else it shows the ball alone. */
-const mapped = moved || runs.some(one => one.run.course);
+  box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
+  const spread = axis => { const list = runs.flatMap(one => one.pose[axis]); return most(list) - least(list); };
+  moved = spread("x") > 1 || spread("y") > 1;
+  // A map has a scale where something lies on it; else it shows the ball alone.
+  mapped = moved || runs.some(one => one.run.course);
+}
 const length_words = cm => cm >= 100 ? `${trim(cm / 100, 2)} m` : `${trim(cm, 2)} cm`;
 const hit_path = "M-5 -5L5 5M-5 5L5 -5";
 const mark_art = {
@@ -170,8 +182,9 @@ const mark_art = {
   error: g => shape("path", { d: "M0 -8L8 6H-8Z", class: "mark-error" }, g),
 };
 
-function make_map(map, of) {
-  const { run, pose, stretches } = of;
+function make_map(map) {
+  let of, run, pose, stretches;
+  const load = one => { of = one; ({ run, pose, stretches } = one); };
   let pixels = { width: 0, height: 0, scale: 1, left: 0, top: 0 };
   let layers = null;
   const px = x => pixels.left + x * pixels.scale;
@@ -408,16 +421,18 @@ function make_map(map, of) {
     for (const name of ["pointerup", "pointercancel"])
       map.addEventListener(name, () => map.removeEventListener("pointermove", drag), { once: true });
   });
-  return { draw, show, scale: () => pixels.scale };
+  return { load, draw, show, scale: () => pixels.scale, words: map.nextElementSibling };
 }
-const maps = [];
-for (const one of [...runs].reverse()) {
-  const svg = one === main ? $("map") : $("map-before");
-  svg.parentElement.hidden = false;
-  if (before) svg.nextElementSibling.firstElementChild.textContent = one === main ? "this run" : "before";
-  maps.push({ of: one, words: svg.nextElementSibling, ...make_map(svg, one) });
+const all_maps = [make_map($("map")), make_map($("map-before"))]; // the run's comes first
+let maps = [];
+function list_maps() {
+  maps = all_maps.slice(0, runs.length);
+  $("map").parentElement.hidden = false;
+  $("map-before").parentElement.hidden = !before;
+  if (before) maps.forEach((one, i) => { one.words.firstElementChild.textContent = i ? "before" : "this run"; });
+  maps.forEach((one, i) => one.load(i ? before : main));
+  document.body.classList.toggle("two", maps.length > 1);
 }
-document.body.classList.toggle("two", maps.length > 1);
 
 /** 1, 2 or 5 times a power of ten: lines stand at least 64 pixels apart. */
 function grid_step(scale) {
@@ -428,20 +443,23 @@ function grid_step(scale) {
 
 // ---- what the signs on the map mean, and its scale ----
 const legend_words = { start: "start", end: "end", bump: "ran into a wall", collision: "collision reported", marker: "marker", error: "error" };
-for (const [kind, words] of Object.entries(legend_words)) {
-  const seen = kind === "start" ? pose.t.length : kind === "end" ? moved : runs.some(one => one.run.events.some(event => event.kind === kind && event.x !== undefined));
-  if (!seen) continue;
-  const item = element("li", { "data-sign": kind });
-  mark_art[kind](shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
-  item.append(words);
-  $("legend").append(item);
-}
-for (const [sign, words, seen] of [["wall", "wall", runs.some(one => one.run.walls.length)], ["zone", "zone", runs.some(one => one.run.course?.zones.length)], ["run unlit", "LED off", runs.some(one => one.stretches.some(stretch => !stretch.color))]]) {
-  if (!seen) continue;
-  const item = element("li", { "data-sign": sign.split(" ").pop() });
-  shape("path", { d: "M-9 0H9", class: sign, "stroke-width": 2.5 }, shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
-  item.append(words);
-  $("legend").append(item);
+function list_signs() {
+  $("legend").replaceChildren();
+  for (const [kind, words] of Object.entries(legend_words)) {
+    const seen = kind === "start" ? main.pose.t.length : kind === "end" ? moved : runs.some(one => one.run.events.some(event => event.kind === kind && event.x !== undefined));
+    if (!seen) continue;
+    const item = element("li", { "data-sign": kind });
+    mark_art[kind](shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
+    item.append(words);
+    $("legend").append(item);
+  }
+  for (const [sign, words, seen] of [["wall", "wall", runs.some(one => one.run.walls.length)], ["zone", "zone", runs.some(one => one.run.course?.zones.length)], ["run unlit", "LED off", runs.some(one => one.stretches.some(stretch => !stretch.color))]]) {
+    if (!seen) continue;
+    const item = element("li", { "data-sign": sign.split(" ").pop() });
+    shape("path", { d: "M-9 0H9", class: sign, "stroke-width": 2.5 }, shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
+    item.append(words);
+    $("legend").append(item);
+  }
 }
 function draw_scale() {
   const cm = grid_step(maps[0].scale());
@@ -475,9 +493,9 @@ $("zoom-in").addEventListener("click", () => zoom_by(1.5));
 $("zoom-out").addEventListener("click", () => zoom_by(1 / 1.5));
 $("zoom-fit").addEventListener("click", fit);
 $("follow").addEventListener("click", toggle_follow);
-if (!moved) {
-  $("still").textContent = pose.t.length ? "The ball stayed where it was." : "The ball did not move.";
-  $("still").hidden = false;
+function show_still() {
+  $("still").textContent = main.pose.t.length ? "The ball stayed where it was." : "The ball did not move.";
+  $("still").hidden = moved || live;
 }
 
 // ---- what the ball is doing now ----
@@ -492,11 +510,11 @@ readings.led.append(element("span", { class: "swatch" }), document.createTextNod
 
 // ---- program text ----
 const kinds_of = (...words) => new Map(words.flatMap(Object.entries).flatMap(([kind, list]) => list.map(word => [word.toLowerCase(), kind])));
-const languages = {
-  basic: { words: kinds_of(run.words.basic), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>\d+)|(?<name>[A-Za-z_]\w*)|[^'"\dA-Za-z_]+/g },
-  orb: { words: kinds_of(run.words.basic, run.words.structured), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>#[\da-f]{6}\b|\d\w*(?:\.\d\w*)?)|(?<name>[a-z_]\w*)|[^'"#\da-z_]+|#/gi },
-  macro: { words: kinds_of(run.words.macro), tokens: /(?<comment>[#;].*)|(?<string>"(?:\\.|[^"\\])*"?)|(?<directive>\.\w+)|(?<number>-?\b\d\w*(?:\.\d+\w*)?)|(?<name>[A-Za-z_]\w*)|[^#;"\dA-Za-z_]/g },
-};
+const languages_of = ({ words }) => ({
+  basic: { words: kinds_of(words.basic), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>\d+)|(?<name>[A-Za-z_]\w*)|[^'"\dA-Za-z_]+/g },
+  orb: { words: kinds_of(words.basic, words.structured), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>#[\da-f]{6}\b|\d\w*(?:\.\d\w*)?)|(?<name>[a-z_]\w*)|[^'"#\da-z_]+|#/gi },
+  macro: { words: kinds_of(words.macro), tokens: /(?<comment>[#;].*)|(?<string>"(?:\\.|[^"\\])*"?)|(?<directive>\.\w+)|(?<number>-?\b\d\w*(?:\.\d+\w*)?)|(?<name>[A-Za-z_]\w*)|[^#;"\dA-Za-z_]/g },
+});
 /** A line in the colours of its language; what no rule knows stays as it is. */
 function colored(text, { words, tokens }) {
   const cell = element("td");
@@ -511,11 +529,12 @@ function colored(text, { words, tokens }) {
   if (!text) cell.append(" ");
   return cell;
 }
-let shown = main;
+let shown = null;
 let shown_file = 0;
 let rows = [];
 function show_file(index) {
   shown_file = index;
+  if (!$("source")) return; // an editor shows it
   const file = shown.run.files[index];
   rows = file ? source_rows(file) : [];
   $("source").tBodies[0].replaceChildren(...rows);
@@ -528,7 +547,7 @@ function show_file(index) {
 function source_rows(file) {
   const ran = new Map(file.counts.map(([line, count, first]) => [line, { count, first }]));
   const most = file.counts.reduce((sum, [, count]) => Math.max(sum, count), 1);
-  const ending = file.name.split(".").pop();
+  const ending = file.name.split(".").pop(), languages = languages_of(shown.run);
   const language = ending === "macro" ? languages.macro : ending === "orb" ? languages.orb : languages.basic;
   return file.text.replace(/\r\n?/g, "\n").replace(/\n$/, "").split("\n").map((text, i) => {
     const line = i + 1, entry = ran.get(line);
@@ -545,16 +564,17 @@ function source_rows(file) {
     return row;
   });
 }
-$("source").addEventListener("click", event => {
+$("source")?.addEventListener("click", event => {
   const row = event.target.closest("tr[data-first]");
   if (row) seek(Number(row.dataset.first));
 });
 function list_files() {
+  if (!$("source")) return show_file(0);
   $("file").replaceChildren(...shown.run.files.map((file, i) => element("option", { value: i }, base_name(file.name))));
   $("file").hidden = shown.run.files.length < 2;
   show_file(0);
 }
-$("file").addEventListener("change", () => { show_file(Number($("file").value)); show_line(); });
+$("file")?.addEventListener("change", () => { show_file(Number($("file").value)); show_line(); });
 let current_row = null;
 function show_line() {
   const own = shown.steps[shown_file];
@@ -562,6 +582,7 @@ function show_line() {
   const inside = i >= 0;
   const row = inside ? rows[own.line[i] - 1] : null;
   readings.line.textContent = inside ? String(own.line[i]) : "none";
+  on_moment?.(shown.steps.map(({ t, line }, k) => ({ name: shown.run.files[k].name, line: line[last_at(t, now)] ?? 0 })));
   if (row === current_row) return;
   if (current_row) { current_row.classList.remove("current"); current_row.removeAttribute("aria-current"); }
   current_row = row ?? null;
@@ -584,7 +605,7 @@ function step_line(by) {
   if (wanted < 0 || wanted >= times.length) { seek(by > 0 ? end : 0); return; }
   const file = shown.run.line.file[wanted];
   if (file !== shown_file) {
-    $("file").value = file;
+    if ($("file")) $("file").value = file;
     show_file(file);
   }
   seek(times[wanted]);
@@ -653,12 +674,17 @@ function icon(kind) {
   return art;
 }
 function list_events() {
+  const listed = events.length;
+  const goes_on = live && listed <= shown.run.events.length && events.every((event, i) => event.t === shown.run.events[i].t && !shown.run.events[i].gap);
   events = shown.run.events;
   event_times = events.map(event => event.t);
-  event_rows = [];
-  current_event = -2;
-  $("events").replaceChildren();
+  if (!goes_on) {
+    event_rows = [];
+    current_event = -2;
+    $("events").replaceChildren();
+  }
   for (const [i, event] of events.entries()) {
+    if (goes_on && i < listed) continue;
     if (event.gap && i > 0)
       $("events").append(element("li", { class: "gap" }, `${event.gap.toLocaleString("en")} events in between are not listed`));
     const item = element("li", { class: event.kind });
@@ -718,17 +744,20 @@ function choose(one) {
   list_variables();
   list_events();
 }
-if (before) {
+function list_runs() {
+  if (!$("whose")) return;
+  $("whose").replaceChildren();
+  $("whose").hidden = !before;
+  if (!before) return;
   for (const [name, words, one] of [["before", "before", before], ["run", "this run", main]]) {
     const button = element("button", { type: "button", "data-run": name }, words);
     button.addEventListener("click", () => { choose(one); show(); });
     $("whose").append(button);
   }
-  $("whose").hidden = false;
 }
 
 // ---- values over time ----
-const lanes = [];
+let lanes = [];
 /** `series`: [{name, t, v, digits}]; `cyclic`: 360 where a value wraps round; `between`: what a state
  *  between two poses says, where values are not held; `other`: the same series of the run before. */
 function add_lane({ id, name, unit, series, cyclic, low, high, held, between, other }) {
@@ -780,7 +809,7 @@ function draw_lane(lane) {
       const here = x(one.t[i]);
       if (i && i < one.t.length - 1 && here - last_x < .35 && Math.abs(one.v[i] - previous) * 60 < lane.to - lane.from) continue;
       const wraps = lane.cyclic && previous !== null && Math.abs(one.v[i] - previous) > lane.cyclic / 2;
-      const gap = previous !== null && !lane.held && one.t[i] - one.t[i - 1] > run.pose.step * 1.5;
+      const gap = previous !== null && !lane.held && one.t[i] - one.t[i - 1] > main.run.pose.step * 1.5;
       if (gap || (lane.held && previous !== null)) d += `H${here.toFixed(1)}`;
       d += `${previous === null || wraps ? "M" : "L"}${here.toFixed(1)} ${y(one.v[i])}`;
       previous = one.v[i];
@@ -834,31 +863,39 @@ function add_thin_lane(name, id) {
   plot.addEventListener("pointerdown", event => scrub(event, plot));
   return plot;
 }
-add_thin_lane("Time", "axis");
-const led_plot = add_thin_lane("LED", "led-lane");
-const led_art = shape("svg", { preserveAspectRatio: "none" }, led_plot);
-const led_playhead = element("div", { class: "playhead" });
-led_plot.append(led_playhead);
-add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, between: state => state.speed, other: before && { t: before.pose.t, v: before.pose.speed }, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 1 }] });
-add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, between: state => state.heading, other: before && { t: before.pose.t, v: before.pose.heading }, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
-if (backled.t.length)
-  add_lane({ id: "backled", name: "Aiming light", unit: "", low: 0, high: 255, held: true, series: [{ name: "backLED", t: backled.t, v: backled.value, digits: 0 }] });
-for (const group of run.sensors) {
-  const t = sums(group.t);
-  add_lane({ id: group.id, name: group.name, unit: group.unit, held: true,
-    series: group.series.map(one => ({ name: one.name, t, v: column(one.v, one.scale), digits: one.digits })) });
+let led_art, led_playhead;
+function list_lanes() {
+  const { run, pose, backled } = main;
+  lanes = [];
+  $("lanes").replaceChildren();
+  add_thin_lane("Time", "axis");
+  const led_plot = add_thin_lane("LED", "led-lane");
+  led_art = shape("svg", { preserveAspectRatio: "none" }, led_plot);
+  led_playhead = element("div", { class: "playhead" });
+  led_plot.append(led_playhead);
+  add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, between: state => state.speed, other: before && { t: before.pose.t, v: before.pose.speed }, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 1 }] });
+  add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, between: state => state.heading, other: before && { t: before.pose.t, v: before.pose.heading }, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
+  if (backled.t.length)
+    add_lane({ id: "backled", name: "Aiming light", unit: "", low: 0, high: 255, held: true, series: [{ name: "backLED", t: backled.t, v: backled.value, digits: 0 }] });
+  for (const group of run.sensors) {
+    const t = sums(group.t);
+    add_lane({ id: group.id, name: group.name, unit: group.unit, held: true,
+      series: group.series.map(one => ({ name: one.name, t, v: column(one.v, one.scale), digits: one.digits })) });
+  }
 }
+
 // ---- time ----
-let now = 0, playing = false, last_frame = 0;
 const slider = $("time");
-slider.max = end;
 const rates = [.1, .25, .5, 1, 2, 5, 10, 30, 60, 300];
-const rate_start = rates.find(rate => end / 1e6 / rate <= 120 && rate >= 1) ?? 300;
-for (const rate of rates) $("rate").append(element("option", { value: rate, ...(rate === rate_start ? { selected: "" } : {}) }, `${rate}×`));
+for (const rate of rates) $("rate").append(element("option", { value: rate }, `${rate}×`));
+function set_rate() {
+  $("rate").value = rates.find(rate => end / 1e6 / rate <= 120 && rate >= 1) ?? 300;
+}
 
 /** The colours over time: in the slider, and above the other values. */
 function draw_colors(art) {
-  const width = 1000;
+  const width = 1000, { led } = main;
+  art.replaceChildren();
   art.setAttribute("viewBox", `0 0 ${width} 10`);
   const x = t => clamp(t / end * width, 0, width);
   led.t.forEach((t, i) => {
@@ -871,8 +908,8 @@ function draw_colors(art) {
 function show() {
   const state = main.state_at(now);
   const lamp = main.lamp_at(now), lamp_color = lamp ? css_color(lamp) : "transparent";
-  for (const one of maps) {
-    const there = one.of.state_at(now);
+  for (const [i, one] of maps.entries()) {
+    const there = (i ? before : main).state_at(now);
     one.show(there);
     one.words.lastElementChild.textContent = `${position_words(there)}, ${speed_words(there)}`;
   }
@@ -893,6 +930,7 @@ function show() {
   show_lanes(state);
 }
 function redraw() {
+  if (!main) return;
   draw_maps();
   show();
 }
@@ -913,7 +951,7 @@ function frame(stamp) {
   const passed = Math.max(stamp - last_frame, 0);
   last_frame = stamp;
   seek(now + passed * 1000 * Number($("rate").value));
-  if (now >= end) set_playing(false);
+  if (now >= end && !live) set_playing(false);
   else requestAnimationFrame(frame);
 }
 $("play").addEventListener("click", () => set_playing(!playing));
@@ -921,10 +959,10 @@ slider.addEventListener("input", () => seek(Number(slider.value)));
 
 // ---- keys ----
 $("keys-button").addEventListener("click", () => $("keys").showModal());
-document.addEventListener("keydown", event => {
-  if (event.ctrlKey || event.metaKey || event.altKey || $("keys").open) return;
+keys.addEventListener("keydown", event => {
+  if (!main || event.ctrlKey || event.metaKey || event.altKey || $("keys").open) return;
   const where = event.target;
-  if (where instanceof HTMLSelectElement) return;
+  if (where instanceof HTMLSelectElement || where instanceof HTMLInputElement && where !== slider) return;
   const by = event.shiftKey ? 1e6 : 50e3;
   const actions = {
     ArrowLeft: () => seek(now - by), ArrowRight: () => seek(now + by),
@@ -943,32 +981,64 @@ document.addEventListener("keydown", event => {
 });
 
 // ---- begin ----
-choose(main);
 const everything = () => { draw_maps(); lanes.forEach(draw_lane); draw_axis(); show(); };
-draw_colors($("track"));
-for (const event of run.events) // where it hurt
-  if (event.kind === "bump" || event.kind === "error")
-    for (const look of ["tick below", "tick"])
-      shape("path", { d: `M${(event.t / end * 1000).toFixed(2)} 0V10`, class: look, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, $("track"));
-draw_colors(led_art);
+/** Where it hurt. */
+function draw_ticks() {
+  for (const event of main.run.events)
+    if (event.kind === "bump" || event.kind === "error")
+      for (const look of ["tick below", "tick"])
+        shape("path", { d: `M${(event.t / end * 1000).toFixed(2)} 0V10`, class: look, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, $("track"));
+}
+/** Shows a run from its start; one that `goes_on` from the moment shown. */
+function load(run, run_before = null, goes_on = false) {
+  const continued = live;
+  take(run, run_before);
+  live = goes_on;
+  if (!continued) {
+    set_playing(false);
+    Object.assign(view, { zoom: 1, x: 0, y: 0 });
+    now = 0;
+    events = [];
+    event_rows = [];
+    current_event = -2;
+    $("events").replaceChildren();
+  }
+  slider.max = end;
+  if (!goes_on || !continued) set_rate();
+  show_heading();
+  survey();
+  list_maps();
+  list_signs();
+  show_still();
+  list_runs();
+  list_lanes();
+  live ||= continued; // its last piece is one more
+  choose(main);
+  live = goes_on;
+  draw_colors($("track"));
+  draw_ticks();
+  draw_colors(led_art);
+  now = clamp(now, 0, end);
+  everything();
+}
 /** The moment that the address asks for: `#t=3.2`, in seconds; nothing where it asks for none. */
 function asked_time() {
   const asked = /^#t=([0-9.]+)$/.exec(location.hash);
-  return asked ? clamp(Number(asked[1]) * 1e6, 0, end) : null;
+  return asked && main ? clamp(Number(asked[1]) * 1e6, 0, end) : null;
 }
-now = asked_time() ?? 0;
-window.addEventListener("hashchange", () => { if (asked_time() !== null) seek(asked_time()); });
-everything();
+const seek_asked = () => { if (asked_time() !== null) seek(asked_time()); };
+window.addEventListener("hashchange", seek_asked);
 
 // On paper the run is over: the whole path, whatever part of it was looked at.
 let put_aside = null;
 window.addEventListener("beforeprint", () => {
+  if (!main) return;
   set_playing(false);
   put_aside = { now, ...view };
   Object.assign(view, { zoom: 1, x: 0, y: 0, follow: false });
   now = end;
   shown.run.files.forEach((file, i) => {
-    if (i === shown_file) return;
+    if (i === shown_file && $("source")) return;
     const table = element("table", { class: "listing" });
     table.append(...source_rows(file));
     $("paper-files").append(element("h2", {}, base_name(file.name)), table);
@@ -987,6 +1057,11 @@ window.addEventListener("afterprint", () => {
 let pending = 0;
 new ResizeObserver(() => {
   cancelAnimationFrame(pending);
-  pending = requestAnimationFrame(everything);
+  pending = requestAnimationFrame(() => { if (main) everything(); });
 }).observe($("map"));
-})();
+return {
+  load, seek, seek_asked, next_theme,
+  play: () => set_playing(true), pause: () => set_playing(false),
+  end: () => end,
+};
+}
