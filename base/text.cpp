@@ -4,7 +4,57 @@
 
 #include <fmt/format.h>
 
+#ifndef __cpp_lib_to_chars // as in the browser's build
+#include <cerrno>
+#include <cstdlib>
+#endif
+
 namespace orb {
+namespace {
+
+/// Takes the digits from the front; whether there was one.
+bool take_digits(std::string_view& text) {
+  const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
+  const auto count = static_cast<std::size_t>(end - text.begin());
+  text.remove_prefix(count);
+  return count > 0;
+}
+
+bool take(std::string_view& text, std::string_view any_of) {
+  const bool taken = !text.empty() && any_of.find(text.front()) != std::string_view::npos;
+  text.remove_prefix(taken ? 1 : 0);
+  return taken;
+}
+
+/// Whether `text` is `-1.5e-3` or less of that: no `inf` and no hexadecimal digits.
+bool is_real(std::string_view text, std::chars_format form) {
+  take(text, "-");
+  bool digits = take_digits(text);
+  if (take(text, "."))
+    digits = take_digits(text) || digits;
+  if (digits && form != std::chars_format::fixed && take(text, "eE")) {
+    take(text, "+-");
+    digits = take_digits(text);
+  }
+  return digits && text.empty();
+}
+
+} // namespace
+
+std::optional<double> parse_real(std::string_view text, std::chars_format form) {
+  if (!is_real(text, form))
+    return std::nullopt;
+  double number = 0;
+#ifdef __cpp_lib_to_chars
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number, form);
+  const bool fits = read.ec == std::errc{};
+#else
+  errno = 0;
+  number = std::strtod(std::string(text).c_str(), nullptr);
+  const bool fits = errno == 0;
+#endif
+  return fits ? std::optional(number) : std::nullopt;
+}
 
 std::string plural(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
 namespace orb {
 
@@ -54,14 +55,22 @@ std::string plural(std::uint64_t count, std::string_view noun);
 /// XML 1.0 forbids.
 std::string escape_markup(std::string_view text);
 
+/// parse_number() for numbers with a point and, unless `form` is fixed, an exponent.
+std::optional<double> parse_real(std::string_view text,
+                                 std::chars_format form = std::chars_format::general);
+
 /// The number that all of `text` is, in the form of std::from_chars: no sign `+`, no blanks.
 /// `form` is the base of a whole number, or a std::chars_format. Nothing where it does not fit.
 template <typename Number, typename... Form>
 std::optional<Number> parse_number(std::string_view text, Form... form) {
-  Number number{};
-  const auto* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, number, form...);
-  return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>) {
+    return parse_real(text, form...);
+  } else {
+    Number number{};
+    const auto* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number, form...);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
+  }
 }
 
 } // namespace orb

@@ -1,19 +1,14 @@
-# What every target of the project shares.
+# What every target of the project shares, in its own build and in the browser's.
+
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH ORB_ROOT)
 
 add_library(orb_options INTERFACE)
 target_compile_options(orb_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wswitch-enum
   # gcc and clang must compute the same trace, so neither may fuse a multiplication with an addition.
   -ffp-contract=off)
-target_include_directories(orb_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(orb_options INTERFACE ${ORB_ROOT})
 target_compile_definitions(orb_options INTERFACE ORB_VERSION="${PROJECT_VERSION}")
-
-# Standalone Asio: headers only, without Boost.
-add_library(orb_asio INTERFACE)
-target_include_directories(orb_asio SYSTEM INTERFACE ${ASIO_INCLUDE_DIR})
-target_compile_definitions(orb_asio INTERFACE ASIO_STANDALONE ASIO_NO_DEPRECATED)
-target_link_libraries(orb_asio INTERFACE Threads::Threads)
-add_library(orb::asio ALIAS orb_asio)
 
 # Precompiled headers: what nearly every file of a kind includes from outside the project, and nothing of
 # the project itself, so that editing a header of ours never rebuilds them. The clang preset builds without
@@ -34,7 +29,7 @@ orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 # .cpp files, alias orb::<folder>. A new file needs no edit here.
 function(orb_library folder)
   cmake_parse_arguments(ARG "" "PRECOMPILED" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${ORB_ROOT}/${folder}/*.cpp)
   add_library(orb_${folder} STATIC ${sources})
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
@@ -49,7 +44,7 @@ endfunction()
 function(orb_page folder name)
   set(assets "#include \"${folder}/assets.h\"\n\nnamespace orb::${folder} {\n")
   foreach(kind html css js)
-    set(file ${PROJECT_SOURCE_DIR}/${name}.${kind})
+    set(file ${ORB_ROOT}/${name}.${kind})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     file(READ ${file} text)
     string(APPEND assets "const std::string_view page_${kind} = R\"asset(${text})asset\";\n")

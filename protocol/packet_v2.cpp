@@ -116,15 +116,15 @@ std::optional<ItemV2> DecoderV2::next() {
     expired_ = false;
     return std::nullopt;
   }
-  const auto start =
-      static_cast<std::size_t>(std::ranges::find(bytes, spec::v2_start) - bytes.begin());
+  const auto start = static_cast<std::size_t>(
+      std::find(bytes.begin(), bytes.end(), spec::v2_start) - bytes.begin());
   if (start > 0)
     return take(start, ItemV2::Kind::Noise);
   const auto is_border = [](std::uint8_t byte) {
     return byte == spec::v2_start || byte == spec::v2_end;
   };
   const auto end = static_cast<std::size_t>(
-      std::ranges::find_if(bytes.begin() + 1, bytes.end(), is_border) - bytes.begin());
+      std::find_if(bytes.begin() + 1, bytes.end(), is_border) - bytes.begin());
   if (end == bytes.size() && end <= spec::v2_max_packet && !expired_)
     return std::nullopt;
   if (end == bytes.size())

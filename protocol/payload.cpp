@@ -258,8 +258,10 @@ tl::expected<Bytes, EncodeError> encode_operands(spec::ApiCommand command,
   const auto& row = spec::info(command);
   const auto fields = spec::operands(command);
   const auto takes_rest = !fields.empty() && fields.back().type == FieldType::Data;
-  const auto required = static_cast<std::size_t>(
-      std::ranges::count(fields, spec::Presence::Required, &Field::presence));
+  const auto required =
+      static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), [](const Field& field) {
+        return field.presence == spec::Presence::Required;
+      }));
   const auto may_lack = takes_rest && fields.back().least == 0 ? std::size_t{1} : 0;
   if (words.size() < required - may_lack || (words.size() > fields.size() && !takes_rest))
     return tl::unexpected(miscounted(row, required, fields.size(), words.size()));

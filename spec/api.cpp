@@ -62,7 +62,14 @@ constexpr auto bit_rows = std::to_array<Named>({
 /// Whether `code` ascends strictly over the rows.
 template <class Rows, class Code>
 constexpr bool ascending(const Rows& rows, Code code) {
-  return std::ranges::adjacent_find(rows, std::ranges::greater_equal{}, code) == std::end(rows);
+  return std::adjacent_find(std::begin(rows), std::end(rows), [code](const auto& a, const auto& b) {
+           return a.*code >= b.*code;
+         }) == std::end(rows);
+}
+
+constexpr bool follow_owners(std::span<const Field> rows) {
+  return std::is_sorted(rows.begin(), rows.end(),
+                        [](const Field& a, const Field& b) { return a.owner < b.owner; });
 }
 
 template <class Rows>
@@ -77,30 +84,37 @@ constexpr bool unique_names(const Rows& rows) {
 static_assert(ascending(api_commands, &CommandInfo::command), "commands ascend by DID and CID");
 static_assert(ascending(responses, &ResponseInfo::code), "response codes ascend");
 static_assert(ascending(asyncs, &AsyncInfo::id), "async ids ascend");
-static_assert(std::ranges::is_sorted(operand_rows, {}, &Field::owner), "operands follow their row");
-static_assert(std::ranges::is_sorted(answer_rows, {}, &Field::owner), "answers follow their row");
-static_assert(std::ranges::is_sorted(async_rows, {}, &Field::owner), "fields follow their row");
+static_assert(follow_owners(operand_rows), "operands follow their row");
+static_assert(follow_owners(answer_rows), "answers follow their row");
+static_assert(follow_owners(async_rows), "fields follow their row");
 static_assert(unique_names(api_commands) && unique_names(asyncs) && unique_names(streams));
 
-template <class Rows>
-std::span<const Field> owned_by(const Rows& rows, std::uint16_t owner) {
-  const auto* first = std::ranges::lower_bound(rows, owner, {}, &Field::owner);
-  const auto* last = std::ranges::upper_bound(rows, owner, {}, &Field::owner);
+std::span<const Field> owned_by(std::span<const Field> rows, std::uint16_t owner) {
+  const auto first = std::partition_point(rows.begin(), rows.end(),
+                                          [&](const Field& row) { return row.owner < owner; });
+  const auto last =
+      std::partition_point(first, rows.end(), [&](const Field& row) { return row.owner == owner; });
   return {first, last};
+}
+
+/// The row whose `member` is `value`, or null.
+template <class Rows, class Member, class Value>
+const auto* find_row(const Rows& rows, Member member, const Value& value) {
+  const auto* found = std::find_if(rows.data(), rows.data() + rows.size(),
+                                   [&](const auto& row) { return row.*member == value; });
+  return found == rows.data() + rows.size() ? nullptr : found;
 }
 
 /// `power state` is the namespace power_state.
 bool same_subject(std::string_view row, std::string_view subject) {
-  return std::ranges::equal(row, subject,
-                            [](char a, char b) { return a == b || (a == '_' && b == ' '); });
+  return std::equal(row.begin(), row.end(), subject.begin(), subject.end(),
+                    [](char a, char b) { return a == b || (a == '_' && b == ' '); });
 }
 
 } // namespace
 
 const ResponseInfo* find_response(std::uint8_t code) {
-  const auto* found =
-      std::ranges::find(responses, static_cast<ResponseCode>(code), &ResponseInfo::code);
-  return found == responses.end() ? nullptr : found;
+  return find_row(responses, &ResponseInfo::code, static_cast<ResponseCode>(code));
 }
 
 Retry retry_of(std::uint8_t code) {
@@ -113,8 +127,7 @@ std::span<const Field> operands(ApiCommand command) {
 }
 
 const Distance* distance(ApiCommand command) {
-  const auto* found = std::ranges::find(distance_rows, command, &Distance::command);
-  return found == distance_rows.end() ? nullptr : found;
+  return find_row(distance_rows, &Distance::command, command);
 }
 
 std::span<const Field> answer(ApiCommand command) {
@@ -123,13 +136,14 @@ std::span<const Field> answer(ApiCommand command) {
 
 const CommandInfo* find_command(std::uint8_t did, std::uint8_t cid) {
   const auto command = api_command(did, cid);
-  const auto* found = std::ranges::lower_bound(api_commands, command, {}, &CommandInfo::command);
+  const auto* found =
+      std::partition_point(api_commands.begin(), api_commands.end(),
+                           [&](const CommandInfo& row) { return row.command < command; });
   return found == api_commands.end() || found->command != command ? nullptr : found;
 }
 
 const CommandInfo* find_command(std::string_view name) {
-  const auto* found = std::ranges::find(api_commands, name, &CommandInfo::name);
-  return found == api_commands.end() ? nullptr : found;
+  return find_row(api_commands, &CommandInfo::name, name);
 }
 
 const CommandInfo& info(ApiCommand command) {
@@ -153,8 +167,7 @@ std::span<const Field> life_fields() {
 }
 
 const AsyncInfo* find_async(std::uint8_t id) {
-  const auto* found = std::ranges::find(asyncs, static_cast<AsyncId>(id), &AsyncInfo::id);
-  return found == asyncs.end() ? nullptr : found;
+  return find_row(asyncs, &AsyncInfo::id, static_cast<AsyncId>(id));
 }
 
 std::string_view value_name(std::string_view subject, std::uint32_t value) {
