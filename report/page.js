@@ -100,6 +100,7 @@ function journey(run) {
 let main, before, runs, end;
 let now = 0, playing = false, last_frame = 0;
 let live = false; // it still runs: what is shown next continues what is shown
+const live_delay = 400e3;
 function take(run, run_before) {
   main = journey(run);
   before = run_before ? journey(run_before) : null;
@@ -739,7 +740,7 @@ $("next").addEventListener("click", () => jump(1));
 // ---- which of two runs the lists show ----
 function choose(one) {
   shown = one;
-  for (const button of $("whose").children) button.setAttribute("aria-pressed", String(button.dataset.run === (one === main ? "run" : "before")));
+  for (const button of $("whose")?.children ?? []) button.setAttribute("aria-pressed", String(button.dataset.run === (one === main ? "run" : "before")));
   list_files();
   list_variables();
   list_events();
@@ -950,7 +951,9 @@ function frame(stamp) {
   if (!playing) return;
   const passed = Math.max(stamp - last_frame, 0);
   last_frame = stamp;
-  seek(now + passed * 1000 * Number($("rate").value));
+  // What still runs is shown a little behind, so that the ball rolls evenly from one piece to the next.
+  if (live) seek(clamp(now + passed * 1000, end - live_delay, end));
+  else seek(now + passed * 1000 * Number($("rate").value));
   if (now >= end && !live) set_playing(false);
   else requestAnimationFrame(frame);
 }
@@ -1004,6 +1007,7 @@ function load(run, run_before = null, goes_on = false) {
     $("events").replaceChildren();
   }
   slider.max = end;
+  document.querySelector(".transport").inert = goes_on;
   if (!goes_on || !continued) set_rate();
   show_heading();
   survey();

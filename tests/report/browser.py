@@ -1,5 +1,6 @@
 """A headless Chromium, driven over a pipe by its DevTools protocol; the standard library only."""
 
+import base64
 import itertools
 import json
 import os
@@ -40,8 +41,16 @@ class Page:
             self.requests.append(params["request"]["url"])
 
     def open(self, path):
-        self.call("Page.navigate", url="file://" + path)
+        self.go("file://" + path)
+
+    def go(self, url):
+        self.call("Page.navigate", url=url)
         self.wait("document.readyState === 'complete'")
+
+    def picture(self, path):
+        """What is seen now, as a PNG."""
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
     def evaluate(self, expression):
         answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True,

@@ -1,0 +1,217 @@
+// The editor: CodeMirror, and the language server of `orb lsp` in a worker behind it.
+
+import { basicSetup } from "codemirror";
+import { EditorView, Decoration, ViewPlugin, keymap } from "@codemirror/view";
+import { EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
+import { setDiagnostics, lintGutter, nextDiagnostic } from "@codemirror/lint";
+import { LSPClient, LSPPlugin, serverCompletion, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
+  renameKeymap, jumpToDefinitionKeymap } from "@codemirror/lsp-client";
+import { harmless } from "./page/dom.js";
+import { limits } from "./page/workspace.js";
+
+const uri_of = name => "file:///" + encodeURIComponent(name);
+/** Longer texts are checked when the typing rests, so that it stays fluent. */
+const quick = 48 * 1024;
+
+// ---- colours, by what the server says that a piece of text is ----
+const set_colors = StateEffect.define();
+const colors = StateField.define({
+  create: () => Decoration.none,
+  update(value, transaction) {
+    for (const effect of transaction.effects) if (effect.is(set_colors)) return effect.value;
+    return transaction.docChanged ? value.map(transaction.changes) : value;
+  },
+  provide: field => EditorView.decorations.from(field),
+});
+function decorations(doc, data, legend) {
+  const marks = [];
+  let line = 0, character = 0;
+  for (let i = 0; i + 4 < data.length; i += 5) {
+    if (data[i]) character = 0;
+    line += data[i];
+    character += data[i + 1];
+    if (line >= doc.lines) break;
+    const from = doc.line(line + 1).from + character, to = Math.min(from + data[i + 2], doc.length);
+    const robots = data[i + 4] & 8 ? " tok-robots" : "";
+    if (from < to) marks.push(Decoration.mark({ class: `tok-${legend[data[i + 3]]}${robots}` }).range(from, to));
+  }
+  return Decoration.set(marks, true);
+}
+
+// ---- the line that runs ----
+const set_running = StateEffect.define();
+const running_line = Decoration.line({ class: "running" });
+const running = StateField.define({
+  create: () => Decoration.none,
+  update(value, transaction) {
+    for (const effect of transaction.effects)
+      if (effect.is(set_running)) {
+        const { doc } = transaction.state;
+        return effect.value >= 1 && effect.value <= doc.lines ? Decoration.set([running_line.range(doc.line(effect.value).from)]) : Decoration.none;
+      }
+    return transaction.docChanged ? Decoration.none : value;
+  },
+  provide: field => EditorView.decorations.from(field),
+});
+
+const severities = [, "error", "warning", "info", "hint"];
+const reconnects = 3; // a server that ends again and again is left alone
+
+/** `language`: the client of a worker; `files()`: all texts that there are; `on_change(name, text)`,
+ *  `on_findings(name, list)`, `say(words, look)`. */
+export function make_editor({ parent, nonce, language, files, on_change, on_findings, say }) {
+  let view = null, shown = "", client = null, lost = 0;
+  const states = new Map(); // of the files that were shown: their text, selection and history
+
+  // -- the server --
+  function connect() {
+    const listeners = new Set();
+    const send = async message => {
+      try {
+        for (const answer of (await language.call("lsp", { message })).messages)
+          for (const listener of listeners) listener(typeof answer === "string" ? answer : JSON.stringify(answer));
+      } catch (error) {
+        if (error.code !== "stopped" && ++lost <= reconnects) language.restart();
+        else if (lost > reconnects) say("The checker has stopped. Save your program and load the page again.", "bad");
+      }
+    };
+    client = new LSPClient({
+      rootUri: "file:///",
+      sanitizeHTML: harmless,
+      timeout: 10_000,
+      notificationHandlers: { "textDocument/publishDiagnostics": (_, params) => { show_findings(params); return true; } },
+      extensions: [serverCompletion(), hoverTooltips(), signatureHelp()],
+    });
+    language.call("files", { files: files() }).catch(() => {});
+    client.connect({ send, subscribe: listener => listeners.add(listener), unsubscribe: listener => listeners.delete(listener) });
+  }
+  language.on("restart", () => {
+    connect();
+    const name = shown;
+    for (const [one, state] of states) states.set(one, fresh(one, state.doc.toString()));
+    if (name) show(name);
+  });
+
+  async function refresh_colors() {
+    const plugin = LSPPlugin.get(view), doc = view.state.doc, asked = client;
+    if (!plugin) return;
+    const answer = await asked.request("textDocument/semanticTokens/full", { textDocument: { uri: plugin.uri } }).catch(() => null);
+    const legend = asked.serverCapabilities?.semanticTokensProvider?.legend.tokenTypes;
+    if (answer && legend && view.state.doc === doc) view.dispatch({ effects: set_colors.of(decorations(doc, answer.data, legend)) });
+  }
+  /** After each change: findings and colours anew. */
+  const follow = ViewPlugin.fromClass(class {
+    constructor() { this.plan(0); }
+    plan(wait) {
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => {
+        LSPPlugin.get(view)?.client.sync();
+        refresh_colors();
+      }, wait);
+    }
+    update(update) { if (update.docChanged) this.plan(update.state.doc.length > quick ? 300 : 0); }
+    destroy() { clearTimeout(this.timer); }
+  });
+
+  // -- findings and their fixes --
+  let findings = [];
+  const place = (doc, { line, character }) => {
+    if (line >= doc.lines) return doc.length;
+    const there = doc.line(line + 1);
+    return Math.min(there.from + character, there.to);
+  };
+  async function show_findings({ uri, version, diagnostics }) {
+    const plugin = view && LSPPlugin.get(view);
+    if (!plugin || plugin.uri !== uri) return;
+    const file = plugin.client.workspace.getFile(uri), doc = plugin.syncedDoc;
+    if (version !== undefined && version !== null && version !== file?.version) return;
+    const put = actions => {
+      if (LSPPlugin.get(view) !== plugin || plugin.syncedDoc !== doc) return;
+      const map = position => plugin.unsyncedChanges.mapPos(place(doc, position));
+      findings = diagnostics.map(one => ({
+        from: map(one.range.start), to: map(one.range.end), line: one.range.start.line + 1, severity: severities[one.severity ?? 1],
+        message: one.message, source: String(one.code ?? ""), actions: actions.filter(action => belongs(action, one)).map(action => fix(action, uri)),
+      }));
+      view.dispatch(setDiagnostics(view.state, findings));
+      on_findings(shown, findings);
+    };
+    put([]);
+    if (!diagnostics.length) return;
+    const range = { start: { line: 0, character: 0 }, end: { line: doc.lines, character: 0 } };
+    const actions = await plugin.client.request("textDocument/codeAction", { textDocument: { uri }, range, context: { diagnostics: [] } }).catch(() => null);
+    if (actions?.length) put(actions);
+  }
+  const belongs = (action, finding) => action.diagnostics?.some(one => one.code === finding.code && one.message === finding.message &&
+    one.range.start.line === finding.range.start.line && one.range.start.character === finding.range.start.character);
+  const fix = ({ title, edit }, uri) => ({
+    name: title[0].toUpperCase() + title.slice(1),
+    apply(editor) {
+      const { doc } = editor.state;
+      const changes = (edit?.changes?.[uri] ?? []).map(({ range, newText }) => ({ from: place(doc, range.start), to: place(doc, range.end), insert: newText }));
+      editor.dispatch({ changes, userEvent: "input.fix" });
+    },
+  });
+  function fix_here(editor) {
+    const { from, to } = editor.state.doc.lineAt(editor.state.selection.main.head);
+    const found = findings.find(one => one.from <= to && one.to >= from && one.actions.length);
+    if (!found) return false;
+    found.actions[0].apply(editor);
+    return true;
+  }
+
+  // -- texts --
+  const short_enough = EditorState.changeFilter.of(transaction => {
+    if (!transaction.docChanged || transaction.newDoc.length <= limits.text) return true;
+    setTimeout(() => say(`A file holds ${limits.text / 1024} KB at most; that was left out.`, "bad"));
+    return false;
+  });
+  const fresh = (name, text) => EditorState.create({
+    doc: text,
+    extensions: [
+      Prec.high(keymap.of([...formatKeymap, ...renameKeymap, ...jumpToDefinitionKeymap, { key: "Mod-.", run: fix_here }, { key: "F8", run: nextDiagnostic }])),
+      basicSetup, lintGutter(), colors, running, short_enough, follow,
+      EditorView.lineWrapping, EditorView.cspNonce.of(nonce),
+      EditorView.contentAttributes.of({ "aria-label": `Text of ${name}`, autocapitalize: "off", autocorrect: "off", spellcheck: "false" }),
+      EditorView.updateListener.of(update => {
+        if (!update.docChanged) return;
+        states.set(name, update.state);
+        on_change(name, update.state.doc.toString());
+      }),
+      client.plugin(uri_of(name), ""),
+    ],
+  });
+  function show(name, text) {
+    if (view && shown) states.set(shown, view.state);
+    if (!states.has(name)) states.set(name, fresh(name, text));
+    shown = name;
+    findings = [];
+    on_findings(name, []);
+    language.call("files", { files: files() }).catch(() => {}); // what it includes, what it tests
+    if (view) view.setState(states.get(name));
+    else view = new EditorView({ state: states.get(name), parent });
+  }
+  connect();
+
+  return {
+    show,
+    /** Forgets what was open: other files come. */
+    reset() { states.clear(); shown = ""; },
+    forget(name) { states.delete(name); if (shown === name) shown = ""; },
+    /** Puts another text in, as one step that can be undone. */
+    replace(text) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }); },
+    focus: () => view.focus(),
+    format: () => formatDocument(view),
+    run_line(line) { view?.dispatch({ effects: set_running.of(line) }); },
+    go_to(line, column = 1) {
+      const there = view.state.doc.line(Math.min(Math.max(line, 1), view.state.doc.lines));
+      view.dispatch({ selection: { anchor: Math.min(there.from + column - 1, there.to) }, scrollIntoView: true });
+      view.focus();
+    },
+    select({ from, to }) {
+      view.dispatch({ selection: { anchor: from, head: to }, scrollIntoView: true });
+      view.focus();
+    },
+    apply: action => { action.apply(view); view.focus(); },
+    view: () => view,
+  };
+}

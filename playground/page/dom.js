@@ -1,0 +1,43 @@
+// What the modules of the page have in common.
+
+export const $ = id => document.getElementById(id);
+
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes))
+    if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+    else if (value !== false && value !== undefined) made.setAttribute(key, value === true ? "" : value);
+  made.append(...children);
+  return made;
+}
+export const button = (words, on_click, attributes = {}) => element("button", { type: "button", onclick: on_click, ...attributes }, words);
+
+/** What stands between backticks becomes code; all of it stays text. */
+export const with_code = text => text.split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part);
+
+/** Says it in the line at the foot of the program, and to screen readers. */
+export function say(words, look = "") {
+  $("status").textContent = words;
+  $("status").className = look;
+}
+
+export function download(name, content, type = "text/plain") {
+  const link = element("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+const allowed = new Set("A B BLOCKQUOTE BR CODE DEL EM H1 H2 H3 H4 HR I LI OL P PRE S STRONG TABLE TBODY TD TH THEAD TR UL".split(" "));
+/** HTML of which only plain text markup is left: no attributes, and no links but to the web and within the page. */
+export function harmless(html) {
+  const page = new DOMParser().parseFromString(html, "text/html");
+  for (const node of [...page.body.querySelectorAll("*")]) {
+    if (!allowed.has(node.nodeName)) {
+      node.replaceWith(page.createTextNode(node.textContent));
+      continue;
+    }
+    for (const { name, value } of [...node.attributes])
+      if (!(node.nodeName === "A" && name === "href" && /^(https:|#|docs\/)/.test(value))) node.removeAttribute(name);
+  }
+  return page.body.innerHTML;
+}

@@ -1,0 +1,86 @@
+// A program onto a real ball, where the browser can; else the file for `orb upload`.
+
+import { can_serial, can_bluetooth, serial_link, bluetooth_link, deliver } from "../link.js";
+import { $, download } from "./dom.js";
+import { request } from "./ball.js";
+import { ending_of } from "./workspace.js";
+
+export function set_up_flash({ machine, workspace, on_mistakes }) {
+  let running = null;
+  const able = what => typeof what === "function" ? what() : !!what;
+
+  function open() {
+    const { names } = request(workspace());
+    const serial = able(can_serial), bluetooth = able(can_bluetooth);
+    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a ball that is awake and near.` : "There is no program to write yet.";
+    $("flash-serial").disabled = !serial || !names[0];
+    $("flash-bluetooth").disabled = !bluetooth || !names[0];
+    $("flash-file").disabled = !names[0];
+    const lacks = !serial && !bluetooth ? "This browser can reach no ball. Chrome and Edge can; or take the file and write it with `orb upload`."
+      : !serial ? "This browser knows no serial ports: classic balls need Chrome or Edge on a computer, or the file and `orb upload`."
+      : !bluetooth ? "This browser knows no Bluetooth LE." : "";
+    $("flash-lacks").textContent = lacks;
+    $("flash-status").textContent = "";
+    $("flash-progress").hidden = true;
+    $("flash-dialog").showModal();
+  }
+  function say(words, bad = false) {
+    $("flash-status").textContent = words;
+    $("flash-status").className = bad ? "bad" : "";
+  }
+  function set_running(controller) {
+    running = controller;
+    for (const id of ["flash-serial", "flash-bluetooth", "flash-file", "flash-close", "flash-options"]) $(id).disabled = !!controller;
+    $("flash-cancel").hidden = !controller;
+    if (!controller) return;
+    $("flash-progress").hidden = false;
+    $("flash-progress").value = 0;
+  }
+  async function write(open_link) {
+    const { files, names } = request(workspace());
+    const controller = new AbortController();
+    let link = null;
+    set_running(controller);
+    say("Choose the ball in the window of the browser.");
+    try {
+      link = await open_link();
+      const area = document.querySelector("input[name=area]:checked").value;
+      const outcome = await deliver(machine, link, { files, names, area, run: $("flash-run").checked, line: null, force: false, clear_macros: false }, {
+        signal: controller.signal,
+        on_status({ words, stage, bytes, bytes_total }) {
+          if (bytes_total) $("flash-progress").value = bytes / bytes_total;
+          say(words || stage || "");
+        },
+      });
+      if (outcome.kind === "done") $("flash-progress").value = 1;
+      say(outcome.message || outcome.kind, outcome.kind !== "done");
+    } catch (error) {
+      if (error.findings) {
+        on_mistakes(error.findings);
+        say("The program has mistakes; it was not written.", true);
+      } else {
+        say(error.name === "NotFoundError" ? "No ball was chosen." : error.message, error.name !== "NotFoundError");
+      }
+    } finally {
+      await link?.close().catch(() => {});
+      set_running(null);
+    }
+  }
+  async function as_file() {
+    const { files, names } = request(workspace());
+    try {
+      const { bytes, name } = await machine.call(ending_of(names[0]) === "macro" ? "assemble" : "build", { files, names: names.slice(0, 1) });
+      download(name, bytes, "application/octet-stream");
+      say(`${name}: write it with \`orb upload ${name}\`.`);
+    } catch (error) {
+      if (error.findings) on_mistakes(error.findings);
+      say(error.findings ? "The program has mistakes." : error.message, true);
+    }
+  }
+  $("flash").addEventListener("click", open);
+  $("flash-serial").addEventListener("click", () => write(() => serial_link()));
+  $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link()));
+  $("flash-file").addEventListener("click", as_file);
+  $("flash-cancel").addEventListener("click", () => running?.abort());
+  $("flash-dialog").addEventListener("cancel", event => { if (running) event.preventDefault(); });
+}

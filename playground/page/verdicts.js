@@ -1,0 +1,69 @@
+// Tests: their verdicts, and what failed played back.
+
+import { $, element, button } from "./dom.js";
+
+const signs = { passed: "✓", failed: "✗", error: "!" };
+
+export class Verdicts {
+  constructor({ machine, ball, workspace, on_place, on_passed }) {
+    Object.assign(this, { machine, ball, workspace, on_place, on_passed });
+    $("verdicts-close").addEventListener("click", () => { $("verdicts").hidden = true; });
+  }
+  /** `names`: the test files. */
+  async run(names) {
+    if (this.ball.busy) return;
+    if (!names.length) return this.ball.say("There is no test here: make a file that ends in .test.", true);
+    const { files } = this.workspace();
+    this.ball.set_busy("test");
+    this.ball.say("testing…");
+    try {
+      const { results } = await this.machine.call("test", { files, names });
+      this.ball.finish();
+      this.show(results, files);
+    } catch (error) {
+      this.ball.fail(error);
+    }
+  }
+  show({ tests, summary }, files) {
+    const { tests: all, passed, points, pointsOf } = summary;
+    const words = `${passed} of ${all} tests passed${pointsOf ? `, ${points} of ${pointsOf} points` : ""}`;
+    $("verdicts-title").textContent = words;
+    $("verdicts").classList.toggle("all-passed", passed === all);
+    $("verdict-list").replaceChildren(...tests.map(test => this.row(test, files)));
+    $("verdicts").hidden = false;
+    this.ball.say(passed === all ? `${words}. Well done!` : words, passed !== all);
+    if (passed === all) this.on_passed();
+    else $("verdicts").scrollIntoView({ block: "nearest" });
+  }
+  row(test, files) {
+    const failed = test.cases.find(one => one.verdict !== "passed");
+    const one = failed ?? test.cases[0];
+    const verdict = failed?.verdict ?? "passed";
+    const item = element("li", { class: verdict, "data-verdict": verdict });
+    const head = element("div", { class: "row" },
+      element("span", { class: "sign", role: "img", "aria-label": verdict }, signs[verdict] ?? "!"),
+      element("b", {}, test.test),
+      element("span", { class: "hint" }, `${verdict === "passed" ? "" : "seed " + one.seed + ", "}${(one.ns / 1e9 || 0).toFixed(1)} s`),
+      button("Watch", () => this.replay(test, one, files), { "aria-label": `Watch the run of ${test.test}` }));
+    item.append(head);
+    for (const miss of failed?.misses ?? []) {
+      const where = button(`line ${miss.line}`, () => this.on_place(test.file, miss.line), { class: "link" });
+      item.append(element("p", {}, element("code", {}, miss.expected), " ", where, element("br"), `seen: ${miss.seen}`, miss.where ? element("span", { class: "hint" }, ` ${miss.where}`) : ""));
+    }
+    if (failed?.problem) item.append(element("p", {}, failed.problem));
+    return item;
+  }
+  async replay(test, one, files) {
+    if (this.ball.busy) return;
+    this.ball.set_busy("replay");
+    try {
+      const { report } = await this.machine.call("replay", { files, names: [test.file], test: test.test, seed: one.seed, program: test.program });
+      this.ball.finish();
+      this.ball.show(report, false);
+      this.ball.say(`the run of “${test.test}”${one.verdict === "passed" ? "" : `: ${one.misses?.[0]?.seen ?? one.problem ?? ""}`}`, one.verdict !== "passed");
+      this.ball.player.play();
+    } catch (error) {
+      this.ball.fail(error);
+    }
+  }
+}

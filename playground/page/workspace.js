@@ -1,0 +1,103 @@
+// The files that somebody works on: what may be one, and how they are kept and shared.
+
+export const limits = { text: 256 * 1024, files: 24, shared: 1024 * 1024, link: 200 * 1024 };
+
+/** What the ending of a name says; `start` is what a new file begins with. */
+export const kinds = {
+  orb: { words: "structured program", program: true, start: "' What does it do?\n\n" },
+  bas: { words: "orbBasic program", program: true, start: "10 print \"hello\"\n" },
+  macro: { words: "macro", program: true, start: "rgb 0, 255, 0\ndelay 1s\n" },
+  test: { words: "test", start: "test \"does what it should\"\n  expect end within 10s\n" },
+  stimulus: { words: "stimulus script", start: "at 2s shake\n" },
+  svg: { words: "course", start: "" },
+};
+export const kind_of = name => kinds[ending_of(name)] ?? null;
+export const ending_of = name => name.split(".").pop();
+const stem_of = name => name.slice(0, name.lastIndexOf("."));
+
+/** Why a name cannot be a file's; "" where it can. */
+export function name_trouble(name) {
+  if (!/^[A-Za-z0-9][A-Za-z0-9 _.-]*$/.test(name)) return "A name has letters, digits, - and _.";
+  if (name.length > 60) return "That name is too long.";
+  if (!kind_of(name) || !stem_of(name)) return `A name ends in ${Object.keys(kinds).map(kind => "." + kind).join(", ")}.`;
+  return "";
+}
+
+/** Files and how they are run; plain data, so that it can be kept and shared. */
+export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1 }, lesson: "" });
+
+/** A workspace from data that anybody may have written: what does not fit is left out. */
+export function checked(data) {
+  const made = empty();
+  const names = typeof data?.files === "object" && data.files ? Object.keys(data.files) : [];
+  for (const name of names.slice(0, limits.files)) {
+    const text = data.files[name];
+    if (!name_trouble(name) && typeof text === "string" && text.length <= limits.text) made.files[name] = text;
+  }
+  const known = name => typeof name === "string" && Object.hasOwn(made.files, name) ? name : "";
+  const first = Object.keys(made.files)[0];
+  if (!first) return null;
+  made.active = known(data.active) || first;
+  made.main = known(data.main);
+  const run = data.run ?? {};
+  if (Array.isArray(run.stimuli)) made.run.stimuli = run.stimuli.filter(line => typeof line === "string" && line.length < 200).slice(0, 50);
+  made.run.course = known(run.course);
+  made.run.input = Array.isArray(run.input) ? run.input.filter(Number.isFinite).join(", ") : typeof run.input === "string" ? run.input.slice(0, 500) : "";
+  if (Number.isInteger(run.seed)) made.run.seed = run.seed;
+  if (typeof data.lesson === "string") made.lesson = data.lesson.slice(0, 60);
+  return made;
+}
+
+/** The program that a file belongs to: itself, or for a test the one beside it. */
+export function program_of({ files, main }, name) {
+  if (kind_of(name)?.program) return name;
+  const beside = ["orb", "bas", "macro"].map(ending => `${stem_of(name)}.${ending}`);
+  return beside.find(one => Object.hasOwn(files, one)) ?? (main || (Object.keys(files).find(one => kind_of(one).program) ?? ""));
+}
+export const tests_of = ({ files }) => Object.keys(files).filter(name => ending_of(name) === "test");
+
+// ---- kept in this browser ----
+const store = { now: "orb-playground", before: "orb-playground-before" };
+export function keep(workspace, where = "now") {
+  try { localStorage.setItem(store[where], JSON.stringify(workspace)); } catch { /* full, or not allowed: it is only a convenience */ }
+}
+export function kept(where = "now") {
+  try { return checked(JSON.parse(localStorage.getItem(store[where]))); } catch { return null; }
+}
+
+// ---- shared in an address ----
+const to_base64url = bytes => {
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+  return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+};
+const from_base64url = text => Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), char => char.charCodeAt(0));
+
+/** All that `stream` gives; an error where it is more than `most` bytes. */
+async function read_all(stream, most) {
+  const pieces = [];
+  let size = 0;
+  for (const reader = stream.getReader(); ;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    size += value.length;
+    if (size > most) throw new RangeError("too long");
+    pieces.push(value);
+  }
+  return new Uint8Array(await new Blob(pieces).arrayBuffer());
+}
+const through = (bytes, transform) => new Blob([bytes]).stream().pipeThrough(transform);
+
+/** The part of an address behind `#` that holds a workspace. */
+export async function to_fragment(workspace) {
+  const { files, active, main, run, lesson } = workspace;
+  const bytes = new TextEncoder().encode(JSON.stringify({ files, active, main, run, lesson }));
+  return "p=" + to_base64url(await read_all(through(bytes, new CompressionStream("deflate-raw")), limits.link));
+}
+/** The workspace that an address holds; null where it holds none. Throws where it is broken or too long. */
+export async function from_fragment(fragment) {
+  const found = /^#p=([\w-]+)$/.exec(fragment);
+  if (!found) return null;
+  const bytes = await read_all(through(from_base64url(found[1]), new DecompressionStream("deflate-raw")), limits.shared);
+  return checked(JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes)));
+}

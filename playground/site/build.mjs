@@ -1,0 +1,69 @@
+// Puts the page, the docs and the service worker into the folder of the playground, beside the engine.
+// usage: node playground/site/build.mjs FOLDER
+
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, readdirSync, writeFileSync, copyFileSync } from "node:fs";
+import { dirname, join, relative, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import * as esbuild from "esbuild";
+import { build_docs } from "./docs.mjs";
+import { licences } from "./licences.mjs";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+const out = resolve(process.argv[2] ?? join(root, "build/playground"));
+const read = path => readFileSync(join(root, path), "utf8");
+mkdirSync(out, { recursive: true });
+
+/** The player of a report is a script of its own there; here it is a part of the page. */
+const player = {
+  name: "player",
+  setup(build) {
+    build.onLoad({ filter: /report\/page\.js$/ }, args => ({ contents: `${readFileSync(args.path, "utf8")}\nexport { orb_player };`, loader: "js" }));
+  },
+};
+const bundle = await esbuild.build({
+  entryPoints: [join(root, "playground/page.js")], outfile: join(out, "page.js"), absWorkingDir: root,
+  bundle: true, minify: true, format: "esm", target: "es2022", plugins: [player], metafile: true, legalComments: "none", logLevel: "warning",
+});
+const minified = (await esbuild.transform(`${read("report/page.css")}\n${read("playground/page.css")}`, { loader: "css", minify: true })).code;
+writeFileSync(join(out, "page.css"), minified);
+
+/** The parts of the report's page that show a run, where the page has their names. */
+function composed() {
+  const report = read("report/page.html");
+  const part = (name, pattern) => {
+    const found = pattern.exec(report);
+    if (!found) throw new Error(`report/page.html has no ${name}`);
+    return found[0];
+  };
+  const parts = {
+    stage: part("stage", /<section class="stage"[^]*?<\/section>/),
+    variables: part("variables", /<section id="variables-pane"[^]*?<\/section>/),
+    events: part("events", /<section class="pane events"[^]*?<\/section>/),
+    lanes: part("lanes", /<section class="lanes"[^]*?<\/section>/),
+    transport: part("transport", /<footer class="transport"[^]*?<\/footer>/).replaceAll("footer", "div"),
+  };
+  return read("playground/page.html").replace(/<!--\{(\w+)\}-->/g, (_, name) => parts[name]);
+}
+writeFileSync(join(out, "index.html"), composed());
+copyFileSync(join(root, "playground/icon.svg"), join(out, "icon.svg"));
+writeFileSync(join(out, "LICENSES.txt"), licences(root, bundle.metafile));
+build_docs(root, join(out, "docs"));
+
+// ---- the service worker, last: it knows all files ----
+const files = [];
+function list(folder) {
+  for (const entry of readdirSync(folder, { withFileTypes: true })) {
+    const path = join(folder, entry.name);
+    if (entry.isDirectory()) {
+      if (path !== join(out, "docs")) list(path); // pages of the docs come when they are read
+    } else if (!/(^sw\.js|\.map|\.br|\.gz)$/.test(entry.name)) files.push(path);
+  }
+}
+list(out);
+files.sort();
+const hash = createHash("sha256");
+for (const path of files) hash.update(relative(out, path)).update("\0").update(readFileSync(path));
+const core = files.map(path => relative(out, path));
+writeFileSync(join(out, "sw.js"), read("playground/sw.js")
+  .replace("/*{hash}*/", hash.digest("hex").slice(0, 16)).replace("/*{files}*/[]", JSON.stringify(core)));

@@ -1,0 +1,17 @@
+// The licences of what others wrote and the page's script holds.
+
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+
+export function licences(root, metafile) {
+  const packages = new Set(Object.keys(metafile.inputs).map(path => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
+  const texts = [`orb\n\n${readFileSync(join(root, "LICENSE"), "utf8")}`];
+  for (const path of [...packages].sort()) {
+    const folder = join(root, path);
+    const { name, version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+    const file = readdirSync(folder).find(one => /^licen[cs]e/i.test(one));
+    if (!file || !existsSync(join(folder, file))) throw new Error(`${name} has no licence beside it`);
+    texts.push(`${name} ${version}\n\n${readFileSync(join(folder, file), "utf8").trim()}\n`);
+  }
+  return texts.join(`\n${"-".repeat(80)}\n\n`);
+}

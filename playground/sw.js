@@ -1,0 +1,28 @@
+// Keeps the playground on this device, so that it works without a network. The build puts in the names
+// of the files and a hash of all that is in them: another build has another cache.
+const cache_name = "orb-playground-/*{hash}*/";
+const core = /*{files}*/[];
+
+self.addEventListener("install", event =>
+  event.waitUntil(caches.open(cache_name).then(cache => cache.addAll(core.map(url => new Request(url, { cache: "no-cache" }))))));
+// The pages that are open keep what they began with; a new build comes with the next visit.
+self.addEventListener("activate", event => event.waitUntil((async () => {
+  for (const name of await caches.keys())
+    if (name.startsWith("orb-playground-") && name !== cache_name) await caches.delete(name);
+  await self.clients.claim();
+})()));
+
+async function answer(request) {
+  const cache = await caches.open(cache_name);
+  const url = new URL(request.url);
+  url.hash = url.search = "";
+  if (url.pathname.endsWith("/")) url.pathname += "index.html";
+  const held = await cache.match(url.href);
+  if (held) return held;
+  const fetched = await fetch(request);
+  if (fetched.ok && fetched.type === "basic") await cache.put(url.href, fetched.clone()); // a page of the docs
+  return fetched;
+}
+self.addEventListener("fetch", event => {
+  if (event.request.method === "GET" && new URL(event.request.url).origin === location.origin) event.respondWith(answer(event.request));
+});
