@@ -53,7 +53,8 @@ function show_findings(list) {
   }));
   const count = severity => list.filter(one => one.severity === severity).length;
   const words = [["error", count("error")], ["warning", count("warning")]].filter(([, n]) => n).map(([word, n]) => `${n} ${word}${n > 1 ? "s" : ""}`);
-  if (kind_of(workspace.active)) say(words.join(", ") || "No mistakes found.", count("error") ? "bad" : "");
+  $("count").textContent = words.join(", ") || "no mistakes found";
+  $("count").className = count("error") ? "bad" : "";
 }
 /** What a run was refused for may stand in a file that is not shown. */
 function show_mistakes(document) {

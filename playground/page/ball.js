@@ -121,7 +121,7 @@ export class Ball {
     this.say("running…");
     this.on_begin();
     try {
-      const answer = await this.machine.call("run", { ...asked, report: true });
+      const answer = await this.machine.call("run", { ...asked, for: this.workspace().run.for, report: true });
       this.finish();
       this.conclude(answer, true);
     } catch (error) {

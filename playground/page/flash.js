@@ -7,11 +7,10 @@ import { ending_of } from "./workspace.js";
 
 export function set_up_flash({ machine, workspace, on_mistakes }) {
   let running = null;
-  const able = what => typeof what === "function" ? what() : !!what;
 
   function open() {
     const { names } = request(workspace());
-    const serial = able(can_serial), bluetooth = able(can_bluetooth);
+    const serial = can_serial(), bluetooth = can_bluetooth();
     $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a ball that is awake and near.` : "There is no program to write yet.";
     $("flash-serial").disabled = !serial || !names[0];
     $("flash-bluetooth").disabled = !bluetooth || !names[0];
@@ -79,7 +78,7 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
   }
   $("flash").addEventListener("click", open);
   $("flash-serial").addEventListener("click", () => write(() => serial_link()));
-  $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link()));
+  $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link(machine)));
   $("flash-file").addEventListener("click", as_file);
   $("flash-cancel").addEventListener("click", () => running?.abort());
   $("flash-dialog").addEventListener("cancel", event => { if (running) event.preventDefault(); });

@@ -24,7 +24,7 @@ export function name_trouble(name) {
 }
 
 /** Files and how they are run; plain data, so that it can be kept and shared. */
-export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1 }, lesson: "" });
+export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "" });
 
 /** A workspace from data that anybody may have written: what does not fit is left out. */
 export function checked(data) {
@@ -44,6 +44,7 @@ export function checked(data) {
   made.run.course = known(run.course);
   made.run.input = Array.isArray(run.input) ? run.input.filter(Number.isFinite).join(", ") : typeof run.input === "string" ? run.input.slice(0, 500) : "";
   if (Number.isInteger(run.seed)) made.run.seed = run.seed;
+  if (/^\d{1,4}(ms|s|min)$/.test(run.for)) made.run.for = run.for;
   if (typeof data.lesson === "string") made.lesson = data.lesson.slice(0, 60);
   return made;
 }

@@ -119,8 +119,10 @@ class Browser:
             self._process.wait()
         self._home.cleanup()
 
-    def page(self):
-        target = self.call("Target.createTarget", {"url": "about:blank"})["targetId"]
+    def page(self, fresh=False):
+        """A new page; a `fresh` one knows nothing of what other pages kept."""
+        where = {"browserContextId": self.call("Target.createBrowserContext", {})["browserContextId"]} if fresh else {}
+        target = self.call("Target.createTarget", {"url": "about:blank", **where})["targetId"]
         session = self.call("Target.attachToTarget", {"targetId": target, "flatten": True})["sessionId"]
         page = Page.__new__(Page)
         self._pages[session] = page
