@@ -7,6 +7,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <set>
+#include <tuple>
 
 namespace orb::structured::lifting {
 namespace {
@@ -26,7 +27,12 @@ struct State {
   std::array<std::uint32_t, most_loops> loops{}; ///< steps of `for`
   std::array<std::uint32_t, most_calls> calls{}; ///< steps of `gosub`
 
-  friend auto operator<=>(const State&, const State&) = default;
+  friend bool operator<(const State& a, const State& b) {
+    const auto all = [](const State& state) {
+      return std::tie(state.step, state.loop_depth, state.call_depth, state.loops, state.calls);
+    };
+    return all(a) < all(b);
+  }
 };
 
 class Reader {

@@ -247,8 +247,8 @@ bool is_stimulus_line(std::string_view text) {
   return text.starts_with("at ") || text.starts_with("wall ");
 }
 
-void sort_by_time(std::vector<TimedStimulus>& events) {
-  std::stable_sort(events.begin(), events.end(),
+void sort_by_time(std::vector<TimedStimulus>& script) {
+  std::stable_sort(script.begin(), script.end(),
                    [](const auto& a, const auto& b) { return a.at < b.at; });
 }
 
