@@ -16,6 +16,9 @@ std::size_t code_points(std::string_view text);
 /// `text` as valid UTF-8: each byte that is not becomes U+FFFD.
 std::string to_valid_utf8(std::string_view text);
 
+/// Bytes that count as U+0000 to U+00FF, as UTF-8: what a robot prints is of no encoding.
+std::string from_latin1(std::string_view bytes);
+
 /// `text` fit for a terminal: valid UTF-8, control characters replaced by a blank (tab) or U+FFFD,
 /// so that every code point takes one column and no escape sequence gets through.
 std::string to_printable(std::string_view text);

@@ -1,6 +1,4 @@
-#include "compiler/check.h"
 #include "assembler/lint.h"
-#include "base/fixes.h"
 #include "base/render.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
@@ -10,12 +8,12 @@
 #include "cli/watch.h"
 #include "disk/disk.h"
 #include "reference/knowledge.h"
-#include "testing/suite.h"
+#include "testing/check_files.h"
 
 #include <algorithm>
-#include <deque>
 #include <fmt/format.h>
 #include <memory>
+#include <span>
 #include <unistd.h>
 
 namespace orb::cli {
@@ -32,31 +30,18 @@ struct Options {
   bool watch = false;
 };
 
-using run::Language;
+using run::SourceFile;
 
-/// Sources are referred to and must not move.
-using Sources = std::deque<SourceFile>;
-
-/// Whether a file is something else than a program or a macro: a course or tests.
-bool is_no_program(const std::string& path) {
-  return report::is_course(path) || testing::is_test(path);
-}
-
-std::vector<Diagnostic> check_other(const SourceFile& input) {
-  if (report::is_course(input.path))
-    return report::read_course(input.source).findings;
-  DiskFiles disk;
-  return testing::check(input.source, disk);
-}
+using Sources = std::vector<SourceFile>;
 
 tl::expected<Sources, Failure> read_sources(const Options& options) {
   Sources sources;
   for (const auto& path : options.files) {
-    if (is_no_program(path)) {
+    if (testing::is_no_program(path)) {
       auto text = read_text(path);
       if (!text)
         return tl::unexpected(text.error());
-      sources.push_back({path, Language::Basic, // of no language; is_no_program() comes first
+      sources.push_back({path, run::Language::Basic, // of no language; is_no_program() comes first
                          Source(disk::display_name(path), *std::move(text))});
       continue;
     }
@@ -68,109 +53,19 @@ tl::expected<Sources, Failure> read_sources(const Options& options) {
   return sources;
 }
 
-/// The sources of what programs include, which findings refer to.
-using IncludedSources = std::deque<Source>;
-
-FileFindings check_basic(const Options& options, const Source& source) {
-  FileFindings findings;
-  findings.source = &source;
-  auto checked = compiler::check(source.text(), options.target.target());
-  findings.diagnostics = std::move(checked.diagnostics);
-  findings.built_size = checked.image_bytes;
-  return findings;
-}
-
-/// A structured program, and after it each included file that something is said about.
-std::vector<FileFindings> check_structured(const Options& options, const Source& source,
-                                           IncludedSources& included) {
+testing::Findings check_all(const Options& options, std::span<const SourceFile> sources) {
   DiskFiles disk;
-  const auto compiled = structured::compile(source.name(), source.name(), source.text(),
-                                            options.target.target(), disk);
-  auto found = structured::findings_by_file(compiled.program);
-  std::vector<FileFindings> files;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (i > 0 && found[i].empty())
-      continue;
-    const auto& file = compiled.program.files[i];
-    if (i > 0)
-      included.emplace_back(file.name,
-                            compiled.program.text.substr(file.begin, file.end - file.begin));
-    files.push_back({i == 0 ? &source : &included.back(), std::move(found[i]), {}});
-  }
-  if (!compiled.robot.lines.empty())
-    files.front().built_size = compiled.image_bytes;
-  return files;
-}
-
-/// Whether an included file is checked for its own sake, or was shown already.
-bool is_told(const std::vector<FileFindings>& files, const Sources& inputs, const SourceFile& main,
-             const FileFindings& file) {
-  const auto& name = file.source->name();
-  return file.source != &main.source &&
-         (std::any_of(inputs.begin(), inputs.end(),
-                      [&](const SourceFile& input) { return input.source.name() == name; }) ||
-          std::any_of(files.begin(), files.end(),
-                      [&](const FileFindings& other) { return other.source->name() == name; }));
-}
-
-/// Checks all files. Macros are checked together: they go to one ball and call each other.
-std::vector<FileFindings> check_all(const Options& options, const Sources& inputs,
-                                    IncludedSources& included) {
-  std::vector<const Source*> macros;
-  for (const auto& input : inputs)
-    if (input.language == Language::Macro)
-      macros.push_back(&input.source);
-  auto of_macros = assembler::check(macros, options.macro);
-  std::vector<FileFindings> files;
-  std::size_t next_macro = 0;
-  for (const auto& input : inputs) {
-    if (is_no_program(input.path)) {
-      files.push_back({&input.source, check_other(input), {}});
-      continue;
-    }
-    switch (input.language) {
-    case Language::Basic: files.push_back(check_basic(options, input.source)); break;
-    case Language::Structured:
-      for (auto& file : check_structured(options, input.source, included))
-        if (!is_told(files, inputs, input, file))
-          files.push_back(std::move(file));
-      break;
-    case Language::Macro: files.push_back(std::move(of_macros[next_macro++])); break;
-    }
-  }
-  for (auto& file : files)
+  auto found = testing::check_files(sources, options.target.target(), options.macro, disk);
+  for (auto& file : found.files)
     weigh(options.policy, file.diagnostics);
-  return files;
-}
-
-std::vector<Diagnostic> findings_of(const Options& options, const SourceFile& input) {
-  IncludedSources included;
-  auto found = [&] {
-    if (is_no_program(input.path))
-      return check_other(input);
-    switch (input.language) {
-    case Language::Basic: return check_basic(options, input.source).diagnostics;
-    case Language::Structured:
-      return std::move(check_structured(options, input.source, included).front().diagnostics);
-    case Language::Macro: break;
-    }
-    return assembler::check(input.source, options.macro);
-  }();
-  weigh(options.policy, found);
   return found;
 }
 
 /// Makes the safe fixes of a file until none is left, and writes it back where one was made.
 bool fix_one(Context& context, const Options& options, SourceFile& input) {
-  constexpr int most_rounds = 64; // one mistake hides the next on its line; no fix undoes another
-  std::size_t made = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    auto fixed = apply_fixes(input.source.text(), findings_of(options, input));
-    if (fixed.count == 0)
-      break;
-    made += fixed.count;
-    input.source = Source(input.source.name(), std::move(fixed.text));
-  }
+  const auto made = testing::fix(input, [&](const SourceFile& file) {
+    return check_all(options, {&file, 1}).files.front().diagnostics;
+  });
   if (made == 0)
     return true;
   if (const auto written = disk::write(input.path, as_bytes(input.source.text())); !written) {
@@ -225,8 +120,8 @@ void check(Context& context, const Options& options) {
   for (auto& input : *inputs)
     if (options.fix && !fix_one(context, options, input))
       return;
-  IncludedSources included;
-  auto files = check_all(options, *inputs, included);
+  auto found = check_all(options, *inputs);
+  auto& files = found.files;
   if (count(files).errors > 0)
     context.exit = ExitCode::BadInput;
   const auto hidden = cut(options.policy, files);

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace orb::cli {
 
@@ -27,14 +28,14 @@ std::optional<std::string> DiskFiles::read(const std::string& path) {
   return text ? std::optional(*std::move(text)) : std::nullopt;
 }
 
-tl::expected<SourceFile, Failure> read_source(const std::string& path, std::string_view lang) {
+tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std::string_view lang) {
   auto text = read_text(path);
   if (!text)
     return tl::unexpected(text.error());
   const auto language = run::language_of(path, lang);
   if (!language)
     return tl::unexpected(run::unknown_content(disk::display_name(path)));
-  return SourceFile{path, *language, Source(disk::display_name(path), *std::move(text))};
+  return run::SourceFile{path, *language, Source(disk::display_name(path), *std::move(text))};
 }
 
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,

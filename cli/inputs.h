@@ -28,13 +28,8 @@ public:
   std::optional<std::string> read(const std::string& path) override;
 };
 
-/// A source in its language: programs and macro source, not bytes.
-struct SourceFile {
-  std::string path;
-  run::Language language = run::Language::Basic;
-  Source source;
-};
-tl::expected<SourceFile, Failure> read_source(const std::string& path, std::string_view lang);
+/// Reads a program or macro source.
+tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std::string_view lang);
 
 /// Reads programs and macros for a ball, and the macros that the programs use; their findings are
 /// not printed yet.

@@ -51,11 +51,6 @@ std::optional<run::ProgramError> explain(const Reported& reported, const Lookup&
   return run::explain(*lookup.input, {}, reported.line, *known, nullptr);
 }
 
-/// What to write instead: of the value that was wrong, else of what the linter says.
-const std::string& help_of(const run::ProgramError& fault) {
-  return fault.cause.help.empty() ? fault.help : fault.cause.help;
-}
-
 std::string place(const run::LineMap& lines, std::uint32_t robot_line) {
   const auto words = lines.words(robot_line);
   return words.empty() ? words : words + ": ";
@@ -87,7 +82,7 @@ void print_json_message(const Async& message, const Lookup& lookup, Watched& wat
     json["column"] = fault->place.column;
     if (!fault->cause.seen.empty())
       json["detail"] = fault->cause.seen;
-    if (const auto& help = help_of(*fault); !help.empty())
+    if (const auto& help = run::help_of(*fault); !help.empty())
       json["help"] = help;
   }
   print_json(json);
@@ -114,19 +109,7 @@ void print_message(const Context& context, const Async& message, const Lookup& l
 } // namespace
 
 void print_fault(const Context& context, const run::ProgramError& fault) {
-  const auto place = fault.place.line == 0
-                         ? std::string()
-                         : fmt::format(":{}:{}", fault.place.line, fault.place.column);
-  const auto& cause = fault.cause;
-  const auto line = fault.numbered ? fmt::format("line {}: ", fault.robot_line) : std::string();
-  print_err(fmt::format("{}{}: {}: {}{}{}{}\n", fault.file, place,
-                        context.err_style().paint(Role::Error, "error"), line,
-                        spec::info(fault.code).text, cause.seen.empty() ? "" : ": ", cause.seen));
-  const auto& details = cause.seen.empty() ? fault.finding : cause.variables;
-  if (!details.empty())
-    print_err(fmt::format("  {}\n", details));
-  if (const auto& help = help_of(fault); !help.empty())
-    print_err(fmt::format("  help: {}\n", help));
+  print_err(run::render(fault, context.err_style()));
 }
 
 Watched monitor(const Context& context, Link& link, uploader::Session& session,

@@ -11,7 +11,7 @@
 #include "report/page.h"
 #include "report/reload.h"
 #include "report/svg.h"
-#include "report/trace.h"
+#include "run/trace.h"
 #include "run/want.h"
 #include "spec/firmware.h"
 #include "structured/words.h"
@@ -71,9 +71,9 @@ class Console final : public run::Listener {
 public:
   Console(const RunOptions& options, const std::vector<run::Input>& inputs) : options_(options) {
     if (const auto format = options.format())
-      trace_.emplace(
-          *format, options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
-          [this](std::string_view text) { put(text); }, places(inputs));
+      trace_.emplace(*format,
+                     options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
+                     inputs, [this](std::string_view text) { put(text); });
   }
 
   void on_event(Duration t, const vm::Event& event) override {
@@ -85,23 +85,8 @@ public:
   }
 
   void on_fault(Duration t, const run::ProgramError& fault) override {
-    if (!trace_)
-      return;
-    const auto& cause = fault.cause;
-    std::vector<report::TraceField> fields{{"line", std::int64_t{fault.robot_line}},
-                                           {"code", std::int64_t{spec::code(fault.code)}},
-                                           {"message", std::string(spec::info(fault.code).text)}};
-    if (!cause.seen.empty())
-      fields.push_back({"detail", cause.variables.empty()
-                                      ? cause.seen
-                                      : fmt::format("{}; {}", cause.seen, cause.variables)});
-    if (!cause.parameter.empty())
-      fields.push_back({"parameter", cause.parameter});
-    for (const auto& [key, value] :
-         {std::pair{"value", cause.value}, {"least", cause.least}, {"greatest", cause.greatest}})
-      if (value)
-        fields.push_back({key, *value});
-    trace_->add(t, "error", fields);
+    if (trace_)
+      trace_->add(t, fault);
   }
 
   void on_time(Duration t) override {
@@ -119,22 +104,12 @@ public:
 
   tl::expected<void, IoError> finish(const run::Ending& ending) {
     if (trace_)
-      trace_->finish(ending.lasted, run::to_string(ending.reason), ending.lines);
+      trace_->finish(ending);
     return options_.trace_out.empty() ? tl::expected<void, IoError>()
                                       : disk::write(options_.trace_out, as_bytes(text_));
   }
 
 private:
-  /// Where the robot's lines stand in a program whose source has no numbers.
-  static report::LinePlaces places(const std::vector<run::Input>& inputs) {
-    report::LinePlaces places;
-    const auto* first = run::first_with_program(inputs);
-    if (first != nullptr && first->program->compiled)
-      for (const auto& entry : first->program->lines.places)
-        places.emplace(static_cast<int>(entry.first), first->program->lines.words(entry.first));
-    return places;
-  }
-
   void put(std::string_view text) {
     if (options_.trace_out.empty())
       print_out(text);
@@ -144,7 +119,7 @@ private:
 
   const RunOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<report::TraceWriter> trace_;
+  std::optional<run::Trace> trace_;
   std::string text_; ///< of a trace that goes to a file, which appears whole at the end
 };
 
@@ -224,11 +199,8 @@ tl::expected<std::string, Failure> read_before(const RunOptions& options) {
 tl::expected<void, IoError>
 write_pictures(const RunOptions& options, const report::Journey& journey, std::string_view before) {
   if (!options.report.empty()) {
-    std::vector<std::string_view> keywords;
-    for (const auto& row : structured::keywords)
-      keywords.push_back(row.word);
-    auto page =
-        report::report_page(journey, disk::display_name(options.files.front()), before, keywords);
+    auto page = report::report_page(journey, disk::display_name(options.files.front()), before,
+                                    structured::keyword_words);
     if (options.watch)
       page = report::reloading(std::move(page));
     if (auto done = disk::write(options.report, as_bytes(page)); !done)

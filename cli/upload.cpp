@@ -8,12 +8,11 @@
 #include "cli/options.h"
 #include "cli/progress_bar.h"
 #include "cli/target.h"
+#include "run/delivery.h"
 #include "spec/limits.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <set>
 
 namespace orb::cli {
 namespace {
@@ -62,62 +61,22 @@ tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
   return inputs;
 }
 
-/// The kind of macro that the user or the file asks for.
-uploader::MacroKind macro_kind(const Options& options, const run::Macro& macro) {
+run::DeliveryOptions delivery_options(const Options& options) {
+  run::DeliveryOptions wanted;
+  wanted.area = options.target.area == "flash" ? spec::Area::Flash : spec::Area::Ram;
+  wanted.run = options.run;
+  if (options.run_line)
+    wanted.line = static_cast<std::uint16_t>(*options.run_line);
   if (options.as == "temp")
-    return uploader::MacroKind::Temporary;
-  if (options.as == "user")
-    return uploader::MacroKind::User;
-  if (options.as == "stream")
-    return uploader::MacroKind::Stream;
+    wanted.kind = uploader::MacroKind::Temporary;
+  else if (options.as == "user")
+    wanted.kind = uploader::MacroKind::User;
+  else if (options.as == "stream")
+    wanted.kind = uploader::MacroKind::Stream;
   if (options.id)
-    return uploader::MacroKind::User;
-  return uploader::natural_kind(macro.image);
-}
-
-/// The line that a program starts at: the one that is named, or its first.
-std::uint16_t start_line(const Options& options, const run::Program& program) {
-  return options.run_line ? static_cast<std::uint16_t>(*options.run_line)
-                          : program.first_line().value_or(1);
-}
-
-/// Puts the files into the order in which they go: macros first, then the program.
-tl::expected<uploader::Delivery, std::string> arrange(const Options& options,
-                                                      const std::vector<run::Input>& inputs) {
-  uploader::Delivery delivery;
-  std::set<std::uint8_t> ids;
-  for (const auto& input : inputs) {
-    for (const auto& macro : input.macros) {
-      uploader::MacroJob job{macro.image, macro_kind(options, macro), false, false};
-      if (options.id)
-        job.image.id = static_cast<std::uint8_t>(*options.id);
-      if (job.kind == uploader::MacroKind::User && !ids.insert(job.image.id).second)
-        return tl::unexpected(fmt::format("{}: two macros have id {}", macro.name, job.image.id));
-      job.clear_others = options.clear_macros && delivery.macros.empty();
-      delivery.macros.push_back({macro.name, std::move(job)});
-    }
-    if (!input.program)
-      continue;
-    if (delivery.program)
-      return tl::unexpected(fmt::format("{}: a ball holds one program, and {} is already given",
-                                        input.source->name(), delivery.program_name));
-    delivery.program_name = input.source->name();
-    const auto& bytes = input.program->image.bytes;
-    delivery.program = uploader::ProgramJob{
-        {bytes.begin(), bytes.end()},
-        options.target.area == "flash" ? spec::Area::Flash : spec::Area::Ram,
-        options.run ? std::optional(start_line(options, *input.program)) : std::nullopt};
-  }
-  const auto kept = [](const uploader::Delivery::NamedMacro& macro) {
-    return macro.job.kind != uploader::MacroKind::User;
-  };
-  if (std::count_if(delivery.macros.begin(), delivery.macros.end(), kept) > 1)
-    return tl::unexpected(
-        std::string("a ball holds one temporary or streamed macro; give the others ids from "
-                    "32 to 253"));
-  if (options.run && !delivery.program && !delivery.macros.empty())
-    delivery.macros.back().job.run = true;
-  return delivery;
+    wanted.id = static_cast<std::uint8_t>(*options.id);
+  wanted.clear_macros = options.clear_macros;
+  return wanted;
 }
 
 void print_plan(std::string_view name, const uploader::Plan& plan) {
@@ -211,13 +170,9 @@ void upload(Context& context, const Options& options) {
   const auto inputs = load_all(context, options);
   if (!inputs)
     return cli::fail(context, inputs.error());
-  const auto start = options.run_line ? std::optional(static_cast<std::uint16_t>(*options.run_line))
-                                      : std::nullopt;
-  if (const auto numbered = run::check_start_line(*inputs, start); !numbered)
-    return cli::fail(context, numbered.error());
-  const auto delivery = arrange(options, *inputs);
+  const auto delivery = run::arrange(*inputs, delivery_options(options));
   if (!delivery)
-    return cli::fail(context, {ExitCode::Usage, delivery.error()});
+    return cli::fail(context, delivery.error());
   context.exit = options.dry_run ? dry_run(context, options, *delivery, *budgets)
                                  : send(context, options, *delivery, lookup_of(*inputs));
 }

@@ -56,21 +56,6 @@ std::int64_t scaled(double value, double scale) {
   return std::llround(value * scale);
 }
 
-/// The bytes of a print as text: above 7Fh they count as U+00XX, as in the trace.
-std::string latin1(std::string_view bytes) {
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      text += c;
-    } else {
-      text += static_cast<char>(0xC0 | byte >> 6);
-      text += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
-  return text;
-}
-
 std::string_view kind_name(Happening::Kind kind) {
   switch (kind) {
   case Happening::Kind::Print: return "print";
@@ -159,7 +144,7 @@ ordered_json happenings(const Journey::Listed& listed) {
     const bool prints = happening.kind == Happening::Kind::Print;
     ordered_json one = {{"t", microseconds(happening.t)},
                         {"kind", kind_name(happening.kind)},
-                        {"text", prints ? latin1(happening.text) : happening.text}};
+                        {"text", prints ? from_latin1(happening.text) : happening.text}};
     if (!happening.label.empty())
       one["short"] = happening.label;
     if (happening.at && happening.kind != Happening::Kind::Print) {
@@ -367,6 +352,11 @@ std::string script_safe(const ordered_json& data) {
 
 } // namespace
 
+std::string run_json(const Journey& journey, std::string_view title,
+                     std::span<const std::string_view> keywords) {
+  return script_safe(run_data(journey, title, keywords));
+}
+
 std::optional<std::string> run_of_page(std::string_view page) {
   constexpr std::string_view head = "<script type=\"application/json\" id=\"run\">";
   const auto begin = page.find(head);
@@ -390,7 +380,7 @@ std::string report_page(const Journey& journey, std::string_view title, std::str
     rest.remove_prefix(at + place.size());
   };
   fill("/*{style}*/", page_css);
-  fill("/*{run}*/", script_safe(run_data(journey, title, keywords)));
+  fill("/*{run}*/", run_json(journey, title, keywords));
   fill("/*{before}*/", before.empty() ? "null" : before);
   fill("/*{script}*/", page_js);
   return page += rest;

@@ -108,4 +108,24 @@ std::string story(const Ending& ending) {
   return told;
 }
 
+const std::string& help_of(const ProgramError& fault) {
+  return fault.cause.help.empty() ? fault.help : fault.cause.help;
+}
+
+std::string render(const ProgramError& fault, Style style) {
+  const auto place = fault.place.line == 0
+                         ? std::string()
+                         : fmt::format(":{}:{}", fault.place.line, fault.place.column);
+  const auto& cause = fault.cause;
+  const auto line = fault.numbered ? fmt::format("line {}: ", fault.robot_line) : std::string();
+  auto text =
+      fmt::format("{}{}: {}: {}{}{}{}\n", fault.file, place, style.paint(Role::Error, "error"),
+                  line, spec::info(fault.code).text, cause.seen.empty() ? "" : ": ", cause.seen);
+  if (const auto& details = cause.seen.empty() ? fault.finding : cause.variables; !details.empty())
+    text += fmt::format("  {}\n", details);
+  if (const auto& help = help_of(fault); !help.empty())
+    text += fmt::format("  help: {}\n", help);
+  return text;
+}
+
 } // namespace orb::run

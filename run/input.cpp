@@ -207,7 +207,7 @@ const Input* first_with_program(std::span<const Input> inputs) {
   return found == inputs.end() ? nullptr : &*found;
 }
 
-tl::expected<void, Failure> check_start_line(const std::vector<Input>& inputs,
+tl::expected<void, Failure> check_start_line(std::span<const Input> inputs,
                                              std::optional<std::uint16_t> line) {
   for (const auto& input : inputs)
     if (line && input.program && input.program->compiled)

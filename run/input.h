@@ -43,6 +43,13 @@ std::optional<Content> content_of(std::string_view name, std::string_view langua
 /// told.
 std::optional<Language> language_of(std::string_view name, std::string_view language);
 
+/// A source in its language: programs and macro source, not bytes.
+struct SourceFile {
+  std::string path;
+  Language language = Language::Basic;
+  Source source;
+};
+
 /// That the form of `name` cannot be told: code 2, and what to add.
 Failure unknown_content(std::string_view name);
 
@@ -102,7 +109,7 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
 const Input* first_with_program(std::span<const Input> inputs);
 
 /// Refuses a line to start at where the program is structured: its lines have no numbers.
-tl::expected<void, Failure> check_start_line(const std::vector<Input>& inputs,
+tl::expected<void, Failure> check_start_line(std::span<const Input> inputs,
                                              std::optional<std::uint16_t> line);
 
 /// Adds an input and before it the macro files that it uses; a file is taken once.

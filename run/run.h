@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/exit_code.h"
+#include "base/style.h"
 #include "base/time.h"
 #include "report/course.h"
 #include "report/journey.h"
@@ -79,6 +80,12 @@ struct ProgramError {
 /// where that is not null.
 ProgramError explain(const Input& input, const compiler::Target& target, int robot_line,
                      spec::BasicError code, const vm::Machine* machine);
+
+/// What to write instead: of the value that was wrong, else of what the linter says; may be empty.
+const std::string& help_of(const ProgramError& fault);
+
+/// The error as people read it: a line that begins with its place, and details below.
+std::string render(const ProgramError& fault, Style style);
 
 struct Ending;
 

@@ -34,6 +34,14 @@ inline constexpr auto keywords = std::to_array<WordInfo>({
 #include "structured/words.def"
 });
 
+/// The same, only the words.
+inline constexpr auto keyword_words = [] {
+  std::array<std::string_view, keywords.size()> words{};
+  for (std::size_t i = 0; i < words.size(); ++i)
+    words[i] = keywords[i].word;
+  return words;
+}();
+
 /// Words of the robot that mean more in structured programs.
 inline constexpr auto wider_words = std::to_array<WordInfo>({
 #define ORB_WIDER_WORD(word, usage, summary, example) {word, usage, summary, example},

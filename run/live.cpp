@@ -1,0 +1,448 @@
+#include "run/live.h"
+
+#include "compiler/check.h"
+#include "run/named_values.h"
+#include "run/start.h"
+#include "run/want.h"
+#include "vm/ball_transport.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+
+namespace orb::run {
+namespace {
+
+/// Finds a text in output that arrives in pieces.
+class Search {
+public:
+  explicit Search(const std::string& text) : text_(text) {}
+
+  bool seen() const { return seen_; }
+  void take(std::string_view piece) {
+    if (text_.empty() || seen_)
+      return;
+    window_ += piece;
+    seen_ = window_.find(text_) != std::string::npos;
+    if (window_.size() >= text_.size())
+      window_.erase(0, window_.size() - text_.size() + 1);
+  }
+
+private:
+  const std::string& text_;
+  std::string window_;
+  bool seen_ = false;
+};
+
+/// Sees everything that happens from the start of the program to its end, and hands it on.
+class Watcher final : public vm::Observer, public vm::StepObserver {
+public:
+  Watcher(const Load& load, const Options& options, Listener& listener, report::Journey* journey)
+      : load_(load), target_(options.target), until_(options.until), listener_(listener),
+        journey_(journey), expected_(options.expect), forbidden_(options.fail_text) {}
+
+  /// From when on the ball's events are those of the run.
+  enum class From : std::uint8_t {
+    Now,
+    FirstCommand, ///< of a macro that plays while it arrives
+  };
+  void begin(vm::Ball& ball, From from) {
+    if (journey_ != nullptr && !load_.programs.empty())
+      names_.emplace(*load_.programs.front().program, *journey_);
+    ball_ = &ball;
+    start_ = ball.now();
+    from_ = from;
+  }
+
+  void on_event(Instant at, const vm::Event& event) override {
+    if (ball_ == nullptr || enough_)
+      return;
+    if (over_)
+      return roll_out(at, event);
+    if (from_ == From::FirstCommand) {
+      if (!std::holds_alternative<vm::event::Macro>(event))
+        return;
+      start_ = at;
+      from_ = From::Now;
+    }
+    const bool was_idle = ball_->idle(); // of what goes on afterwards only how it ended counts
+    if (!take(event) && was_idle) {
+      over_ = at;
+      roll_out(at, event);
+      return;
+    }
+    if (std::holds_alternative<vm::event::End>(event) && was_idle)
+      over_ = at;
+    tell(at - start_, event);
+  }
+
+  void on_step(Instant at, const vm::Body& body) override {
+    if (ball_ == nullptr || from_ == From::FirstCommand)
+      return;
+    listener_.on_step(at - start_, body);
+    stop_if_enough();
+  }
+
+  /// It ends though something still runs.
+  bool is_over_early() const { return enough_ || seen() != Sought::Nothing; }
+  void stop() { enough_ = true; }
+
+  Instant start() const { return start_; }
+  std::optional<Instant> over() const { return over_; } ///< since then nothing runs any more
+  Sought seen() const {
+    return forbidden_.seen()  ? Sought::Forbidden
+           : expected_.seen() ? Sought::Expected
+                              : Sought::Nothing;
+  }
+  const std::vector<ProgramError>& faults() const { return faults_; }
+  std::optional<vm::event::End::Reason> end() const { return end_; }
+  const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
+  std::uint64_t lines() const { return lines_; }
+  /// What there was to see, up to now.
+  Sight sight() const {
+    Sight seen = sight_;
+    const auto& body = ball_->body();
+    seen.pose = body.pose();
+    seen.way_cm = body.rolled_cm();
+    seen.motion = body.speed_setpoint() != 0 ? Sight::Motion::Driven
+                  : body.stopped()           ? Sight::Motion::Still
+                                             : Sight::Motion::Rolling;
+    return seen;
+  }
+
+private:
+  /// After the end of the program only what the ball's motion leads to counts.
+  void roll_out(Instant at, const vm::Event& event) {
+    if (until_ == Until::Rest && (std::holds_alternative<vm::event::Bump>(event) ||
+                                  std::holds_alternative<vm::event::Position>(event)))
+      tell(at - start_, event);
+  }
+
+  void stop_if_enough() {
+    if (!listener_.enough())
+      return;
+    enough_ = true;
+    ball_->interrupt();
+  }
+
+  void tell(Duration t, const vm::Event& event) {
+    look(event);
+    const auto* error = std::get_if<vm::event::Error>(&event);
+    if (error == nullptr)
+      listener_.on_event(t, event);
+    else
+      listener_.on_fault(t, add_fault(*error));
+    stop_if_enough();
+    if (journey_ == nullptr)
+      return;
+    journey_->add(t, event);
+    if (const auto* line = std::get_if<vm::event::Line>(&event);
+        line != nullptr && names_ && in_first_program())
+      names_->line_ended(t, line->line, ball_->machine(), *journey_);
+    if (error != nullptr)
+      journey_->explain(faults_.back().cause.seen);
+    journey_->sample(t, ball_->body());
+  }
+
+  /// Notes what the ending is made of; whether the event is part of it even after the program.
+  bool take(const vm::Event& event) {
+    if (const auto* print = std::get_if<vm::event::Print>(&event)) {
+      expected_.take(print->text);
+      forbidden_.take(print->text);
+      if (seen() != Sought::Nothing)
+        ball_->interrupt();
+      return true;
+    }
+    if (std::holds_alternative<vm::event::Error>(event))
+      return true;
+    if (const auto* end = std::get_if<vm::event::End>(&event)) {
+      end_ = end->reason;
+      lines_ += end->lines;
+      return true;
+    }
+    if (const auto* end = std::get_if<vm::event::MacroEnd>(&event))
+      macro_end_ = *end;
+    return false;
+  }
+
+  /// The error with what the source and the machine, which still stands there, say of it.
+  const ProgramError& add_fault(const vm::event::Error& error) {
+    return faults_.emplace_back(run::explain(*load_.programs[in_first_program() ? 0 : 1].input,
+                                             target_, error.line, error.code, &ball_->machine()));
+  }
+
+  bool in_first_program() const {
+    return ball_->basic_area() == target_.area || load_.programs.size() < 2;
+  }
+
+  void look(const vm::Event& event) {
+    if (const auto* drive = std::get_if<vm::event::Drive>(&event))
+      sight_.told_to_move |= drive->roll.speed != 0;
+    else if (const auto* place = std::get_if<vm::event::Position>(&event))
+      sight_.turned |= place->pose.heading_deg != 0;
+    else if (const auto* led = std::get_if<vm::event::Led>(&event);
+             led != nullptr && !ball_->blinks())
+      sight_.color = led->color;
+    else if (const auto* bump = std::get_if<vm::event::Bump>(&event)) {
+      ++sight_.bumps;
+      if (std::find(sight_.walls.begin(), sight_.walls.end(), bump->wall) == sight_.walls.end())
+        sight_.walls.push_back(bump->wall);
+    }
+  }
+
+  vm::Ball* ball_ = nullptr;
+  From from_ = From::Now;
+  Instant start_{};
+  const Load& load_;
+  const compiler::Target& target_;
+  Until until_;
+  bool enough_ = false;
+  Listener& listener_;
+  report::Journey* journey_;
+  std::optional<NamedValues> names_; ///< for the journey, of the first program
+  Search expected_;
+  Search forbidden_;
+  std::vector<ProgramError> faults_;
+  std::optional<vm::event::End::Reason> end_;
+  std::optional<vm::event::MacroEnd> macro_end_;
+  std::uint64_t lines_ = 0;
+  std::optional<Instant> over_;
+  Sight sight_;
+};
+
+/// What the ball answers to the command that starts the run.
+class Answer {
+public:
+  void take(ByteView bytes) {
+    if (code_)
+      return;
+    decoder_.feed(bytes);
+    while (const auto item = decoder_.next())
+      if (item->kind == protocol::Item::Kind::Response) {
+        code_ = item->code;
+        return;
+      }
+  }
+  bool refused() const {
+    return code_ && *code_ != static_cast<std::uint8_t>(spec::ResponseCode::Ok);
+  }
+
+private:
+  protocol::Decoder decoder_{protocol::Direction::FromBall};
+  std::optional<std::uint8_t> code_;
+};
+
+/// Why a macro aborted by itself; empty where it did not.
+std::string_view why(const vm::event::MacroEnd& end) {
+  switch (end.reason) {
+  case vm::event::MacroEnd::Reason::Ended:
+  case vm::event::MacroEnd::Reason::Aborted:
+  case vm::event::MacroEnd::Reason::Slept: return {};
+  case vm::event::MacroEnd::Reason::NoSuchMacro:
+    return "it jumps to an id that no macro of the ball has; add that macro to the command line";
+  case vm::event::MacroEnd::Reason::BadCommand:
+    return "what follows is not a whole command; see `orb asm --listing`";
+  case vm::event::MacroEnd::Reason::StreamEnd: return "`stream_end` ends only streams; write `end`";
+  case vm::event::MacroEnd::Reason::Inhibited:
+    return "it leads to a macro that `inh_if_conn` keeps from running while a client is connected";
+  }
+  return {};
+}
+
+std::string how_aborted(const std::optional<vm::event::MacroEnd>& end) {
+  if (!end || why(*end).empty())
+    return {};
+  return fmt::format("macro {} aborted at its command {}: {}", end->macro, end->command, why(*end));
+}
+
+Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
+  if (!watcher.faults().empty())
+    return Reason::Error;
+  if (watcher.is_over_early())
+    return Reason::Abort;
+  if (ball.basic_running() && ball.quiet())
+    return Reason::Input;
+  if (!ball.quiet() && ball.now() >= limit)
+    return Reason::TimeLimit;
+  if (!watcher.end() && watcher.macro_end()) {
+    if (watcher.macro_end()->reason == vm::event::MacroEnd::Reason::Slept)
+      return Reason::Sleep;
+    return why(*watcher.macro_end()).empty() ? Reason::End : Reason::Abort;
+  }
+  switch (watcher.end().value_or(vm::event::End::Reason::End)) {
+  case vm::event::End::Reason::End: return Reason::End;
+  case vm::event::End::Reason::Error: return Reason::Error;
+  case vm::event::End::Reason::Abort: return Reason::Abort;
+  case vm::event::End::Reason::Sleep: return Reason::Sleep;
+  }
+  return Reason::End;
+}
+
+/// What a run that came to no end by itself waits for.
+std::string waits_for(Reason reason, std::span<const Input> inputs, const Options& options,
+                      const vm::Ball& ball) {
+  if (reason == Reason::Input)
+    return fmt::format("a number in {}", first_with_program(inputs)->program->where(
+                                             static_cast<std::uint32_t>(ball.machine().line())));
+  const auto found = reason == Reason::TimeLimit ? want(inputs, options) : std::nullopt;
+  return found ? std::string(found->what) : std::string();
+}
+
+Ending ending_of(std::span<const Input> inputs, const Options& options, const Watcher& watcher,
+                 const vm::Ball& ball, Instant limit) {
+  Ending ending;
+  ending.reason = reason_of(ball, watcher, limit);
+  ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
+  ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
+  ending.seen_to = options.until == Until::Rest
+                       ? std::max(ending.lasted, ball.now() - watcher.start())
+                       : ending.lasted;
+  ending.seen = watcher.seen();
+  ending.only_interpreted = ball.machine().only_interpreted();
+  if (const auto* code = ball.machine().machine_code())
+    ending.machine_code = code->pieces();
+  ending.aborted = how_aborted(watcher.macro_end());
+  ending.sight = watcher.sight();
+  ending.waits_for = waits_for(ending.reason, inputs, options, ball);
+  ending.faults = watcher.faults();
+  return ending;
+}
+
+} // namespace
+
+struct Live::State {
+  State(std::span<const Input> all, const Options& given, Listener& hears, report::Journey* notes)
+      : inputs(all), options(given), listener(hears), journey(notes), load(load_of(all)),
+        watcher(load, options, listener, journey), ball(options_of_ball()), transport(ball),
+        session(transport, {}, 0) {}
+
+  vm::BallOptions options_of_ball() {
+    auto made = ball_options(options);
+    made.observer = &watcher;
+    made.steps = options.steps == Steps::Heard ? &watcher : nullptr;
+    made.trace_lines = options.trace_lines || journey != nullptr;
+    return made;
+  }
+
+  tl::expected<void, Failure> begin();
+  bool rolls() const;
+  bool advance(Instant target);
+  tl::expected<Ending, Failure> finish();
+
+  std::span<const Input> inputs;
+  const Options& options;
+  Listener& listener;
+  report::Journey* journey;
+  Load load;
+  Watcher watcher;
+  vm::Ball ball;
+  vm::BallTransport transport;
+  uploader::Session session;
+  Started started = Started::Yes;
+  Instant limit{};
+  Answer answer;
+};
+
+tl::expected<void, Failure> Live::State::begin() {
+  if (auto done = upload(load, options, ball, session); !done)
+    return done;
+  listener.on_start(ball);
+  watcher.begin(ball, streams(load) ? Watcher::From::FirstCommand : Watcher::From::Now);
+  if (journey != nullptr)
+    describe(inputs, options, *journey);
+  started = run::start(load, options, ball, session);
+  limit = options.bound == Duration{} ? never - 1h : watcher.start() + options.bound;
+  return {};
+}
+
+/// Whether the ball rolls out: until it rests, or something that it runs into starts a macro.
+bool Live::State::rolls() const {
+  return options.until == Until::Rest && ball.quiet() && ball.body().moving();
+}
+
+bool Live::State::advance(Instant target) {
+  constexpr Duration glance = 100ms; // a ball that rolls out is looked at that often
+  if (started == Started::Refused || watcher.is_over_early() || ball.now() >= limit)
+    return false;
+  target = std::min(target, limit);
+  if (rolls()) {
+    ball.advance_to(std::min(target, ball.now() + glance));
+  } else {
+    ball.advance_until_quiet(target);
+    answer.take(ball.take_output());
+    if (watcher.is_over_early())
+      return false;
+    if (ball.machine().waits_for_input() && !ball.input_queued())
+      if (const auto value = listener.ask_number()) {
+        ball.queue_input(*value);
+        return true;
+      }
+    if (ball.quiet())
+      return rolls();
+  }
+  listener.on_time(ball.now() - watcher.start());
+  return true;
+}
+
+tl::expected<Ending, Failure> Live::State::finish() {
+  if (started == Started::Refused || answer.refused())
+    return tl::unexpected(refusal(load, options));
+  const auto ending = ending_of(inputs, options, watcher, ball, limit);
+  listener.on_end(ending);
+  if (journey != nullptr)
+    journey->finish(ending.seen_to, std::string(to_string(ending.reason)), to_string(ending));
+  return ending;
+}
+
+Live::Live(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Live::~Live() = default;
+
+tl::expected<std::unique_ptr<Live>, Failure> Live::start(std::span<const Input> inputs,
+                                                         const Options& options, Listener& listener,
+                                                         report::Journey* journey) {
+  auto state = std::make_unique<State>(inputs, options, listener, journey);
+  if (auto why = objection(state->load))
+    return tl::unexpected(*std::move(why));
+  if (auto begun = state->begin(); !begun)
+    return tl::unexpected(begun.error());
+  return std::unique_ptr<Live>(new Live(std::move(state)));
+}
+
+bool Live::advance(Duration t) {
+  return state_->advance(state_->watcher.start() + t);
+}
+
+void Live::wait(Duration t) {
+  state_->ball.advance_to(std::max(state_->ball.now(), state_->watcher.start() + t));
+}
+
+void Live::stop() {
+  state_->watcher.stop();
+}
+
+void Live::give(std::int32_t number) {
+  state_->ball.queue_input(number);
+}
+
+void Live::apply(const vm::Stimulus& stimulus) {
+  state_->ball.apply(stimulus);
+}
+
+Duration Live::time() const {
+  return state_->ball.now() - state_->watcher.start();
+}
+
+const vm::Ball& Live::ball() const {
+  return state_->ball;
+}
+
+bool Live::waits_for_number() const {
+  return state_->ball.machine().waits_for_input() && !state_->ball.input_queued();
+}
+
+tl::expected<Ending, Failure> Live::finish() {
+  return state_->finish();
+}
+
+} // namespace orb::run

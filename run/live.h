@@ -1,0 +1,48 @@
+#pragma once
+
+#include "report/journey.h"
+#include "run/run.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <tl/expected.hpp>
+
+namespace orb::run {
+
+/// A run that is handed its time bit by bit, while the world, or a person, does things to the ball.
+/// run() is one of these that goes on to its end.
+class Live {
+public:
+  /// Brings everything into a ball and starts it. All that is handed in outlives the run.
+  static tl::expected<std::unique_ptr<Live>, Failure> start(std::span<const Input> inputs,
+                                                            const Options& options,
+                                                            Listener& listener,
+                                                            report::Journey* journey);
+  ~Live();
+
+  /// Goes on to robot time `t` since the start, or less far; false: the run is over.
+  bool advance(Duration t);
+  /// Time passes to `t` though the run may be over: while the program waits for a number.
+  void wait(Duration t);
+  /// From now on it is over.
+  void stop();
+
+  void give(std::int32_t number); ///< for `input`
+  void apply(const vm::Stimulus& stimulus);
+
+  Duration time() const; ///< since the start
+  const vm::Ball& ball() const;
+  bool waits_for_number() const;
+
+  /// How it ended; nothing can be done with the run after that.
+  tl::expected<Ending, Failure> finish();
+
+private:
+  struct State;
+  explicit Live(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+} // namespace orb::run

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "report/trace.h"
+#include "run/run.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace orb::run {
+
+/// Writes the trace of a run, with what a run knows of its sources and of why it faulted.
+class Trace {
+public:
+  Trace(report::TraceFormat format, report::TraceLines lines, std::span<const Input> inputs,
+        std::function<void(std::string_view)> put);
+  void add(Duration t, const vm::Event& event) { writer_.add(t, event); }
+  void add(Duration t, const ProgramError& fault);
+  void finish(const Ending& ending);
+
+private:
+  report::TraceWriter writer_;
+};
+
+} // namespace orb::run
