@@ -1,2 +1,208 @@
-#include <cstdint>
-extern "C" const char* orb_call(const char*) { return ""; }
+#include "playground/request.h"
+#include "playground/runs.h"
+#include "playground/sources.h"
+#include "playground/tests.h"
+#include "playground/uploads.h"
+
+#include <emscripten.h>
+#include <exception>
+#include <fmt/format.h>
+#include <utility>
+
+// The one door between a page and orb: a request as JSON in, its answer as JSON out. What lives
+// from one request to the next (the language server, a live run, an upload) is kept in Engine.
+
+namespace orb::playground {
+namespace {
+
+class Engine {
+public:
+  Answer call(const std::string& method, const ordered_json& params);
+
+private:
+  using Method = Answer (Engine::*)(Request&);
+  struct Row {
+    std::string_view name;
+    Method method;
+  };
+  static const Row rows[];
+
+  Answer version(Request&) { return print({{"version", ORB_VERSION}}); }
+  Answer files(Request& request);
+  Answer lsp(Request& request);
+  Answer run(Request& request);
+  Answer live_start(Request& request);
+  Answer live_advance(Request& request);
+  Answer live_end(Request& request);
+  Answer stimulus(Request& request);
+  Answer input(Request& request);
+  Answer report(Request& request);
+  Answer deliver_start(Request& request);
+  Answer deliver_step(Request& request);
+  template <Answer (*function)(Request&)>
+  Answer plain(Request& request) {
+    return function(request);
+  }
+
+  MemoryFiles folder_;
+  editor::LanguageServer server_{&folder_, &folder_};
+  std::unique_ptr<Run> live_;
+  std::optional<Upload> upload_;
+};
+
+const Engine::Row Engine::rows[] = {
+    {"version", &Engine::version},
+    {"check", &Engine::plain<playground::check>},
+    {"fix", &Engine::plain<playground::fix>},
+    {"format", &Engine::plain<playground::format>},
+    {"explain", &Engine::plain<playground::explain>},
+    {"build", &Engine::plain<playground::build>},
+    {"assemble", &Engine::plain<playground::assemble>},
+    {"test", &Engine::plain<playground::test>},
+    {"replay", &Engine::plain<playground::replay>},
+    {"ble", &Engine::plain<playground::ble>},
+    {"run", &Engine::run},
+    {"files", &Engine::files},
+    {"lsp", &Engine::lsp},
+    {"live_start", &Engine::live_start},
+    {"live_advance", &Engine::live_advance},
+    {"live_end", &Engine::live_end},
+    {"stimulus", &Engine::stimulus},
+    {"input", &Engine::input},
+    {"report", &Engine::report},
+    {"deliver_start", &Engine::deliver_start},
+    {"deliver_step", &Engine::deliver_step},
+};
+
+const std::string nothing = "{}";
+
+tl::unexpected<Problem> no_run() {
+  return refuse(ExitCode::Usage, "nothing runs");
+}
+
+Answer Engine::call(const std::string& method, const ordered_json& params) {
+  for (const auto& row : rows)
+    if (row.name == method) {
+      Request request(params);
+      return (this->*row.method)(request);
+    }
+  return refuse(ExitCode::Usage, fmt::format("there is no method `{}`", method));
+}
+
+Answer Engine::files(Request& request) {
+  folder_ = request.files;
+  return nothing;
+}
+
+Answer Engine::lsp(Request& request) {
+  const auto& message = request.params.at("message");
+  std::string messages;
+  for (const auto& one :
+       server_.receive(message.is_string() ? message.get<std::string>() : print(message)))
+    messages += (messages.empty() ? "" : ",") + one;
+  return fmt::format(R"({{"messages":[{}]}})", messages);
+}
+
+Answer Engine::run(Request& request) {
+  Wanted wanted;
+  const auto trace = request.text("trace");
+  if (!trace.empty())
+    wanted.trace = trace == "csv" ? report::TraceFormat::Csv : report::TraceFormat::Json;
+  wanted.report = request.flag("report");
+  wanted.svg = request.flag("svg");
+  const auto run = Run::start(request, wanted);
+  if (!run)
+    return tl::unexpected(run.error());
+  (*run)->finish();
+  return (*run)->answer();
+}
+
+Answer Engine::live_start(Request& request) {
+  live_.reset();
+  auto run = Run::start(request, {std::nullopt, true, false});
+  if (!run)
+    return tl::unexpected(run.error());
+  live_ = *std::move(run);
+  return print({{"hint", live_->hint()}});
+}
+
+Answer Engine::live_advance(Request& request) {
+  if (!live_)
+    return no_run();
+  const bool goes_on = live_->advance(std::chrono::duration_cast<Duration>(
+      std::chrono::duration<double, std::milli>(request.value<double>("ms").value_or(0))));
+  return fmt::format(R"({{"over":{},"frame":{}}})", !goes_on, live_->frame());
+}
+
+Answer Engine::live_end(Request&) {
+  if (!live_)
+    return no_run();
+  live_->stop();
+  const auto run = std::move(live_);
+  return run->answer();
+}
+
+Answer Engine::stimulus(Request& request) {
+  if (!live_)
+    return no_run();
+  if (const auto done = live_->apply(request.text("line")); !done)
+    return tl::unexpected(done.error());
+  return nothing;
+}
+
+Answer Engine::input(Request& request) {
+  if (!live_)
+    return no_run();
+  live_->give(request.value<std::int32_t>("value").value_or(0));
+  return nothing;
+}
+
+Answer Engine::report(Request&) {
+  return live_ ? Answer(live_->report_so_far()) : no_run();
+}
+
+Answer Engine::deliver_start(Request& request) {
+  auto upload = Upload::start(request);
+  if (!upload)
+    return tl::unexpected(upload.error());
+  upload_ = *std::move(upload);
+  return upload_->step(ordered_json::object());
+}
+
+Answer Engine::deliver_step(Request& request) {
+  if (!upload_)
+    return refuse(ExitCode::Usage, "nothing is being uploaded");
+  return upload_->step(request.params);
+}
+
+/// A whole message: `{"result":…}` or `{"error":…}`.
+std::string answer(Engine& engine, const char* text) {
+  Answer answer;
+  try { // the JSON library throws where a member is of another kind
+    const auto message = ordered_json::parse(text);
+    answer = engine.call(message.at("method").get<std::string>(),
+                         message.value("params", ordered_json::object()));
+  } catch (const std::exception& exception) {
+    answer = refuse(ExitCode::Usage, exception.what());
+  }
+  if (answer)
+    return fmt::format(R"({{"result":{}}})", *answer);
+  const auto& problem = answer.error();
+  auto error = ordered_json{{"code", static_cast<int>(problem.code)}, {"message", problem.message}};
+  if (problem.findings.empty())
+    return print({{"error", error}});
+  const auto plain = print(error);
+  return fmt::format(R"({{"error":{},"findings":{}}}}})", plain.substr(0, plain.size() - 1),
+                     problem.findings);
+}
+
+} // namespace
+} // namespace orb::playground
+
+/// What comes back is good until the next call.
+extern "C" EMSCRIPTEN_KEEPALIVE const char* orb_call(const char* request) {
+  static orb::playground::Engine engine;
+  static std::string last;
+  last = orb::playground::answer(engine, request);
+  return last.c_str();
+}

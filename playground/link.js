@@ -1,0 +1,200 @@
+// Uploads from a browser: Web Serial and Web Bluetooth carry the bytes, the uploader in C++ says which.
+
+import { OrbError } from "./client.js";
+
+const write_ms = 5000; // a port that takes no bytes for so long takes none any more
+const tries = 3;
+
+export const can_serial = () => typeof navigator !== "undefined" && !!navigator.serial;
+export const can_bluetooth = () => typeof navigator !== "undefined" && !!navigator.bluetooth;
+
+const closed = message => ({ kind: "closed", message });
+const hung_up = closed("the other end hung up");
+const no_ball = message => new OrbError({ code: 4, message });
+const words_of = error => error?.message ? error.message.replace(/\.$/, "") : String(error);
+
+/** What has arrived and was not read yet. */
+class Inbox {
+  #bytes = []; #error = null; #wake = () => {};
+
+  push(bytes) {
+    this.#bytes.push(...bytes);
+    this.#wake();
+  }
+  fail(error) {
+    this.#error ??= error;
+    this.#wake();
+  }
+  /** All that is there, as soon as there is something; nothing after `ms`, or when `signal` says so. */
+  async read(ms, signal) {
+    if (!this.#bytes.length && !this.#error && ms > 0 && !signal?.aborted) {
+      let timer;
+      await new Promise(done => {
+        this.#wake = done;
+        timer = setTimeout(done, Math.min(ms, 2 ** 31 - 1));
+        signal?.addEventListener("abort", done, { once: true });
+      });
+      clearTimeout(timer);
+      this.#wake = () => {};
+    }
+    if (this.#bytes.length) return Uint8Array.from(this.#bytes.splice(0));
+    if (this.#error) throw this.#error;
+    return new Uint8Array();
+  }
+}
+
+const within = (promise, ms, error) => {
+  let timer;
+  const late = new Promise((_, failed) => { timer = setTimeout(() => failed(error), ms); });
+  return Promise.race([promise, late]).finally(() => clearTimeout(timer));
+};
+
+/**
+ * A serial port: a classic ball over Bluetooth, or an adapter. Asks the person for it where none is given, so
+ * call it in a click. A link has `write(bytes)`, `read(ms, signal)` and `close()`; what it throws says
+ * `kind` ("closed", "broken") and `message`.
+ */
+export async function serial_link(port) {
+  port ??= await navigator.serial.requestPort();
+  for (let n = 1; !port.readable; ++n) {
+    try {
+      await port.open({ baudRate: 115200 });
+    } catch (error) {
+      if (error.name === "InvalidStateError") throw no_ball("cannot open the port: it is in use; close the other tab or program that has it");
+      if (n === tries) throw no_ball(`cannot open the port: ${words_of(error)}; shake the ball awake, keep it near, and end other connections to it`);
+    }
+  }
+  const inbox = new Inbox();
+  const reader = port.readable.getReader(), writer = port.writable.getWriter();
+  const reading = (async () => {
+    try {
+      for (;;) {
+        const { value, done } = await reader.read();
+        if (done) return inbox.fail(hung_up);
+        inbox.push(value);
+      }
+    } catch {
+      inbox.fail(hung_up); // a radio link that is gone is an error of the stream
+    } finally {
+      reader.releaseLock();
+    }
+  })();
+  const takes_nothing = { kind: "broken", message: "the link takes no bytes any more" };
+  let stuck = false; // in the middle of a packet
+  return {
+    kind: "serial",
+    async write(bytes) {
+      if (stuck) throw takes_nothing;
+      try {
+        await within(writer.write(bytes), write_ms, takes_nothing);
+      } catch (error) {
+        stuck = error === takes_nothing;
+        throw stuck ? error : hung_up;
+      }
+    },
+    read: (ms, signal) => inbox.read(ms, signal),
+    async close() {
+      await reader.cancel().catch(() => {});
+      await reading;
+      if (stuck) writer.abort().catch(() => {});
+      writer.releaseLock();
+      await port.close().catch(() => {});
+    },
+  };
+}
+
+/** A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. */
+export async function bluetooth_link(orb, device) {
+  const ble = await orb.call("ble");
+  device ??= await navigator.bluetooth.requestDevice({
+    filters: ble.names.map(namePrefix => ({ namePrefix })),
+    optionalServices: ble.services,
+  });
+  const inbox = new Inbox();
+  const lost = closed("the robot is gone; hold it near, charge it, and try again");
+  let here = true;
+  const gone = () => {
+    here = false;
+    inbox.fail(lost);
+  };
+  let commands;
+  for (let n = 1; !commands; ++n) {
+    try {
+      commands = await greet(device, ble, bytes => inbox.push(bytes));
+    } catch (error) {
+      device.gatt.disconnect();
+      if (n === tries) throw no_ball(`cannot connect to ${device.name ?? "the robot"}: ${words_of(error)}; shake it awake, hold it near, and end the app or the phone that may hold it`);
+    }
+  }
+  device.addEventListener("gattserverdisconnected", gone);
+  return {
+    kind: "ble",
+    async write(bytes) {
+      for (let at = 0; at < bytes.length; at += ble.piece) {
+        if (!here) throw lost;
+        try {
+          await within(commands.writeValueWithResponse(bytes.slice(at, at + ble.piece)), write_ms, "late");
+        } catch {
+          if (!here || !device.gatt.connected) throw lost;
+          return; // it may have arrived, so it is never sent again: the packet is lost
+        }
+      }
+    },
+    read: (ms, signal) => inbox.read(ms, signal),
+    async close() {
+      device.removeEventListener("gattserverdisconnected", gone);
+      device.gatt.disconnect();
+    },
+  };
+}
+
+async function greet(device, ble, on_bytes) {
+  const server = await device.gatt.connect();
+  const find = async ({ service, characteristic }) => (await server.getPrimaryService(service)).getCharacteristic(characteristic);
+  for (const word of ble.greeting) await (await find(word)).writeValueWithResponse(word.bytes);
+  const answers = await find(ble.answers);
+  answers.addEventListener("characteristicvaluechanged", ({ target: { value } }) =>
+    on_bytes(new Uint8Array(value.buffer, value.byteOffset, value.byteLength)));
+  await answers.startNotifications();
+  return find(ble.commands);
+}
+
+/**
+ * Brings `request` (files, names, area, run, …) to the ball at the other end of `link`. Returns how it ended,
+ * in the words of `orb upload`; throws where the request cannot be sent at all. An `aborted` signal stops it
+ * as Ctrl-C stops `orb upload`.
+ */
+export async function deliver(orb, link, request, { on_status = () => {}, signal, first_seq = Math.floor(Math.random() * 256) } = {}) {
+  const begin = performance.now();
+  const now = () => performance.now() - begin;
+  let told_to_stop = false;
+  /** Once for a signal: what is left to do for a clean end is done. */
+  const stopped = () => {
+    if (told_to_stop || !signal?.aborted) return false;
+    return told_to_stop = true;
+  };
+  const interrupted = { kind: "interrupted", message: "interrupted" };
+  async function carry_out({ write, read_until }) {
+    if (stopped()) return { error: interrupted };
+    try {
+      if (write) {
+        await link.write(write);
+        return {};
+      }
+      const bytes = await link.read(read_until - now(), told_to_stop ? undefined : signal);
+      return !bytes.length && stopped() ? { error: interrupted } : { bytes };
+    } catch (error) {
+      return { error: { kind: error.kind ?? "broken", message: error.message ?? String(error) } };
+    }
+  }
+  let step = await orb.call("deliver_start", { ...request, first_seq, link: link.kind });
+  let told = "";
+  while (step.wish) {
+    const status = JSON.stringify(step.status);
+    if (status !== told) on_status(step.status);
+    told = status;
+    const done = await carry_out(step.wish);
+    step = await orb.call("deliver_step", { at: now(), ...done });
+  }
+  return step.outcome;
+}

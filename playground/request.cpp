@@ -1,0 +1,125 @@
+#include "playground/request.h"
+
+#include "base/bytes.h"
+#include "playground/sources.h"
+#include "testing/check_files.h"
+#include "testing/suite.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::playground {
+namespace {
+
+constexpr auto hex_member = "hex"; // what a Uint8Array is in JSON
+
+std::string_view without_root(std::string_view path) {
+  while (path.starts_with('/') || path.starts_with("./"))
+    path.remove_prefix(path.front() == '/' ? 1 : 2);
+  return path;
+}
+
+std::string content(const ordered_json& file) {
+  if (file.is_string())
+    return file.get<std::string>();
+  const auto bytes = from_hex(file.at(hex_member).get<std::string>());
+  return std::string(as_text(bytes.value_or(Bytes{})));
+}
+
+} // namespace
+
+tl::unexpected<Problem> refuse(const Failure& failure) {
+  return refuse(failure.code, failure.message);
+}
+
+tl::unexpected<Problem> refuse(ExitCode code, std::string message) {
+  return tl::unexpected(Problem{code, std::move(message)});
+}
+
+MemoryFiles::MemoryFiles(const ordered_json& params) {
+  const auto files = params.find("files");
+  if (files == params.end())
+    return;
+  for (const auto& [name, file] : files->items()) {
+    if (texts_.empty())
+      first_ = without_root(name);
+    texts_.insert_or_assign(std::string(without_root(name)), content(file));
+  }
+}
+
+std::optional<std::string> MemoryFiles::read(const std::string& path) {
+  const auto found = texts_.find(without_root(path));
+  return found == texts_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::string> MemoryFiles::sources(const std::string&) {
+  std::vector<std::string> found;
+  for (const auto& [name, text] : texts_)
+    if (run::language_of(name, "") || testing::is_test(name))
+      found.push_back("/" + name);
+  return found;
+}
+
+Request::Request(const ordered_json& given) : params(given), files(given), names(texts("names")) {
+  if (names.empty() && !files.first().empty())
+    names = {files.first()};
+}
+
+std::string Request::text(const char* key, std::string_view otherwise) const {
+  return value<std::string>(key).value_or(std::string(otherwise));
+}
+
+bool Request::flag(const char* key, bool otherwise) const {
+  return value<bool>(key).value_or(otherwise);
+}
+
+std::vector<std::string> Request::texts(const char* key) const {
+  const auto found = params.find(key);
+  if (found == params.end() || found->is_null())
+    return {};
+  if (found->is_string())
+    return {found->get<std::string>()};
+  return found->get<std::vector<std::string>>();
+}
+
+tl::expected<std::vector<run::SourceFile>, Problem> Request::sources() {
+  std::vector<run::SourceFile> all;
+  for (const auto& name : names) {
+    auto text = files.read(name);
+    if (!text)
+      return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+    const auto language = run::language_of(name, "");
+    if (!language && !testing::is_no_program(name))
+      return refuse(run::unknown_content(name));
+    all.push_back({name, language.value_or(run::Language::Basic), Source(name, *std::move(text))});
+  }
+  return all;
+}
+
+tl::expected<std::vector<run::Input>, Problem> Request::inputs() {
+  std::vector<run::Input> inputs;
+  for (const auto& name : names) {
+    auto text = files.read(name);
+    if (!text)
+      return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+    auto input = run::read_input(name, *std::move(text), "", {}, run::Lint::Off, files);
+    if (!input)
+      return refuse(input.error());
+    if (input->has_errors())
+      return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} has mistakes", name),
+                                    check(*this).value_or("")});
+    run::add_input(inputs, *std::move(input));
+  }
+  return inputs;
+}
+
+std::string print(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json bytes_json(ByteView bytes) {
+  return {{hex_member, to_hex(bytes)}};
+}
+
+} // namespace orb::playground

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "debug/launch.h"
+#include "playground/request.h"
+#include "report/journey.h"
+#include "run/live.h"
+#include "run/trace.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace orb::playground {
+
+/// What a page wants to know of a run besides how it ends.
+struct Wanted {
+  std::optional<report::TraceFormat> trace;
+  bool report = false;
+  bool svg = false;
+};
+
+/// A run with all that it needs, and what it has come to. A page's live run is moved on bit by bit.
+class Run final : run::Listener {
+public:
+  static tl::expected<std::unique_ptr<Run>, Problem> start(Request& request, const Wanted& wanted);
+
+  /// Goes on to its end.
+  void finish();
+  /// Goes on to robot time `t`; false once it is over. While it waits for a number it goes on.
+  bool advance(Duration t);
+  /// Ends it where it has not come to its end by itself.
+  void stop();
+  void give(std::int32_t number) { live_->give(number); }
+  /// A line of a stimulus script without its time.
+  tl::expected<void, Problem> apply(const std::string& line);
+
+  std::string hint() const;
+  /// What happened since the last frame.
+  std::string frame();
+  /// What a player shows of the run so far.
+  std::string report_so_far() const;
+  /// The answer to `run`.
+  Answer answer();
+
+private:
+  Run() = default;
+  void on_event(Duration t, const vm::Event& event) override;
+  void on_fault(Duration t, const run::ProgramError& fault) override;
+  std::string report_of(const report::Journey& journey) const;
+
+  std::string title_;
+  std::unique_ptr<debug::Launched> launched_;
+  Wanted wanted_;
+  std::optional<report::Journey> journey_;
+  std::optional<run::Trace> trace_;
+  std::unique_ptr<run::Live> live_;
+  std::string prints_;
+  std::string trace_text_;
+  bool over_ = false;
+  std::size_t told_prints_ = 0; ///< by the last frame
+};
+
+} // namespace orb::playground

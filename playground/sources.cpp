@@ -1,0 +1,106 @@
+#include "playground/sources.h"
+
+#include "assembler/assemble.h"
+#include "base/render.h"
+#include "base/text.h"
+#include "compiler/image.h"
+#include "editor/language.h"
+#include "protocol/macro.h"
+#include "reference/knowledge.h"
+#include "report/course.h"
+#include "testing/check_files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::playground {
+namespace {
+
+const editor::LanguageService& service_of(const run::SourceFile& file) {
+  if (testing::is_no_program(file.path))
+    return editor::test_service;
+  switch (file.language) {
+  case run::Language::Basic: return editor::basic_service;
+  case run::Language::Structured: return editor::structured_service;
+  case run::Language::Macro: break;
+  }
+  return editor::macro_service;
+}
+
+} // namespace
+
+Answer check(Request& request) {
+  const auto sources = request.sources();
+  if (!sources)
+    return tl::unexpected(sources.error());
+  return render_json(testing::check_files(*sources, {}, {}, request.files).files);
+}
+
+Answer fix(Request& request) {
+  auto sources = request.sources();
+  if (!sources)
+    return tl::unexpected(sources.error());
+  auto& file = sources->front();
+  const auto count = testing::fix(file, [&](const run::SourceFile& now) {
+    return testing::check_files({&now, 1}, {}, {}, request.files).files.front().diagnostics;
+  });
+  return print({{"text", file.source.text()}, {"count", count}});
+}
+
+Answer format(Request& request) {
+  const auto sources = request.sources();
+  if (!sources)
+    return tl::unexpected(sources.error());
+  const auto& file = sources->front();
+  if (report::is_course(file.path))
+    return refuse(ExitCode::Usage, fmt::format("{} is a drawing", file.path));
+  if (const auto text = service_of(file).format(file.source))
+    return print({{"text", *text}});
+  return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} cannot be laid out", file.path),
+                                check(request).value_or("")});
+}
+
+Answer explain(Request& request) {
+  const auto word = request.text("word");
+  std::string text;
+  for (const auto& section : reference::knowledge())
+    for (const auto& entry : section.entries) {
+      const auto is_meant = [&](const std::string& name) { return equal_words(name, word); };
+      if (is_meant(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_meant))
+        text += (text.empty() ? "" : "\n") + reference::print_entry(section, entry, Style{});
+    }
+  if (text.empty())
+    return refuse(ExitCode::BadInput, fmt::format("nothing is known about `{}`", word));
+  return print({{"text", text}});
+}
+
+Answer build(Request& request) {
+  const auto inputs = request.inputs();
+  if (!inputs)
+    return tl::unexpected(inputs.error());
+  const auto* program = run::first_with_program(*inputs);
+  if (program == nullptr)
+    return refuse(ExitCode::Usage, fmt::format("{} is no program", request.names.front()));
+  return print({{"name", fmt::format("{}.img", stem(program->source->name()))},
+                {"bytes", bytes_json(as_bytes(program->program->image.bytes))}});
+}
+
+Answer assemble(Request& request) {
+  const auto inputs = request.inputs();
+  if (!inputs)
+    return tl::unexpected(inputs.error());
+  auto macros = ordered_json::array();
+  for (const auto& input : *inputs)
+    for (const auto& macro : input.macros)
+      macros.push_back({{"name", macro.name},
+                        {"id", macro.image.id},
+                        {"sphero", bytes_json(macro.image.body)},
+                        {"bin", bytes_json(protocol::encode(macro.image))}});
+  if (macros.empty())
+    return refuse(ExitCode::Usage, fmt::format("{} holds no macro", request.names.front()));
+  return print({{"name", fmt::format("{}.bin", stem(request.names.front()))},
+                {"bytes", macros.front()["bin"]},
+                {"macros", macros}});
+}
+
+} // namespace orb::playground

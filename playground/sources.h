@@ -1,0 +1,16 @@
+#pragma once
+
+#include "playground/request.h"
+
+// What is asked about sources without running them.
+
+namespace orb::playground {
+
+Answer check(Request& request);
+Answer fix(Request& request);
+Answer format(Request& request);
+Answer explain(Request& request);
+Answer build(Request& request);
+Answer assemble(Request& request);
+
+} // namespace orb::playground

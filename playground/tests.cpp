@@ -1,0 +1,84 @@
+#include "playground/tests.h"
+
+#include "base/render.h"
+#include "report/page.h"
+#include "structured/words.h"
+#include "testing/render.h"
+#include "testing/run_suite.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::playground {
+namespace {
+
+class Unwatched final : public testing::Progress {
+public:
+  void on_cases(std::uint64_t, std::uint64_t) override {}
+};
+
+tl::expected<testing::Suite, Problem> make_suite(Request& request,
+                                                 const testing::SuiteOptions& options) {
+  std::vector<testing::GivenFile> given;
+  for (const auto& name : request.names) {
+    auto text = request.files.read(name);
+    if (!text)
+      return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+    given.push_back({name, *std::move(text)});
+  }
+  auto suite = testing::make_suite(std::move(given), options, request.files);
+  if (!suite)
+    return refuse(suite.error());
+  if (!suite->has_errors())
+    return *std::move(suite);
+  std::vector<FileFindings> findings;
+  for (const auto& file : suite->files)
+    findings.push_back({file.source.get(), file.file.diagnostics, {}});
+  return tl::unexpected(Problem{ExitCode::Usage, "the tests have mistakes", render_json(findings)});
+}
+
+testing::SuiteOptions suite_options(const Request& request) {
+  testing::SuiteOptions options;
+  options.programs = request.texts("programs");
+  options.only = request.text("only");
+  if (const auto seeds = request.text("seeds"); !seeds.empty())
+    options.seeds = testing::parse_seeds(seeds);
+  return options;
+}
+
+} // namespace
+
+Answer test(Request& request) {
+  const auto suite = make_suite(request, suite_options(request));
+  if (!suite)
+    return tl::unexpected(suite.error());
+  Unwatched progress;
+  const auto results = testing::run_suite(*suite, {}, progress);
+  const auto text = testing::render_text(results, testing::Listing::All, Style{});
+  return fmt::format(R"({{"text":{},"results":{}}})", print(text), testing::render_json(results));
+}
+
+Answer replay(Request& request) {
+  testing::SuiteOptions options;
+  options.only = request.text("test");
+  if (const auto program = request.text("program"); !program.empty())
+    options.programs = {program};
+  const auto suite = make_suite(request, options);
+  if (!suite)
+    return tl::unexpected(suite.error());
+  if (suite->groups.empty())
+    return refuse(ExitCode::Usage, fmt::format("there is no test `{}`", options.only));
+  const auto& group = suite->groups.front();
+  const auto& program = suite->programs[group.program];
+  if (!program.problem.empty())
+    return refuse(ExitCode::BadInput, program.problem);
+  const auto seed = request.value<std::uint64_t>("seed").value_or(group.seeds.first);
+  report::Journey journey;
+  testing::run_case(*suite, group, seed, nullptr, &journey);
+  const auto title =
+      fmt::format("{}: {}, seed {}", program.name, suite->test_of(group).name.text, seed);
+  return fmt::format(R"({{"report":{}}})",
+                     report::run_json(journey, title, structured::keyword_words));
+}
+
+} // namespace orb::playground

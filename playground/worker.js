@@ -1,0 +1,75 @@
+// The engine behind messages, and the clock of live runs: {id, method, params} in, {id, result} or {id, error}
+// out, and events {event, data}.
+import { load_engine } from "./engine.js";
+
+const frame_ms = 33;
+let engine;
+let clock = null; // of the live run: robot time `robot` at the moment `real`, and how much faster it runs
+
+const robot_now = () => clock.paused ? clock.robot : clock.robot + (performance.now() - clock.real) * clock.speed;
+const post = (event, data) => postMessage({ event, data });
+
+function set_clock(changes) {
+  if (!clock) return {};
+  clock.robot = robot_now();
+  clock.real = performance.now();
+  Object.assign(clock, changes);
+  clearTimeout(clock.timer);
+  if (!clock.paused) clock.timer = setTimeout(tick, 0);
+  return {};
+}
+
+function tick() {
+  try {
+    const { over, frame } = engine.call("live_advance", { ms: robot_now() });
+    post("frame", frame);
+    if (over) end();
+    else clock.timer = setTimeout(tick, frame_ms);
+  } catch (error) {
+    end();
+    throw error;
+  }
+}
+
+function end() {
+  clearTimeout(clock?.timer);
+  clock = null;
+  post("end", engine.call("live_end"));
+}
+
+const own = {
+  start({ speed = 1, ...params }) {
+    if (clock) own.stop();
+    const answer = engine.call("live_start", { for: "0", ...params });
+    clock = { robot: 0, real: performance.now(), speed, paused: false };
+    clock.timer = setTimeout(tick, 0);
+    return answer;
+  },
+  stop() {
+    if (!clock) return {};
+    engine.call("live_advance", { ms: robot_now() });
+    end();
+    return {};
+  },
+  pause: () => set_clock({ paused: true }),
+  resume: () => set_clock({ paused: false }),
+  speed: ({ factor }) => set_clock({ speed: factor }),
+};
+
+function answer({ id, method, params = {} }) {
+  try {
+    const result = method in own ? own[method](params) : engine.call(method, params);
+    postMessage({ id, result });
+  } catch (error) {
+    postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });
+  }
+}
+
+// What comes while the wasm is loading waits.
+const waiting = [];
+onmessage = ({ data }) => engine ? answer(data) : waiting.push(data);
+load_engine().then(made => {
+  engine = made;
+  post("ready", engine.call("version"));
+  waiting.splice(0).forEach(answer);
+}, error => post("broken", { message: error.message }));
