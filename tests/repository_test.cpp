@@ -49,6 +49,7 @@ const std::vector<Room> rooms = {
     {9, "editor", {"reference", "debug"}},
     {9, "serve", {"vm", "disk"}},
     {10, "cli", {"editor", "serve", "reference", "debug", "report", "uploader", "structured", "disk"}},
+    {10, "playground", {"editor"}},
 };
 
 const Room& room_called(const std::string& name) {

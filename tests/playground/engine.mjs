@@ -1,0 +1,161 @@
+// What the engine of the playground says against what orb itself says: findings, traces and verdicts of all
+// examples and lessons, and the bytes of uploads over bad links.
+// usage: node engine.mjs ORB ROOT [FOLDER]; exits 77 where `./dev playground` has built nothing.
+import assert from "node:assert/strict";
+import { execFile, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import net from "node:net";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [orb_file, root, folder = join(root, "build/playground")] = process.argv.slice(2).map(path => resolve(path));
+if (!existsSync(join(folder, "orb.wasm"))) {
+  console.log(`skipped: ${folder} is not there; ./dev playground builds it`);
+  process.exit(77);
+}
+const { load_engine } = await import(pathToFileURL(join(folder, "engine.js")));
+const { deliver } = await import(pathToFileURL(join(folder, "link.js")));
+const engine = await load_engine();
+const place = mkdtempSync(join(tmpdir(), "orb-playground-"));
+process.setMaxListeners(100); // each ball is ended with us
+process.on("exit", () => rmSync(place, { recursive: true, force: true }));
+
+/** orb in a folder that holds just these files. */
+function orb(args, files = {}) {
+  const own = mkdtempSync(join(place, "run-"));
+  for (const [name, text] of Object.entries(files)) writeFileSync(join(own, name), text);
+  return new Promise(done => execFile(orb_file, args, { cwd: own, maxBuffer: 1 << 28 }, (error, out, err) =>
+    done({ code: error ? error.code : 0, out, err })));
+}
+let failures = 0;
+const counts = {};
+function same(kind, name, ours, theirs) {
+  counts[kind] = (counts[kind] ?? 0) + 1;
+  try {
+    assert.deepEqual(ours, theirs);
+  } catch (error) {
+    ++failures;
+    console.error(`${kind} of ${name} differs:\n${error.message.split("\n").slice(0, 30).join("\n")}`);
+  }
+}
+const refusal_of = call => {
+  try {
+    return { answer: call() };
+  } catch (error) {
+    return { error };
+  }
+};
+
+// ---- programs ----
+const { groups } = JSON.parse(readFileSync(join(folder, "examples.json"), "utf8"));
+const items = groups.flatMap(group => group.items);
+const solved = items.filter(item => item.solution)
+  .map(item => ({ ...item, id: `${item.id} solved`, files: { ...item.files, [item.main]: item.solution } }));
+const mistakes = { id: "mistakes", main: "mistakes.bas", run: {}, files: { "mistakes.bas": readFileSync(join(root, "examples/demo/mistakes.bas"), "utf8") } };
+
+for (const { id, files, main, test, run } of [...items, ...solved, mistakes]) {
+  const checked = Object.keys(files).filter(name => !name.endsWith(".stimulus"));
+  const findings = JSON.parse((await orb(["check", "--format", "json", "--max-errors", "0", ...checked], files)).out);
+  same("findings", id, engine.call("check", { files, names: checked }), findings);
+
+  const names = run.names ?? [main];
+  const options = ["--trace", "json", "--trace-lines", "--native", "off", ...(run.stimuli ?? []).flatMap(one => ["--stimulus", one])];
+  if (run.course) options.push("--course", run.course);
+  if (run.input) options.push("--input", run.input.join(","));
+  if (run.seed) options.push("--seed", String(run.seed));
+  if (run.for) options.push("--for", run.for);
+  const native = await orb(["run", ...names, ...options], files);
+  const { answer, error } = refusal_of(() => engine.call("run", { files, names, ...run, trace: "json", trace_lines: true }));
+  same("trace", id, answer?.trace ?? "", native.out);
+  if (error) same("refusal", id, error.code, native.code);
+
+  if (!test) continue;
+  const verdicts = JSON.parse((await orb(["test", test, "--format", "json"], files)).out);
+  same("verdicts", id, engine.call("test", { files, names: [test] }).results, verdicts);
+}
+
+// ---- uploads ----
+/** A link of link.js over TCP, which remembers what passed. */
+async function tcp_link(port, recording) {
+  const socket = net.connect(port, "127.0.0.1");
+  socket.setNoDelay(true);
+  await new Promise((done, failed) => socket.once("connect", done).once("error", failed));
+  let bytes = [], error = null, wake = () => {};
+  socket.on("data", data => (bytes.push(...data), wake()));
+  const end = () => (error = { kind: "closed", message: "the other end hung up" }, wake());
+  socket.on("close", end).on("error", end);
+  const line = (sign, data) => recording.push(`${sign} ${[...data].map(byte => byte.toString(16).padStart(2, "0")).join(" ")}`);
+  return {
+    kind: "tcp",
+    async write(data) {
+      if (error) throw error;
+      line(">", data);
+      await new Promise(done => socket.write(data, done));
+    },
+    async read(ms) {
+      if (!bytes.length && !error && ms > 0)
+        await new Promise(done => {
+          const timer = setTimeout(done, ms);
+          wake = () => (clearTimeout(timer), done());
+        });
+      if (!bytes.length && error) throw error;
+      const read = Uint8Array.from(bytes.splice(0));
+      if (read.length) line("<", read);
+      return read;
+    },
+    close: async () => socket.destroy(),
+  };
+}
+
+/** A ball of `orb ball`, and its port. */
+async function ball(...options) {
+  const child = spawn(orb_file, ["ball", "--tcp", "127.0.0.1:0", ...options]);
+  process.on("exit", () => child.kill());
+  let said = "";
+  const port = await new Promise((done, failed) => {
+    const hear = data => {
+      said += data;
+      const found = /127\.0\.0\.1:(\d+)/.exec(said);
+      if (found) done(Number(found[1]));
+    };
+    child.stdout.on("data", hear);
+    child.stderr.on("data", hear);
+    child.on("exit", () => failed(new Error(said)));
+  });
+  return { port, end: () => child.kill() };
+}
+
+const square = readFileSync(join(root, "examples/polygons.bas"), "utf8");
+const dance = readFileSync(join(root, "examples/waltz.macro"), "utf8");
+const uploads = [
+  { name: "a program", files: { "a.bas": square }, names: ["a.bas"], run: true },
+  { name: "a program into flash", files: { "a.bas": square }, names: ["a.bas"], area: "flash" },
+  { name: "macros", files: { "a.macro": dance }, names: ["a.macro"] },
+];
+const faults = ["", "drop=3%,seed=7", "flip=2%,seed=3", "dup=5%,seed=5", "split,delay=1..5ms,seed=2", "cut@300"];
+/** Without figures of the time, and with one word for a ball that is gone or silent: a recording only ends. */
+const comparable = message => message.replace(/^orb: (error: )?/, "").replace(/, \d+ packets sent.*/s, "")
+  .replace(/the other end hung up|the ball did not answer|the recording ends[^;]*/, "gone");
+
+/** What orb itself says when it hears what this upload heard: other bytes than ours would be a mismatch. */
+async function native_outcome({ files, names, area, run }, recording) {
+  const { code, err } = await orb(["upload", ...names, "--port", "replay://recording", ...area ? ["--area", area] : [], ...run ? ["--run"] : []],
+    { ...files, recording: recording.join("\n") + "\n" });
+  return { code, message: comparable(err.trim().split("\n").pop()) };
+}
+const async_engine = { call: async (method, params) => engine.call(method, params) };
+for (const fault of faults)
+  for (const upload of uploads) {
+    const served = await ball(...fault ? ["--fault", fault] : []);
+    const recording = [];
+    const link = await tcp_link(served.port, recording);
+    const outcome = await deliver(async_engine, link, upload);
+    await link.close();
+    served.end();
+    const native = await native_outcome(upload, recording);
+    same("upload", `${upload.name}, ${fault || "a good link"}`, { code: outcome.code, message: comparable(outcome.message) }, native);
+  }
+
+console.log(Object.entries(counts).map(([kind, count]) => `${count} ${kind}`).join(", ") + (failures ? `: ${failures} differ` : ": all alike"));
+process.exit(failures ? 1 : 0);
