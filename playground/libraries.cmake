@@ -22,11 +22,14 @@ add_library(Threads::Threads INTERFACE IMPORTED) # there are none
 set(fmt ${ORB_SOURCES}/fmtlib-9.1.0+ds1)
 add_library(orb_fmt STATIC ${fmt}/src/format.cc)
 target_include_directories(orb_fmt SYSTEM PUBLIC ${fmt}/include)
+target_compile_definitions(orb_fmt PRIVATE FMT_STATIC_THOUSANDS_SEPARATOR=',') # no locales
+target_compile_options(orb_fmt PRIVATE -fignore-exceptions)
 add_library(fmt::fmt ALIAS orb_fmt)
 
 set(pugixml ${ORB_SOURCES}/pugixml-1.13/src)
 add_library(orb_pugixml STATIC ${pugixml}/pugixml.cpp)
 target_include_directories(orb_pugixml SYSTEM PUBLIC ${pugixml})
+target_compile_options(orb_pugixml PRIVATE -fignore-exceptions)
 add_library(pugixml::pugixml ALIAS orb_pugixml)
 
 set(pcre2 ${ORB_SOURCES}/pcre2-10.42/src)
@@ -41,6 +44,7 @@ list(TRANSFORM pcre2_files REPLACE "(.+)" "${pcre2}/pcre2_\\1.c")
 add_library(orb_pcre2 STATIC ${pcre2_files} ${pcre2_made}/pcre2_chartables.c)
 target_include_directories(orb_pcre2 SYSTEM PUBLIC ${pcre2_made})
 target_include_directories(orb_pcre2 PRIVATE ${pcre2})
+# Without Unicode, whose tables are large: patterns search bytes, and ECMAScript has `\p{}` only with its flag `u`.
 target_compile_definitions(orb_pcre2 PUBLIC PCRE2_STATIC
-  PRIVATE HAVE_CONFIG_H PCRE2_CODE_UNIT_WIDTH=8 SUPPORT_PCRE2_8 SUPPORT_UNICODE NEWLINE_DEFAULT=2)
+  PRIVATE HAVE_CONFIG_H PCRE2_CODE_UNIT_WIDTH=8 SUPPORT_PCRE2_8 NEWLINE_DEFAULT=2)
 add_library(PkgConfig::PCRE2 ALIAS orb_pcre2)
