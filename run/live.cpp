@@ -66,7 +66,8 @@ public:
       start_ = at;
       from_ = From::Now;
     }
-    const bool was_idle = ball_->idle(); // of what goes on afterwards only how it ended counts
+    // Of what goes on afterwards only how it ended counts.
+    const bool was_idle = ball_->idle() && !may_be_answered();
     if (!take(event) && was_idle) {
       over_ = at;
       roll_out(at, event);
@@ -87,6 +88,8 @@ public:
   /// It ends though something still runs.
   bool is_over_early() const { return enough_ || seen() != Sought::Nothing; }
   void stop() { enough_ = true; }
+  /// Somebody is there who may give the number that it waits for.
+  void keep_waiting() { waits_on_ = true; }
 
   Instant start() const { return start_; }
   std::optional<Instant> over() const { return over_; } ///< since then nothing runs any more
@@ -112,6 +115,8 @@ public:
   }
 
 private:
+  bool may_be_answered() const { return waits_on_ && ball_->machine().waits_for_input(); }
+
   /// After the end of the program only what the ball's motion leads to counts.
   void roll_out(Instant at, const vm::Event& event) {
     if (until_ == Until::Rest && (std::holds_alternative<vm::event::Bump>(event) ||
@@ -198,6 +203,7 @@ private:
   const compiler::Target& target_;
   Until until_;
   bool enough_ = false;
+  bool waits_on_ = false;
   Listener& listener_;
   report::Journey* journey_;
   std::optional<NamedValues> names_; ///< for the journey, of the first program
@@ -414,6 +420,7 @@ bool Live::advance(Duration t) {
 }
 
 void Live::wait(Duration t) {
+  state_->watcher.keep_waiting();
   state_->ball.advance_to(std::max(state_->ball.now(), state_->watcher.start() + t));
 }
 
