@@ -275,10 +275,14 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
                    fmt::format("cannot make the folder of {}: {}", file, error.message()));
   }
   const auto edited = with_ball(text, name, url);
-  Config config; // what will be read of it
-  if (auto read = read_text_into(config, file, edited); !read)
-    return unsaved(ExitCode::Usage, read.error().message);
-  if (config.balls[name] != url)
+  Config before;
+  Config after; // what will be read of it
+  using Reading = std::pair<Config*, const std::string*>;
+  for (const auto& [config, words] : {Reading{&before, &text}, Reading{&after, &edited}})
+    if (auto read = read_text_into(*config, file, *words); !read)
+      return unsaved(ExitCode::Usage, read.error().message);
+  before.balls[name] = url;
+  if (after.balls != before.balls || after.settings != before.settings)
     return unsaved(
         ExitCode::Usage,
         fmt::format("{0}: the balls in it are written in a way that is not edited; write "

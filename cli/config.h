@@ -17,6 +17,7 @@ struct Setting {
   std::string command; ///< the section: a command's name, or empty for all commands
   std::string option;  ///< the long option's name without dashes
   std::vector<std::string> values;
+  bool operator==(const Setting&) const = default;
 };
 
 /// What the configuration files say: `orb.toml`, found by walking up from the working folder, over

@@ -64,8 +64,10 @@ struct Options {
   std::vector<std::string> saved;
 };
 
-/// A robot that can be flashed comes by its name, where it is the only one of that name.
-Json describe(const uploader::SeenDevice& device, const std::vector<uploader::SeenDevice>& all) {
+/// A robot that can be flashed comes by its name, where it is the only one of that name. Who has
+/// given it another one is told so.
+Json describe(const Config& config, const uploader::SeenDevice& device,
+              const std::vector<uploader::SeenDevice>& all) {
   const auto* robot = spec::find_ble_name(device.name);
   const auto same = std::ranges::count(all, device.name, &uploader::SeenDevice::name);
   const auto by_name = robot != nullptr && same == 1;
@@ -73,6 +75,9 @@ Json describe(const uploader::SeenDevice& device, const std::vector<uploader::Se
   if (device.rssi)
     what += fmt::format(", {} dBm", *device.rssi);
   what += by_name ? ", " + device.address : device.name.empty() ? "" : ", " + device.name;
+  for (const auto& [name, url] : config.balls)
+    if (equal_words(url, "ble://" + device.name) || equal_words(url, "ble://" + device.address))
+      what += ", @" + name;
   if (device.connected)
     what += ", connected to this computer";
   if (robot != nullptr && robot->protocol == spec::BleProtocol::V2)
@@ -112,7 +117,7 @@ void add_robots(const Context& context, const std::vector<uploader::SeenDevice>&
   std::size_t others = 0;
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) != nullptr)
-      ports.push_back(describe(device, devices));
+      ports.push_back(describe(context.config, device, devices));
     else
       ++others;
   if (others == 0)
@@ -122,7 +127,7 @@ void add_robots(const Context& context, const std::vector<uploader::SeenDevice>&
                                            plural(others, "other device")));
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) == nullptr)
-      ports.push_back(describe(device, devices));
+      ports.push_back(describe(context.config, device, devices));
 }
 
 void list(Context& context, const Options& options) {
@@ -149,7 +154,7 @@ void list(Context& context, const Options& options) {
 /// Gives a port a name in the user's configuration.
 void save(Context& context, const std::string& assignment) {
   const auto equals = assignment.find('=');
-  if (equals == assignment.npos)
+  if (equals == assignment.npos || equals + 1 == assignment.size())
     return fail(context, {ExitCode::Usage, fmt::format("`{}` names no port; write `--save "
                                                        "red=ble://SK-1A2B`",
                                                        assignment)});

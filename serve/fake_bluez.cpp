@@ -29,6 +29,8 @@ constexpr auto adapter_interface = "org.bluez.Adapter1";
 constexpr auto device_interface = "org.bluez.Device1";
 constexpr auto service_interface = "org.bluez.GattService1";
 constexpr auto characteristic_interface = "org.bluez.GattCharacteristic1";
+constexpr auto agents_interface = "org.bluez.AgentManager1"; // where programs look for BlueZ
+constexpr auto agents_path = "/org/bluez";
 constexpr auto adapter_path = "/org/bluez/hci0";
 constexpr auto adapter_address = "00:11:22:33:44:55"; // of nobody
 
@@ -106,7 +108,8 @@ private:
   Random random_;
   PrivateBus bus_;
   std::unique_ptr<sdbus::IConnection> connection_;
-  asio::posix::stream_descriptor socket_; ///< the connection's own
+  asio::posix::stream_descriptor socket_;  ///< the connection's own
+  std::unique_ptr<sdbus::IObject> agents_; ///< nobody pairs with a robot
   std::unique_ptr<sdbus::IObject> adapter_;
   std::vector<std::string> listeners_; ///< clients that scan
   std::vector<Robot*> robots_;
@@ -216,6 +219,11 @@ tl::expected<void, IoError> FakeBluez::Computer::open() {
             forget(name);
         },
         sdbus::floating_slot);
+    agents_ = sdbus::createObject(*connection_, agents_path);
+    agents_->registerMethod("RequestDefaultAgent")
+        .onInterface(agents_interface)
+        .implementedAs([](const sdbus::ObjectPath&) {});
+    agents_->finishRegistration();
     if (!plan_.no_adapter)
       publish();
     socket_.assign(connection_->getEventLoopPollData().fd);

@@ -181,7 +181,7 @@ private:
 
   bool is_meant(const SeenDevice& device) const {
     return endpoint_.name.empty() ? equal_words(device.address, to_string(endpoint_.address))
-                                  : device.name == endpoint_.name;
+                                  : equal_words(device.name, endpoint_.name);
   }
 
   /// The devices that are near and are the one that is meant, by their paths.

@@ -72,6 +72,8 @@ tl::expected<Endpoint, std::string> read_ble(Endpoint endpoint, std::string_view
                                 "`ble://SK-1A2B`; `orb ports` lists them");
   if (const auto address = parse_bluetooth_address(rest))
     endpoint.address = *address;
+  else if (rest.find_first_of(":/") != rest.npos) // no robot's name
+    return wrong(endpoint.text, "a Bluetooth address is written `ble://AA:BB:CC:DD:EE:FF`");
   else
     endpoint.name = rest;
   return endpoint;
@@ -137,6 +139,11 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
     endpoint.scheme = Scheme::Serial;
     return read_path(endpoint, url);
   }
+  if (parse_bluetooth_address(url))
+    return wrong(
+        url, fmt::format("a Sphero is `rfcomm://{0}`, a SPRK+, BB-8 or Ollie `ble://{0}`", url));
+  if (spec::find_ble_name(url) != nullptr)
+    return wrong(url, fmt::format("did you mean `ble://{}`?", url));
   const auto colon = url.find("://");
   const auto word = colon == url.npos ? url : url.substr(0, colon + 3);
   return wrong(url, did_you_mean(word, schemes, fmt::format("it is written {}", forms)));

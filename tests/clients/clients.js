@@ -1,17 +1,19 @@
-// Lets two independent client libraries, unmodified, drive `orb ball` over TCP and a pty.
+// Lets two independent client libraries, unmodified, drive `orb ball` over TCP and a pty, one of them
+// over Bluetooth LE too.
 //
-//   node clients.js ORB FOLDER   (FOLDER holds node_modules with sphero and sphero-pwn)
+//   node clients.js ORB FOLDER   (FOLDER holds node_modules with sphero, sphero-pwn and node-ble)
 "use strict";
 
 const assert = require("assert");
-const { spawn } = require("child_process");
+const { execFileSync, spawn } = require("child_process");
 const fs = require("fs");
 const Module = require("module");
 const path = require("path");
+const BleAdaptor = require("./ble_adaptor.js");
 
 const [orb, folder] = process.argv.slice(2).map((name) => path.resolve(name));
 
-// Their native dependencies are old; ours stand in. Bluetooth LE is not needed here.
+// Their native dependencies are old; ours stand in.
 const load = Module._load;
 Module._load = function (name, ...rest) {
   if (name === "serialport") return require("./serialport.js");
@@ -74,12 +76,26 @@ async function serve(use) {
   }
 }
 
+// A ball behind a Bluetooth LE of its own.
+async function serveBle(use) {
+  const ball = spawn(orb, ["ball", "--bluez"], { stdio: ["ignore", "pipe", "inherit"] });
+  try {
+    const text = await next(ball.stdout, "data", 20000);
+    const [, name, bus] = /^ble ble:\/\/(\S+) DBUS_SYSTEM_BUS_ADDRESS=(\S+)$/m.exec(text);
+    process.env.DBUS_SYSTEM_BUS_ADDRESS = bus;
+    const info = JSON.parse(execFileSync(orb, ["info", "--format", "json", "--port", `ble://${name}`]));
+    await use(info.address.match(/../g).join(":"));
+  } finally {
+    ball.kill("SIGTERM");
+  }
+}
+
 const program = Buffer.from('10 print "Hello from Basic"\n20 end\n\0');
 const macro = Buffer.from([0x14, 0x15, 0xaa, 0x15, 0xbb, 0x00]); // flags, two markers, end
 
 // The vendor's own library: parses one packet per read, waits 500 ms for an answer.
-async function sphero(address, pushed) {
-  const ball = client("sphero")(address);
+async function sphero(address, pushed, options = {}) {
+  const ball = client("sphero")(address, options);
   await within(3000, "connect", ball.connect());
   try {
     await drive(ball, pushed);
@@ -204,6 +220,10 @@ async function main() {
       await run(`sphero collides over ${link}`, () => sphero(pushed[link], true));
     await pushed.stop();
   });
+  const hasBle = /LE: BlueZ/.test(execFileSync(orb, ["--version", "-v"]));
+  if (hasBle)
+    await serveBle((address) => run("sphero over Bluetooth LE", () =>
+      sphero(address, false, { adaptor: new BleAdaptor(client("node-ble"), address) })));
   process.exit(failed === 0 ? 0 : 1);
 }
 

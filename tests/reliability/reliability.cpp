@@ -226,21 +226,24 @@ Tally run_profile(std::string_view words, int uploads, Counting counting = Count
   return tally;
 }
 
-/// The same above a GATT: packets in pieces of 20 bytes, notifications of 1 to 20. The faults of
-/// the plan happen to the packets, those of `gatt` to the pieces.
-Tally run_ble(std::string_view words, protocol::BleFaultPlan gatt, int uploads) {
+/// The link above a GATT: packets in pieces of 20 bytes, notifications of 1 to 20. The faults of
+/// the link happen to the packets, those of `gatt` to the pieces.
+auto over_ble(std::unique_ptr<protocol::Transport> link, protocol::BleFaultPlan gatt) {
   constexpr Duration piece_interval = 30ms;
-  auto plan = words.empty() ? FaultPlan{} : *protocol::parse_fault_plan(words);
   gatt.pieces_least = 1;
+  return uploader::open_ble(std::make_unique<test::GattBall>(std::move(link), gatt, piece_interval),
+                            uploader::ble_budgets({}), [] { return 0; }, {});
+}
+
+Tally run_ble(std::string_view words, protocol::BleFaultPlan gatt, int uploads) {
+  auto plan = words.empty() ? FaultPlan{} : *protocol::parse_fault_plan(words);
   const auto budgets = uploader::ble_budgets({});
   Tally tally;
   for (int i = 1; i <= uploads; ++i) {
     plan.seed = gatt.seed = static_cast<std::uint64_t>(i);
     const auto job = job_for(plan.seed);
     const auto ball = make_ball(plan.seed);
-    auto link = uploader::open_ble(
-        std::make_unique<test::GattBall>(connect(*ball, plan), gatt, piece_interval), budgets,
-        [] { return 0; }, {});
+    auto link = over_ble(connect(*ball, plan), gatt);
     const auto first_seq = static_cast<std::uint8_t>(Random{plan.seed * 7919}.next());
     if (link)
       tally.add(upload_once(**link, job, first_seq, budgets), *ball, job);
@@ -473,34 +476,38 @@ void add_flips(Page& page) {
   page.add("\n");
 }
 
+/// Breaks the link after each byte of one direction, and uploads again over a new one.
+void add_cuts(Page& page, const ProgramJob& job, bool to_ball, bool ble) {
+  const auto traffic = measure(job);
+  const auto budgets = ble ? uploader::ble_budgets({}) : uploader::Budgets{};
+  const auto open = [&](vm::Ball& ball, const FaultPlan& plan) {
+    return ble ? *over_ble(connect(ball, plan), {}) : connect(ball, plan);
+  };
+  Tally first;
+  Tally second;
+  for (std::uint64_t byte = 0; byte <= (to_ball ? traffic.to_ball : traffic.from_ball); ++byte) {
+    FaultPlan plan;
+    (to_ball ? plan.cut : plan.cut_answer) = byte;
+    const auto ball = make_ball(1);
+    first.add(upload_once(*open(*ball, plan), job, 0, budgets), *ball, job);
+    second.add(upload_once(*open(*ball, {}), job, 0x99, budgets), *ball, job);
+  }
+  page.add(fmt::format("| {} | {} the ball | {} | {} | {} | {} |\n",
+                       ble ? "Bluetooth LE" : "stream", to_ball ? "to" : "from",
+                       job.area == Area::Ram ? "RAM" : "flash", first.runs, tally_cells(first),
+                       tally_cells(second)));
+  page.check(first.honest() && second.honest() && second.done == second.runs, "cuts");
+}
+
 void add_cuts(Page& page) {
   page.add("## Cut after every byte\n\nThe link breaks after each byte in turn; the report is "
            "compared with the ball, then the program is\nuploaded again over a new link.\n\n| "
-           "direction | area | cuts | first report | second upload |\n|---|---|---|---|---|\n");
-  for (const auto area : {Area::Ram, Area::Flash}) {
-    const ProgramJob job{program_of(sixty_lines, line_width), area, {}};
-    const auto traffic = measure(job);
-    for (const bool to_ball : {true, false}) {
-      Tally first;
-      Tally second;
-      for (std::uint64_t byte = 0; byte <= (to_ball ? traffic.to_ball : traffic.from_ball);
-           ++byte) {
-        FaultPlan plan;
-        (to_ball ? plan.cut : plan.cut_answer) = byte;
-        const auto ball = make_ball(1);
-        {
-          const auto link = connect(*ball, plan);
-          first.add(upload_once(*link, job, 0), *ball, job);
-        }
-        const auto link = connect(*ball, {});
-        second.add(upload_once(*link, job, 0x99), *ball, job);
-      }
-      page.add(fmt::format("| {} the ball | {} | {} | {} | {} |\n", to_ball ? "to" : "from",
-                           area == Area::Ram ? "RAM" : "flash", first.runs, tally_cells(first),
-                           tally_cells(second)));
-      page.check(first.honest() && second.honest() && second.done == second.runs, "cuts");
-    }
-  }
+           "link | direction | area | cuts | first report | second upload "
+           "|\n|---|---|---|---|---|---|\n");
+  for (const bool ble : {false, true})
+    for (const auto area : {Area::Ram, Area::Flash})
+      for (const bool to_ball : {true, false})
+        add_cuts(page, {program_of(sixty_lines, line_width), area, {}}, to_ball, ble);
   page.add("\n");
 }
 
