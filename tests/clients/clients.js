@@ -96,7 +96,7 @@ const macro = Buffer.from([0x14, 0x15, 0xaa, 0x15, 0xbb, 0x00]); // flags, two m
 // The vendor's own library: parses one packet per read, waits 500 ms for an answer.
 async function sphero(address, pushed, options = {}) {
   const ball = client("sphero")(address, options);
-  await within(3000, "connect", ball.connect());
+  await within(20000, "connect", ball.connect()); // over Bluetooth LE it looks for the ball first
   try {
     await drive(ball, pushed);
   } finally {
