@@ -10,4 +10,6 @@ set_target_properties(fmt_static PROPERTIES ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BIN
 set_target_properties(fmt::fmt PROPERTIES IMPORTED_LOCATION_NONE ${CMAKE_BINARY_DIR}/static/libfmt_static.a)
 add_dependencies(fmt::fmt fmt_static)
 set_target_properties(pugixml::pugixml PROPERTIES INTERFACE_LINK_LIBRARIES pugixml::static)
-add_link_options(-static)
+# Position-independent, as Debian compiles anyway: in a plain static program gcc's runtime sorts the tables of all
+# functions before the first exception, and CLI11 ends `--version` with one: 11 ms instead of 4.
+add_link_options(-static-pie)
