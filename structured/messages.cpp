@@ -32,6 +32,16 @@ char sign_before(std::string_view text, std::uint32_t at) {
   return at == 0 ? '\n' : text[at - 1];
 }
 
+/// The name or word that ends before a place, blanks apart.
+Span word_before(std::string_view text, std::uint32_t at) {
+  while (at > 0 && is_blank(text[at - 1]))
+    --at;
+  auto begin = at;
+  while (begin > 0 && is_name_char(text[begin - 1]))
+    --begin;
+  return {begin, at};
+}
+
 bool begins_line(std::string_view text, std::uint32_t at) {
   while (at > 0 && is_blank(text[at - 1]))
     --at;
@@ -126,15 +136,10 @@ Diagnostic missing_value(const Program& program, Span found) {
 
 /// Values after a name without parentheses: a statement that is misspelt, or a call.
 Diagnostic naked_arguments(const Program& program, Span found) {
-  auto end = found.begin;
-  while (end > 0 && is_blank(program.text[end - 1]))
-    --end;
-  auto begin = end;
-  while (begin > 0 && is_name_char(program.text[begin - 1]))
-    --begin;
-  if (auto known = foreign(program, {begin, end}, Place::Statement))
+  const auto called = word_before(program.text, found.begin);
+  if (auto known = foreign(program, called, Place::Statement))
     return *std::move(known);
-  const auto word = std::string(program.text_of({begin, end}));
+  const auto word = std::string(program.text_of(called));
   if (spec::find_operator(program.text[found.begin]))
     return malformed(program, found, "a value is no statement",
                      fmt::format("write `{0} = {0} + 1`, or `print {0}`", word));
@@ -142,7 +147,7 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   for (const auto& row : spec::statements)
     statements.push_back(row.word);
   if (const auto meant = closest(word, statements))
-    return finding(rules::UnknownName, {begin, end},
+    return finding(rules::UnknownName, called,
                    fmt::format("`{}` is neither a statement nor a sub", word),
                    fmt::format("did you mean `{}`?", *meant));
   return malformed(program, found, "the arguments of a call stand in parentheses");
@@ -168,16 +173,11 @@ std::optional<Span> word_for_name(const Program& program, Reason reason, Span fo
                                                                    : std::nullopt;
   if (!assigns(text, found.begin))
     return std::nullopt;
-  auto end = found.begin;
-  while (end > 0 && is_blank(text[end - 1]))
-    --end;
-  auto begin = end;
-  while (begin > 0 && is_name_char(text[begin - 1]))
-    --begin;
-  const auto before = find_word(program.text_of({begin, end})).kind;
+  const auto word = word_before(text, found.begin);
+  const auto before = find_word(program.text_of(word)).kind;
   if (before != WordKind::Statement && before != WordKind::Keyword)
     return std::nullopt;
-  return Span{begin, end};
+  return word;
 }
 
 bool is_foreign(char c) {
@@ -307,6 +307,12 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::ExpectedParenthesis: return malformed(program, found, "a parenthesis is missing");
   case Reason::ExpectedOperand:
     return malformed(program, found, "a function takes its value in parentheses", functions());
+  case Reason::ExpectedOne:
+    return finding(rules::ArgumentCount, found, fmt::format("`{}` takes one value", text),
+                   fmt::format("write `{}(e)`", text));
+  case Reason::ExpectedTwo:
+    return finding(rules::ArgumentCount, found, fmt::format("`{}` takes two values", text),
+                   fmt::format("write `{}(a, b)`", text));
   case Reason::ExpectedQuote:
     return finding(rules::MalformedLine, found, "the text has no closing `\"`");
   case Reason::ExpectedFile:

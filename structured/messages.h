@@ -23,6 +23,8 @@ enum class Reason : std::uint8_t {
   ExpectedBracket, ///< `[` or `]`
   ExpectedParenthesis,
   ExpectedOperand, ///< `abs` without parentheses
+  ExpectedOne,     ///< `rnd(1, 6)`
+  ExpectedTwo,     ///< `max(1)`
   ExpectedQuote,
   ExpectedFile,
   NotAStatement,  ///< a statement begins with a word that begins none

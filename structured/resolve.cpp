@@ -2,7 +2,6 @@
 #include "structured/names.h"
 
 #include "base/suggest.h"
-#include "bytecode/arithmetic.h"
 #include "spec/limits.h"
 #include "structured/blocks.h"
 #include "structured/messages.h"
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace orb::structured {
@@ -115,13 +113,19 @@ private:
     d.notes.push_back({first.span, "declared here"});
   }
 
+  /// What statement `i` declares by its name.
+  Symbol named(SymbolKind kind, std::uint32_t i) const {
+    Symbol symbol;
+    symbol.kind = kind;
+    symbol.name = program_.statements[i].name;
+    symbol.statement = i;
+    symbol.span = program_.statements[i].name_span;
+    return symbol;
+  }
+
   void declare_routine(std::uint32_t i) {
     const auto& statement = program_.statements[i];
-    Symbol symbol;
-    symbol.kind = statement.kind == Kind::Sub ? SymbolKind::Sub : SymbolKind::Function;
-    symbol.name = statement.name;
-    symbol.statement = i;
-    symbol.span = statement.name_span;
+    auto symbol = named(statement.kind == Kind::Sub ? SymbolKind::Sub : SymbolKind::Function, i);
     symbol.routine = static_cast<std::uint32_t>(names_.routines.size());
     Routine routine;
     routine.statement = i;
@@ -143,13 +147,8 @@ private:
   }
 
   void declare_constant(std::uint32_t i) {
-    const auto& statement = program_.statements[i];
-    Symbol symbol;
-    symbol.kind = SymbolKind::Constant;
-    symbol.name = statement.name;
-    symbol.statement = i;
-    symbol.span = statement.name_span;
-    if (const auto value = constant(statement.items_begin)) {
+    auto symbol = named(SymbolKind::Constant, i);
+    if (const auto value = constant(program_.statements[i].items_begin)) {
       symbol.value = value->value;
       symbol.duration = value->duration;
     }
@@ -159,11 +158,7 @@ private:
   void declare_array(std::uint32_t i) {
     const auto& statement = program_.statements[i];
     const auto most = spec::value_of(spec::Limit::IndexedVariables);
-    Symbol symbol;
-    symbol.kind = SymbolKind::Array;
-    symbol.name = statement.name;
-    symbol.statement = i;
-    symbol.span = statement.name_span;
+    auto symbol = named(SymbolKind::Array, i);
     symbol.base = names_.elements;
     const auto size = constant(statement.items_begin);
     if (size && (size->value < 1 || size->value > most - names_.elements)) {
@@ -578,93 +573,10 @@ private:
   bool broken_ = false;
 };
 
-using bytecode::wrap;
-
-std::optional<std::int32_t> combine(spec::Operator op, std::int32_t a, std::int32_t b) {
-  const bool shift = b >= 0 && b <= spec::value_of(spec::Limit::GreatestShift);
-  switch (op) {
-  case spec::Operator::Multiply: return bytecode::multiply(a, b);
-  case spec::Operator::Divide: return b == 0 ? std::nullopt : std::optional(bytecode::divide(a, b));
-  case spec::Operator::Remainder:
-    return b == 0 ? std::nullopt : std::optional(bytecode::remainder(a, b));
-  case spec::Operator::ShiftLeft:
-    return shift ? std::optional(bytecode::shift_left(a, b)) : std::nullopt;
-  case spec::Operator::ShiftRight:
-    return shift ? std::optional(bytecode::shift_right(a, b)) : std::nullopt;
-  case spec::Operator::Add: return bytecode::add(a, b);
-  case spec::Operator::Subtract: return bytecode::subtract(a, b);
-  case spec::Operator::And: return a & b;
-  case spec::Operator::Or: return a | b;
-  }
-  return std::nullopt;
-}
-
 } // namespace
 
 Names resolve(Program& program) {
   return Resolver(program).run();
-}
-
-std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root) {
-  if (const auto& leaf = program.nodes[root]; leaf.kind == NodeKind::Number)
-    return Constant{leaf.value, false};
-  std::vector<Constant> stack;
-  const auto pop = [&] {
-    const auto top = stack.back();
-    stack.pop_back();
-    return top;
-  };
-  for (auto n = program.nodes[root].first; n <= root; ++n) {
-    const auto& node = program.nodes[n];
-    switch (node.kind) {
-    case NodeKind::Number: stack.push_back({node.value, false}); break;
-    case NodeKind::Duration: stack.push_back({node.value, true}); break;
-    case NodeKind::Name: {
-      const auto index = names.of_node[n];
-      if (index == none || names.symbols[index].kind != SymbolKind::Constant)
-        return std::nullopt;
-      stack.push_back({names.symbols[index].value, names.symbols[index].duration});
-      break;
-    }
-    case NodeKind::Negate: stack.back().value = bytecode::subtract(0, stack.back().value); break;
-    case NodeKind::Builtin: {
-      auto& value = stack.back().value;
-      const auto function = static_cast<spec::Function>(node.what);
-      if (function == spec::Function::Rnd || (function == spec::Function::Sqrt && value < 0))
-        return std::nullopt;
-      value = function == spec::Function::Abs
-                  ? bytecode::absolute(value)
-                  : static_cast<std::int32_t>(std::sqrt(static_cast<double>(value)));
-      break;
-    }
-    case NodeKind::Least:
-    case NodeKind::Greatest: {
-      const auto b = pop();
-      auto& a = stack.back();
-      a.value =
-          node.kind == NodeKind::Least ? std::min(a.value, b.value) : std::max(a.value, b.value);
-      a.duration = a.duration || b.duration;
-      break;
-    }
-    case NodeKind::Binary: {
-      const auto b = pop();
-      auto& a = stack.back();
-      const auto value = combine(static_cast<spec::Operator>(node.what), a.value, b.value);
-      if (!value)
-        return std::nullopt;
-      a = {*value, a.duration || b.duration};
-      break;
-    }
-    case NodeKind::System:
-    case NodeKind::Element:
-    case NodeKind::Call:
-    case NodeKind::Relation:
-    case NodeKind::Not:
-    case NodeKind::And:
-    case NodeKind::Or: return std::nullopt;
-    }
-  }
-  return stack.back();
 }
 
 } // namespace orb::structured

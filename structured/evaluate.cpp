@@ -1,0 +1,94 @@
+#include "bytecode/arithmetic.h"
+#include "spec/limits.h"
+#include "structured/names.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orb::structured {
+namespace {
+
+std::optional<std::int32_t> combine(spec::Operator op, std::int32_t a, std::int32_t b) {
+  const bool shift = b >= 0 && b <= spec::value_of(spec::Limit::GreatestShift);
+  switch (op) {
+  case spec::Operator::Multiply: return bytecode::multiply(a, b);
+  case spec::Operator::Divide: return b == 0 ? std::nullopt : std::optional(bytecode::divide(a, b));
+  case spec::Operator::Remainder:
+    return b == 0 ? std::nullopt : std::optional(bytecode::remainder(a, b));
+  case spec::Operator::ShiftLeft:
+    return shift ? std::optional(bytecode::shift_left(a, b)) : std::nullopt;
+  case spec::Operator::ShiftRight:
+    return shift ? std::optional(bytecode::shift_right(a, b)) : std::nullopt;
+  case spec::Operator::Add: return bytecode::add(a, b);
+  case spec::Operator::Subtract: return bytecode::subtract(a, b);
+  case spec::Operator::And: return a & b;
+  case spec::Operator::Or: return a | b;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root) {
+  if (const auto& leaf = program.nodes[root]; leaf.kind == NodeKind::Number)
+    return Constant{leaf.value, false};
+  std::vector<Constant> stack;
+  const auto pop = [&] {
+    const auto top = stack.back();
+    stack.pop_back();
+    return top;
+  };
+  for (auto n = program.nodes[root].first; n <= root; ++n) {
+    const auto& node = program.nodes[n];
+    switch (node.kind) {
+    case NodeKind::Number: stack.push_back({node.value, false}); break;
+    case NodeKind::Duration: stack.push_back({node.value, true}); break;
+    case NodeKind::Name: {
+      const auto index = names.of_node[n];
+      if (index == none || names.symbols[index].kind != SymbolKind::Constant)
+        return std::nullopt;
+      stack.push_back({names.symbols[index].value, names.symbols[index].duration});
+      break;
+    }
+    case NodeKind::Negate: stack.back().value = bytecode::subtract(0, stack.back().value); break;
+    case NodeKind::Builtin: {
+      auto& value = stack.back().value;
+      const auto function = static_cast<spec::Function>(node.what);
+      if (function == spec::Function::Rnd || (function == spec::Function::Sqrt && value < 0))
+        return std::nullopt;
+      value = function == spec::Function::Abs
+                  ? bytecode::absolute(value)
+                  : static_cast<std::int32_t>(std::sqrt(static_cast<double>(value)));
+      break;
+    }
+    case NodeKind::Least:
+    case NodeKind::Greatest: {
+      const auto b = pop();
+      auto& a = stack.back();
+      a.value =
+          node.kind == NodeKind::Least ? std::min(a.value, b.value) : std::max(a.value, b.value);
+      a.duration = a.duration || b.duration;
+      break;
+    }
+    case NodeKind::Binary: {
+      const auto b = pop();
+      auto& a = stack.back();
+      const auto value = combine(static_cast<spec::Operator>(node.what), a.value, b.value);
+      if (!value)
+        return std::nullopt;
+      a = {*value, a.duration || b.duration};
+      break;
+    }
+    case NodeKind::System:
+    case NodeKind::Element:
+    case NodeKind::Call:
+    case NodeKind::Relation:
+    case NodeKind::Not:
+    case NodeKind::And:
+    case NodeKind::Or: return std::nullopt;
+    }
+  }
+  return stack.back();
+}
+
+} // namespace orb::structured
