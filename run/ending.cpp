@@ -90,8 +90,8 @@ std::string_view to_string(Reason reason) {
 
 std::string to_string(const Ending& ending) {
   const auto ms = ending.lasted / 1ms;
-  return fmt::format("{} after {}.{:03} s of robot time, {} lines", verb(ending.reason), ms / 1000,
-                     ms % 1000, ending.lines);
+  return fmt::format("{} after {}.{:03} s of robot time, {}", verb(ending.reason), ms / 1000,
+                     ms % 1000, plural(ending.lines, "line"));
 }
 
 std::string story(const Ending& ending) {
