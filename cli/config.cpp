@@ -323,7 +323,7 @@ tl::expected<std::string, ConfigError> resolve_port(const Config& config, const 
     names.push_back(known);
   return tl::unexpected(ConfigError{fmt::format(
       "no ball is called `{}`{}", name,
-      names.empty() ? "; name balls in orb.toml: [balls] red = \"rfcomm://68:86:E7:00:11:22\""
+      names.empty() ? fmt::format("; `orb ports --save {}=URL` gives one that name", name)
                     : meant_instead(name, names))});
 }
 
