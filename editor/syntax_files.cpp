@@ -2,102 +2,18 @@
 
 #include "editor/directives.h"
 #include "editor/snippets.h"
-#include "editor/words.h"
-#include "spec/basic.h"
-#include "spec/macro.h"
-#include "structured/words.h"
-#include "testing/vocabulary.h"
-#include "vm/stimulus.h"
+#include "editor/tree_sitter.h"
+#include "editor/word_lists.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace orb::editor {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Words = std::vector<std::string_view>;
-
-// ---- the words, as an editor colours them
-
-Words control_words() {
-  Words words(spec::particles.begin(), spec::particles.end());
-  for (const auto& row : spec::statements)
-    if (directs_the_flow(row))
-      words.push_back(row.word);
-  return words;
-}
-
-Words statement_words() {
-  Words words;
-  for (const auto& row : spec::statements)
-    if (!directs_the_flow(row))
-      words.push_back(row.word);
-  return words;
-}
-
-Words function_words() {
-  Words words;
-  for (const auto& row : spec::functions)
-    words.push_back(row.word);
-  return words;
-}
-
-Words variable_words() {
-  Words words;
-  for (const auto& row : spec::variables) {
-    words.push_back(row.word);
-    if (!row.old_word.empty())
-      words.push_back(row.old_word);
-  }
-  return words;
-}
-
-Words macro_command_words() {
-  Words words;
-  for (const auto& row : spec::macro_commands)
-    words.push_back(row.mnemonic);
-  return words;
-}
-
-/// The words of structured programs that the robot's tables do not have, and those that end blocks
-/// or jump.
-Words structured_control_words() {
-  auto words = control_words();
-  std::erase_if(words, [](std::string_view word) {
-    return structured::find_word(word).kind == structured::WordKind::Name || word == "gosub" ||
-           word == "on";
-  });
-  for (const auto& row : structured::keywords)
-    if (std::find(words.begin(), words.end(), row.word) == words.end())
-      words.push_back(row.word);
-  return words;
-}
-
-Words structured_statement_words() {
-  auto words = statement_words();
-  std::erase_if(words, [](std::string_view word) {
-    return structured::find_word(word).kind == structured::WordKind::Name; // `let`
-  });
-  return words;
-}
-
-/// Flags and the words that stand for values of operands.
-Words macro_value_words() {
-  Words words;
-  const auto add = [&](std::string_view word) {
-    if (std::find(words.begin(), words.end(), word) == words.end())
-      words.push_back(word);
-  };
-  for (const auto& row : spec::macro_flags)
-    add(row.word);
-  for (const auto& row : spec::macro_commands)
-    for (const auto& operand : row)
-      for (const auto* word = operand.begin_words(); word != operand.end_words(); ++word)
-        add(word->word);
-  return words;
-}
 
 // ---- TextMate grammars
 
@@ -191,32 +107,6 @@ std::string macro_textmate() {
         pattern("constant.numeric.orbmacro",
                 "[-+]?(?:0[xX][0-9A-Fa-f]+|\\d+(?:\\.\\d+)?)(?:ms|s|deg)?(?![A-Za-z0-9_])")}}};
   return grammar.dump(2) + "\n";
-}
-
-Words test_words() {
-  Words words;
-  for (const auto& row : testing::line_words)
-    words.emplace_back(row.word);
-  for (const auto& row : testing::when_words)
-    words.emplace_back(row.word);
-  for (const auto* word : {"by", "to", "times", "points", "end", "macro"})
-    words.emplace_back(word);
-  return words;
-}
-
-Words expectation_words() {
-  Words words;
-  for (const auto& row : testing::expectations)
-    if (&row != &testing::info(testing::Word::Variable))
-      words.emplace_back(row.word);
-  return words;
-}
-
-Words stimulus_words() {
-  Words words;
-  for (const auto& row : vm::stimulus_words)
-    words.emplace_back(row.word);
-  return words;
 }
 
 std::string test_textmate() {
@@ -398,6 +288,8 @@ std::string stimulus_vim() {
 
 std::vector<SyntaxFile> syntax_files() {
   auto files = snippet_files();
+  for (auto& file : tree_sitter_files())
+    files.push_back(std::move(file));
   const std::vector<SyntaxFile> grammars{
       {"vscode/syntaxes/orbbasic.tmLanguage.json", basic_textmate()},
       {"vscode/syntaxes/orbstructured.tmLanguage.json", structured_textmate()},

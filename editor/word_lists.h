@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+// The words of each language, as an editor colours them: printed into every grammar and syntax
+// file.
+
+namespace orb::editor {
+
+using Words = std::vector<std::string_view>;
+
+Words control_words();
+Words statement_words();
+Words function_words();
+Words variable_words();
+
+/// The words of structured programs that the robot's tables do not have, and those that end blocks
+/// or jump.
+Words structured_control_words();
+Words structured_statement_words();
+
+Words macro_command_words();
+/// Flags and the words that stand for values of operands.
+Words macro_value_words();
+
+Words test_words();
+Words expectation_words();
+Words stimulus_words();
+
+} // namespace orb::editor
