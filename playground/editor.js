@@ -201,7 +201,12 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     replace(text) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }); },
     focus: () => view.focus(),
     format: () => formatDocument(view),
-    run_line(line) { view?.dispatch({ effects: set_running.of(line) }); },
+    run_line(line) {
+      if (!view) return;
+      const marked = view.state.field(running).iter();
+      const shown_line = marked.value ? view.state.doc.lineAt(marked.from).number : 0;
+      if (line !== shown_line) view.dispatch({ effects: set_running.of(line) });
+    },
     go_to(line, column = 1) {
       const there = view.state.doc.line(Math.min(Math.max(line, 1), view.state.doc.lines));
       view.dispatch({ selection: { anchor: Math.min(there.from + column - 1, there.to) }, scrollIntoView: true });
