@@ -205,7 +205,11 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
       if (!view) return;
       const marked = view.state.field(running).iter();
       const shown_line = marked.value ? view.state.doc.lineAt(marked.from).number : 0;
-      if (line !== shown_line) view.dispatch({ effects: set_running.of(line) });
+      if (line === shown_line) return;
+      const effects = [set_running.of(line)];
+      // Whoever writes is not moved away from there.
+      if (line >= 1 && line <= view.state.doc.lines && !view.hasFocus) effects.push(EditorView.scrollIntoView(view.state.doc.line(line).from, { y: "nearest", yMargin: 40 }));
+      view.dispatch({ effects });
     },
     go_to(line, column = 1) {
       const there = view.state.doc.line(Math.min(Math.max(line, 1), view.state.doc.lines));

@@ -306,9 +306,9 @@ function make_map(map) {
     const final = pose.t.length - 1;
     pin(pose.x[0], pose.y[0], "start");
     if (!moved) return;
-    pin(pose.x[final], pose.y[final], "end");
+    if (!live) pin(pose.x[final], pose.y[final], "end");
     word(pose.x[0], pose.y[0], "start");
-    word(pose.x[final], pose.y[final], "end");
+    if (!live) word(pose.x[final], pose.y[final], "end");
   }
   function draw_ball(parent) {
     const defs = shape("defs", {}, parent);
@@ -447,7 +447,7 @@ const legend_words = { start: "start", end: "end", bump: "ran into a wall", coll
 function list_signs() {
   $("legend").replaceChildren();
   for (const [kind, words] of Object.entries(legend_words)) {
-    const seen = kind === "start" ? main.pose.t.length : kind === "end" ? moved : runs.some(one => one.run.events.some(event => event.kind === kind && event.x !== undefined));
+    const seen = kind === "start" ? main.pose.t.length : kind === "end" ? moved && !live : runs.some(one => one.run.events.some(event => event.kind === kind && event.x !== undefined));
     if (!seen) continue;
     const item = element("li", { "data-sign": kind });
     mark_art[kind](shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));

@@ -57,7 +57,7 @@ function list(folder) {
     const path = join(folder, entry.name);
     if (entry.isDirectory()) {
       if (path !== join(out, "docs")) list(path); // pages of the docs come when they are read
-    } else if (!/(^sw\.js|\.map|\.br|\.gz)$/.test(entry.name)) files.push(path);
+    } else if (!/(^sw\.js|^LICENSES\.txt|\.map|\.br|\.gz)$/.test(entry.name)) files.push(path);
   }
 }
 list(out);

@@ -1,7 +1,10 @@
-// The licences of what others wrote and the page's script holds.
+// The licences of what others wrote: what is in the page's script, and what is in orb.wasm.
 
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
+
+/** What is linked into orb.wasm, as Debian calls it; emscripten brings the C and C++ libraries. */
+const linked = ["tao-pegtl-dev", "nlohmann-json3-dev", "libexpected-dev", "libfmt-dev", "libpugixml-dev", "libpcre2-dev", "emscripten"];
 
 export function licences(root, metafile) {
   const packages = new Set(Object.keys(metafile.inputs).map(path => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
@@ -12,6 +15,11 @@ export function licences(root, metafile) {
     const file = readdirSync(folder).find(one => /^licen[cs]e/i.test(one));
     if (!file || !existsSync(join(folder, file))) throw new Error(`${name} has no licence beside it`);
     texts.push(`${name} ${version}\n\n${readFileSync(join(folder, file), "utf8").trim()}\n`);
+  }
+  for (const name of linked) {
+    const file = `/usr/share/doc/${name}/copyright`;
+    if (!existsSync(file)) throw new Error(`${file} is missing: the licence of what orb.wasm holds`);
+    texts.push(`${name}\n\n${readFileSync(file, "utf8").trim()}\n`);
   }
   return texts.join(`\n${"-".repeat(80)}\n\n`);
 }
