@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""What the playground weighs and how soon it is there, as the table of docs/performance.md. usage: measure.py FOLDER"""
+
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "report"))
+import browser as chromium
+import site_server
+
+folder = os.path.abspath(sys.argv[1])
+rounds = 7
+
+
+def brotli(path):
+    return len(subprocess.run(["brotli", "-c", "-q", "11", path], stdout=subprocess.PIPE, check=True).stdout)
+
+
+def core():
+    """What the service worker keeps is all that is loaded; and the service worker."""
+    with open(os.path.join(folder, "sw.js"), encoding="utf-8") as file:
+        return json.loads(re.search(r"core = (\[.*?\])", file.read()).group(1)) + ["sw.js"]
+
+
+def load(browser, server):
+    page = browser.page(fresh=True)
+    page.resize(1280, 860)
+    page.go(server.url)
+    page.wait("document.documentElement?.dataset.ready")
+    paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+    return page, paint, float(page.evaluate("document.documentElement.dataset.ready"))
+
+
+keystroke = """new Promise(done => {
+  const list = document.getElementById('findings'), began = performance.now(), there = list.children.length;
+  const watch = new MutationObserver(() => { if (list.children.length !== there) { watch.disconnect(); done(performance.now() - began); } });
+  watch.observe(list, { childList: true });
+  document.execCommand(...(there ? ['delete'] : ['insertText', false, '(']));
+})"""
+
+
+def row(name, values, unit, digits=0):
+    print(f"{name:46}{min(values):8.{digits}f}{statistics.median(values):8.{digits}f}{max(values):8.{digits}f} {unit}")
+
+
+sizes = {name: brotli(os.path.join(folder, name)) for name in core()}
+print("brotli, KB: " + ", ".join(f"{name} {size / 1000:.0f}" for name, size in sorted(sizes.items(), key=lambda one: -one[1]) if size > 1000)
+      + f"; all {sum(sizes.values()) / 1000:.0f}")
+server, browser = site_server.Site(folder), chromium.Browser(chromium.find())
+try:
+    loads = [load(browser, server) for _ in range(rounds)]
+    print(f"{'':46}{'least':>8}{'median':>8}{'most':>8}")
+    row("first paint", [paint for _, paint, _ in loads], "ms")
+    row("from first paint to a program that can run", [max(0, ready - paint) for _, paint, ready in loads], "ms")
+    page = loads[-1][0]
+    page.wait("document.querySelector('.tok-keyword') !== null")
+    page.evaluate("document.querySelector('.cm-content').focus()")
+    page.key("End", modifiers=2)
+    row("from a keystroke to its finding", [page.evaluate(keystroke) for _ in range(40)][4:], "ms", 1)
+finally:
+    browser.close()
+    server.close()
