@@ -20,7 +20,7 @@ async function answer(request) {
   const held = await cache.match(url.href);
   if (held) return held;
   const fetched = await fetch(request);
-  if (fetched.ok && fetched.type === "basic") await cache.put(url.href, fetched.clone()); // a page of the docs
+  if (fetched.ok && url.href.startsWith(`${self.registration.scope}docs/`)) await cache.put(url.href, fetched.clone());
   return fetched;
 }
 self.addEventListener("fetch", event => {

@@ -109,6 +109,8 @@ class Wire:
             return self._socket.recv(4096)
         except TimeoutError:
             return b""
+        except OSError:
+            return None
 
     def close(self):
         self._socket.close()

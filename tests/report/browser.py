@@ -47,6 +47,9 @@ class Page:
         self.call("Page.navigate", url=url)
         self.wait("document.readyState === 'complete'")
 
+    def close(self):
+        self.call("Page.close")
+
     def picture(self, path):
         """What is seen now, as a PNG."""
         with open(path, "wb") as file:
