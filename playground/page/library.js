@@ -61,6 +61,13 @@ function kept_done() {
 export function mark_done(id) {
   try { localStorage.setItem(done_key, JSON.stringify([...kept_done().add(id)])); } catch { /* no storage */ }
 }
+/** What a lesson says to type into a terminal is a button here. */
+function suggest_button(block) {
+  const lines = block.textContent.trim().split("\n");
+  if (!lines.every(line => line.startsWith("orb "))) return;
+  const buttons = [["orb run", "Run"], ["orb test", "Am I done?"]].filter(([word]) => lines.some(line => line.startsWith(word)));
+  block.replaceWith(element("p", { class: "hint" }, `→ ${buttons.map(([, words]) => words).join(", then ")}`));
+}
 /** Shows the task of a lesson, or hides it where `id` is none. */
 export async function show_task(id, { on_pick, on_solution }) {
   if (!id) { $("task").hidden = true; return; }
@@ -70,7 +77,8 @@ export async function show_task(id, { on_pick, on_solution }) {
   if (!lesson) return;
   const [, title, rest] = /^#\s*([^\n]*)\n([^]*)$/.exec(lesson.readme) ?? [, lesson.title, lesson.readme];
   $("task-title").textContent = `Lesson ${title}`;
-  $("task-text").innerHTML = harmless(marked.parse(rest));
+  $("task-text").innerHTML = harmless(marked.parse(rest.replaceAll("../../", "")));
+  for (const block of $("task-text").querySelectorAll("pre")) suggest_button(block);
   $("task-text").scrollTop = 0;
   for (const [id, other] of [["lesson-before", all[at - 1]], ["lesson-next", all[at + 1]]]) {
     $(id).disabled = !other;

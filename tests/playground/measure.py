@@ -39,7 +39,7 @@ keystroke = """new Promise(done => {
   const list = document.getElementById('findings'), began = performance.now(), there = list.children.length;
   const watch = new MutationObserver(() => { if (list.children.length !== there) { watch.disconnect(); done(performance.now() - began); } });
   watch.observe(list, { childList: true });
-  document.execCommand(...(there ? ['delete'] : ['insertText', false, '(']));
+  document.execCommand(...(there ? ['delete'] : ['insertText', false, '@']));
 })"""
 
 
