@@ -123,6 +123,7 @@ Answer Engine::live_start(Request& request) {
   if (!run)
     return tl::unexpected(run.error());
   live_ = *std::move(run);
+  live_->keep_waiting();
   return print({{"hint", live_->hint()}});
 }
 

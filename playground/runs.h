@@ -31,6 +31,8 @@ public:
   bool advance(Duration t);
   /// Ends it where it has not come to its end by itself.
   void stop();
+  /// Whoever runs it may give() numbers while it waits for them.
+  void keep_waiting() { live_->keep_waiting(); }
   void give(std::int32_t number) { live_->give(number); }
   /// A line of a stimulus script without its time.
   tl::expected<void, Problem> apply(const std::string& line);

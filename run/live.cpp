@@ -420,8 +420,11 @@ bool Live::advance(Duration t) {
 }
 
 void Live::wait(Duration t) {
-  state_->watcher.keep_waiting();
   state_->ball.advance_to(std::max(state_->ball.now(), state_->watcher.start() + t));
+}
+
+void Live::keep_waiting() {
+  state_->watcher.keep_waiting();
 }
 
 void Live::stop() {

@@ -25,6 +25,8 @@ public:
   bool advance(Duration t);
   /// Time passes to `t` though the run may be over: while the program waits for a number.
   void wait(Duration t);
+  /// From now on a program that waits for a number is not over: give() may bring it.
+  void keep_waiting();
   /// From now on it is over.
   void stop();
 

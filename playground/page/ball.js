@@ -54,8 +54,7 @@ export class Ball {
     this.on_begin();
     const run = this.run_number = {};
     try {
-      const { hint } = await this.machine.call("start", asked);
-      if (hint) this.say(hint);
+      await this.machine.call("start", asked);
     } catch (error) {
       if (this.run_number === run) this.fail(error);
       return;
@@ -108,7 +107,9 @@ export class Ball {
     if (report) this.show(report, false);
     const fault = ending?.faults?.[0];
     const words = fault ? `${fault.message}${fault.help ? `: ${fault.help}` : ""} (line ${fault.line})` : [ending?.words, ending?.story].filter(Boolean).join("; ");
-    this.say(hint ? `${words}. ${hint}` : words, !!fault);
+    // What it waited for is said with the option of a command line, which here is a button.
+    const waits = hint ? `. ${hint.split(";")[0]}: press Run and do it by hand, or put it under World` : "";
+    this.say(words + waits, !!fault);
     if (plays) this.player.play();
     else this.player.seek(this.player.end());
   }

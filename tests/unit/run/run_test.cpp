@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include "base/random.h"
+#include "run/live.h"
 #include "tests/random_program.h"
 
 #include <fmt/format.h>
@@ -105,6 +106,43 @@ RC_GTEST_PROP(Run, NeverSucceedsWithNothingRunAndNothingSaid, ()) {
   RC_CLASSIFY(!ending->aborted.empty(), "aborted");
   if (ending->faults.empty() && ending->aborted.empty())
     RC_ASSERT(counter.ran > 0);
+}
+
+/// Keeps what is printed.
+class Prints final : public Listener {
+public:
+  void on_event(Duration, const vm::Event& event) override {
+    if (const auto* print = std::get_if<vm::event::Print>(&event))
+      text += print->text;
+  }
+  void on_fault(Duration, const ProgramError&) override {}
+  std::string text;
+};
+
+// While it waits the ball reports where it is: that is not the end of the run.
+TEST(Live, ANumberThatIsWaitedForIsTakenHoweverLate) {
+  structured::NoFiles files;
+  Options options;
+  options.bound = Duration::max() / 2;
+  options.until = Until::Rest;
+  std::vector<Input> inputs;
+  inputs.push_back(*read_input("a.bas", "10 goroll 0,90,1\n20 input A\n30 print \"got \" A\n", "",
+                               options.target, Lint::Off, files));
+  Prints prints;
+  auto live = *Live::start(inputs, options, prints, nullptr);
+  live->keep_waiting();
+  while (live->time() < 2s)
+    if (!live->advance(2s)) {
+      ASSERT_TRUE(live->waits_for_number());
+      live->wait(live->time() + 50ms);
+    }
+  live->give(42);
+  while (live->time() < 9s && live->advance(9s)) {
+  }
+  EXPECT_EQ(prints.text, "got 42\n");
+  const auto ending = live->finish();
+  ASSERT_TRUE(ending.has_value());
+  EXPECT_EQ(ending->lines, 3U);
 }
 
 } // namespace
