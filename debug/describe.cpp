@@ -1,6 +1,7 @@
 // What a debugger shows of a run that stands still, as names and values.
 
 #include "debug/debugger.h"
+#include "run/start.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -141,8 +142,11 @@ std::vector<Variable> Debugger::limits() const {
   of("calls", core.frames.call_depth, spec::value_of(spec::Limit::GosubDepth), "open");
   of("loops", loops, spec::value_of(spec::Limit::ForDepth), "open");
   of("data", core.data_next, static_cast<std::int64_t>(core.data_count), "read");
-  of("program", timeline_->ball().basic_text(timeline_->ball().basic_area()).size(),
-     spec::value_of(spec::Limit::RamBytes), "bytes");
+  const auto area = timeline_->ball().basic_area();
+  of("program", timeline_->ball().basic_text(area).size(),
+     area == spec::Area::Ram ? static_cast<std::int64_t>(run::ball_options(options_).ram_bytes)
+                             : spec::value_of(spec::Limit::FlashBytes),
+     "bytes");
   for (std::size_t i = 1; i <= loops; ++i) {
     const auto& loop = core.frames.loops[i];
     const auto name = loop.variable < letters ? name_of(loop.variable) : std::string("Z");
