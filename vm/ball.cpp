@@ -205,7 +205,7 @@ void Ball::keep_house() {
   drive_.run(now_);
   if (asleep())
     return;
-  check_battery();
+  watch_battery();
   if (!connected())
     show_lamps(); // the identification colours blink
   if (keeps_awake() && power_.sleeps_soon(now_))
@@ -258,7 +258,7 @@ void Ball::watch_motion() {
   }
   if (now_ >= watch_at_ || (was_moving_ && !moving)) {
     trace(event::Position{body_.pose()});
-    check_battery();
+    watch_battery();
     watch_at_ = moving ? now_ + pose_interval : never;
   }
   was_moving_ = moving;
@@ -351,6 +351,12 @@ void Ball::check_battery() {
     return;
   show_lamps();
   dispatcher_.on_battery();
+}
+
+/// It is asked seldom, because it drains slowly.
+void Ball::watch_battery() {
+  if (now_ >= power_.battery_holds_until())
+    check_battery();
 }
 
 // Asks.

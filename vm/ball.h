@@ -143,6 +143,7 @@ private:
   void watch_motion();
   void detect_collision(const Impact& impact);
   void check_battery();
+  void watch_battery();
 
   void drive(Actor actor, const Motion& motion);
   void share_drive();

@@ -628,6 +628,15 @@ Instant Body::battery_reaches(double volts) const {
   return now_ + Duration{static_cast<Duration::rep>(above / (idle_drain / hour_s) * 1e9) + 1};
 }
 
+Instant Body::battery_above_until(double volts) const {
+  if (charging())
+    return never;
+  constexpr double fastest = (idle_drain + motion_drain) / hour_s;
+  constexpr double nearly = 0.999; // what the roundings of many steps may amount to
+  const double above = std::max(0.0, battery_v() - volts);
+  return now_ + Duration{static_cast<Duration::rep>(above / fastest * nearly * 1e9)};
+}
+
 double Body::noise(std::uint32_t channel) const {
   if (noise_ == Switch::Off)
     return 0;

@@ -226,6 +226,8 @@ public:
   double battery_v() const;
   /// When the voltage falls to `volts` at rest; `never` while charging or below already.
   Instant battery_reaches(double volts) const;
+  /// Until when it is above that for sure, however the ball drives.
+  Instant battery_above_until(double volts) const;
   /// The length of its way since it was made.
   double way_cm() const { return rolled_cm_; }
   std::uint64_t rolled_cm() const { return static_cast<std::uint64_t>(rolled_cm_); }

@@ -32,6 +32,11 @@ Power::Change Power::check_battery(const Body& body, const Settings& settings) {
                    : centivolts <= settings.critical_battery_cv ? state::critical
                    : centivolts <= settings.low_battery_cv      ? state::low
                                                                 : state::ok;
+  const int next = now == state::ok    ? std::max(settings.low_battery_cv, settings.critical_battery_cv)
+                   : now == state::low ? settings.critical_battery_cv
+                                       : 0;
+  constexpr double dust = 1e-4; // V; hundredths are rounded above
+  battery_holds_until_ = body.battery_above_until(next / centivolt.steps + dust);
   return std::exchange(battery_state_, now) == now ? Change::None : Change::Changed;
 }
 
@@ -60,13 +65,16 @@ Instant Power::next_event(const Body& body, const Settings& settings) const {
   if (asleep_)
     return wake_at_;
   const Instant tired = warned_ ? inactive_at_ : inactive_at_ - sleep_warning;
+  const Instant other = std::min(wake_at_, tired);
+  if (other <= battery_holds_until_)
+    return other;
   const auto trips = [&](int centivolts) {
     return body.battery_reaches(centivolts / centivolt.steps);
   };
   const Instant lower = battery_state_ == state::ok    ? trips(settings.low_battery_cv)
                         : battery_state_ == state::low ? trips(settings.critical_battery_cv)
                                                        : never;
-  return std::min({wake_at_, tired, lower});
+  return std::min(other, lower);
 }
 
 } // namespace orb::vm

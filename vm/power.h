@@ -22,6 +22,8 @@ public:
   bool battery_warns() const;
   enum class Change : std::uint8_t { None, Changed };
   Change check_battery(const Body& body, const Settings& settings);
+  /// Until then the battery drains into no other state, however the ball drives.
+  Instant battery_holds_until() const { return battery_holds_until_; }
 
   // Inactivity.
   /// The time until the ball falls asleep by itself counts from now.
@@ -55,6 +57,7 @@ public:
 
 private:
   std::uint8_t battery_state_ = spec::power_state::ok;
+  Instant battery_holds_until_{};
   Instant inactive_at_;
   bool warned_ = false;
   bool asleep_ = false;
