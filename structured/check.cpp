@@ -27,7 +27,10 @@ public:
       follow(i, statement);
     }
     check_jumps();
-    check_recursion();
+    const auto& found = program_.diagnostics;
+    if (std::none_of(found.begin(), found.end(),
+                     [](const Diagnostic& one) { return one.rule == &rules::UnclosedBlock; }))
+      check_recursion(); // a sub without an end holds the calls below it
     check_unused();
   }
 
