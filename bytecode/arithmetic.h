@@ -52,7 +52,22 @@ constexpr std::int32_t before_cut(std::int32_t x, std::int32_t power) {
   return add(x, x >> 31 & (power - 1));
 }
 
+/// The upper 64 bits of a product of 96, in two products; `y` is positive.
+constexpr std::int64_t upper_by_parts(std::int32_t x, std::int64_t y) {
+  const auto low = x * (y & 0xFFFFFFFF); // of y
+  const auto high = x * (y >> 32);
+  return (high + (low >> 32)) >> 32;
+}
+#ifdef __wasm__ // it has no wide product
+constexpr std::int64_t upper(std::int32_t x, std::int64_t y) {
+  return upper_by_parts(x, y);
+}
+#else
 __extension__ typedef __int128 Wide;
+constexpr std::int64_t upper(std::int32_t x, std::int64_t y) {
+  return static_cast<std::int64_t>(Wide{x} * y >> 64);
+}
+#endif
 
 /// What divide_by() multiplies with for a divisor that is above 2 and no power of two.
 constexpr std::int64_t reciprocal(std::int32_t divisor) {
@@ -61,8 +76,16 @@ constexpr std::int64_t reciprocal(std::int32_t divisor) {
 /// divide() by the divisor of `reciprocal`: the error of the product is less than 1 / divisor, so
 /// only negative quotients, which it rounds down, need one more.
 constexpr std::int32_t divide_by(std::int32_t x, std::int64_t reciprocal) {
-  return static_cast<std::int32_t>(Wide{x} * reciprocal >> 64) - (x >> 31);
+  return static_cast<std::int32_t>(upper(x, reciprocal)) - (x >> 31);
 }
+static_assert([] {
+  for (const std::int32_t x : {0, 1, -1, 7, -7, 1'000'003, 2'147'483'647, -2'147'483'647 - 1})
+    for (const std::int32_t divisor : {3, 7, 1000, 65'537, 2'147'483'647})
+      if (upper_by_parts(x, reciprocal(divisor)) != upper(x, reciprocal(divisor)) ||
+          divide_by(x, reciprocal(divisor)) != x / divisor)
+        return false;
+  return true;
+}());
 /// remainder() by the same divisor.
 constexpr std::int32_t remainder_by(std::int32_t x, std::int32_t divisor, std::int64_t reciprocal) {
   return subtract(x, multiply(divide_by(x, reciprocal), divisor));

@@ -28,7 +28,7 @@ Engine switch_engine() {
   return {handlers.data(), run};
 }
 
-#if !defined(__GNUC__) // machine_threaded.cpp
+#if !defined(__GNUC__) || defined(__wasm__) // machine_threaded.cpp
 Engine threaded_engine() {
   return switch_engine();
 }

@@ -2,8 +2,9 @@
 #include "vm/machine_core.h"
 
 // Each block jumps straight to the next one, so that the processor learns which instruction tends
-// to follow which. Labels as values are an extension of gcc and clang.
-#if defined(__GNUC__)
+// to follow which. Labels as values are an extension of gcc and clang; WebAssembly has no such
+// jump.
+#if defined(__GNUC__) && !defined(__wasm__)
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"
