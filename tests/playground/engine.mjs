@@ -157,5 +157,22 @@ for (const fault of faults)
     same("upload", `${upload.name}, ${fault || "a good link"}`, { code: outcome.code, message: comparable(outcome.message) }, native);
   }
 
+// ---- an upload that somebody stops, and one to nobody ----
+{
+  const served = await ball("--fault", "delay=30..30ms");
+  const link = await tcp_link(served.port, []);
+  const controller = new AbortController();
+  const outcome = await deliver(async_engine, link, uploads[1], { signal: controller.signal, on_status: ({ stage }) => stage === "sending" && controller.abort() });
+  same("cancel", "while it sends", { kind: outcome.kind, code: outcome.code }, { kind: "interrupted", code: 130 });
+  same("cancel", "the truth about the ball", /^interrupted; .*flash/.test(outcome.message), true);
+  await link.close();
+  served.end();
+}
+{
+  const silent = { kind: "serial", write: async () => {}, read: async () => { throw { kind: "closed", message: "the other end hung up" }; } };
+  const outcome = await deliver(async_engine, silent, uploads[0]);
+  same("cancel", "nobody there", outcome.code === 6 || outcome.code === 4, true);
+}
+
 console.log(Object.entries(counts).map(([kind, count]) => `${count} ${kind}`).join(", ") + (failures ? `: ${failures} differ` : ": all alike"));
 process.exit(failures ? 1 : 0);
