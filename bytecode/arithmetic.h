@@ -1,9 +1,11 @@
 #pragma once
 
+#include "spec/basic.h"
 #include "spec/limits.h"
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace orb::bytecode {
 
@@ -44,6 +46,23 @@ constexpr std::int32_t shift_right(std::int32_t x, std::int32_t count) {
 }
 constexpr std::int32_t absolute(std::int32_t x) {
   return x < 0 ? subtract(0, x) : x;
+}
+
+/// What an operator makes of two numbers; nothing where it would stop the program.
+constexpr std::optional<std::int32_t> calculate(spec::Operator op, std::int32_t x, std::int32_t y) {
+  using Value = std::optional<std::int32_t>;
+  switch (op) {
+  case spec::Operator::Multiply: return multiply(x, y);
+  case spec::Operator::Divide: return y == 0 ? Value() : divide(x, y);
+  case spec::Operator::Remainder: return y == 0 ? Value() : remainder(x, y);
+  case spec::Operator::ShiftLeft: return is_shift_count(y) ? shift_left(x, y) : Value();
+  case spec::Operator::ShiftRight: return is_shift_count(y) ? shift_right(x, y) : Value();
+  case spec::Operator::Add: return add(x, y);
+  case spec::Operator::Subtract: return subtract(x, y);
+  case spec::Operator::And: return x & y;
+  case spec::Operator::Or: return x | y;
+  }
+  return std::nullopt;
 }
 
 /// Moves a negative `x` so far that cutting off its low bits divides it by a power of two and

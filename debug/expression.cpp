@@ -118,25 +118,10 @@ private:
   }
 
   static Value binary(spec::Operator op, std::int32_t a, std::int32_t b) {
-    const auto shift = [&](auto by) -> Value {
-      if (bytecode::is_shift_count(b))
-        return by(a, b);
-      return tl::unexpected(fmt::format("a shift by {}", b));
-    };
-    if (b == 0 && (op == spec::Operator::Divide || op == spec::Operator::Remainder))
-      return tl::unexpected(std::string("a division by 0"));
-    switch (op) {
-    case spec::Operator::Add: return bytecode::add(a, b);
-    case spec::Operator::Subtract: return bytecode::subtract(a, b);
-    case spec::Operator::Multiply: return bytecode::multiply(a, b);
-    case spec::Operator::Divide: return bytecode::divide(a, b);
-    case spec::Operator::Remainder: return bytecode::remainder(a, b);
-    case spec::Operator::ShiftLeft: return shift(bytecode::shift_left);
-    case spec::Operator::ShiftRight: return shift(bytecode::shift_right);
-    case spec::Operator::And: return a & b;
-    case spec::Operator::Or: return a | b;
-    }
-    return 0;
+    if (const auto value = bytecode::calculate(op, a, b))
+      return *value;
+    return tl::unexpected(b == 0 ? std::string("a division by 0")
+                                 : fmt::format("a shift by {}", b));
   }
 
   const structured::Program& program_;

@@ -29,29 +29,13 @@ bool may_fault(Operator op, const Term& right) {
     return false;
   if (right.kind != TermKind::Number)
     return true;
-  return divides ? right.value == 0
-                 : right.value < 0 || right.value > spec::value_of(spec::Limit::GreatestShift);
+  return divides ? right.value == 0 : !bytecode::is_shift_count(right.value);
 }
 
 bool may_fault(spec::Function function, const Term& operand) {
   const bool certain =
       operand.kind == TermKind::Number && operand.value >= spec::info(function).least;
   return function != spec::Function::Abs && !certain;
-}
-
-std::int32_t fold(Operator op, std::int32_t a, std::int32_t b) {
-  switch (op) {
-  case Operator::Multiply: return bytecode::multiply(a, b);
-  case Operator::Divide: return bytecode::divide(a, b);
-  case Operator::Remainder: return bytecode::remainder(a, b);
-  case Operator::ShiftLeft: return bytecode::shift_left(a, b);
-  case Operator::ShiftRight: return bytecode::shift_right(a, b);
-  case Operator::Add: return bytecode::add(a, b);
-  case Operator::Subtract: return bytecode::subtract(a, b);
-  case Operator::And: return a & b;
-  case Operator::Or: return a | b;
-  }
-  return 0;
 }
 
 } // namespace
@@ -87,8 +71,9 @@ std::uint32_t Code::element() {
 
 std::uint32_t Code::binary(Operator op, std::uint32_t left, std::uint32_t right) {
   const bool low = spec::info(op).level == spec::Level::Low;
-  if (is_number(left) && is_number(right) && !may_fault(op, terms[right]))
-    return number(fold(op, terms[left].value, terms[right].value));
+  if (is_number(left) && is_number(right))
+    if (const auto value = bytecode::calculate(op, terms[left].value, terms[right].value))
+      return number(*value);
   // x + -3 is x - 3, and x - -3 is x + 3.
   if (is_number(right) && (op == Operator::Add || op == Operator::Subtract)) {
     const auto value = terms[right].value;

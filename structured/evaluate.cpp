@@ -1,34 +1,10 @@
 #include "bytecode/arithmetic.h"
-#include "spec/limits.h"
 #include "structured/names.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace orb::structured {
-namespace {
-
-std::optional<std::int32_t> combine(spec::Operator op, std::int32_t a, std::int32_t b) {
-  const bool shift = b >= 0 && b <= spec::value_of(spec::Limit::GreatestShift);
-  switch (op) {
-  case spec::Operator::Multiply: return bytecode::multiply(a, b);
-  case spec::Operator::Divide: return b == 0 ? std::nullopt : std::optional(bytecode::divide(a, b));
-  case spec::Operator::Remainder:
-    return b == 0 ? std::nullopt : std::optional(bytecode::remainder(a, b));
-  case spec::Operator::ShiftLeft:
-    return shift ? std::optional(bytecode::shift_left(a, b)) : std::nullopt;
-  case spec::Operator::ShiftRight:
-    return shift ? std::optional(bytecode::shift_right(a, b)) : std::nullopt;
-  case spec::Operator::Add: return bytecode::add(a, b);
-  case spec::Operator::Subtract: return bytecode::subtract(a, b);
-  case spec::Operator::And: return a & b;
-  case spec::Operator::Or: return a | b;
-  }
-  return std::nullopt;
-}
-
-} // namespace
-
 std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root) {
   if (const auto& leaf = program.nodes[root]; leaf.kind == NodeKind::Number)
     return Constant{leaf.value, false};
@@ -73,7 +49,8 @@ std::optional<Constant> evaluate(const Program& program, const Names& names, std
     case NodeKind::Binary: {
       const auto b = pop();
       auto& a = stack.back();
-      const auto value = combine(static_cast<spec::Operator>(node.what), a.value, b.value);
+      const auto value =
+          bytecode::calculate(static_cast<spec::Operator>(node.what), a.value, b.value);
       if (!value)
         return std::nullopt;
       a = {*value, a.duration || b.duration};
