@@ -71,14 +71,14 @@ std::span<const Shell::Row> Shell::rows() {
       {"watch",        "w",   "watch EXPR",      "stops when a value changes, or a condition becomes true", &Shell::add_watch},
       {"log",          "",    "log LINE TEXT",   "says a text in place of stopping; `{EXPR}` in it is filled in", &Shell::add_log},
       {"delete",       "d",   "d [NUMBER]",      "takes a breakpoint away, or all", &Shell::drop},
-      {"continue",     "c",   "c",               "goes on to the next breakpoint", &Shell::go_on},
-      {"step",         "s",   "s",               "goes to the next line, also into a sub", &Shell::step},
-      {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::next},
-      {"finish",       "fin", "fin",             "goes on until this sub has returned", &Shell::finish},
+      {"continue",     "c",   "c",               "goes on to the next breakpoint", &Shell::go<Move::Continue, Direction::Forward>},
+      {"step",         "s",   "s",               "goes to the next line, also into a sub", &Shell::go<Move::In, Direction::Forward>},
+      {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::go<Move::Over, Direction::Forward>},
+      {"finish",       "fin", "fin",             "goes on until this sub has returned", &Shell::go<Move::Out, Direction::Forward>},
       {"until",        "u",   "until TIME",      "goes on to a time of the run: `until 3.5s`", &Shell::until},
-      {"reverse-continue", "rc", "rc",           "goes back to the breakpoint before", &Shell::back_on},
-      {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::back_step},
-      {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::back_next},
+      {"reverse-continue", "rc", "rc",           "goes back to the breakpoint before", &Shell::go<Move::Continue, Direction::Back>},
+      {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::go<Move::In, Direction::Back>},
+      {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::go<Move::Over, Direction::Back>},
       {"goto",         "g",   "goto LINE",       "the program goes on at another line", &Shell::jump},
       {"restart",      "r",   "r",               "goes back to the beginning and forgets what was changed", &Shell::again},
       {"print",        "p",   "p EXPR",          "prints a value: `p turns * 2`, `p xpos`, `p time`", &Shell::print},
@@ -129,30 +129,9 @@ void Shell::obey(std::string_view line, const GiveUp& give_up) {
 
 // --- moving -------------------------------------------------------------------------------------
 
-void Shell::move(Move move, Direction direction, const GiveUp& give_up) {
+template <Move move, Direction direction>
+void Shell::go(std::string_view, const GiveUp& give_up) {
   report(debugger_.go(move, direction, debugger_.thread(), give_up));
-}
-
-void Shell::go_on(std::string_view, const GiveUp& give_up) {
-  move(Move::Continue, Direction::Forward, give_up);
-}
-void Shell::step(std::string_view, const GiveUp& give_up) {
-  move(Move::In, Direction::Forward, give_up);
-}
-void Shell::next(std::string_view, const GiveUp& give_up) {
-  move(Move::Over, Direction::Forward, give_up);
-}
-void Shell::finish(std::string_view, const GiveUp& give_up) {
-  move(Move::Out, Direction::Forward, give_up);
-}
-void Shell::back_on(std::string_view, const GiveUp& give_up) {
-  move(Move::Continue, Direction::Back, give_up);
-}
-void Shell::back_step(std::string_view, const GiveUp& give_up) {
-  move(Move::In, Direction::Back, give_up);
-}
-void Shell::back_next(std::string_view, const GiveUp& give_up) {
-  move(Move::Over, Direction::Back, give_up);
 }
 
 void Shell::until(std::string_view rest, const GiveUp& give_up) {

@@ -58,13 +58,8 @@ private:
   void add_watch(std::string_view rest, const GiveUp&);
   void add_log(std::string_view rest, const GiveUp&);
   void drop(std::string_view rest, const GiveUp&);
-  void go_on(std::string_view, const GiveUp& give_up);
-  void step(std::string_view, const GiveUp& give_up);
-  void next(std::string_view, const GiveUp& give_up);
-  void finish(std::string_view, const GiveUp& give_up);
-  void back_on(std::string_view, const GiveUp& give_up);
-  void back_step(std::string_view, const GiveUp& give_up);
-  void back_next(std::string_view, const GiveUp& give_up);
+  template <Move move, Direction direction>
+  void go(std::string_view, const GiveUp& give_up);
   void until(std::string_view rest, const GiveUp& give_up);
   void jump(std::string_view rest, const GiveUp&);
   void again(std::string_view, const GiveUp&);
@@ -76,7 +71,6 @@ private:
   void help(std::string_view rest, const GiveUp&);
   void quit(std::string_view, const GiveUp&) { done_ = true; }
 
-  void move(Move move, Direction direction, const GiveUp& give_up);
   void report(const Stop& stop);
   void wrong(std::string_view text) { console_.say(text); }
   std::optional<Spot> spot_of(std::string_view text) const;
