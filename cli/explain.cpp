@@ -4,7 +4,6 @@
 #include "cli/options.h"
 #include "reference/knowledge.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -13,27 +12,16 @@ namespace {
 
 using reference::Section;
 
-/// Every entry that `is_meant` of its name or of an alias, one after the other: `roll` is a
-/// variable and a macro command.
-template <class IsMeant>
-std::string explain(const std::vector<Section>& sections, Style style, IsMeant is_meant) {
-  std::string out;
-  for (const auto& section : sections)
-    for (const auto& entry : section.entries)
-      if (is_meant(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_meant))
-        out += (out.empty() ? "" : "\n") + reference::print_entry(section, entry, style);
-  return out;
-}
-
 /// The word as it is written, else in any case, else as an option without its dashes.
 std::string explain(const std::vector<Section>& sections, Style style, const std::string& word) {
-  auto found = explain(sections, style, [&](const std::string& name) { return name == word; });
+  using reference::print_entries;
+  auto found = print_entries(sections, style, [&](const auto& name) { return name == word; });
   if (found.empty())
     found =
-        explain(sections, style, [&](const std::string& name) { return equal_words(name, word); });
+        print_entries(sections, style, [&](const auto& name) { return equal_words(name, word); });
   if (found.empty())
-    found = explain(sections, style,
-                    [&](const std::string& name) { return equal_words(name, "--" + word); });
+    found = print_entries(sections, style,
+                          [&](const auto& name) { return equal_words(name, "--" + word); });
   return found;
 }
 

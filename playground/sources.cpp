@@ -62,13 +62,8 @@ Answer format(Request& request) {
 
 Answer explain(Request& request) {
   const auto word = request.text("word");
-  std::string text;
-  for (const auto& section : reference::knowledge())
-    for (const auto& entry : section.entries) {
-      const auto is_meant = [&](const std::string& name) { return equal_words(name, word); };
-      if (is_meant(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_meant))
-        text += (text.empty() ? "" : "\n") + reference::print_entry(section, entry, Style{});
-    }
+  const auto text = reference::print_entries(
+      reference::knowledge(), Style{}, [&](const auto& name) { return equal_words(name, word); });
   if (text.empty())
     return refuse(ExitCode::BadInput, fmt::format("nothing is known about `{}`", word));
   return print({{"text", text}});

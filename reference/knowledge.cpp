@@ -58,6 +58,16 @@ std::string print_entry(const Section& section, const Entry& entry, Style style)
   return out;
 }
 
+std::string print_entries(const std::vector<Section>& sections, Style style,
+                          const std::function<bool(const std::string&)>& is_meant) {
+  std::string out;
+  for (const auto& section : sections)
+    for (const auto& entry : section.entries)
+      if (is_meant(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_meant))
+        out += (out.empty() ? "" : "\n") + print_entry(section, entry, style);
+  return out;
+}
+
 std::string print_json(const std::vector<Section>& sections) {
   nlohmann::ordered_json json;
   json["schema"] = "orb.spec/1";

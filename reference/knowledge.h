@@ -4,6 +4,7 @@
 #include "reference/command_line.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +48,11 @@ std::vector<Section> commands_knowledge(const CommandLine& line);
 
 /// One entry as `orb explain` prints it.
 std::string print_entry(const Section& section, const Entry& entry, Style style);
+
+/// Every entry that `is_meant` of its name or of an alias, one after the other: `roll` is a
+/// variable and a macro command. Empty where there is none.
+std::string print_entries(const std::vector<Section>& sections, Style style,
+                          const std::function<bool(const std::string&)>& is_meant);
 
 /// One section as a page of docs/reference/, with links to the pages of the others
 /// (reference/markdown.cpp).
