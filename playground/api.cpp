@@ -130,8 +130,7 @@ Answer Engine::live_start(Request& request) {
 Answer Engine::live_advance(Request& request) {
   if (!live_)
     return no_run();
-  const bool goes_on = live_->advance(std::chrono::duration_cast<Duration>(
-      std::chrono::duration<double, std::milli>(request.value<double>("ms").value_or(0))));
+  const bool goes_on = live_->advance(duration_of(request.value<double>("ms").value_or(0)));
   return fmt::format(R"({{"over":{},"frame":{}}})", !goes_on, live_->frame());
 }
 

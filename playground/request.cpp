@@ -6,6 +6,7 @@
 #include "testing/suite.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <utility>
 
@@ -23,8 +24,7 @@ std::string_view without_root(std::string_view path) {
 std::string content(const ordered_json& file) {
   if (file.is_string())
     return file.get<std::string>();
-  const auto bytes = from_hex(file.at(hex_member).get<std::string>());
-  return std::string(as_text(bytes.value_or(Bytes{})));
+  return std::string(as_text(bytes_of(file)));
 }
 
 } // namespace
@@ -83,12 +83,19 @@ std::vector<std::string> Request::texts(const char* key) const {
   return found->get<std::vector<std::string>>();
 }
 
+tl::expected<std::string, Problem> Request::read(const std::string& name) {
+  auto text = files.read(name);
+  if (!text)
+    return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+  return *std::move(text);
+}
+
 tl::expected<std::vector<run::SourceFile>, Problem> Request::sources() {
   std::vector<run::SourceFile> all;
   for (const auto& name : names) {
-    auto text = files.read(name);
+    auto text = read(name);
     if (!text)
-      return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+      return tl::unexpected(text.error());
     const auto language = run::language_of(name, "");
     if (!language && !testing::is_no_program(name))
       return refuse(run::unknown_content(name));
@@ -100,9 +107,9 @@ tl::expected<std::vector<run::SourceFile>, Problem> Request::sources() {
 tl::expected<std::vector<run::Input>, Problem> Request::inputs() {
   std::vector<run::Input> inputs;
   for (const auto& name : names) {
-    auto text = files.read(name);
+    auto text = read(name);
     if (!text)
-      return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+      return tl::unexpected(text.error());
     auto input = run::read_input(name, *std::move(text), "", {}, run::Lint::Off, files);
     if (!input)
       return refuse(input.error());
@@ -120,6 +127,19 @@ std::string print(const ordered_json& json) {
 
 ordered_json bytes_json(ByteView bytes) {
   return {{hex_member, to_hex(bytes)}};
+}
+
+Bytes bytes_of(const ordered_json& json) {
+  return from_hex(json.at(hex_member).get<std::string>()).value_or(Bytes{});
+}
+
+double milliseconds(Duration t) {
+  return std::chrono::duration<double, std::milli>(t).count();
+}
+
+Duration duration_of(double milliseconds) {
+  return std::chrono::duration_cast<Duration>(
+      std::chrono::duration<double, std::milli>(milliseconds));
 }
 
 } // namespace orb::playground

@@ -2,6 +2,7 @@
 
 #include "base/exit_code.h"
 #include "base/source.h"
+#include "base/time.h"
 #include "editor/language_server.h"
 #include "run/input.h"
 #include "structured/files.h"
@@ -67,6 +68,8 @@ struct Request {
   template <class Value>
   std::optional<Value> value(const char* key) const;
 
+  /// The text of a file that is there.
+  tl::expected<std::string, Problem> read(const std::string& name);
   /// The sources that are meant, each in its language.
   tl::expected<std::vector<run::SourceFile>, Problem> sources();
   /// The same, ready for a ball: without mistakes.
@@ -83,7 +86,11 @@ std::optional<Value> Request::value(const char* key) const {
 /// JSON that is fit to be sent: bytes that are no text become U+FFFD.
 std::string print(const ordered_json& json);
 
-/// Bytes as a page takes them (engine.js makes a Uint8Array of it).
+/// Bytes as a page takes and gives them (engine.js makes a Uint8Array of it).
 ordered_json bytes_json(ByteView bytes);
+Bytes bytes_of(const ordered_json& json);
+
+double milliseconds(Duration t);
+Duration duration_of(double milliseconds);
 
 } // namespace orb::playground

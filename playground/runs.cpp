@@ -9,16 +9,11 @@
 #include "structured/words.h"
 #include "vm/stimulus.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <utility>
 
 namespace orb::playground {
 namespace {
-
-double milliseconds(Duration t) {
-  return std::chrono::duration<double, std::milli>(t).count();
-}
 
 int rgb(vm::Color color) {
   return color.red << 16 | color.green << 8 | color.blue;

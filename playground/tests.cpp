@@ -21,9 +21,9 @@ tl::expected<testing::Suite, Problem> make_suite(Request& request,
                                                  const testing::SuiteOptions& options) {
   std::vector<testing::GivenFile> given;
   for (const auto& name : request.names) {
-    auto text = request.files.read(name);
+    auto text = request.read(name);
     if (!text)
-      return refuse(ExitCode::File, fmt::format("there is no file {}", name));
+      return tl::unexpected(text.error());
     given.push_back({name, *std::move(text)});
   }
   auto suite = testing::make_suite(std::move(given), options, request.files);

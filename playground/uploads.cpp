@@ -4,23 +4,12 @@
 #include "spec/ble.h"
 #include "uploader/ble.h"
 
-#include <chrono>
 #include <utility>
 
 namespace orb::playground {
 namespace {
 
 using protocol::LinkError;
-using std::chrono::duration_cast;
-
-Instant instant(double milliseconds) {
-  return Instant{} +
-         duration_cast<Duration>(std::chrono::duration<double, std::milli>(milliseconds));
-}
-
-double milliseconds(Duration t) {
-  return std::chrono::duration<double, std::milli>(t).count();
-}
 
 /// The link as far as it has been used; then it wishes.
 class Log final : public protocol::Transport {
@@ -158,9 +147,9 @@ tl::expected<Upload, Problem> Upload::start(Request& request) {
 
 std::string Upload::step(const ordered_json& done) {
   if (done.contains("at")) {
-    Done one{instant(done.at("at").get<double>()), {}, {}};
+    Done one{Instant{} + duration_of(done.at("at").get<double>()), {}, {}};
     if (const auto bytes = done.find("bytes"); bytes != done.end())
-      one.bytes = from_hex(bytes->at("hex").get<std::string>()).value_or(Bytes{});
+      one.bytes = bytes_of(*bytes);
     if (const auto error = done.find("error"); error != done.end())
       one.error = read_error(*error);
     log_.push_back(std::move(one));
