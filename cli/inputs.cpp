@@ -28,6 +28,12 @@ std::optional<std::string> DiskFiles::read(const std::string& path) {
   return text ? std::optional(*std::move(text)) : std::nullopt;
 }
 
+std::string DiskFiles::identity(const std::string& path) {
+  std::error_code unknown; // a file that is not there
+  const auto real = std::filesystem::canonical(path, unknown);
+  return unknown ? Files::identity(path) : real.string();
+}
+
 tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std::string_view lang) {
   auto text = read_text(path);
   if (!text)

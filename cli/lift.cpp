@@ -2,10 +2,8 @@
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "compiler/check.h"
 #include "disk/disk.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -16,14 +14,6 @@ struct Options {
   std::string file;
   std::string out = "-";
 };
-
-/// What speaks against lifting a program: it has errors, or cannot be lifted. Its other findings
-/// are for `orb check`.
-std::vector<Diagnostic> errors_of(std::vector<Diagnostic> findings) {
-  std::erase_if(findings,
-                [](const Diagnostic& found) { return found.severity != Severity::Error; });
-  return findings;
-}
 
 void lift(Context& context, const Options& options) {
   const auto language = run::language_of(options.file, "").value_or(run::Language::Basic);
@@ -37,12 +27,7 @@ void lift(Context& context, const Options& options) {
   if (!file)
     return fail(context, file.error());
   const auto& source = file->source;
-  const auto checked = compiler::check(source.text(), {});
-  if (print_findings(context, source, errors_of(checked.diagnostics))) {
-    context.exit = ExitCode::BadInput;
-    return;
-  }
-  const auto lifted = structured::lift(checked.program);
+  const auto lifted = structured::lift(compiler::check(source.text(), {}));
   if (print_findings(context, source, lifted.findings)) {
     context.exit = ExitCode::BadInput;
     return;

@@ -101,6 +101,7 @@ public:
     asked.push_back(path);
     return disk_.read(path);
   }
+  std::string identity(const std::string& path) override { return disk_.identity(path); }
   std::vector<std::string> asked;
 
 private:

@@ -130,6 +130,9 @@ struct LanguageServer::State final : structured::Files, Wording {
         return std::string(document.source.text());
     return disk != nullptr ? disk->read(path) : std::nullopt;
   }
+  std::string identity(const std::string& path) override {
+    return disk != nullptr ? disk->identity(path) : Files::identity(path);
+  }
 
   structured::Files* disk;
   Folders* folders;

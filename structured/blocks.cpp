@@ -69,9 +69,9 @@ public:
     while (!open_.empty())
       leave_open();
     set_depths();
-    // The right word for what ends nothing would end nothing either.
+    // The right word for what ends nothing would end nothing either, nor would a right beginning end.
     std::erase_if(program_.diagnostics, [&](const Diagnostic& one) {
-      return one.rule == &rules::ForeignWord && stray_.contains(one.span.begin);
+      return one.rule == &rules::ForeignWord && alone_.contains(one.span.begin);
     });
   }
 
@@ -122,11 +122,21 @@ private:
     const auto i = open_.back();
     const auto* block = by_opener(role(i));
     if (i != excused_)
-      report(rules::UnclosedBlock, i, fmt::format("this `{}` is never closed", block->word),
-             fmt::format("write `{}` after its last line", block->end_words));
+      report_unclosed(i, *block);
     endless_.insert(i);
     missing_.push_back(block->end);
     pop();
+  }
+
+  void report_unclosed(std::uint32_t i, const Block& block) {
+    const auto where = program_.statements[i].word;
+    const auto word = std::string(program_.text_of(where));
+    const auto end = fmt::format("`{}` after its last line", block.end_words);
+    alone_.insert(where.begin);
+    report(rules::UnclosedBlock, i, fmt::format("this `{}` is never closed", word),
+           equal_words(word, block.word)
+               ? fmt::format("write {}", end)
+               : fmt::format("write `{}` instead, and {}", block.word, end));
   }
 
   void pop() {
@@ -196,7 +206,7 @@ private:
       const auto* block = by_opener(role(open_.back()));
       help = fmt::format("the open block is a `{}`; `{}` closes it", block->word, block->end_words);
     }
-    stray_.insert(statement.word.begin);
+    alone_.insert(statement.word.begin);
     report(rules::BlockEnd, i, fmt::format("no open block takes this `{}`", word), std::move(help));
     statement.kind = statement.meant = Kind::Broken;
   }
@@ -218,7 +228,7 @@ private:
   std::set<std::uint32_t> endless_; ///< openers without an end
   std::vector<Kind> missing_;       ///< their ends, which may come yet
   std::uint32_t excused_ = none;    ///< an opener that has a wrong end
-  std::set<std::uint32_t> stray_;   ///< where ends without a block begin
+  std::set<std::uint32_t> alone_;   ///< where ends without a beginning begin, and the reverse
   int routines_ = 0;                ///< open subs and functions
   bool nested_ = false;             ///< subs stand inside of each other
   bool too_deep_ = false;

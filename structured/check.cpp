@@ -166,6 +166,19 @@ private:
            std::move(message), std::move(help));
   }
 
+  /// Of what nothing is around to be left, also where the words are those of another language, which
+  /// is not a second mistake.
+  void stands_outside(const Statement& statement, std::string_view of, std::string help = {}) {
+    auto words = statement.word;
+    std::erase_if(program_.diagnostics, [&](const Diagnostic& one) {
+      const bool same = one.rule == &rules::ForeignWord && one.span.begin == words.begin;
+      words = same ? one.span : words;
+      return same;
+    });
+    report(rules::MisplacedStatement, words,
+           fmt::format("`{}` stands outside of {}", program_.text_of(words), of), std::move(help));
+  }
+
   void check_place(std::uint32_t i, const Statement& statement) {
     const auto routine = names_.routine_of[i];
     const auto word = program_.text_of(statement.word);
@@ -173,7 +186,7 @@ private:
       misplaced(statement, fmt::format("`{}` stands inside a block", word),
                 "declarations stand at top level");
     if ((statement.kind == Kind::Exit || statement.kind == Kind::Continue) && !in_loop())
-      misplaced(statement, fmt::format("`{}` stands outside of loops", word));
+      stands_outside(statement, "loops");
     if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1) &&
         !in_broken_routine())
       misplaced(statement,
@@ -198,8 +211,7 @@ private:
   void check_return(std::uint32_t routine, const Statement& statement) {
     if (routine == 0) {
       if (!in_broken_routine())
-        misplaced(statement, "`return` stands outside of subs and functions",
-                  "`end` ends the program");
+        stands_outside(statement, "subs and functions", "`end` ends the program");
       return;
     }
     const auto& symbol = names_.symbols[names_.routines[routine].symbol];

@@ -13,6 +13,9 @@ public:
 
   /// The text of `path`, or nothing where it cannot be read.
   virtual std::optional<std::string> read(const std::string& path) = 0;
+
+  /// What two paths of one file have in common.
+  virtual std::string identity(const std::string& path);
 };
 
 /// No file at all.
@@ -22,7 +25,7 @@ public:
 };
 
 /// `path` as it is written in the file `from`: its folder, `/`, the path, without `./` and with
-/// `name/../` folded, so that a file has one path. Absolute paths stay.
+/// `name/../` folded, so that a file mostly has one path. Absolute paths stay.
 std::string resolve_path(std::string_view from, std::string_view path);
 
 } // namespace orb::structured

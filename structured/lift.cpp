@@ -145,8 +145,13 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
 
 } // namespace
 
-Lifted lift(const compiler::Program& program) {
+Lifted lift(const compiler::Checked& checked) {
+  const auto& program = checked.program;
   Lifted lifted;
+  std::copy_if(checked.diagnostics.begin(), checked.diagnostics.end(),
+               std::back_inserter(lifted.findings), is_error);
+  if (!lifted.findings.empty())
+    return lifted;
   auto ways = lifting::read_ways(program);
   if (ways.steps.empty())
     ways.obstacle = lifting::obstacle({}, "the program holds no statement");

@@ -37,9 +37,19 @@ public:
   }
 
 private:
+  struct Open {
+    std::string path;
+    std::string identity;
+  };
+
+  static bool contains(const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  }
+
   /// Parses a file and all that it includes.
   void add(std::string name, std::string path, std::string_view text) {
-    open_.push_back(path);
+    open_.push_back({path, files_.identity(path)});
+    taken_.push_back(open_.back().identity);
     parse(program_, std::move(name), std::move(path), text);
     const auto begin = program_.files.back().statements_begin;
     const auto end = program_.files.back().statements_end;
@@ -57,7 +67,7 @@ private:
   /// The path that a statement names, as it counts from the file that is read.
   std::string path_of(std::uint32_t i) const {
     const auto quoted = program_.text_of(program_.items[program_.statements[i].items_begin].span);
-    return resolve_path(open_.back(), quoted.substr(1, quoted.size() - 2));
+    return resolve_path(open_.back().path, quoted.substr(1, quoted.size() - 2));
   }
 
   void report(const Rule& rule, std::uint32_t i, std::string message, std::string help = {}) {
@@ -75,15 +85,14 @@ private:
 
   void include(std::uint32_t i) {
     auto path = path_of(i);
-    if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+    const auto identity = files_.identity(path);
+    if (std::any_of(open_.begin(), open_.end(),
+                    [&](const Open& file) { return file.identity == identity; })) {
       report(rules::IncludeCircle, i, fmt::format("`{}` includes itself", path),
              "put what both files need into a third one");
       return;
     }
-    if (std::any_of(program_.files.begin(), program_.files.end(),
-                    [&](const File& file) { return file.path == path; }))
-      return;
-    if (is_full(included_, i, "included"))
+    if (contains(taken_, identity) || is_full(included_, i, "included"))
       return;
     const auto text = read(path, i);
     if (!text)
@@ -120,10 +129,8 @@ private:
 
   void use(std::uint32_t i) {
     const auto path = path_of(i);
-    if (std::any_of(program_.macro_files.begin(), program_.macro_files.end(),
-                    [&](const MacroFile& file) { return file.path == path; }))
-      return;
-    if (is_full(used_, i, "used"))
+    auto identity = files_.identity(path);
+    if (contains(taken_macros_, identity) || is_full(used_, i, "used"))
       return;
     auto text = read(path, i);
     if (!text)
@@ -149,6 +156,7 @@ private:
       report(rules::BadMacroFile, i, fmt::format("`{}` holds no macro with a name and an id", path),
              "write `.macro name id=40`");
     program_.macro_files.push_back({path, *std::move(text)});
+    taken_macros_.push_back(std::move(identity));
   }
 
   std::uint32_t intern(Span name) {
@@ -163,7 +171,9 @@ private:
   Files& files_;
   std::size_t included_ = 0;
   std::size_t used_ = 0;
-  std::vector<std::string> open_; ///< the paths that lead to the file that is read
+  std::vector<Open> open_;                ///< the files that lead to the one that is read
+  std::vector<std::string> taken_;        ///< the identities of the program's files
+  std::vector<std::string> taken_macros_; ///< and of those with macros
 };
 
 } // namespace
@@ -182,6 +192,10 @@ std::string resolve_path(std::string_view from, std::string_view path) {
       parts.push_back(part);
   }
   return fmt::format("{}{}", whole.starts_with('/') ? "/" : "", fmt::join(parts, "/"));
+}
+
+std::string Files::identity(const std::string& path) {
+  return resolve_path({}, path);
 }
 
 Program read(std::string name, std::string path, std::string_view text, Files& files) {

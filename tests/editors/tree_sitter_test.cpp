@@ -1,7 +1,7 @@
 // The committed tree-sitter parsers against the programs that orb itself takes: no error in any.
 
 #include "assembler/lint.h"
-#include "compiler/lint.h"
+#include "compiler/check.h"
 #include "compiler/parse.h"
 #include "structured/compile.h"
 #include "structured/lift.h"
@@ -122,9 +122,9 @@ TEST(TreeSitter, ProgramsAtRandom) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     files.texts["a.bas"] = testing::RandomProgram(seed, {}).write();
     files.texts["b.orb"] = testing::RandomStructured(seed).write();
-    const auto program = compiler::parse(files.texts["a.bas"]);
-    if (!any_error(compiler::lint(program, {})))
-      files.texts["c.orb"] = structured::lift(program).text;
+    if (const auto lifted = structured::lift(compiler::check(files.texts["a.bas"], {}));
+        !lifted.text.empty())
+      files.texts["c.orb"] = lifted.text;
     accepted += expect_no_errors(files, "seed " + std::to_string(seed));
     if (HasFailure())
       return;

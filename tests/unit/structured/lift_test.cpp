@@ -116,21 +116,15 @@ void expect_same(const Trace& numbered, const Trace& lifted) {
 
 /// The errors that keep a program from being lifted.
 std::vector<Diagnostic> errors_of(std::string_view text) {
-  const auto checked = compiler::check(text, {});
-  auto errors = checked.diagnostics;
-  const auto is_small = [](const Diagnostic& found) { return found.severity != Severity::Error; };
-  std::erase_if(errors, is_small);
-  if (!errors.empty())
-    return errors;
-  errors = lift(checked.program).findings;
-  std::erase_if(errors, is_small);
+  auto errors = lift(compiler::check(text, {})).findings;
+  std::erase_if(errors, [](const Diagnostic& found) { return !is_error(found); });
   return errors;
 }
 
 /// Lifts a program without errors, compiles what came out and compares what both do.
 void compare(std::string_view text) {
   const auto checked = compiler::check(text, {});
-  const auto lifted = lift(checked.program);
+  const auto lifted = lift(checked);
   SCOPED_TRACE("numbered:\n" + std::string(text) + "\nlifted:\n" + lifted.text);
   ASSERT_EQ(format(lifted.text), lifted.text);
   NoFiles files;
@@ -185,6 +179,22 @@ TEST(Lift, CompiledProgramsDoTheSame) {
   }
   EXPECT_GT(lifted, programs / 4);
   RecordProperty("lifted", std::to_string(lifted));
+}
+
+TEST(Lift, AProgramWithErrorsIsRefused) {
+  testing::RandomProgram::Style style;
+  style.lines = 30;
+  style.broken = 0.1;
+  style.wild_jump = 0.1;
+  for (std::uint64_t seed = 1; seed <= how_many(300); ++seed) {
+    const auto text = testing::RandomProgram(seed, style).write();
+    const auto checked = compiler::check(text, {});
+    const auto lifted = lift(checked);
+    if (any_error(checked.diagnostics)) {
+      EXPECT_TRUE(lifted.text.empty()) << text;
+      EXPECT_TRUE(any_error(lifted.findings)) << text;
+    }
+  }
 }
 
 TEST(Lift, AnyProgramIsLiftedOrRefused) {
