@@ -48,7 +48,19 @@ bool begins_line(std::string_view text, std::uint32_t at) {
   return at == 0 || is_line_end(text[at - 1]);
 }
 
+/// The `{` that the line above ends with.
+std::optional<std::uint32_t> brace_above(std::string_view text, std::uint32_t at) {
+  while (at > 0 && !is_line_end(text[at - 1]))
+    --at;
+  const auto begin = at;
+  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
+    --at;
+  return at < begin && at > 0 && text[at - 1] == '{' ? std::optional(at - 1) : std::nullopt;
+}
+
 using Place = compiler::Foreign::Place;
+
+constexpr auto no_braces = "blocks need no braces; they end with `next`, `end if`, `end while` …";
 
 /// Where structured programs say it in another way than numbered ones.
 constexpr auto structured_words = std::to_array<compiler::Foreign>({
@@ -73,8 +85,8 @@ constexpr auto structured_words = std::to_array<compiler::Foreign>({
     {"mod", Place::Value, "%", "write `a % b`"},
     {"!", Place::Value, "", "write `not`"},
     {"^", Place::Value, "", "there are no powers: write `a * a`"},
-    {"{", Place::Value, "", "blocks need no braces; they end with `next`, `end if`, `end while` …"},
-    {"}", Place::Value, "", "blocks need no braces; they end with `next`, `end if`, `end while` …"},
+    {"{", Place::Value, "", no_braces},
+    {"}", Place::Value, "", no_braces},
     {"do", Place::Value, "", "leave it out"},
     {"times", Place::Value, "", "leave it out: `repeat 5`"},
 });
@@ -267,7 +279,10 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return foreign_character(program, found);
   if (reason == Reason::ExpectedExpression && sign_before(program.text, found.begin) == '{')
     return finding(rules::MalformedLine, found, "`{` shifts left, and no value follows it",
-                   "blocks need no braces; they end with `next`, `end if`, `end while` …");
+                   no_braces);
+  if (const auto brace = brace_above(program.text, found.begin))
+    return finding(rules::MalformedLine, {*brace, *brace + 1},
+                   "`{` shifts left, so that its line goes on in the next one", no_braces);
   if (reason == Reason::ExpectedExpression && text == "#")
     return malformed(program, found, "a colour is no value",
                      "it stands alone after `RGB`: `RGB #FF8000`");

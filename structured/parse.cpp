@@ -821,10 +821,11 @@ private:
     skip_blanks(in);
     const auto what = peek_name(in);
     auto kind = end_of_block(what);
-    if (equal_words(what, "for")) {
-      kind = Kind::Next;
+    const auto routine = foreign_routine(what);
+    if (equal_words(what, "for") || routine) {
+      kind = !routine ? Kind::Next : *routine == Kind::Sub ? Kind::EndSub : Kind::EndFunction;
       builder_.report(habit(program_, builder_.span(word.data(), what.data() + what.size()),
-                            words_of_end(Kind::Next)));
+                            words_of_end(*kind)));
     }
     if (!kind) {
       builder_.begin(Kind::Robot, span(word)).robot = spec::Statement::End;
@@ -973,6 +974,27 @@ private:
     return true;
   }
 
+  /// What a word of another language begins, where that is a sub or a function.
+  static std::optional<Kind> foreign_routine(std::string_view word) {
+    for (const auto* const sub : {"procedure", "proc", "def", "void"})
+      if (equal_words(word, sub))
+        return Kind::Sub;
+    return equal_words(word, "func") ? std::optional(Kind::Function) : std::nullopt;
+  }
+
+  /// `procedure name` and the like.
+  bool routine_line(Input& in, std::string_view name, Kind kind, Position position) {
+    const auto* after = name.data() + name.size();
+    while (after != end_ && is_blank(*after))
+      ++after;
+    if (after == end_ || !begins_name(*after))
+      return false; // a call of a sub that has this name
+    only_on_line(position, name);
+    builder_.report(habit(program_, span(name), kind == Kind::Sub ? "sub" : "function"));
+    simple<g::routine>(in, kind, name);
+    return true;
+  }
+
   /// Statements of other languages; what has one meaning is taken with a finding.
   bool foreign(Input& in, std::string_view name, Position position) {
     const auto is = [&](std::string_view word) { return equal_words(name, word); };
@@ -1002,6 +1024,8 @@ private:
     }
     if (is("var") || is("let") || is("call") || is("dim"))
       return declaration(in, name, position);
+    if (const auto routine = foreign_routine(name))
+      return routine_line(in, name, *routine, position);
     return false;
   }
 
