@@ -1,5 +1,6 @@
 // What an editor may ask about a structured program.
 
+#include "assembler/assemble.h"
 #include "base/fixes.h"
 #include "base/text.h"
 #include "compiler/check.h"
@@ -97,11 +98,30 @@ void add_once(std::vector<FarPlace>& places, FarPlace place) {
   places.push_back(std::move(place));
 }
 
+/// Where a macro that `use` brings is written: in a file of its own.
+std::optional<FarPlace> macro_place(const Part& part) {
+  const auto& program = part.reading.program;
+  if (part.here->meaning.symbol == none)
+    return std::nullopt;
+  const auto& symbol = part.reading.names.symbols[part.here->meaning.symbol];
+  if (symbol.statement == none || program.statements[symbol.statement].kind != Kind::Use)
+    return std::nullopt;
+  for (const auto& file : program.macro_files) {
+    auto written = std::make_shared<const Source>(file.path, file.text);
+    for (const auto& macro : assembler::assemble(*written).macros)
+      if (equal_words(macro.name, program.name(symbol.name)))
+        return FarPlace{std::move(written), macro.span, true};
+  }
+  return std::nullopt;
+}
+
 Occurrences occurrences(const Source& source, std::uint32_t offset,
                         const LanguageOptions& options) {
   std::vector<FarPlace> places;
   Occurrences found;
-  for (const auto& part : parts_with(source, offset, options))
+  for (const auto& part : parts_with(source, offset, options)) {
+    if (auto macro = macro_place(part))
+      add_once(places, *std::move(macro));
     for (const auto& use : part.uses) {
       auto place = use.meaning == part.here->meaning ? part.reading.place(use.span) : std::nullopt;
       if (!place)
@@ -111,6 +131,7 @@ Occurrences occurrences(const Source& source, std::uint32_t offset,
         place->source = std::make_shared<const Source>(source);
       add_once(places, *std::move(place));
     }
+  }
   for (auto& place : places)
     if (place.source->name() != source.name())
       found.elsewhere.push_back(std::move(place));

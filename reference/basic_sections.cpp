@@ -5,6 +5,7 @@
 #include "reference/sections.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
+#include "structured/blocks.h"
 #include "structured/words.h"
 
 #include <algorithm>
@@ -240,6 +241,8 @@ Section structured_words_section() {
   const auto add = [&](const structured::WordInfo& row) {
     Entry entry;
     entry.name = row.word;
+    if (structured::end_of_block(row.word))
+      entry.aliases.push_back(fmt::format("end {}", row.word));
     entry.summary = row.summary;
     entry.facts.emplace_back("usage", row.usage);
     if (!row.example.empty())

@@ -68,6 +68,7 @@ TEST(Structured, HoverSaysWhatANameStandsFor) {
   EXPECT_NE(session.hover(4, 10).find("(parameter)"), std::string::npos);
   EXPECT_NE(session.hover(19, 24).find("(label): jumped to in line 20"), std::string::npos);
   EXPECT_NE(session.hover(4, 4).find("goroll"), std::string::npos);
+  EXPECT_NE(session.hover(4, 4).find("```orbstructured\ngoroll 90, 128, 1\n"), std::string::npos);
   EXPECT_NE(session.hover(3, 1).find("sub"), std::string::npos);
   EXPECT_EQ(session.hover(2, 4), "");
 }
@@ -179,6 +180,14 @@ TEST_F(TwoFiles, DefinitionsAndReferencesAreFoundInBoth) {
             "a%20lib.orb:1:4-7 main.orb:2:0-3");
   EXPECT_EQ(far_places(client.at("references", 2, 4, nlohmann::json::object(), main)),
             far_places(client.at("references", 2, 6, nlohmann::json::object(), main)));
+}
+
+TEST(Structured, AMacroIsDefinedInItsOwnFile) {
+  LspClient client("utf-8");
+  client.open(".macro wink id=40\n  rgb 255 0 0\n  end\n", "file:///robot/wink.macro");
+  client.open("use \"wink.macro\"\nmacrun wink\n", name);
+  EXPECT_EQ(far_places(client.at("definition", 1, 8, nlohmann::json::object(), name)),
+            "wink.macro:0:7-11");
 }
 
 TEST_F(TwoFiles, ANameGetsAnotherInBoth) {
