@@ -53,14 +53,12 @@ private:
 const Engine::Row Engine::rows[] = {
     {"version", &Engine::version},
     {"check", &Engine::plain<playground::check>},
-    {"fix", &Engine::plain<playground::fix>},
     {"format", &Engine::plain<playground::format>},
-    {"explain", &Engine::plain<playground::explain>},
     {"build", &Engine::plain<playground::build>},
     {"assemble", &Engine::plain<playground::assemble>},
     {"test", &Engine::plain<playground::test>},
     {"replay", &Engine::plain<playground::replay>},
-    {"ble", &Engine::plain<playground::ble>},
+    {"links", &Engine::plain<playground::links>},
     {"run", &Engine::run},
     {"files", &Engine::files},
     {"lsp", &Engine::lsp},
@@ -109,7 +107,6 @@ Answer Engine::run(Request& request) {
   if (!trace.empty())
     wanted.trace = trace == "csv" ? report::TraceFormat::Csv : report::TraceFormat::Json;
   wanted.report = request.flag("report");
-  wanted.svg = request.flag("svg");
   const auto run = Run::start(request, wanted);
   if (!run)
     return tl::unexpected(run.error());
@@ -119,7 +116,7 @@ Answer Engine::run(Request& request) {
 
 Answer Engine::live_start(Request& request) {
   live_.reset();
-  auto run = Run::start(request, {std::nullopt, true, false});
+  auto run = Run::start(request, {std::nullopt, true});
   if (!run)
     return tl::unexpected(run.error());
   live_ = *std::move(run);

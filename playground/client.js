@@ -1,14 +1,6 @@
 // The page's end of the worker.
 
-/** Why a call failed: `code` is the exit code that `orb` would have, or "stopped". */
-export class OrbError extends Error {
-  constructor({ code, message, findings }) {
-    super(message);
-    this.name = "OrbError";
-    this.code = code;
-    if (findings) this.findings = findings;
-  }
-}
+import { OrbError } from "./error.js";
 
 export class Client {
   #url; #worker; #next = 1; #open = new Map(); #listeners = new Map();

@@ -1,16 +1,7 @@
 // orb as a function: requests in, answers out, in a worker, a page or node. playground/README.md has the
 // methods.
+import { OrbError } from "./error.js";
 import load from "./orb.mjs";
-
-/** Why a request was refused: `code` is the exit code that `orb` would have. */
-export class OrbError extends Error {
-  constructor({ code, message, findings }) {
-    super(message);
-    this.name = "OrbError";
-    this.code = code;
-    if (findings) this.findings = findings;
-  }
-}
 
 const hex_of = bytes => Array.from(bytes, byte => byte.toString(16).padStart(2, "0")).join(" ");
 const bytes_of = hex => Uint8Array.from(hex.split(" ").filter(Boolean), pair => parseInt(pair, 16));

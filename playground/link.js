@@ -1,9 +1,6 @@
 // Uploads from a browser: Web Serial and Web Bluetooth carry the bytes, the uploader in C++ says which.
 
-import { OrbError } from "./client.js";
-
-const write_ms = 5000; // a port that takes no bytes for so long takes none any more
-const tries = 3;
+import { OrbError } from "./error.js";
 
 export const can_serial = () => typeof navigator !== "undefined" && !!navigator.serial;
 export const can_bluetooth = () => typeof navigator !== "undefined" && !!navigator.bluetooth;
@@ -49,21 +46,31 @@ const within = (promise, ms, error) => {
   return Promise.race([promise, late]).finally(() => clearTimeout(timer));
 };
 
+/** What `deed` brings, which is tried again after each of `pauses_ms`; `failed(error, last)` may end that. */
+async function patiently(pauses_ms, deed, failed) {
+  for (let n = 0; ; ++n) {
+    try {
+      return await deed();
+    } catch (error) {
+      failed(error, n === pauses_ms.length);
+    }
+    await new Promise(done => setTimeout(done, pauses_ms[n]));
+  }
+}
+
 /**
  * A serial port: a classic ball over Bluetooth, or an adapter. Asks the person for it where none is given, so
  * call it in a click. A link has `write(bytes)`, `read(ms, signal)` and `close()`; what it throws says
- * `kind` ("closed", "broken") and `message`.
+ * `kind` ("closed", "broken") and `message`. `orb` knows how long what may take.
  */
-export async function serial_link(port) {
+export async function serial_link(orb, port) {
   port ??= await navigator.serial.requestPort();
-  for (let n = 1; !port.readable; ++n) {
-    try {
-      await port.open({ baudRate: 115200 });
-    } catch (error) {
+  const { pauses_ms, serial } = await orb.call("links");
+  if (!port.readable)
+    await patiently(pauses_ms, () => port.open({ baudRate: serial.baud_rate }), (error, last) => {
       if (error.name === "InvalidStateError") throw no_ball("cannot open the port: it is in use; close the other tab or program that has it");
-      if (n === tries) throw no_ball(`cannot open the port: ${words_of(error)}; shake the ball awake, keep it near, and end other connections to it`);
-    }
-  }
+      if (last) throw no_ball(`cannot open the port: ${words_of(error)}; shake the ball awake, keep it near, and end other connections to it`);
+    });
   const inbox = new Inbox();
   const reader = port.readable.getReader(), writer = port.writable.getWriter();
   const reading = (async () => {
@@ -86,7 +93,7 @@ export async function serial_link(port) {
     async write(bytes) {
       if (stuck) throw takes_nothing;
       try {
-        await within(writer.write(bytes), write_ms, takes_nothing);
+        await within(writer.write(bytes), serial.write_ms, takes_nothing);
       } catch (error) {
         stuck = error === takes_nothing;
         throw stuck ? error : hung_up;
@@ -105,7 +112,7 @@ export async function serial_link(port) {
 
 /** A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. */
 export async function bluetooth_link(orb, device) {
-  const ble = await orb.call("ble");
+  const { pauses_ms, ble } = await orb.call("links");
   device ??= await navigator.bluetooth.requestDevice({
     filters: ble.names.map(namePrefix => ({ namePrefix })),
     optionalServices: ble.services,
@@ -117,15 +124,10 @@ export async function bluetooth_link(orb, device) {
     here = false;
     inbox.fail(lost);
   };
-  let commands;
-  for (let n = 1; !commands; ++n) {
-    try {
-      commands = await greet(device, ble, bytes => inbox.push(bytes));
-    } catch (error) {
-      device.gatt.disconnect();
-      if (n === tries) throw no_ball(`cannot connect to ${device.name ?? "the robot"}: ${words_of(error)}; shake it awake, hold it near, and end the app or the phone that may hold it`);
-    }
-  }
+  const commands = await patiently(pauses_ms, () => greet(device, ble, bytes => inbox.push(bytes)), (error, last) => {
+    device.gatt.disconnect();
+    if (last) throw no_ball(`cannot connect to ${device.name ?? "the robot"}: ${words_of(error)}; shake it awake, hold it near, and end the app or the phone that may hold it`);
+  });
   device.addEventListener("gattserverdisconnected", gone);
   return {
     kind: "ble",
@@ -133,7 +135,7 @@ export async function bluetooth_link(orb, device) {
       for (let at = 0; at < bytes.length; at += ble.piece) {
         if (!here) throw lost;
         try {
-          await within(commands.writeValueWithResponse(bytes.slice(at, at + ble.piece)), write_ms, "late");
+          await within(commands.writeValueWithResponse(bytes.slice(at, at + ble.piece)), ble.write_ms, "late");
         } catch {
           if (!here || !device.gatt.connected) throw lost;
           return; // it may have arrived, so it is never sent again: the packet is lost
@@ -149,7 +151,7 @@ export async function bluetooth_link(orb, device) {
 }
 
 async function greet(device, ble, on_bytes) {
-  const server = await device.gatt.connect();
+  const server = await within(device.gatt.connect(), ble.connect_ms, new Error("it does not answer"));
   const find = async ({ service, characteristic }) => (await server.getPrimaryService(service)).getCharacteristic(characteristic);
   for (const word of ble.greeting) await (await find(word)).writeValueWithResponse(word.bytes);
   const answers = await find(ble.answers);

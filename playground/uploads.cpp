@@ -2,6 +2,7 @@
 
 #include "run/delivery.h"
 #include "spec/ble.h"
+#include "spec/serial.h"
 #include "uploader/ble.h"
 
 #include <utility>
@@ -92,17 +93,8 @@ ordered_json place_json(spec::BleCharacteristic characteristic) {
           {"characteristic", row.uuid}};
 }
 
-LinkError read_error(const ordered_json& error) {
-  const auto kind = error.value("kind", "broken");
-  return {kind == "closed"        ? LinkError::Kind::Closed
-          : kind == "interrupted" ? LinkError::Kind::Interrupted
-                                  : LinkError::Kind::Broken,
-          error.value("message", "")};
-}
-
-} // namespace
-
-Answer ble(Request&) {
+/// How a robot is found and opened to commands.
+ordered_json ble_json(const uploader::Budgets& budgets) {
   auto services = ordered_json::array();
   for (const auto& row : spec::ble_services)
     services.push_back(row.uuid);
@@ -115,12 +107,36 @@ Answer ble(Request&) {
     greeting.push_back(place_json(row.characteristic));
     greeting.back()["bytes"] = bytes_json(as_bytes(row.bytes));
   }
-  return print({{"services", services},
-                {"names", names},
-                {"greeting", greeting},
-                {"commands", place_json(spec::BleCharacteristic::Commands)},
-                {"answers", place_json(spec::BleCharacteristic::Answers)},
-                {"piece", spec::ble_piece_bytes}});
+  return {{"services", services},
+          {"names", names},
+          {"greeting", greeting},
+          {"commands", place_json(spec::BleCharacteristic::Commands)},
+          {"answers", place_json(spec::BleCharacteristic::Answers)},
+          {"piece", spec::ble_piece_bytes},
+          {"connect_ms", milliseconds(budgets.ble_connect)},
+          {"write_ms", milliseconds(budgets.ble_send)}};
+}
+
+LinkError read_error(const ordered_json& error) {
+  const auto kind = error.value("kind", "broken");
+  return {kind == "closed"        ? LinkError::Kind::Closed
+          : kind == "interrupted" ? LinkError::Kind::Interrupted
+                                  : LinkError::Kind::Broken,
+          error.value("message", "")};
+}
+
+} // namespace
+
+Answer links(Request&) {
+  const uploader::Budgets budgets;
+  auto pauses = ordered_json::array(); // between the tries
+  for (int n = 1; n < budgets.opens; ++n)
+    pauses.push_back(milliseconds(budgets.backoff(n)));
+  return print(
+      {{"pauses_ms", pauses},
+       {"serial",
+        {{"baud_rate", spec::serial_baud_rate}, {"write_ms", milliseconds(budgets.write)}}},
+       {"ble", ble_json(budgets)}});
 }
 
 tl::expected<Upload, Problem> Upload::start(Request& request) {

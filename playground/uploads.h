@@ -10,8 +10,8 @@
 
 namespace orb::playground {
 
-/// What a page must know of robots over Bluetooth LE.
-Answer ble(Request& request);
+/// What a page must know to open links to robots and to write to them.
+Answer links(Request& request);
 
 /// What a browser's link did when it was asked to.
 struct Done {

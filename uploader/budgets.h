@@ -20,6 +20,8 @@ struct Budgets {
   Duration connect = 6s;
   /// How often a link is tried to be opened.
   int opens = 3;
+  /// For a link to take bytes; then it is broken: the longest packet needs 25 ms.
+  Duration write = 5s;
   /// For bluetoothd to answer, and for a robot to acknowledge a word of the greeting over LE.
   Duration ble_answer = 3s;
   /// For a robot to be seen over LE; it shows itself several times a second, to a radio that

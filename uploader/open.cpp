@@ -1,5 +1,6 @@
 // The links that the operating system gives: each is an Asio stream behind the Transport interface.
 
+#include "spec/serial.h"
 #include "uploader/ble.h"
 #include "uploader/bluez.h"
 
@@ -27,11 +28,7 @@ namespace {
 using protocol::LinkError;
 
 constexpr std::size_t read_most = 4096; // bytes at once
-/// A link that takes no bytes for this long is broken: the longest packet needs 25 ms.
-constexpr Duration write_time = 5s;
-/// By custom; an RFCOMM port has no baud rate.
-constexpr unsigned baud_rate = 115200;
-constexpr int rfcomm_protocol = 3; // BTPROTO_RFCOMM
+constexpr int rfcomm_protocol = 3;      // BTPROTO_RFCOMM
 
 tl::unexpected<LinkError> failed(LinkError::Kind kind, std::string message) {
   return tl::unexpected(LinkError{kind, std::move(message)});
@@ -46,8 +43,9 @@ Instant steady_now() {
 template <class Stream>
 class AsioTransport final : public protocol::Transport {
 public:
-  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream, Stop stop)
-      : io_(std::move(io)), stream_(std::move(stream)), stop_(std::move(stop)) {}
+  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream, Duration write_time, Stop stop)
+      : io_(std::move(io)), stream_(std::move(stream)), write_time_(write_time),
+        stop_(std::move(stop)) {}
 
   Instant now() const override { return steady_now(); }
 
@@ -57,7 +55,7 @@ public:
     std::optional<asio::error_code> result;
     asio::async_write(stream_, asio::buffer(bytes.data(), bytes.size()),
                       [&](const asio::error_code& error, std::size_t) { result = error; });
-    const auto deadline = steady_now() + write_time;
+    const auto deadline = steady_now() + write_time_;
     const auto asked = stop_();
     while (!run(result, std::min(deadline, steady_now() + stop_notice)))
       if (steady_now() >= deadline || stop_() > asked)
@@ -131,6 +129,7 @@ private:
 
   std::unique_ptr<asio::io_context> io_;
   Stream stream_;
+  Duration write_time_;
   Stop stop_;
   bool stuck_ = false; ///< a write did not come to its end
   std::array<std::uint8_t, read_most> buffer_{};
@@ -155,7 +154,7 @@ bool lock(int handle) {
 }
 
 /// Raw, exclusive, flushed. A line discipline would turn LF into CR LF and eat XON and XOFF.
-Opened open_serial(const Endpoint& endpoint, const Stop& stop) {
+Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   auto io = std::make_unique<asio::io_context>(1);
   asio::serial_port port(*io);
   asio::error_code error;
@@ -174,10 +173,12 @@ Opened open_serial(const Endpoint& endpoint, const Stop& stop) {
   settings.c_cc[VTIME] = 0;
   if (::tcsetattr(handle, TCSANOW, &settings) != 0)
     return tl::unexpected(describe_open_error(endpoint, errno));
-  port.set_option(asio::serial_port::baud_rate(baud_rate), error); // a pty may not care
+  port.set_option(asio::serial_port::baud_rate(spec::serial_baud_rate),
+                  error); // a pty may not care
   // What waits to be sent on a pty is what the client before has said, not noise of a radio.
   ::tcflush(handle, is_pty(handle) ? TCIFLUSH : TCIOFLUSH);
-  return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port), stop);
+  return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port),
+                                                            budgets.write, stop);
 }
 
 /// Nothing has been sent while a link is being opened.
@@ -256,7 +257,8 @@ Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& st
     return tl::unexpected(describe_open_error(endpoint, result));
   asio::error_code ignored;
   socket.set_option(tcp::no_delay(true), ignored);
-  return std::make_unique<AsioTransport<tcp::socket>>(std::move(io), std::move(socket), stop);
+  return std::make_unique<AsioTransport<tcp::socket>>(std::move(io), std::move(socket),
+                                                      budgets.write, stop);
 }
 
 Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
@@ -274,13 +276,14 @@ Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop&
   });
   if (result != 0)
     return tl::unexpected(describe_open_error(endpoint, result));
-  return std::make_unique<AsioTransport<Protocol::socket>>(std::move(io), std::move(socket), stop);
+  return std::make_unique<AsioTransport<Protocol::socket>>(std::move(io), std::move(socket),
+                                                           budgets.write, stop);
 }
 
 Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
   switch (endpoint.scheme) {
   case Scheme::Serial:
-  case Scheme::Pty: return open_serial(endpoint, stop);
+  case Scheme::Pty: return open_serial(endpoint, budgets, stop);
   case Scheme::Rfcomm: return open_rfcomm(endpoint, budgets, stop);
   case Scheme::Tcp: return open_tcp(endpoint, budgets, stop);
   case Scheme::Ble:

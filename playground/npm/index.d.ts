@@ -58,7 +58,6 @@ export interface RunOptions extends Named {
   connected?: boolean;
   trace?: "json" | "csv";
   trace_lines?: boolean;
-  svg?: boolean;
   /** Data for the player of orb's reports. */
   report?: boolean;
   /** Whether the run goes on until the ball has rolled out. */
@@ -95,7 +94,6 @@ export interface Ran {
   hint: string;
   prints: string;
   trace?: string;
-  svg?: string;
   report?: Record<string, unknown>;
 }
 

@@ -1,4 +1,5 @@
-import { load_engine, OrbError } from "./engine.js";
+import { load_engine } from "./engine.js";
+import { OrbError } from "./error.js";
 
 export { OrbError };
 

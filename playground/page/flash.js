@@ -77,7 +77,7 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
     }
   }
   $("flash").addEventListener("click", open);
-  $("flash-serial").addEventListener("click", () => write(() => serial_link()));
+  $("flash-serial").addEventListener("click", () => write(() => serial_link(machine)));
   $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link(machine)));
   $("flash-file").addEventListener("click", as_file);
   $("flash-cancel").addEventListener("click", () => running?.abort());
