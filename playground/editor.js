@@ -1,7 +1,9 @@
 // The editor: CodeMirror, and the language server of `orb lsp` in a worker behind it.
 
-import { basicSetup } from "codemirror";
-import { EditorView, Decoration, ViewPlugin, keymap } from "@codemirror/view";
+import { closeBrackets, closeBracketsKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { bracketMatching } from "@codemirror/language";
+import { EditorView, Decoration, ViewPlugin, drawSelection, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers } from "@codemirror/view";
 import { EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
 import { setDiagnostics, lintGutter, nextDiagnostic } from "@codemirror/lint";
 import { LSPClient, LSPPlugin, serverCompletion, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
@@ -53,6 +55,12 @@ const running = StateField.define({
   },
   provide: field => EditorView.decorations.from(field),
 });
+
+/** What belongs to an editor; what needs a parser in the page, such as folding, is left out. */
+const basics = [
+  lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), bracketMatching(), closeBrackets(),
+  highlightActiveLine(), keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...historyKeymap]),
+];
 
 const severities = [, "error", "warning", "info", "hint"];
 const reconnects = 3; // a server that ends again and again is left alone
@@ -169,7 +177,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     doc: text,
     extensions: [
       Prec.high(keymap.of([...formatKeymap, ...renameKeymap, ...jumpToDefinitionKeymap, { key: "Mod-.", run: fix_here }, { key: "F8", run: nextDiagnostic }])),
-      basicSetup, lintGutter(), colors, running, short_enough, follow,
+      basics, lintGutter(), colors, running, short_enough, follow,
       EditorView.lineWrapping, EditorView.cspNonce.of(nonce),
       EditorView.contentAttributes.of({ "aria-label": `Text of ${name}`, autocapitalize: "off", autocorrect: "off", spellcheck: "false" }),
       EditorView.updateListener.of(update => {

@@ -1,7 +1,7 @@
 // The examples and lessons that the build put beside the page.
 
-import { marked } from "marked";
 import { $, element, button, harmless } from "./dom.js";
+import { markdown } from "./markdown.js";
 
 let groups = null;
 export async function load_library() {
@@ -77,7 +77,7 @@ export async function show_task(id, { on_pick, on_solution }) {
   if (!lesson) return;
   const [, title, rest] = /^#\s*([^\n]*)\n([^]*)$/.exec(lesson.readme) ?? [, lesson.title, lesson.readme];
   $("task-title").textContent = `Lesson ${title}`;
-  $("task-text").innerHTML = harmless(marked.parse(rest.replaceAll("../../", "")));
+  $("task-text").innerHTML = harmless(markdown(rest.replaceAll("../../", "")));
   for (const block of $("task-text").querySelectorAll("pre")) suggest_button(block);
   $("task-text").scrollTop = 0;
   for (const [id, other] of [["lesson-before", all[at - 1]], ["lesson-next", all[at + 1]]]) {

@@ -6,6 +6,7 @@ import { mkdirSync, readFileSync, readdirSync, writeFileSync, copyFileSync } fro
 import { dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import * as esbuild from "esbuild";
+import { minify } from "terser";
 import { build_docs } from "./docs.mjs";
 import { licences } from "./licences.mjs";
 
@@ -21,10 +22,22 @@ const player = {
     build.onLoad({ filter: /report\/page\.js$/ }, args => ({ contents: `${readFileSync(args.path, "utf8")}\nexport { orb_player };`, loader: "js" }));
   },
 };
+/** The engine stands where emscripten has put it; and what is to be weighed has no library for all of Markdown. */
+const stand_ins = { "./orb.mjs": join(root, "build/wasm/orb.mjs"), marked: join(root, "playground/page/markdown.js") };
+const places = {
+  name: "places",
+  setup(build) {
+    build.onResolve({ filter: /^(\.\/orb\.mjs|marked)$/ }, ({ path }) => ({ path: stand_ins[path] }));
+  },
+};
 const bundle = await esbuild.build({
-  entryPoints: [join(root, "playground/page.js")], outfile: join(out, "page.js"), absWorkingDir: root,
-  bundle: true, minify: true, format: "esm", target: "es2022", plugins: [player], metafile: true, legalComments: "none", logLevel: "warning",
+  entryPoints: ["page", "worker"].map(name => join(root, `playground/${name}.js`)), outdir: out, absWorkingDir: root, write: false,
+  bundle: true, format: "esm", target: "es2022", external: ["node:*"], plugins: [player, places],
+  metafile: true, legalComments: "none", logLevel: "warning",
 });
+// Terser takes twenty times as long as esbuild, and makes the page's script lighter by a thirtieth.
+for (const { path, text } of bundle.outputFiles)
+  writeFileSync(path, (await minify(text, { module: true, ecma: 2020, compress: { passes: 3 } })).code);
 const minified = (await esbuild.transform(`${read("report/page.css")}\n${read("playground/page.css")}`, { loader: "css", minify: true })).code;
 writeFileSync(join(out, "page.css"), minified);
 

@@ -14,8 +14,8 @@ if (!existsSync(join(folder, "orb.wasm"))) {
   console.log(`skipped: ${folder} is not there; ./dev playground builds it`);
   process.exit(77);
 }
-const { load_engine } = await import(pathToFileURL(join(folder, "engine.js")));
-const { deliver } = await import(pathToFileURL(join(folder, "link.js")));
+const { load_engine } = await import(pathToFileURL(join(root, "build/npm/engine.js")));
+const { deliver } = await import(pathToFileURL(join(root, "playground/link.js")));
 const engine = await load_engine();
 const place = mkdtempSync(join(tmpdir(), "orb-playground-"));
 process.setMaxListeners(100); // each ball is ended with us
@@ -73,6 +73,23 @@ for (const { id, files, main, test, run } of [...items, ...solved, mistakes]) {
   if (!test) continue;
   const verdicts = JSON.parse((await orb(["test", test, "--format", "json"], files)).out);
   same("verdicts", id, engine.call("test", { files, names: [test] }).results, verdicts);
+}
+
+// ---- the page's own Markdown against a library for all of it ----
+const Markdown = (await import(pathToFileURL(join(root, "playground/node_modules/markdown-it/dist/markdown-it.mjs")))).default;
+const { markdown } = await import(pathToFileURL(join(root, "playground/page/markdown.js")));
+const library = new Markdown();
+for (const { id, readme } of items.filter(item => item.readme)) same("lesson", id, markdown(readme), library.render(readme));
+{
+  const ask = (method, params, id) => engine.call("lsp", { message: { jsonrpc: "2.0", ...id && { id }, method, params } }).messages;
+  ask("initialize", { capabilities: {} }, 1);
+  for (const name of ["a.bas", "a.orb", "a.macro", "a.test"]) {
+    const textDocument = { uri: `file:///${name}` };
+    ask("textDocument/didOpen", { textDocument: { ...textDocument, version: 1, languageId: "", text: "\n" } });
+    const [{ result }] = ask("textDocument/completion", { textDocument, position: { line: 0, character: 0 } }, 2);
+    for (const { label, documentation } of result.items ?? result)
+      if (documentation) same("hover", label, markdown(documentation.value), library.render(documentation.value).replace(/ class="language-\w+"/g, ""));
+  }
 }
 
 // ---- uploads ----

@@ -17,7 +17,7 @@ process.on("exit", () => rmSync(place, { recursive: true, force: true }));
 
 const [packed] = JSON.parse(execFileSync("npm", ["pack", folder, "--json", "--pack-destination", place], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] }));
 assert.deepEqual(packed.files.map(file => file.path).sort(),
-  ["LICENSE", "LICENSES.txt", "README.md", "engine.js", "index.d.ts", "index.js", "orb.mjs", "orb.wasm", "package.json"]);
+  ["LICENSE", "LICENSES.txt", "README.md", "engine.js", "error.js", "index.d.ts", "index.js", "orb.mjs", "orb.wasm", "package.json"]);
 
 const modules = join(place, "node_modules/orb-wasm");
 mkdirSync(modules, { recursive: true });

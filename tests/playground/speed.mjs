@@ -10,7 +10,7 @@ import { brotliCompressSync } from "node:zlib";
 const [orb, root] = process.argv.slice(2).map(path => resolve(path));
 const folder = join(root, "build/playground");
 const begin = performance.now();
-const { load_engine } = await import(pathToFileURL(join(folder, "engine.js")));
+const { load_engine } = await import(pathToFileURL(join(root, "build/npm/engine.js")));
 const engine = await load_engine();
 console.log(`engine ready after ${(performance.now() - begin).toFixed(0)} ms`);
 
