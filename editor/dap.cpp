@@ -18,7 +18,6 @@
 namespace orb::editor {
 namespace {
 
-using Json = nlohmann::json;
 using Answer = tl::expected<Json, std::string>;
 using debug::Breakpoint;
 using debug::Stop;

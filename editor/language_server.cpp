@@ -20,8 +20,6 @@
 namespace orb::editor {
 namespace {
 
-using Json = nlohmann::json;
-
 // Numbers of the protocol.
 enum class RpcError : int {
   ParseError = -32700,

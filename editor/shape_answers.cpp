@@ -5,8 +5,6 @@
 namespace orb::editor {
 namespace {
 
-using Json = nlohmann::json;
-
 struct DeedInfo {
   std::string_view title;
   std::string_view command;

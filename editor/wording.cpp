@@ -5,8 +5,6 @@
 namespace orb::editor {
 namespace {
 
-using Json = nlohmann::json;
-
 /// A number that counts something; what is too large is as good as the largest.
 std::optional<std::uint32_t> count_of(const Json& json) {
   if (!json.is_number_integer())

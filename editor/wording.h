@@ -15,25 +15,31 @@
 
 namespace orb::editor {
 
+#ifdef __EMSCRIPTEN__
+using Json = nlohmann::ordered_json; // the documents need that kind, and a page loads one, not two
+#else
+using Json = nlohmann::json;
+#endif
+
 /// The member `name` of `json`, or null where there is none or `json` is not an object.
-const nlohmann::json& member(const nlohmann::json& json, const char* name);
+const Json& member(const Json& json, const char* name);
 
 /// The string that `json` is; empty for anything else.
-std::string text_of(const nlohmann::json& json);
+std::string text_of(const Json& json);
 
 struct Wording {
   PositionEncoding encoding = PositionEncoding::Utf16;
 
-  nlohmann::json position(const Source& source, std::uint32_t offset) const;
-  nlohmann::json range(const Source& source, Span span) const;
-  nlohmann::json edit(const Source& source, const Edit& one) const;
-  nlohmann::json edits(const Source& source, const std::vector<Edit>& many) const;
+  Json position(const Source& source, std::uint32_t offset) const;
+  Json range(const Source& source, Span span) const;
+  Json edit(const Source& source, const Edit& one) const;
+  Json edits(const Source& source, const std::vector<Edit>& many) const;
   /// The edits that make `text` of all of it; none where it is that already.
-  nlohmann::json replace_all(const Source& source, const std::string& text) const;
+  Json replace_all(const Source& source, const std::string& text) const;
 
   /// The place that `json` says; nothing where it is none.
-  std::optional<std::uint32_t> offset(const Source& source, const nlohmann::json& json) const;
-  std::optional<Span> span(const Source& source, const nlohmann::json& json) const;
+  std::optional<std::uint32_t> offset(const Source& source, const Json& json) const;
+  std::optional<Span> span(const Source& source, const Json& json) const;
 };
 
 } // namespace orb::editor

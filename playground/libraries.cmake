@@ -23,6 +23,8 @@ set(fmt ${ORB_SOURCES}/fmtlib-9.1.0+ds1)
 add_library(orb_fmt STATIC ${fmt}/src/format.cc)
 target_include_directories(orb_fmt SYSTEM PUBLIC ${fmt}/include)
 target_compile_definitions(orb_fmt PRIVATE FMT_STATIC_THOUSANDS_SEPARATOR=',') # no locales
+# Nothing but double is formatted.
+target_compile_definitions(orb_fmt PUBLIC FMT_USE_FLOAT=0 FMT_USE_LONG_DOUBLE=0)
 target_compile_options(orb_fmt PRIVATE -fignore-exceptions)
 add_library(fmt::fmt ALIAS orb_fmt)
 

@@ -4,7 +4,6 @@
 #include "base/utf8.h"
 #include "playground/sources.h"
 #include "report/page.h"
-#include "report/svg.h"
 #include "run/want.h"
 #include "structured/words.h"
 #include "vm/stimulus.h"
@@ -92,7 +91,7 @@ tl::expected<std::unique_ptr<Run>, Problem> Run::start(Request& request, const W
                       : run::Until::Quiet;
   if (const auto right = run::check_start_line(made->launched_->inputs, options.line); !right)
     return refuse(right.error());
-  if (wanted.report || wanted.svg)
+  if (wanted.report)
     made->journey_.emplace();
   if (wanted.trace)
     made->trace_.emplace(*wanted.trace,
@@ -171,8 +170,6 @@ Answer Run::answer() {
       {"ending", ending_json(*ending)}, {"hint", hint()}, {"prints", from_latin1(prints_)}};
   if (trace_)
     answer["trace"] = trace_text_;
-  if (wanted_.svg)
-    answer["svg"] = report::path_svg(*journey_);
   auto text = print(answer);
   if (wanted_.report) // which is JSON already
     text.replace(text.size() - 1, 1, ",\"report\":" + report_of(*journey_) + "}");

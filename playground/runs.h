@@ -17,7 +17,6 @@ namespace orb::playground {
 struct Wanted {
   std::optional<report::TraceFormat> trace;
   bool report = false;
-  bool svg = false;
 };
 
 /// A run with all that it needs, and what it has come to. A page's live run is moved on bit by bit.

@@ -2,15 +2,12 @@
 
 #include "assembler/assemble.h"
 #include "base/render.h"
-#include "base/text.h"
 #include "compiler/image.h"
 #include "editor/language.h"
 #include "protocol/macro.h"
-#include "reference/knowledge.h"
 #include "report/course.h"
 #include "testing/check_files.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace orb::playground {
@@ -36,17 +33,6 @@ Answer check(Request& request) {
   return render_json(testing::check_files(*sources, {}, {}, request.files).files);
 }
 
-Answer fix(Request& request) {
-  auto sources = request.sources();
-  if (!sources)
-    return tl::unexpected(sources.error());
-  auto& file = sources->front();
-  const auto count = testing::fix(file, [&](const run::SourceFile& now) {
-    return testing::check_files({&now, 1}, {}, {}, request.files).files.front().diagnostics;
-  });
-  return print({{"text", file.source.text()}, {"count", count}});
-}
-
 Answer format(Request& request) {
   const auto sources = request.sources();
   if (!sources)
@@ -58,15 +44,6 @@ Answer format(Request& request) {
     return print({{"text", *text}});
   return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} cannot be laid out", file.path),
                                 check(request).value_or("")});
-}
-
-Answer explain(Request& request) {
-  const auto word = request.text("word");
-  const auto text = reference::print_entries(
-      reference::knowledge(), Style{}, [&](const auto& name) { return equal_words(name, word); });
-  if (text.empty())
-    return refuse(ExitCode::BadInput, fmt::format("nothing is known about `{}`", word));
-  return print({{"text", text}});
 }
 
 Answer build(Request& request) {

@@ -7,9 +7,7 @@
 namespace orb::playground {
 
 Answer check(Request& request);
-Answer fix(Request& request);
 Answer format(Request& request);
-Answer explain(Request& request);
 Answer build(Request& request);
 Answer assemble(Request& request);
 
