@@ -313,20 +313,33 @@ class Playground(unittest.TestCase):
         page.wait(f"({text}).includes('kept')")
 
     def test_hostile_text_stays_text(self):
-        evil = "<img src=x onerror='window.hacked=1'><script>window.hacked=1</script>"
-        name = "a.bas"
-        page = self.open(fragment({name: f'10 print "{evil}"\n20 {evil}\n30 goto {evil}\n', evil + ".bas": "x", "__proto__.bas": "10 end\n"},
+        evil = "<img src=x onerror='window.hacked=1'>"
+        quoted = "`a`<img/src=x>`b`"  # in a message it ends the quotation
+        page = self.open(fragment({"a.test": f'test "t"\n  {quoted} 1\n', "a.bas": '10 print "<img src=x>"\n', "b.orb": "const side = 3 ' <img src=x>\nprint side\n",
+                                   evil + ".bas": "x", "__proto__.bas": "10 end\n"},
                                   lesson=evil, main=evil, run={"stimuli": [evil], "course": evil, "input": evil, "seed": evil}))
-        page.wait("document.querySelectorAll('#findings li').length > 0")
-        self.assertEqual(page.evaluate("document.querySelectorAll('img[src=x], body script:not([src])').length"), 0)
-        short = "<img src=x onerror=hacked=1>"  # what a print can hold
-        self.type(page, f'10 print "{short}"\n')
-        page.evaluate(f"{click('world-button')}")
-        self.assertIn("img", page.evaluate(f"{by_id('scripts')}.textContent"))
-        page.evaluate("document.querySelector('#scripts input').click()")
-        page.evaluate(click("instant"))
-        page.wait(f"{events}.some(words => words.includes('<img')) || {by_id('outcome')}.className === 'bad'", 30)
-        self.assertEqual(page.evaluate("document.querySelectorAll('img[src=x], body script:not([src])').length"), 0)
+
+        def shown(where):
+            """There it is, as text."""
+            page.wait(f"document.querySelector('{where}')?.textContent.includes('<img')", 30)
+            self.assertEqual(page.evaluate("document.querySelectorAll('img:not(#course-picture), body script:not([src])').length"), 0, where)
+
+        shown("#findings")
+        page.evaluate(click("world-button"))
+        shown("#scripts")
+        page.evaluate("document.querySelector('#scripts input').click()")  # without it
+        self.type(page, f'test "{evil}"\n  expect print "no"\n')
+        page.evaluate(click("test"))
+        shown("#verdict-list b")
+        page.evaluate("document.querySelector('#verdict-list li > .row button').click()")
+        shown("#outcome")
+        shown("#events")
+        page.wait(idle)
+        page.evaluate("document.getElementById('tab-b.orb').click()")
+        page.wait("document.querySelector('.tok-variable') !== null")
+        box = page.evaluate("(({x, y, height}) => [x + 4, y + height / 2])([...document.querySelectorAll('[class^=tok-]')].filter(one => one.textContent === 'side').pop().getBoundingClientRect())")
+        page.call("Input.dispatchMouseEvent", type="mouseMoved", x=box[0], y=box[1])
+        shown(".cm-tooltip-hover")
         self.assertIsNone(page.evaluate("window.hacked"))
 
     def test_scripts_of_others_are_refused(self):
@@ -376,10 +389,12 @@ class Playground(unittest.TestCase):
         page, wire = self.flash("serial", mock_serial)
         self.assertEqual(page.evaluate(f"[{by_id('flash-status')}.className, {by_id('flash-progress')}.value]"), ["", 1], page.evaluate(f"{by_id('flash-status')}.textContent"))
         self.assertIn(b"on the ball", wire.sent)
+        self.assertRegex(page.evaluate(f"{by_id('flash-status')}.textContent"), r"^\d+ bytes in RAM")
 
     def test_a_program_is_flashed_over_bluetooth(self):
         page, wire = self.flash("bluetooth", mock_bluetooth, "--firmware", "bb-8", files={"a.macro": "rgb 0, 255, 0\ndelay 1s\n" * 9})
         self.assertEqual(page.evaluate(f"{by_id('flash-status')}.className"), "", page.evaluate(f"{by_id('flash-status')}.textContent"))
+        self.assertRegex(page.evaluate(f"{by_id('flash-status')}.textContent"), r"macro")
         self.assertGreater(len(wire.sent), 60)
         self.assertLessEqual(max(size for _, size in page.evaluate("window.written")), 20)
 
