@@ -150,7 +150,9 @@ void add_build(CLI::App& app, Context& context) {
                                      "of a structured program: orbBasic for people, with comments");
   readable->excludes(map);
   add_target_options(*command, options->target);
-  command->add_flag("--no-check", options->no_check, "build although the program has errors");
+  command->add_flag(
+      "--no-check", options->no_check,
+      "build although the program has errors; of a structured one nothing can be built then");
   auto* listing = command->add_flag("--listing", options->listing,
                                     "in place of the bytes: each line and the instructions that "
                                     "the virtual ball makes of it; of a structured program the "

@@ -152,6 +152,9 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   if (auto known = foreign(program, called, Place::Statement))
     return *std::move(known);
   const auto word = std::string(program.text_of(called));
+  if (program.text[found.begin] == '$')
+    return finding(rules::MalformedLine, found, "names have no `$`",
+                   "variables hold whole numbers; texts stand in `print` only");
   if (spec::find_operator(program.text[found.begin]))
     return malformed(program, found, "a value is no statement",
                      fmt::format("write `{0} = {0} + 1`, or `print {0}`", word));
@@ -301,7 +304,10 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                        "texts stand in `print` only, without parentheses: `print \"hello\"`");
     return missing_value(program, found);
   case Reason::ExpectedPlace:
-    return malformed(program, found, "a variable or an element belongs here");
+    return malformed(program, found, "a variable or an element belongs here",
+                     text == "(" && equal_words(first_word(program.text, found.begin), "for")
+                         ? "write `for n = 1 to 4` … `next n`"
+                         : "");
   case Reason::ExpectedName: return malformed(program, found, "a name belongs here");
   case Reason::ExpectedEquals:
     return malformed(
