@@ -62,8 +62,12 @@ private:
         check_node(n, n == root);
       const bool condition_fits = statement.kind == Kind::If || statement.kind == Kind::ElseIf ||
                                   statement.kind == Kind::While || statement.kind == Kind::Until;
-      if (program_.nodes[root].is_condition() && !condition_fits)
+      if (!program_.nodes[root].is_condition())
+        continue;
+      if (!condition_fits)
         report_condition(root);
+      else
+        check_sides(root);
     }
   }
 
@@ -100,6 +104,35 @@ private:
       if (program_.nodes[operand].first == node.first || program_.nodes[operand].first == 0)
         break;
     }
+  }
+
+  /// `x = 1 or 6`: the number was meant to be compared like the one before it.
+  void check_sides(std::uint32_t root) {
+    const auto& nodes = program_.nodes;
+    for (auto n = nodes[root].first; n <= root; ++n) {
+      if (nodes[n].kind != NodeKind::And && nodes[n].kind != NodeKind::Or)
+        continue;
+      const auto right = n - 1;
+      const auto left = program_.before(right);
+      check_side(left, right);
+      check_side(right, left);
+    }
+  }
+
+  void check_side(std::uint32_t side, std::uint32_t other) {
+    const auto& nodes = program_.nodes;
+    if (nodes[side].kind != NodeKind::Number)
+      return;
+    const auto number = program_.text_of(nodes[side].span);
+    std::string help;
+    if (nodes[other].kind == NodeKind::Relation)
+      help = fmt::format("write `{}{}`",
+                         program_.text_of({nodes[other].span.begin, nodes[other - 1].span.begin}),
+                         number);
+    report(rules::NumberAsCondition, nodes[side].span,
+           fmt::format("`{}` alone is a condition that {} holds", number,
+                       nodes[side].value == 0 ? "never" : "always"),
+           std::move(help));
   }
 
   /// 2147483648 can only be written with a minus sign before it.
@@ -166,8 +199,8 @@ private:
            std::move(message), std::move(help));
   }
 
-  /// Of what nothing is around to be left, also where the words are those of another language, which
-  /// is not a second mistake.
+  /// Of what nothing is around to be left, also where the words are those of another language,
+  /// which is not a second mistake.
   void stands_outside(const Statement& statement, std::string_view of, std::string help = {}) {
     auto words = statement.word;
     std::erase_if(program_.diagnostics, [&](const Diagnostic& one) {
