@@ -63,6 +63,9 @@ std::optional<std::string> verify_meaning(const Chunk& chunk, std::size_t at) {
   } else if (instruction.op == Op::WriteSystem) {
     if (instruction.a >= spec::variables.size())
       return "there is no such system variable";
+    if (!instruction.ends_line &&
+        (at + 1 >= chunk.code.size() || chunk.code[at + 1].op != Op::Goto))
+      return "a line goes on after a system variable was set";
   } else if (instruction.op == Op::Input || instruction.op == Op::InputTimed) {
     if (!variable(instruction.a))
       return "the input has no variable";

@@ -42,8 +42,10 @@ Ball::Ball(const Ball& other)
 Ball::~Ball() = default;
 
 void Ball::trace(const Event& event) {
-  if (observer_)
-    observer_->on_event(now_, event);
+  if (!observer_)
+    return;
+  catch_up();
+  observer_->on_event(now_, event);
 }
 
 // The link.
@@ -103,6 +105,21 @@ Instant Ball::next_of_others() const {
   return std::min({next, macros_.next_event(), streamer_.next_event()});
 }
 
+/// The next step that may lead to something. The battery is looked at after each step from the
+/// last one before it may change.
+Instant Ball::next_step_of_note() const {
+  if (asleep() || !body_.rolls_freely() || power_.sleeps_soon(now_))
+    return next_step();
+  const Instant holds = power_.battery_holds_until();
+  return std::max(body_.next_step(), holds - holds.time_since_epoch() % Body::step);
+}
+
+/// Moves a body that is advanced late to where it is by now.
+void Ball::catch_up() {
+  if (body_.rolls_freely() && body_.next_step() <= now_)
+    body_.advance_to(now_);
+}
+
 Instant Ball::next_event() const {
   if (power_.falls_asleep())
     return now_;
@@ -127,13 +144,15 @@ void Ball::advance(Instant target, Until until) {
         idle_since_.reset();
       else if (!idle_since_)
         idle_since_ = now_;
-      if (interrupted_ || quiet())
+      if (interrupted_ || quiet()) {
+        catch_up();
         return;
+      }
       if (idle_since_) // only output has to leave
         target = std::min(target, link_.drained_to(0, now_));
     }
     const Instant others = next_of_others();
-    const Instant event = power_.falls_asleep() ? now_ : std::min(others, next_step());
+    const Instant event = power_.falls_asleep() ? now_ : std::min(others, next_step_of_note());
     const Instant limit = std::min(event, target + Duration{1});
     if (programs_.answer_input(now_)) {
       finish_program();

@@ -75,8 +75,11 @@ public:
   std::optional<Instant> idle_since() const { return idle_since_; }
   /// The gate let the program or the macro go no further, so that the ball came back.
   bool held() const { return programs_.machine().held() || macros_.held(); }
-  /// Lets advance_until_quiet() come back after the present event.
-  void interrupt() { interrupted_ = true; }
+  /// Lets advance_until_quiet() come back after the present event, or line.
+  void interrupt() {
+    interrupted_ = true;
+    programs_.interrupt();
+  }
   /// When something happens next by itself, output that leaves included; `never` at rest.
   Instant next_event() const;
 
@@ -135,6 +138,8 @@ private:
   void advance(Instant target, Until until);
   Instant next_of_others() const;
   Instant next_step() const { return asleep() ? never : body_.next_step(); }
+  Instant next_step_of_note() const;
+  void catch_up();
   void run_events(Instant others);
   void run_script();
   void keep_house();

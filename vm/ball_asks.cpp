@@ -76,8 +76,8 @@ std::int32_t Ball::peek(Variable variable, Instant at) const {
   case Variable::Isconn: return connected() ? 1 : 0;
   case Variable::Dshake: return double_shake_ ? 1 : 0;
   case Variable::Accelone: return steps(body_.acceleration_total_g());
-  case Variable::Xpos: return steps(body_.pose().x_cm);
-  case Variable::Ypos: return steps(body_.pose().y_cm);
+  case Variable::Xpos: return steps(body_.locator_cm().x);
+  case Variable::Ypos: return steps(body_.locator_cm().y);
   case Variable::Qzero: return steps(body_.attitude().w);
   case Variable::Qone: return steps(body_.attitude().x);
   case Variable::Qtwo: return steps(body_.attitude().y);
@@ -90,7 +90,10 @@ std::int32_t Ball::peek(Variable variable, Instant at) const {
 std::optional<BasicError> Ball::Asks::OfProgram::write(Variable, std::int32_t value, Instant now) {
   // `ctrl` is the one that programs may assign.
   ball_.now_ = now;
+  const bool rolled_freely = ball_.body_.rolls_freely();
   ball_.drive(Actor::Basic, value == 0 ? Stabilization::Off : Stabilization::On);
+  if (rolled_freely && !ball_.body_.rolls_freely())
+    ball_.programs_.interrupt(); // from now on its steps count
   return std::nullopt;
 }
 

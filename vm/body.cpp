@@ -68,22 +68,16 @@ Point nearest_point(const Wall& wall, Point place) {
 Body::Body(std::uint64_t seed)
     : seed_(seed), rotation_rate_(default_rotation_rate), battery_v_(full_battery) {}
 
-bool Body::moving() const {
-  return forward_ != 0 || target_speed_ != 0 || drift_x_ != 0 || drift_y_ != 0 ||
-         rotate_left_deg_ != 0 || left_wheel_ != 0 || right_wheel_ != 0 ||
-         (stabilized_ && target_deg_ != yaw_deg_) || (!stabilized_ && spin_deg_s_ != 0) ||
-         (raw_ && (left_.power != 0 || right_.power != 0)) || landing_;
-}
-
 Instant Body::next_step() const {
   return moving() ? grid_after(now_) : never;
 }
 
 Instant Body::advance_to(Instant now) {
-  while (moving()) {
-    const Instant next = grid_after(now_);
-    if (next > now)
+  for (Instant next = grid_after(now_); next <= now && moving(); next += step) {
+    if (goes_straight_on()) {
+      go_straight_on((now - next) / step + 1);
       break;
+    }
     now_ = next;
     single_step();
     if (observer_ != nullptr)
@@ -103,6 +97,24 @@ std::optional<Impact> Body::take_impact() {
   const auto impact = impact_;
   impact_.reset();
   return impact;
+}
+
+/// Whether the next step changes nothing but its place.
+bool Body::goes_straight_on() const {
+  return rolls_freely() && stabilized_ && yaw_deg_ == target_deg_ && rotate_left_deg_ == 0 &&
+         forward_ == commanded_cm_s() && !drifts() && !landing_ && !impact_;
+}
+
+void Body::go_straight_on(Duration::rep steps) {
+  yaw_rate_ = forward_acceleration_ = 0;
+  const auto going = course();
+  for (; steps > 0; --steps)
+    move_to(world_x_ + going.vx * dt, world_y_ + going.vy * dt, going.speed * dt, going.speed);
+}
+
+/// The speed that it strives for.
+double Body::commanded_cm_s() const {
+  return full_speed * target_speed_ / greatest;
 }
 
 void Body::single_step() {
@@ -172,7 +184,7 @@ void Body::drive() {
     const bool slow = std::abs(forward_) <= full_speed * vector_drive_limit_ / greatest;
     const bool waits =
         vector_drive_ == Switch::On && slow && std::abs(shortest_turn(yaw_deg_, target_deg_)) > 1;
-    const double target = waits ? 0 : full_speed * target_speed_ / greatest;
+    const double target = waits ? 0 : commanded_cm_s();
     forward_ = toward(forward_, target, (go_ == Go::Brake ? braking : acceleration) * dt);
   }
   forward_acceleration_ = (forward_ - before) / dt;
@@ -212,10 +224,15 @@ void Body::travel() {
     y = place.y;
   }
 
+  const bool in_the_open = walls_.empty() && segments_.empty();
+  move_to(x, y, in_the_open ? speed * dt : std::hypot(x - world_x_, y - world_y_), speed);
+}
+
+void Body::move_to(double x, double y, double way_cm, double speed) {
   // The locator sees the same way, turned into its own axes.
   const double dx = x - world_x_;
   const double dy = y - world_y_;
-  rolled_cm_ += walls_.empty() && segments_.empty() ? speed * dt : std::hypot(dx, dy);
+  rolled_cm_ += way_cm;
   world_x_ = x;
   world_y_ = y;
   const double turned = tare_deg_ - world_offset_deg_;

@@ -102,7 +102,8 @@ struct Pose {
   double speed_cm_s = 0;
 };
 
-/// A place in centimetres of the world in which the ball woke up at 0,0 facing +Y.
+/// A place in centimetres; where nothing else is said, of the world in which the ball woke up at
+/// 0,0 facing +Y.
 struct Point {
   double x = 0;
   double y = 0;
@@ -166,7 +167,17 @@ public:
   /// The next step in which something moves; `never` at rest.
   Instant next_step() const;
   /// Whether it takes steps: it moves, or strives to.
-  bool moving() const;
+  bool moving() const {
+    return target_speed_ != 0 || forward_ != 0 || drifts() || rotate_left_deg_ != 0 ||
+           left_wheel_ != 0 || right_wheel_ != 0 || (stabilized_ && target_deg_ != yaw_deg_) ||
+           (!stabilized_ && spin_deg_s_ != 0) ||
+           (raw_ && (left_.power != 0 || right_.power != 0)) || landing_;
+  }
+  /// Whether its steps can lead to nothing until somebody asks something of it: it goes on moving,
+  /// there is nothing to run into, and nobody watches. Then it may be advanced late.
+  bool rolls_freely() const {
+    return target_speed_ != 0 && walls_.empty() && segments_.empty() && observer_ == nullptr;
+  }
   /// The blow of the last step, once.
   std::optional<Impact> take_impact();
 
@@ -211,6 +222,8 @@ public:
   double acceleration_total_g() const;
   Quaternion attitude() const;
   Pose pose() const;
+  /// The place of pose().
+  Point locator_cm() const { return {locator_x_, locator_y_}; }
   /// The same in the world in which the ball woke up at 0,0 facing +Y, whatever the program calls
   /// its place and its heading since.
   Pose world_pose() const;
@@ -254,12 +267,16 @@ private:
   };
   const Course& course() const;
   double speed_cm_s() const;
+  double commanded_cm_s() const;
   bool drifts() const { return drift_x_ != 0 || drift_y_ != 0; }
   bool fast_turn() const;
+  bool goes_straight_on() const;
+  void go_straight_on(Duration::rep steps);
   void single_step();
   void turn();
   void drive();
   void travel();
+  void move_to(double x, double y, double way_cm, double speed);
   void hit_walls(double& new_x, double& new_y, double vx, double vy);
   void hit_segments(Point& place);
   bool push_out(Point& place);

@@ -84,8 +84,7 @@ Then Core::write_system(const Code& instruction) {
   const std::int32_t value = registers[instruction.b];
   if (!is_timer(variable)) {
     const auto problem = host->write(variable, value, line_end());
-    // The rest of the line is at most its end.
-    return problem ? fail(*problem) : Then::Next;
+    return problem ? fail(*problem) : interrupted ? Then::Leave : Then::Next;
   }
   if (value < 0 || value >= timer_values)
     return fail(BasicError::BadNumericParameter);
@@ -197,7 +196,7 @@ Then Core::perform(const Code& instruction) {
       return fail(BasicError::BadNumericParameter);
   if (const auto problem = host->perform(statement, arguments, line_end()))
     return fail(*problem);
-  return only_lights(statement) ? Then::Next : Then::Leave;
+  return only_lights(statement) && !interrupted ? Then::Next : Then::Leave;
 }
 
 void Core::reseed() {
@@ -509,7 +508,7 @@ Exit Machine::run_native() {
 
 void Machine::run(Instant limit, Host& host) {
   core_.host = &host;
-  held_ = false;
+  core_.interrupted = held_ = false;
   if (running_ && missing_line_) {
     finish(BasicError::BadLineNumber, *missing_line_);
     return;
@@ -552,7 +551,10 @@ void Machine::run(Instant limit, Host& host) {
       host.line_ended(line, now_);
 
     switch (exit) {
-    case Exit::Budget: break;
+    case Exit::Budget:
+      if (core_.interrupted)
+        return;
+      break;
     case Exit::Leave: return;
     case Exit::Fault: finish(core_.error, line_of(core_.at)); return;
     case Exit::Ended: finish(event::End::Reason::End); return;

@@ -80,6 +80,9 @@ public:
   /// The stop that has happened since the last call.
   std::optional<Stop> take_stop();
 
+  /// While it runs: it comes back after the present line.
+  void interrupt() { core_.interrupted = true; }
+
   /// The instant that the machine has reached.
   Instant now() const { return now_; }
   /// Lines executed since the start of the program.

@@ -117,6 +117,7 @@ struct Core {
   std::int32_t fallback = 0; ///< what it takes when nothing comes
 
   Host* host = nullptr;
+  bool interrupted = false; ///< somebody wants the ball back after this line
 
   std::uint32_t index_of(const Code* place) const {
     return static_cast<std::uint32_t>(place - code.data());

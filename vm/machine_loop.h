@@ -120,7 +120,16 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   VALUE(LoadElement, ELEMENT(index); A = r[index])
   VALUE(StoreElement, ELEMENT(index); r[index] = A)
   VALUE(ReadSystem, SLOW(pc + 1, core.read_system(*pc)))
-  VALUE(WriteSystem, SLOW(pc + 1, core.write_system(*pc)))
+  OP(WriteSystem) {
+    SLOW((pc + 1)->target(), core.write_system(*pc)); // by a `goto` the line ends
+    ++pc;
+    DISPATCH();
+  }
+  OP_LINE(WriteSystem) {
+    SLOW(pc + 1, core.write_system(*pc));
+    ++pc;
+    NEXT_LINE();
+  }
   VALUE(ReadData, SLOW(pc + 1, core.read_data(*pc)))
 
   // --- decisions --------------------------------------------------------------------------------

@@ -78,6 +78,7 @@ public:
   /// Returns the instant that the program has reached.
   Instant run(Instant limit, Host& host);
   void stop(event::End::Reason reason) { machine_.stop(reason); }
+  void interrupt() { machine_.interrupt(); }
   /// The gate is asked anew.
   void let_go() { machine_.let_go(); }
   // What a debugger changes.

@@ -129,6 +129,57 @@ TEST(Trace, DoesNotDependOnHowTimeIsCut) {
   EXPECT_EQ(shown(trace(lively, 8s, 7, Dispatch::Switch, 160ms)), whole);
 }
 
+/// Sees every step, and looks away.
+class Watching final : public StepObserver {
+public:
+  void on_step(Instant, const Body&) override {}
+};
+
+/// Tells of a place with every event.
+class Places final : public Observer {
+public:
+  void on_event(Instant at, const Event& event) override {
+    const auto pose = ball->body().world_pose();
+    text += fmt::format("{} {} {:a} {:a} {:a}\n", at.time_since_epoch().count(), event.index(),
+                        pose.x_cm, pose.y_cm, ball->body().battery_v());
+  }
+  std::string text;
+  const Ball* ball = nullptr;
+};
+
+/// A ball that rolls freely is advanced late, one whose steps are watched is not.
+TEST(Trace, IsTheSameHoweverLateTheBodyComes) {
+  constexpr std::string_view program = "10 goroll A,90 + A,1\n"
+                                       "20 for T = 1 to 60\n"
+                                       "30 RGB speed,yaw/2,T\n"
+                                       "40 B = B * 3 + T\n"
+                                       "50 next T\n"
+                                       "60 print xpos,ypos,Sbatt\n"
+                                       "70 if A % 40 = 0 then ctrl = 0 else B = B + 1\n"
+                                       "80 delay 90\n"
+                                       "90 ctrl = 1\n"
+                                       "100 A = A + 10 & 127\n"
+                                       "110 goto 10\n";
+  const auto run = [&](StepObserver* steps) {
+    Places places;
+    BallOptions options;
+    options.loader = compiler::load;
+    options.observer = &places;
+    options.steps = steps;
+    Ball ball(options);
+    places.ball = &ball;
+    ball.connect();
+    // The battery becomes low on the way.
+    ball.apply(stimulus::Battery{ball.settings().low_battery_cv / 100.0 + 0.001});
+    ball.append_basic(Area::Ram, as_bytes(program));
+    ball.execute_basic(Area::Ram, 10);
+    ball.advance_to(ball.now() + 1min);
+    return places.text;
+  };
+  Watching watching;
+  EXPECT_EQ(run(nullptr), run(&watching));
+}
+
 /// ORB_SOAK_HOURS simulated hours by 20 seeds, which ./dev fuzz sets to 24; a minute in ./dev test.
 TEST(Trace, SoakTakesNoMemory) {
   const char* wanted = std::getenv("ORB_SOAK_HOURS");
