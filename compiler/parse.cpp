@@ -579,14 +579,17 @@ public:
         end_(begin_ + program.text.size()) {}
 
   void parse() {
-    // Editors on Windows begin a text with this mark.
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    const auto skipped = program_.text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-    for (const char* p = begin_ + skipped; p != end_;)
-      p = after_line_end(parse_line(p));
+    for (const char* p = begin_; p != end_;)
+      p = after_line_end(parse_line(after_byte_order_mark(p)));
   }
 
 private:
+  /// Editors on Windows begin a text with this mark, so that any line of joined texts may have one.
+  const char* after_byte_order_mark(const char* p) const {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    return std::string_view(p, end_).starts_with(byte_order_mark) ? p + byte_order_mark.size() : p;
+  }
+
   /// Parses the line that begins at `begin`; returns its end.
   const char* parse_line(const char* begin) {
     auto& line = program_.lines.emplace_back();

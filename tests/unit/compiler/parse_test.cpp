@@ -1,5 +1,6 @@
 #include "compiler/parse.h"
 
+#include "compiler/print.h"
 #include "compiler/words.h"
 
 #include <gtest/gtest.h>
@@ -58,6 +59,13 @@ std::string expression(const std::string& text) {
   if (one.statement.error)
     return "error";
   return bracketed(one.program, one.program.items[1].value);
+}
+
+TEST(Parse, AnyLineOfJoinedTextsMayBeginWithAByteOrderMark) {
+  const auto program = parse("\xEF\xBB\xBF"
+                             "10 print 1\n' b\n\xEF\xBB\xBF"
+                             "20 end\n");
+  EXPECT_EQ(format(program), "10 print 1\n' b\n20 end\n");
 }
 
 TEST(Parse, PrecedenceHasTwoLevelsAndTakesEqualsFromTheLeft) {
