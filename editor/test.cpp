@@ -113,7 +113,7 @@ std::vector<Symbol> outline(const Source& source) {
       continue;
     const auto end = i + 1 < file.tests.size() ? source.line_start(file.tests[i + 1].line) : size;
     symbols.push_back({test.name.text,
-                       plural(test.points, "point"),
+                       plural(static_cast<std::uint64_t>(test.points), "point"),
                        {source.line_start(test.line), std::max(end, test.name.span.end)},
                        test.name.span});
   }

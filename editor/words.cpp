@@ -37,9 +37,9 @@ public:
     case TokenKind::Number: return end_of_number(at);
     case TokenKind::Word: break;
     }
-    return std::find_if_not(line_.begin() + static_cast<std::ptrdiff_t>(at), line_.end(),
-                            [this](char c) { return is_word_part(c); }) -
-           line_.begin();
+    while (at < line_.size() && is_word_part(line_[at]))
+      ++at;
+    return at;
   }
 
 private:

@@ -498,7 +498,9 @@ private:
     const auto by = is_constant(right) ? constant(right) : 0;
     if (by == 3 || by == 5 || by == 9) {
       const auto x = loaded(left, x86::edx).r64();
-      a_.lea(place, x86::ptr(x, x, static_cast<std::uint32_t>(std::countr_zero(by - 1u))));
+      a_.lea(place, x86::ptr(x, x,
+                             static_cast<std::uint32_t>(
+                                 std::countr_zero(static_cast<std::uint32_t>(by - 1)))));
     } else if (is_constant(right)) {
       a_.emit(x86::Inst::kIdImul, place, operand(left), Imm(constant(right)));
     } else {

@@ -32,7 +32,8 @@ Power::Change Power::check_battery(const Body& body, const Settings& settings) {
                    : centivolts <= settings.critical_battery_cv ? state::critical
                    : centivolts <= settings.low_battery_cv      ? state::low
                                                                 : state::ok;
-  const int next = now == state::ok    ? std::max(settings.low_battery_cv, settings.critical_battery_cv)
+  const int next = now == state::ok
+                       ? std::max(settings.low_battery_cv, settings.critical_battery_cv)
                    : now == state::low ? settings.critical_battery_cv
                                        : 0;
   constexpr double dust = 1e-4; // V; hundredths are rounded above

@@ -115,7 +115,7 @@ TEST(Agreement, CompiledProgramsDoWhatTheTextSays) {
 }
 
 TEST(Agreement, ProgramsThatHaveFoundSomething) {
-  for (const std::uint64_t seed : {5472, 10147})
+  for (const std::uint64_t seed : {5472U, 10147U})
     compare(seed);
 }
 

@@ -61,7 +61,7 @@ TEST(Suite, ResultsDoNotDependOnJobs) {
 TEST(Suite, ShardsInAnyOrderAreTheWhole) {
   const auto suite = make();
   const auto whole = render_json(run(suite, 1));
-  for (const std::uint64_t count : {2, 3, 16, 500}) {
+  for (const std::uint64_t count : {2U, 3U, 16U, 500U}) {
     std::vector<Part> parts;
     for (auto index = count; index >= 1; --index) {
       const auto text = render_json(run(suite, 2, {index, count}));

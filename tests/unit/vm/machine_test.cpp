@@ -35,27 +35,32 @@ const Case cases[] = {
     {"rnd of nothing", "10 A=rnd 0\n", "", "Line 10: Bad numeric parameter"},
     {"print separators", "10 ? \"a\" 1 \"b\",2,\n20 ? \"x\";\n30 ? $65 $(60+6)\n", "a1b 2 \nxAB\n",
      "end"},
-    {"print at most 32 bytes", "10 ? \"12345678901234567890123456789012\"\n"
-                               "20 ? \"123456789012345678901234567890123\";\n",
+    {"print at most 32 bytes",
+     "10 ? \"12345678901234567890123456789012\"\n"
+     "20 ? \"123456789012345678901234567890123\";\n",
      "12345678901234567890123456789012\n(print exceeds 32 bytes)\n", "end"},
-    {"for counts", "10 for X=1 to 5 step 2\n20 ? X;\n30 next X\n40 for Y=10 to 3 step -3\n"
-                   "50 ? Y;\n60 next Y\n70 ? X,Y\n",
+    {"for counts",
+     "10 for X=1 to 5 step 2\n20 ? X;\n30 next X\n40 for Y=10 to 3 step -3\n"
+     "50 ? Y;\n60 next Y\n70 ? X,Y\n",
      "13510747 1\n", "end"},
     {"for runs once", "10 for X=5 to 1\n20 ? X\n30 next X\n40 ? X\n", "5\n6\n", "end"},
     {"for evaluates once", "10 X=3\n20 for X=1 to X\n30 ? X\n40 next X\n", "1\n", "end"},
     {"step zero", "10 for X=1 to 2 step 0\n", "", "Line 10: Bad STEP value"},
-    {"five loops", "10 for A=1 to 2\n20 for B=1 to 2\n30 for C=1 to 2\n40 for D=1 to 2\n"
-                   "50 for E=1 to 2\n",
+    {"five loops",
+     "10 for A=1 to 2\n20 for B=1 to 2\n30 for C=1 to 2\n40 for D=1 to 2\n"
+     "50 for E=1 to 2\n",
      "", "Line 50: FOR depth exceeded"},
-    {"a loop may begin again", "10 A=0\n20 for X=1 to 9\n30 A=A+1\n40 if A<9 then goto 20\n"
-                               "50 ? A\n",
+    {"a loop may begin again",
+     "10 A=0\n20 for X=1 to 9\n30 A=A+1\n40 if A<9 then goto 20\n"
+     "50 ? A\n",
      "9\n", "end"},
     {"next of another loop", "10 for A=1 to 2\n20 for B=1 to 2\n30 next A\n", "",
      "Line 30: NEXT without FOR"},
     {"next without for", "10 next X\n", "", "Line 10: NEXT without FOR"},
     {"loop in Z", "10 Y=2\n20 for Z=1 to 3\n30 ? Z;\n40 next Z\n50 ? Z\n", "1234\n", "end"},
     {"gosub", "10 gosub 100\n20 ? \"b\"\n30 end\n100 ? \"a\"\n110 return\n", "a\nb\n", "end"},
-    {"gosub too deep", "10 A=A+1\n20 ? A;\n30 gosub 10\n", "12345", "Line 30: GOSUB depth exceeded"},
+    {"gosub too deep", "10 A=A+1\n20 ? A;\n30 gosub 10\n", "12345",
+     "Line 30: GOSUB depth exceeded"},
     {"return without gosub", "10 return\n", "", "Line 10: RETURN without GOSUB"},
     {"on goto", "10 A=2\n20 on A goto 100,200\n100 ? 1\n200 ? 2\n210 on A+1 goto 100,200\n", "2\n",
      "Line 210: Illegal index"},
@@ -68,32 +73,36 @@ const Case cases[] = {
     {"Z out of bounds", "10 Y=26\n20 Z=1\n", "", "Line 20: Illegal index"},
     {"Z holds 25", "10 for Y=1 to 25\n20 Z=Y*Y\n30 next Y\n40 Y=5\n50 A=Z\n60 Y=25\n70 ? A,Z\n",
      "25 625\n", "end"},
-    {"indices", "10 J=3\n20 Y=J\n30 Z=J\n40 Y=J-1\n50 Z=7\n60 Y=J+0\n70 A=Z\n80 Y=2\n90 Y=Z\n"
-                    "100 ? A,Y\n",
+    {"indices",
+     "10 J=3\n20 Y=J\n30 Z=J\n40 Y=J-1\n50 Z=7\n60 Y=J+0\n70 A=Z\n80 Y=2\n90 Y=Z\n"
+     "100 ? A,Y\n",
      "3 7\n", "end"},
     {"an index stores the new Y", "10 Y=4\n20 Z=Y\n30 ? Z\n", "4\n", "end"},
     {"an index faults in its second line", "10 Y=30\n20 A=Z\n", "", "Line 20: Illegal index"},
-    {"and, or", "10 A=3\n20 if A>1 and A<5 then ? \"in\" else ? \"out\"\n"
-                "30 if A>1 and A<3 then ? \"in\" else ? \"out\"\n"
-                "40 if A=1 or A=3 then ? \"or\"\n50 if A=1 or A=2 then ? \"no\"\n",
+    {"and, or",
+     "10 A=3\n20 if A>1 and A<5 then ? \"in\" else ? \"out\"\n"
+     "30 if A>1 and A<3 then ? \"in\" else ? \"out\"\n"
+     "40 if A=1 or A=3 then ? \"or\"\n50 if A=1 or A=2 then ? \"no\"\n",
      "in\nout\nor\n", "end"},
     {"only the branch taken can fault", "10 if 1=2 then foo else ? \"ok\"\n20 if 1=1 then foo\n",
      "ok\n", "Line 20: Unknown statement"},
     {"the condition comes first", "10 if 1/0=1 then foo\n", "", "Line 10: Divide by zero"},
     {"malformed lines wait", "10 ? 1\n20 rgb 1,2,3\n", "1\n", "Line 20: Unknown statement"},
     {"syntax error", "10 A=\n", "", "Line 10: Syntax error"},
-    {"four levels", "10 ? ((((1))))\n20 ? (((((1)))))\n", "1\n",
-     "Line 20: Expression too complex"},
+    {"four levels", "10 ? ((((1))))\n20 ? (((((1)))))\n", "1\n", "Line 20: Expression too complex"},
     {"left of what is too deep happens first", "10 ? 1/0+(((((1)))))\n", "",
      "Line 10: Divide by zero"},
     {"faults in the order of the text", "10 ? Z+1/0\n", "", "Line 10: Illegal index"},
     {"division before Z", "10 ? 1/A+Z\n", "", "Line 10: Divide by zero"},
-    {"data", "10 data 10,20,30\n20 read A,B\n30 rstr\n40 read C\n50 print A,B,C\n60 data 100\n"
-             "70 read A\n80 print A,B,C\n90 read A\n",
+    {"data",
+     "10 data 10,20,30\n20 read A,B\n30 rstr\n40 read C\n50 print A,B,C\n60 data 100\n"
+     "70 read A\n80 print A,B,C\n90 read A\n",
      "10 20 10\n100 20 10\n", "Line 90: Out of data"},
-    {"read into Z by the Y just read", "10 data 3,42\n20 read Y,Z\n30 Y=3\n40 ? Z\n", "42\n", "end"},
-    {"tron", "10 print \"at line 10\"\n20 tron\n30 ? \"at line 30\"\n40 ? \"and now, 40\"\n"
-             "50 troff\n60 ? 1\n",
+    {"read into Z by the Y just read", "10 data 3,42\n20 read Y,Z\n30 Y=3\n40 ? Z\n", "42\n",
+     "end"},
+    {"tron",
+     "10 print \"at line 10\"\n20 tron\n30 ? \"at line 30\"\n40 ? \"and now, 40\"\n"
+     "50 troff\n60 ? 1\n",
      "at line 10\n<30>at line 30\n<40>and now, 40\n<50>1\n", "end"},
     {"lines without statement", "10\n20 ? 1\n30 'x\n40 goto 60\n50 ? 2\n60\n70 ? 3\n", "1\n3\n",
      "end"},
@@ -102,7 +111,8 @@ const Case cases[] = {
     {"timers only in range", "10 timerA=65536\n", "", "Line 10: Bad numeric parameter"},
     {"delay only in range", "10 delay 0-1\n", "", "Line 10: Bad numeric parameter"},
     {"arguments only in range", "10 goroll 360,0,0\n", "", "Line 10: Bad numeric parameter"},
-    {"reset", "10 A=A+1\n20 C=C+1\n30 ? A;\n40 if timerA<50 then delay 60\n50 reset\n", "1", "running"},
+    {"reset", "10 A=A+1\n20 C=C+1\n30 ? A;\n40 if timerA<50 then delay 60\n50 reset\n", "1",
+     "running"},
     {"everything starts at zero", "10 ? A,Y,timerB\n", "0 0 0\n", "end"},
 };
 
