@@ -15,8 +15,8 @@ namespace orb {
 std::optional<std::string> closest(std::string_view word,
                                    std::span<const std::string_view> candidates);
 
-/// How many letters differ between two texts: insert, delete, replace or swap of neighbours, without
-/// regard to case.
+/// How many letters differ between two texts: insert, delete, replace or swap of neighbours,
+/// without regard to case.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// "did you mean `…`?" with the closest candidate, or `otherwise` where none is close.

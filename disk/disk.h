@@ -15,8 +15,8 @@ tl::expected<std::string, IoError> read(const std::string& path);
 /// (in place, where they would be lost). `-` is standard output.
 tl::expected<void, IoError> write(const std::string& path, ByteView bytes);
 
-/// Makes sure that `path` can be written later, and empties it. A pipe is left alone: opened and closed
-/// again it would be at its end for whoever reads from it.
+/// Makes sure that `path` can be written later, and empties it. A pipe is left alone: opened and
+/// closed again it would be at its end for whoever reads from it.
 tl::expected<void, IoError> prepare(const std::string& path);
 
 /// How a file is called in messages: its path, or `<stdin>` for `-`.

@@ -52,7 +52,8 @@ public:
                             escape_markup(render_summary(results_)));
     page += table() + body;
     if (left_out_ > 0)
-      page += fmt::format("<p class=\"dim\">Without a picture: {}.</p>\n", plural(left_out_, "run"));
+      page +=
+          fmt::format("<p class=\"dim\">Without a picture: {}.</p>\n", plural(left_out_, "run"));
     return pages_.write("index.html", page + "</body></html>\n");
   }
 

@@ -48,7 +48,9 @@ const std::vector<Room> rooms = {
     {8, "debug", {"testing"}},
     {9, "editor", {"reference", "debug"}},
     {9, "serve", {"vm", "disk"}},
-    {10, "cli", {"editor", "serve", "reference", "debug", "report", "uploader", "structured", "disk"}},
+    {10,
+     "cli",
+     {"editor", "serve", "reference", "debug", "report", "uploader", "structured", "disk"}},
     {10, "playground", {"editor"}},
 };
 

@@ -1,8 +1,8 @@
 // Stands in for the RFCOMM of the kernel, where there is no radio: preloaded, it turns a Bluetooth
 // socket into one of TCP, and connecting to the address ORB_SHIM_ROBOT (twelve digits, as the
 // kernel keeps them: the last byte first) on channel 1 into connecting to the port ORB_SHIM_PORT of
-// this machine. As in the kernel, a channel is connected once for a computer: the file ORB_SHIM_LOCK
-// says whether it is. Everything else about the socket is the kernel's own.
+// this machine. As in the kernel, a channel is connected once for a computer: the file
+// ORB_SHIM_LOCK says whether it is. Everything else about the socket is the kernel's own.
 
 #include <arpa/inet.h>
 #include <cerrno>
