@@ -34,11 +34,16 @@ editor = make_editor({
 });
 
 let keeping = 0;
+function keep_now() {
+  clearTimeout(keeping);
+  keeping = 0;
+  keep(workspace);
+}
 function keep_soon() {
   clearTimeout(keeping);
-  keeping = setTimeout(() => keep(workspace), 400);
+  keeping = setTimeout(keep_now, 400);
 }
-window.addEventListener("pagehide", () => keep(workspace));
+window.addEventListener("pagehide", () => { if (keeping) keep_now(); }); // a tab in which nothing changed leaves the others' alone
 
 // ---- findings below the text ----
 function show_findings(list) {

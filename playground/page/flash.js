@@ -5,6 +5,15 @@ import { $, download } from "./dom.js";
 import { request } from "./ball.js";
 import { ending_of } from "./workspace.js";
 
+/** What `promise` brings; when `signal` says so, an error at once, and what comes later is given to `undo`. */
+function unless(signal, promise, undo) {
+  const stop = new Promise((_, failed) => signal.addEventListener("abort", () => {
+    failed(new Error("interrupted; nothing was sent"));
+    promise.then(undo).catch(() => {});
+  }, { once: true }));
+  return Promise.race([promise, stop]);
+}
+
 export function set_up_flash({ machine, workspace, on_mistakes }) {
   let running = null;
 
@@ -42,7 +51,7 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
     set_running(controller);
     say("Choose the ball in the window of the browser.");
     try {
-      link = await open_link();
+      link = await unless(controller.signal, open_link(), late => late.close());
       const area = document.querySelector("input[name=area]:checked").value;
       const outcome = await deliver(machine, link, { files, names, area, run: $("flash-run").checked, line: null, force: false, clear_macros: false }, {
         signal: controller.signal,

@@ -59,11 +59,19 @@ export const tests_of = ({ files }) => Object.keys(files).filter(name => ending_
 
 // ---- kept in this browser ----
 const store = { now: "orb-playground", before: "orb-playground-before" };
+// Each tab keeps its own, and what was written last is there for a new one.
+const places = ["sessionStorage", "localStorage"];
 export function keep(workspace, where = "now") {
-  try { localStorage.setItem(store[where], JSON.stringify(workspace)); } catch { /* full, or not allowed: it is only a convenience */ }
+  for (const place of places)
+    try { window[place].setItem(store[where], JSON.stringify(workspace)); } catch { /* full, or not allowed: it is only a convenience */ }
 }
 export function kept(where = "now") {
-  try { return checked(JSON.parse(localStorage.getItem(store[where]))); } catch { return null; }
+  for (const place of places)
+    try {
+      const found = checked(JSON.parse(window[place].getItem(store[where])));
+      if (found) return found;
+    } catch { /* nothing there, or nothing of ours */ }
+  return null;
 }
 
 // ---- shared in an address ----

@@ -312,6 +312,25 @@ class Playground(unittest.TestCase):
         page.evaluate("document.querySelector('#came button').click()")
         page.wait(f"({text}).includes('kept')")
 
+    def test_two_tabs_do_not_write_over_each_other(self):
+        pages = [self.browser.page(), self.browser.page()]
+        for page, word in zip(pages, ("first", "second")):
+            self.addCleanup(page.close)
+            page.go(self.server.url + fragment({"a.bas": "10 end\n"}))
+            page.wait(ready)
+            self.type(page, f'10 print "{word}"\n')
+            page.evaluate("new Promise(done => setTimeout(done, 600))")
+        for page, word in zip(pages, ("first", "second")):
+            page.go("about:blank")
+            page.go(self.server.url)
+            page.wait(ready)
+            self.assertIn(word, page.evaluate(text))
+        third = self.browser.page()
+        self.addCleanup(third.close)
+        third.go(self.server.url)
+        third.wait(ready)
+        self.assertIn("second", third.evaluate(text))
+
     def test_hostile_text_stays_text(self):
         evil = "<img src=x onerror='window.hacked=1'>"
         quoted = "`a`<img/src=x>`b`"  # in a message it ends the quotation
@@ -397,6 +416,17 @@ class Playground(unittest.TestCase):
         self.assertRegex(page.evaluate(f"{by_id('flash-status')}.textContent"), r"macro")
         self.assertGreater(len(wire.sent), 60)
         self.assertLessEqual(max(size for _, size in page.evaluate("window.written")), 20)
+
+    def test_a_robot_that_does_not_answer_is_given_up_by_hand(self):
+        page = self.open(fragment({"a.macro": "rgb 0, 255, 0\n"}), before=mock_bluetooth.replace("this.connected = true;", "await new Promise(() => {});"))
+        page.evaluate(click("flash"))
+        page.evaluate(click("flash-bluetooth"))
+        page.wait(f"!{by_id('flash-cancel')}.hidden")
+        page.evaluate("new Promise(done => setTimeout(done, 300))")
+        page.evaluate(click("flash-cancel"))
+        page.wait(f"{by_id('flash-cancel')}.hidden", 3)
+        self.assertIn("nothing was sent", page.evaluate(f"{by_id('flash-status')}.textContent"))
+        self.assertFalse(page.evaluate(f"{by_id('flash-serial')}.disabled"))
 
     def test_a_cut_link_is_told(self):
         page, wire = self.flash("serial", mock_serial, cut=200)
