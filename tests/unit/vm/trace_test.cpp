@@ -141,7 +141,7 @@ public:
   void on_event(Instant at, const Event& event) override {
     const auto pose = ball->body().world_pose();
     text += fmt::format("{} {} {:a} {:a} {:a}\n", at.time_since_epoch().count(), event.index(),
-                        pose.x_cm, pose.y_cm, ball->body().battery_v());
+                        pose.x_cm, pose.y_cm, ball->body().way_cm());
   }
   std::string text;
   const Ball* ball = nullptr;
@@ -149,18 +149,19 @@ public:
 
 /// A ball that rolls freely is advanced late, one whose steps are watched is not.
 TEST(Trace, IsTheSameHoweverLateTheBodyComes) {
-  constexpr std::string_view program = "10 goroll A,90 + A,1\n"
-                                       "20 for T = 1 to 60\n"
-                                       "30 RGB speed,yaw/2,T\n"
-                                       "40 B = B * 3 + T\n"
-                                       "50 next T\n"
-                                       "60 print xpos,ypos,Sbatt\n"
-                                       "70 if A % 40 = 0 then ctrl = 0 else B = B + 1\n"
-                                       "80 delay 90\n"
-                                       "90 ctrl = 1\n"
-                                       "100 A = A + 10 & 127\n"
-                                       "110 goto 10\n";
-  const auto run = [&](StepObserver* steps) {
+  constexpr std::string_view program = "10 goroll A,1 + (A & 64),1\n"
+                                       "20 for T = 1 to 40\n"
+                                       "30 RGB T,T,T\n" // tells, but reads nothing
+                                       "40 next T\n"
+                                       "50 if A % 20 = 0 then ctrl = 0 else B = B + 1\n"
+                                       "60 for T = 1 to 60\n" // a slow ball stops meanwhile
+                                       "70 next T\n"
+                                       "80 print xpos,ypos,Sbatt\n"
+                                       "90 delay 90\n"
+                                       "100 ctrl = 1\n"
+                                       "110 A = A + 10 & 127\n"
+                                       "120 goto 10\n";
+  const auto run = [&](double volts_to_low, StepObserver* steps) {
     Places places;
     BallOptions options;
     options.loader = compiler::load;
@@ -169,15 +170,16 @@ TEST(Trace, IsTheSameHoweverLateTheBodyComes) {
     Ball ball(options);
     places.ball = &ball;
     ball.connect();
-    // The battery becomes low on the way.
-    ball.apply(stimulus::Battery{ball.settings().low_battery_cv / 100.0 + 0.001});
+    ball.apply(stimulus::Battery{ball.settings().low_battery_cv / 100.0 + volts_to_low});
     ball.append_basic(Area::Ram, as_bytes(program));
     ball.execute_basic(Area::Ram, 10);
-    ball.advance_to(ball.now() + 1min);
+    ball.advance_to(ball.now() + 10s);
     return places.text;
   };
   Watching watching;
-  EXPECT_EQ(run(nullptr), run(&watching));
+  // The battery becomes low on the way, here or there in the program, or not at all.
+  for (const double volts : {1e-5, 2e-5, 3e-5, 4e-5, 5e-5, 0.5})
+    EXPECT_EQ(run(volts, nullptr), run(volts, &watching));
 }
 
 /// ORB_SOAK_HOURS simulated hours by 20 seeds, which ./dev fuzz sets to 24; a minute in ./dev test.
