@@ -587,7 +587,8 @@ private:
   /// Editors on Windows begin a text with this mark, so that any line of joined texts may have one.
   const char* after_byte_order_mark(const char* p) const {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    return std::string_view(p, end_).starts_with(byte_order_mark) ? p + byte_order_mark.size() : p;
+    const std::string_view rest(p, static_cast<std::size_t>(end_ - p));
+    return rest.starts_with(byte_order_mark) ? p + byte_order_mark.size() : p;
   }
 
   /// Parses the line that begins at `begin`; returns its end.

@@ -302,8 +302,9 @@ RC_GTEST_PROP(AnyShape, HoldsTogether, ()) {
     RC_ASSERT(chain.back() == (Span{0, size}));
     for (std::size_t i = 0; i < chain.size(); ++i) {
       RC_ASSERT(touches(chain[i], at));
-      RC_ASSERT(i == 0 || (chain[i].begin <= chain[i - 1].begin &&
-                           chain[i - 1].end <= chain[i].end && chain[i] != chain[i - 1]));
+      // RC_ASSERT evaluates both sides of an || that it sees.
+      RC_ASSERT((i == 0 || (chain[i].begin <= chain[i - 1].begin &&
+                            chain[i - 1].end <= chain[i].end && chain[i] != chain[i - 1])));
     }
     if (const auto found = language->shape->signature(source, at, {}))
       for (const auto& parameter : found->parameters)
