@@ -13,3 +13,5 @@ set_target_properties(pugixml::pugixml PROPERTIES INTERFACE_LINK_LIBRARIES pugix
 # Position-independent, as Debian compiles anyway: in a plain static program gcc's runtime sorts the tables of all
 # functions before the first exception, and CLI11 ends `--version` with one: 11 ms instead of 4.
 add_link_options(-static-pie)
+# It relocates itself before main(), and gives up where a path to shared libraries is named.
+set(CMAKE_SKIP_RPATH ON)

@@ -1,8 +1,8 @@
 #include "editor/markdown.h"
 
-#include "compiler/check.h"
+#include "compiler/parse.h"
+#include "editor/basic_names.h"
 #include "editor/structured_names.h"
-#include "structured/lift.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,12 +12,20 @@ namespace orb::editor {
 namespace {
 
 /// An example of the tables in the language of whoever reads it: the robot's words are shown there in
-/// numbered lines.
+/// numbered lines. Numbers that nothing jumps to can go. (structured::lift would do for the rest, too,
+/// but what it weighs is loaded by every visitor of the playground.)
 std::string example_in(std::string_view language, const std::string& source) {
-  if (language != structured_language_id)
+  const auto program = compiler::parse(source);
+  const auto names = line_names(program);
+  if (language != structured_language_id ||
+      std::any_of(names.begin(), names.end(), [](const LineName& name) { return name.is_target; }))
     return source;
-  auto lifted = structured::lift(compiler::check(source, {}));
-  return lifted.text.empty() ? source : std::move(lifted.text);
+  auto text = source;
+  for (auto line = program.lines.rbegin(); line != program.lines.rend(); ++line)
+    if (const auto end = text.find_first_not_of(' ', line->number_span.end);
+        line->number_span.size() > 0 && end != std::string::npos)
+      text.erase(line->number_span.begin, end - line->number_span.begin);
+  return text;
 }
 
 } // namespace

@@ -34,13 +34,16 @@ editor = make_editor({
 });
 
 let keeping = 0;
-function keep_now() {
+function stop_keeping() {
   clearTimeout(keeping);
   keeping = 0;
+}
+function keep_now() {
+  stop_keeping();
   keep(workspace);
 }
 function keep_soon() {
-  clearTimeout(keeping);
+  stop_keeping();
   keeping = setTimeout(keep_now, 400);
 }
 window.addEventListener("pagehide", () => { if (keeping) keep_now(); }); // a tab in which nothing changed leaves the others' alone
@@ -317,7 +320,10 @@ print "back at " xpos "," ypos
 `;
 async function begin() {
   workspace = kept() ?? empty();
-  if (!await open_address()) open_workspace(Object.keys(workspace.files).length ? workspace : checked({ files: { "welcome.orb": welcome }, active: "welcome.orb" }));
+  if (!await open_address()) {
+    open_workspace(Object.keys(workspace.files).length ? workspace : checked({ files: { "welcome.orb": welcome }, active: "welcome.orb" }));
+    stop_keeping(); // nothing was written in it yet, but perhaps in another tab
+  }
   await machine.ready;
   document.documentElement.dataset.ready = Math.round(performance.now()); // for whoever measures
 }

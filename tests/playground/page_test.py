@@ -320,10 +320,11 @@ class Playground(unittest.TestCase):
             page.wait(ready)
             self.type(page, f'10 print "{word}"\n')
             page.evaluate("new Promise(done => setTimeout(done, 600))")
-        for page, word in zip(pages, ("first", "second")):
+        for page, word in zip(reversed(pages), ("second", "first")):  # the first, which is older, is loaded last
             page.go("about:blank")
             page.go(self.server.url)
             page.wait(ready)
+            page.evaluate("new Promise(done => setTimeout(done, 600))")
             self.assertIn(word, page.evaluate(text))
         third = self.browser.page()
         self.addCleanup(third.close)

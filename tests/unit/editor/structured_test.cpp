@@ -68,7 +68,7 @@ TEST(Structured, HoverSaysWhatANameStandsFor) {
   EXPECT_NE(session.hover(4, 10).find("(parameter)"), std::string::npos);
   EXPECT_NE(session.hover(19, 24).find("(label): jumped to in line 20"), std::string::npos);
   EXPECT_NE(session.hover(4, 4).find("goroll"), std::string::npos);
-  EXPECT_NE(session.hover(4, 4).find("```orbstructured\ngoroll 90, 128, 1\n"), std::string::npos);
+  EXPECT_NE(session.hover(4, 4).find("```orbstructured\ngoroll 90,128,1\n"), std::string::npos);
   EXPECT_NE(session.hover(3, 1).find("sub"), std::string::npos);
   EXPECT_EQ(session.hover(2, 4), "");
 }
