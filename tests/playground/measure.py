@@ -1,29 +1,17 @@
 #!/usr/bin/env python3
 """What the playground weighs and how soon it is there, as the table of docs/performance.md. usage: measure.py FOLDER"""
 
-import json
 import os
-import re
 import statistics
-import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "report"))
 import browser as chromium
 import site_server
+import weight
 
 folder = os.path.abspath(sys.argv[1])
 rounds = 7
-
-
-def brotli(path):
-    return len(subprocess.run(["brotli", "-c", "-q", "11", path], stdout=subprocess.PIPE, check=True).stdout)
-
-
-def core():
-    """What the service worker keeps is all that is loaded; and the service worker."""
-    with open(os.path.join(folder, "sw.js"), encoding="utf-8") as file:
-        return json.loads(re.search(r"core = (\[.*?\])", file.read()).group(1)) + ["sw.js"]
 
 
 def load(browser, server):
@@ -47,7 +35,7 @@ def row(name, values, unit, digits=0):
     print(f"{name:46}{min(values):8.{digits}f}{statistics.median(values):8.{digits}f}{max(values):8.{digits}f} {unit}")
 
 
-sizes = {name: brotli(os.path.join(folder, name)) for name in core()}
+sizes = weight.weights(folder)
 print("brotli, KB: " + ", ".join(f"{name} {size / 1000:.0f}" for name, size in sorted(sizes.items(), key=lambda one: -one[1]) if size > 1000)
       + f"; all {sum(sizes.values()) / 1000:.0f}")
 server, browser = site_server.Site(folder), chromium.Browser(chromium.find())

@@ -14,6 +14,7 @@ import zlib
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "report"))
 import browser as chromium
 import site_server
+import weight
 
 orb, folder = (os.path.abspath(path) for path in sys.argv[1:3])
 
@@ -311,6 +312,9 @@ class Playground(unittest.TestCase):
         page.wait(f"!{by_id('came')}.hidden")
         page.evaluate("document.querySelector('#came button').click()")
         page.wait(f"({text}).includes('kept')")
+
+    def test_all_that_is_loaded_weighs_at_most_600_kb(self):
+        self.assertLessEqual(sum(weight.weights(folder).values()), 600_000)
 
     def test_two_tabs_do_not_write_over_each_other(self):
         pages = [self.browser.page(), self.browser.page()]
