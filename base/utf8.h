@@ -10,6 +10,13 @@ namespace orb {
 /// not UTF-8 (then one byte stands for one U+FFFD). `text` is not empty.
 std::size_t utf8_length(std::string_view text);
 
+/// The bytes of the byte order mark that editors on Windows put before a text; 0 where there is
+/// none.
+constexpr std::size_t byte_order_mark_size(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? mark.size() : 0;
+}
+
 /// How many code points `text` shows, a byte that is not UTF-8 counting as one (U+FFFD).
 std::size_t code_points(std::string_view text);
 

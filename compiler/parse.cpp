@@ -1,5 +1,6 @@
 #include "compiler/parse.h"
 
+#include "base/utf8.h"
 #include "compiler/grammar.h"
 #include "compiler/words.h"
 #include "spec/limits.h"
@@ -584,11 +585,9 @@ public:
   }
 
 private:
-  /// Editors on Windows begin a text with this mark, so that any line of joined texts may have one.
+  /// Of texts that were joined any line may have a mark.
   const char* after_byte_order_mark(const char* p) const {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    const std::string_view rest(p, static_cast<std::size_t>(end_ - p));
-    return rest.starts_with(byte_order_mark) ? p + byte_order_mark.size() : p;
+    return p + byte_order_mark_size({p, static_cast<std::size_t>(end_ - p)});
   }
 
   /// Parses the line that begins at `begin`; returns its end.

@@ -1,5 +1,6 @@
 #include "structured/format.h"
 
+#include "base/utf8.h"
 #include "structured/parse.h"
 #include "structured/words.h"
 
@@ -91,7 +92,7 @@ bool calls(const Token& token) {
 class Formatter {
 public:
   explicit Formatter(std::string_view text) {
-    parse(program_, "", "", text.substr(skipped_mark(text)));
+    parse(program_, "", "", text.substr(byte_order_mark_size(text)));
     text_ = std::string_view(program_.text).substr(0, program_.files.front().end);
   }
 

@@ -1,5 +1,6 @@
 #include "structured/parse.h"
 
+#include "base/utf8.h"
 #include "structured/blocks.h"
 #include "structured/builder.h"
 #include "structured/grammar.h"
@@ -1053,7 +1054,7 @@ void parse(Program& program, std::string name, std::string path, std::string_vie
   program.items.reserve(program.items.size() + text.size() / 12);
   program.nodes.reserve(program.nodes.size() + text.size() / 6);
   const auto* const begin = program.text.data() + file.begin;
-  Lines(program, begin + skipped_mark(text), program.text.data() + file.end).parse();
+  Lines(program, begin + byte_order_mark_size(text), program.text.data() + file.end).parse();
   file.statements_end = static_cast<std::uint32_t>(program.statements.size());
   link_blocks(program, file);
   program.files.push_back(std::move(file));

@@ -78,12 +78,6 @@ constexpr bool is_name_char(char c) {
   return begins_name(c) || is_digit(c);
 }
 
-/// The bytes of the mark that some editors put before a text.
-constexpr std::size_t skipped_mark(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  return text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-}
-
 /// Where a name or a word ends that has begun before `at`.
 constexpr const char* end_of_name(const char* at, const char* end) {
   while (at != end && is_name_char(*at))
