@@ -41,14 +41,15 @@ std::string list(std::string_view name, const Words& words) {
 /// The words of the statements with one of these forms that `keep` keeps.
 template <typename Keep>
 Words of_forms(std::initializer_list<Form> forms, Keep keep) {
-  Words words;
-  for (const auto& row : spec::statements)
-    if (std::find(forms.begin(), forms.end(), row.form) != forms.end() && keep(row))
-      words.push_back(row.word);
-  return words;
+  return words_of(spec::statements, [&](const spec::StatementInfo& row) {
+    return std::find(forms.begin(), forms.end(), row.form) != forms.end() && keep(row);
+  });
+}
+Words of_forms(std::initializer_list<Form> forms) {
+  return of_forms(forms, [](const spec::StatementInfo&) { return true; });
 }
 Words of_form(Form form) {
-  return of_forms({form}, [](const spec::StatementInfo&) { return true; });
+  return of_forms({form});
 }
 
 /// Statements whose words are followed by values, which are all of one shape.
@@ -241,15 +242,12 @@ bool is_keyword(std::string_view word) {
 
 /// The robot's statements that structured programs have, with rules of their own or not.
 Words structured_statements(bool with_rules) {
-  Words words;
-  for (const auto& row : spec::statements) {
+  return words_of(spec::statements, [with_rules](const spec::StatementInfo& row) {
     const bool has_rule = std::find(ruled.begin(), ruled.end(), row.statement) != ruled.end();
     const bool foreign = row.form == Form::Branch || row.form == Form::IndexedBranch;
     const bool known = structured::find_word(row.word).kind == structured::WordKind::Statement;
-    if (known && has_rule == with_rules && (has_rule || !foreign))
-      words.push_back(row.word);
-  }
-  return words;
+    return known && has_rule == with_rules && (has_rule || !foreign);
+  });
 }
 
 Words structured_functions() {
@@ -318,10 +316,8 @@ std::string head() {
 
 std::string basic_highlights() {
   Words keywords(spec::particles.begin(), spec::particles.end());
-  const auto keeps = [](const spec::StatementInfo&) { return true; };
   for (const auto word : of_forms({Form::Assignment, Form::Conditional, Form::Loop, Form::LoopEnd,
-                                   Form::Branch, Form::IndexedBranch},
-                                  keeps))
+                                   Form::Branch, Form::IndexedBranch}))
     keywords.push_back(word);
   return head() + capture(keywords, "keyword") + "(control_word) @keyword\n" +
          "(action_word) @function.builtin\n" + capture(of_form(Form::Output), "function.builtin") +

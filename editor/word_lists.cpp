@@ -8,30 +8,22 @@
 #include "vm/stimulus.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace orb::editor {
 
 Words control_words() {
-  Words words(spec::particles.begin(), spec::particles.end());
-  for (const auto& row : spec::statements)
-    if (directs_the_flow(row))
-      words.push_back(row.word);
+  auto words = words_of(spec::statements, directs_the_flow);
+  words.insert(words.begin(), spec::particles.begin(), spec::particles.end());
   return words;
 }
 
 Words statement_words() {
-  Words words;
-  for (const auto& row : spec::statements)
-    if (!directs_the_flow(row))
-      words.push_back(row.word);
-  return words;
+  return words_of(spec::statements, std::not_fn(directs_the_flow));
 }
 
 Words function_words() {
-  Words words;
-  for (const auto& row : spec::functions)
-    words.push_back(row.word);
-  return words;
+  return words_of(spec::functions);
 }
 
 Words variable_words() {
@@ -90,29 +82,21 @@ Words macro_value_words() {
 }
 
 Words test_words() {
-  Words words;
-  for (const auto& row : testing::line_words)
-    words.emplace_back(row.word);
-  for (const auto& row : testing::when_words)
-    words.emplace_back(row.word);
+  auto words = words_of(testing::line_words);
+  for (const auto word : words_of(testing::when_words))
+    words.push_back(word);
   for (const auto* word : {"by", "to", "times", "points", "end", "macro"})
     words.emplace_back(word);
   return words;
 }
 
 Words expectation_words() {
-  Words words;
-  for (const auto& row : testing::expectations)
-    if (&row != &testing::info(testing::Word::Variable))
-      words.emplace_back(row.word);
-  return words;
+  return words_of(testing::expectations,
+                  [](const auto& row) { return &row != &testing::info(testing::Word::Variable); });
 }
 
 Words stimulus_words() {
-  Words words;
-  for (const auto& row : vm::stimulus_words)
-    words.emplace_back(row.word);
-  return words;
+  return words_of(vm::stimulus_words);
 }
 
 } // namespace orb::editor

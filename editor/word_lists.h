@@ -10,6 +10,20 @@ namespace orb::editor {
 
 using Words = std::vector<std::string_view>;
 
+/// The words of those rows of a table that `keep` keeps.
+template <typename Table, typename Keep>
+Words words_of(const Table& table, Keep keep) {
+  Words words;
+  for (const auto& row : table)
+    if (keep(row))
+      words.emplace_back(row.word);
+  return words;
+}
+template <typename Table>
+Words words_of(const Table& table) {
+  return words_of(table, [](const auto&) { return true; });
+}
+
 Words control_words();
 Words statement_words();
 Words function_words();
