@@ -11,14 +11,15 @@
 namespace orb::editor {
 namespace {
 
-/// An example of the tables in the language of whoever reads it: the robot's words are shown there in
-/// numbered lines. Numbers that nothing jumps to can go. (structured::lift would do for the rest, too,
-/// but what it weighs is loaded by every visitor of the playground.)
+/// An example of the tables in the language of whoever reads it: the robot's words are shown there
+/// in numbered lines. Numbers that nothing jumps to can go. (structured::lift would do for the
+/// rest, too, but what it weighs is loaded by every visitor of the playground.)
 std::string example_in(std::string_view language, const std::string& source) {
+  if (language != structured_language_id)
+    return source;
   const auto program = compiler::parse(source);
   const auto names = line_names(program);
-  if (language != structured_language_id ||
-      std::any_of(names.begin(), names.end(), [](const LineName& name) { return name.is_target; }))
+  if (std::any_of(names.begin(), names.end(), [](const LineName& name) { return name.is_target; }))
     return source;
   auto text = source;
   for (auto line = program.lines.rbegin(); line != program.lines.rend(); ++line)
