@@ -17,10 +17,6 @@ using bluez::interrupted;
 using protocol::BleStep;
 using spec::BleCharacteristic;
 
-bool stopped(const Patience& patience) {
-  return patience.stop && patience.stop() > 0;
-}
-
 double seconds(Duration time) {
   return static_cast<double>(time.count()) / 1e9;
 }
@@ -223,7 +219,7 @@ private:
   }
 
   tl::expected<std::string, BleError> not_found(Duration budget, const Patience& patience) const {
-    if (stopped(patience))
+    if (patience.stopped())
       return tl::unexpected(interrupted());
     if (auto error = bluez::trouble(*bus_, adapter_))
       return tl::unexpected(*std::move(error));
@@ -264,7 +260,7 @@ private:
       risen = risen || connected() || bus_->has_risen(device_, "Connected");
       return risen || !bus_->alive();
     }));
-    if (stopped(patience))
+    if (patience.stopped())
       return tl::unexpected(interrupted());
     if (!risen)
       return failed(BleFailure::NotConnected, "the robot does not connect", {});
@@ -277,7 +273,7 @@ private:
     step_ = BleStep::Services;
     const auto start = now();
     static_cast<void>(bus_->wait(patience, [&] { return flag("ServicesResolved") || lost(); }));
-    if (stopped(patience))
+    if (patience.stopped())
       return tl::unexpected(interrupted());
     if (lost() || !flag("ServicesResolved"))
       return failed(BleFailure::NotResolved,
@@ -333,7 +329,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
   }));
   if (error)
     return tl::unexpected(*std::move(error));
-  if (stopped(patience))
+  if (patience.stopped())
     return tl::unexpected(interrupted());
   std::vector<SeenDevice> devices;
   for (auto& [path, device] : seen)

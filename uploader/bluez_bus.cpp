@@ -40,6 +40,9 @@ tl::expected<std::unique_ptr<Bus>, BleError> Bus::open(const Patience& patience)
     bus->connection_ = sdbus::createSystemBusConnection();
     bus->subscribe();
   } catch (const sdbus::Error& error) {
+    // A signal, too, ends the library's own wait: it is nothing the bus has done.
+    if (patience.stopped())
+      return tl::unexpected(interrupted());
     return tl::unexpected(BleError{
         BleFailure::NoBus, fmt::format("there is no D-Bus system bus: {}", error.getMessage())});
   }
@@ -99,8 +102,7 @@ tl::expected<void, CallError> Bus::finish(sdbus::IProxy& proxy, const sdbus::Met
   if (wait(patience, [&] { return result.has_value(); }))
     return *result;
   pending.cancel();
-  const auto stopped = patience.stop && patience.stop() > 0;
-  return tl::unexpected(CallError{{}, "no answer came in time", stopped});
+  return tl::unexpected(CallError{{}, "no answer came in time", patience.stopped()});
 }
 
 bool Bus::wait(const Patience& patience, const std::function<bool()>& done) {
@@ -111,7 +113,7 @@ bool Bus::wait(const Patience& patience, const std::function<bool()>& done) {
       if (done())
         return true;
       const auto left = patience.deadline - steady_now();
-      if (left <= Duration{} || (patience.stop && patience.stop() > 0))
+      if (left <= Duration{} || patience.stopped())
         return false;
       const auto data = connection_->getEventLoopPollData();
       auto pause = std::min<Duration>(left, stop_notice);

@@ -11,6 +11,10 @@ namespace orb::uploader {
 struct Patience {
   Instant deadline;
   Stop stop; ///< asked while it is waited
+
+  bool stopped() const {
+    return stop && stop() > 0;
+  }
 };
 
 /// One robot as the Bluetooth LE of a computer shows it. It ends a wait within stop_notice of its
