@@ -10,14 +10,16 @@ local function path()
 end
 
 -- Neovim loses what a program writes to its terminal just before it ends (neovim issue 37982): let it end later.
-local ending_later = { 'sh', '-c', '"$@"; code=$?; sleep 0.1; exit $code', 'sh' }
+local function ending_later(command)
+  return vim.list_extend({ 'sh', '-c', '"$@"; code=$?; sleep 0.1; exit $code', 'sh' }, command)
+end
 
 -- Runs `orb` with these arguments in a terminal below.
 local function in_terminal(arguments)
   vim.cmd('silent! update')
   vim.cmd('botright 12split')
   vim.cmd('enew')
-  vim.fn.termopen(vim.tbl_flatten({ ending_later, path(), arguments }))
+  vim.fn.termopen(ending_later(vim.list_extend({ path() }, arguments)))
 end
 
 local function debug(launch)
