@@ -1,14 +1,19 @@
 // Structured programs to lines of the robot: all of it, from the text to the checked image, and for
 // comparison only reading and checking. The program is the examples' own kind: subs, loops,
-// choices.
+// choices; without comments. The examples themselves are compiled, too, when this runs at the root.
 
 #include "structured/check.h"
 #include "structured/compile.h"
 #include "structured/read.h"
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -52,6 +57,42 @@ void compile_program(benchmark::State& state) {
   finish(state, text);
 }
 
+/// The structured programs of a folder, in the order of their names.
+std::vector<std::string> programs_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".orb")
+        paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  std::vector<std::string> programs;
+  for (const auto& path : paths) {
+    std::ifstream file(path);
+    programs.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  return programs;
+}
+
+void compile_examples(benchmark::State& state) {
+  const auto programs = programs_of("examples");
+  if (programs.empty())
+    return state.SkipWithError("start it where examples/ is");
+  std::string all;
+  for (const auto& text : programs)
+    all += text;
+  orb::compiler::Target target;
+  target.ram_bytes = 4096;
+  NoFiles files;
+  for (auto _ : state)
+    for (const auto& text : programs) {
+      const auto compiled = compile("a.orb", "a.orb", text, target, files);
+      if (compiled.has_errors())
+        state.SkipWithError("the examples are meant to be fine");
+      benchmark::DoNotOptimize(compiled.robot.text.data());
+    }
+  finish(state, all);
+}
+
 void read_and_check(benchmark::State& state) {
   const auto text = program(state.range(0));
   NoFiles files;
@@ -65,6 +106,7 @@ void read_and_check(benchmark::State& state) {
 }
 
 BENCHMARK(compile_program)->Arg(50)->Arg(100)->Arg(200);
+BENCHMARK(compile_examples);
 BENCHMARK(read_and_check)->Arg(50)->Arg(100)->Arg(200);
 
 } // namespace
