@@ -80,16 +80,6 @@ void find_successors(const Code& code, Flow& flow) {
   }
 }
 
-/// The routines that a line calls.
-template <typename Visit>
-void each_callee(const Code& code, const CodeLine& line, Visit visit) {
-  if (line.kind == LineKind::Gosub)
-    visit(line.variable);
-  if (line.kind == LineKind::OnGosub)
-    for (auto i = line.parts_begin; i < line.parts_end; ++i)
-      visit(code.parts[i].text.begin);
-}
-
 void find_touched(const Code& code, Flow& flow) {
   const auto routines = code.routines.size();
   flow.written = VariableSets(routines, code.variables.size());

@@ -105,6 +105,16 @@ void each_label(const Code& code, const CodeLine& line, Visit visit) {
       visit(code.parts[i].value);
 }
 
+/// Calls `visit` with each routine that a line calls.
+template <typename Visit>
+void each_callee(const Code& code, const CodeLine& line, Visit visit) {
+  if (line.kind == LineKind::Gosub)
+    visit(line.variable);
+  if (line.kind == LineKind::OnGosub)
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      visit(code.parts[i].text.begin);
+}
+
 /// Whether the line below can be next.
 inline bool falls_through(const CodeLine& line) {
   if (line.kind == LineKind::Do)

@@ -74,23 +74,15 @@ private:
   bool writes(const CodeLine& line, std::uint32_t variable) const {
     bool found = false;
     each_write(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
-    each_called(line, [&](std::uint32_t routine) {
+    each_callee(code_, line, [&](std::uint32_t routine) {
       found = found || contains(flow_.written[routine], variable);
     });
     return found;
   }
-  template <typename Visit>
-  void each_called(const CodeLine& line, Visit visit) const {
-    if (line.kind == LineKind::Gosub)
-      visit(line.variable);
-    if (line.kind == LineKind::OnGosub)
-      for (auto i = line.parts_begin; i < line.parts_end; ++i)
-        visit(code_.parts[i].text.begin);
-  }
   bool touches(const CodeLine& line, std::uint32_t variable) const {
     bool found = writes(line, variable);
     each_line_read(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
-    each_called(line, [&](std::uint32_t routine) {
+    each_callee(code_, line, [&](std::uint32_t routine) {
       found = found || contains(flow_.touched[routine], variable);
     });
     return found;
@@ -99,7 +91,7 @@ private:
     if (line.kind == LineKind::SetElement)
       return true;
     bool found = false;
-    each_called(line,
+    each_callee(code_, line,
                 [&](std::uint32_t routine) { found = found || flow_.sets_elements[routine]; });
     if (line.kind == LineKind::Do)
       for (auto i = line.parts_begin; i < line.parts_end; ++i)
