@@ -13,6 +13,7 @@ public:
 
   void run() {
     constexpr int most_rounds = 8;
+    compact();
     for (int round = 0; round < most_rounds && once(); ++round) {
     }
   }
@@ -20,7 +21,6 @@ public:
 private:
   bool once() {
     changed_ = false;
-    compact();
     find_labels();
     thread();
     remove_unreached();
@@ -91,21 +91,16 @@ private:
 
   void remove_unreached() {
     std::vector<bool> reached(code_.lines.size(), false);
-    std::vector<std::uint32_t> open;
-    const auto visit = [&](std::uint32_t i) {
-      if (i < reached.size() && !reached[i]) {
-        reached[i] = true;
-        open.push_back(i);
-      }
-    };
-    visit(0);
+    std::vector<std::uint32_t> open{0};
     while (!open.empty()) {
-      const auto i = open.back();
+      auto i = open.back();
       open.pop_back();
-      const auto& line = code_.lines[i];
-      if (falls_through(line))
-        visit(i + 1);
-      each_label(code_, line, [&](std::uint32_t label) { visit(at_[label]); });
+      for (bool on = true; on && i < reached.size() && !reached[i]; ++i) {
+        reached[i] = true;
+        const auto& line = code_.lines[i];
+        each_label(code_, line, [&](std::uint32_t label) { open.push_back(at_[label]); });
+        on = falls_through(line);
+      }
     }
     std::vector<bool> stepped(code_.labels, false);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
