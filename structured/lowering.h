@@ -27,6 +27,7 @@ public:
       : program_(program), names_(names), plan_(plan), variable_of_(names.symbols.size(), none),
         result_of_(names.routines.size(), none) {
     code_.routines.assign(names.routines.size(), none);
+    code_.terms.reserve(2 * program.nodes.size());
   }
 
   Code run();

@@ -95,19 +95,24 @@ void Ranges::find_tracked() {
 /// Numbers at which growing ranges stop first: those that tests, loops and
 /// assignments name, and their neighbours.
 void Ranges::find_landmarks() {
+  std::vector<std::int64_t> named;
   for (const auto& line : code_.lines)
     if (line.kind == LineKind::If || line.kind == LineKind::For || line.kind == LineKind::Let)
       each_root(code_, line, [&](std::uint32_t root) {
-        each_number(code_, root, [&](std::int32_t value) {
-          for (const std::int64_t n : {-1, 0, 1})
-            if (value + n >= least_value && value + n <= greatest_value)
-              landmarks_.push_back(static_cast<std::int32_t>(value + n));
-        });
+        each_number(code_, root, [&](std::int32_t value) { named.push_back(value); });
       });
+  std::sort(named.begin(), named.end());
   landmarks_.push_back(least_value);
-  landmarks_.push_back(greatest_value);
-  std::sort(landmarks_.begin(), landmarks_.end());
-  landmarks_.erase(std::unique(landmarks_.begin(), landmarks_.end()), landmarks_.end());
+  const auto add = [&](std::int64_t value) {
+    if (value > landmarks_.back() && value <= greatest_value)
+      landmarks_.push_back(static_cast<std::int32_t>(value));
+  };
+  for (const auto value : named) {
+    add(value - 1);
+    add(value);
+    add(value + 1);
+  }
+  add(greatest_value);
 }
 
 Range Ranges::widen(Range before, Range now) const {
@@ -224,8 +229,12 @@ void Ranges::set(const CodeLine& line, State& state) {
   if (line.kind == LineKind::Let) {
     state[line.variable] = range_of(line.term, state);
   } else if (line.kind == LineKind::For) {
-    state[line.variable] = range_of(line.term, state);
-    ends_[line.label] = compiler::join(ends_[line.label], range_of(line.end, state));
+    // The body is entered with all values of the variable at once: each turn would add but one.
+    const auto begin = state[line.variable] = range_of(line.term, state);
+    const auto end = range_of(line.end, state);
+    ends_[line.label] = compiler::join(ends_[line.label], end);
+    state[line.variable] = line.step > 0 ? Range{begin.lo, std::max(begin.hi, end.hi)}
+                                         : Range{std::min(begin.lo, end.lo), begin.hi};
   } else if (line.kind == LineKind::Do) {
     for (auto i = line.parts_begin; i < line.parts_end; ++i)
       if (code_.parts[i].kind == PartKind::Variable)
@@ -234,36 +243,35 @@ void Ranges::set(const CodeLine& line, State& state) {
 }
 
 bool Ranges::call(const CodeLine& line, State& state, std::uint32_t from) {
-  std::optional<State> joined;
-  const auto one = [&](std::uint32_t routine) {
-    auto& returned = returns_[routine];
-    if (following_) {
-      enter(flow_.entries[routine], state);
-      if (std::find(returned.callers.begin(), returned.callers.end(), from) ==
-          returned.callers.end())
-        returned.callers.push_back(from);
-    }
-    if (!returned.yet)
-      return;
-    auto after = state;
-    for (std::size_t i = 0; i < returned.written.size(); ++i)
-      after[returned.written[i]] = returned.known[i];
-    if (!joined) {
-      joined = std::move(after);
-      return;
-    }
-    for (std::size_t v = 0; v < after.size(); ++v)
-      (*joined)[v] = compiler::join((*joined)[v], after[v]);
-  };
   if (line.kind == LineKind::Gosub)
-    one(line.variable);
-  else
-    for (auto i = line.parts_begin; i < line.parts_end; ++i)
-      one(code_.parts[i].text.begin);
-  if (!joined)
-    return false;
-  state = std::move(*joined);
-  return true;
+    return call_one(line.variable, state, from);
+  std::optional<State> joined;
+  for (auto i = line.parts_begin; i < line.parts_end; ++i) {
+    auto after = state;
+    if (!call_one(code_.parts[i].text.begin, after, from))
+      continue;
+    if (joined)
+      for (std::size_t v = 0; v < after.size(); ++v)
+        (*joined)[v] = compiler::join((*joined)[v], after[v]);
+    else
+      joined = std::move(after);
+  }
+  if (joined)
+    state = std::move(*joined);
+  return joined.has_value();
+}
+
+/// Turns `state` into that after the call of a routine; false where nothing comes back from it yet.
+bool Ranges::call_one(std::uint32_t routine, State& state, std::uint32_t from) {
+  auto& returned = returns_[routine];
+  if (following_) {
+    enter(flow_.entries[routine], state);
+    if (std::find(returned.callers.begin(), returned.callers.end(), from) == returned.callers.end())
+      returned.callers.push_back(from);
+  }
+  for (std::size_t i = 0; i < returned.known.size(); ++i)
+    state[returned.written[i]] = returned.known[i];
+  return returned.yet;
 }
 
 // ---- ways from block to block
