@@ -45,12 +45,15 @@ struct Suggestions {
   std::vector<Suggestion> items;
 };
 
+enum class OutlineKind : std::uint8_t { Function, Constant, Array };
+
 /// A line of the outline: a subroutine, a macro.
 struct Symbol {
   std::string name;
   std::string detail;
   Span span;      ///< all of it
   Span selection; ///< its name
+  OutlineKind kind = OutlineKind::Function;
 };
 
 /// A place in another file, which the text includes or which includes it.

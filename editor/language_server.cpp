@@ -108,7 +108,15 @@ int kind_number(SuggestionKind kind) {
   return 5;
 }
 
-constexpr int symbol_kind_function = 12;
+/// SymbolKind of the protocol.
+int symbol_kind(OutlineKind kind) {
+  switch (kind) {
+  case OutlineKind::Function: return 12;
+  case OutlineKind::Constant: return 14;
+  case OutlineKind::Array: return 18;
+  }
+  return 12;
+}
 
 bool overlap(Span a, Span b) {
   return a.begin <= b.end && b.begin <= a.end;
@@ -703,7 +711,7 @@ Answer LanguageServer::State::symbols(const Asked& asked) const {
   for (const auto& symbol : document.language->outline(document.source))
     list.push_back({{"name", symbol.name.empty() ? "?" : symbol.name},
                     {"detail", symbol.detail},
-                    {"kind", symbol_kind_function},
+                    {"kind", symbol_kind(symbol.kind)},
                     {"range", range(document.source, symbol.span)},
                     {"selectionRange", range(document.source, symbol.selection)}});
   return list;
@@ -833,7 +841,7 @@ Json LanguageServer::State::callable(const std::string& uri, const Source& root,
                                      const Callable& one) const {
   const auto& source = one.source != nullptr ? *one.source : root;
   Json json{{"name", one.name},
-            {"kind", symbol_kind_function},
+            {"kind", symbol_kind(OutlineKind::Function)},
             {"uri", one.source != nullptr ? uri_of(source) : uri},
             {"range", range(source, one.span)},
             {"selectionRange", range(source, one.selection)},
@@ -892,7 +900,7 @@ Answer LanguageServer::State::workspace_symbols(const std::string& query) const 
     for (const auto& symbol : language.outline(source))
       if (answers_to(symbol.name, query) && list.size() < most)
         list.push_back({{"name", symbol.name},
-                        {"kind", symbol_kind_function},
+                        {"kind", symbol_kind(symbol.kind)},
                         {"containerName", symbol.detail},
                         {"location", {{"uri", uri}, {"range", range(source, symbol.selection)}}}});
   };

@@ -126,7 +126,7 @@ Occurrences occurrences(const Source& source, std::uint32_t offset,
       auto place = use.meaning == part.here->meaning ? part.reading.place(use.span) : std::nullopt;
       if (!place)
         continue;
-      place->defines = use.is_set;
+      place->defines = use.defines;
       if (place->source == part.reading.sources[part.file])
         place->source = std::make_shared<const Source>(source);
       add_once(places, *std::move(place));
@@ -476,6 +476,12 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
 
 // ---- outline
 
+OutlineKind kind_of(Kind kind) {
+  return kind == Kind::Const   ? OutlineKind::Constant
+         : kind == Kind::Array ? OutlineKind::Array
+                               : OutlineKind::Function;
+}
+
 std::vector<Symbol> outline(const Source& source) {
   const auto reading = read_structured(source, {});
   const auto& program = reading.program;
@@ -494,7 +500,8 @@ std::vector<Symbol> outline(const Source& source) {
     symbols.push_back({std::string(program.text_of(statement.name_span)),
                        std::string(program.text_of(statement.word)),
                        {statement.span.begin, end},
-                       statement.name_span});
+                       statement.name_span,
+                       kind_of(statement.kind)});
   }
   return symbols;
 }

@@ -32,16 +32,24 @@ public:
 
 private:
   void add(std::uint32_t symbol, Span span, bool is_set) {
-    if (symbol != none)
-      uses_.push_back({{symbol, none, none}, span, is_set});
+    if (symbol == none)
+      return;
+    const auto& known = names_.symbols[symbol];
+    const bool defines =
+        known.kind == SymbolKind::Variable ? is_set : known.span.begin == span.begin;
+    uses_.push_back({{symbol, none, none}, span, is_set, defines});
+  }
+
+  void add_label(const Meaning& meaning, const structured::Statement& statement) {
+    const bool defines = statement.kind == Kind::Label;
+    uses_.push_back({meaning, statement.name_span, defines, defines});
   }
 
   void add_statement(std::uint32_t i) {
     const auto& statement = program_.statements[i];
     const auto routine = names_.routine_of[i];
     if (statement.kind == Kind::Label || statement.kind == Kind::Goto)
-      uses_.push_back(
-          {{none, routine, statement.name}, statement.name_span, statement.kind == Kind::Label});
+      add_label({none, routine, statement.name}, statement);
     else if (statement.kind == Kind::Call)
       add(names_.of_statement[i], statement.name_span, false);
     else if (statement.name != none)

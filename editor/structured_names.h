@@ -44,7 +44,8 @@ struct Meaning {
 struct NameUse {
   Meaning meaning;
   Span span;
-  bool is_set = false; ///< declared or assigned
+  bool is_set = false;  ///< declared or assigned
+  bool defines = false; ///< declared; of a variable without a declaration: assigned
 };
 
 /// What a comment in the line above a declaration says, without its mark; may be empty.

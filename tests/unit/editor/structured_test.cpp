@@ -80,6 +80,8 @@ TEST(Structured, DefinitionsAndReferences) {
   EXPECT_EQ(Session::places(session.ask("definition", 4, 9)), "3:8-9");
   EXPECT_EQ(Session::places(session.ask("references", 12, 4)), "12:4-5 13:6-7 14:12-13 15:5-6");
   EXPECT_EQ(Session::places(session.ask("definition", 19, 24)), "16:0-5");
+  // Its declaration, not what it is set to.
+  EXPECT_EQ(Session::places(session.ask("definition", 18, 8)), "1:6-12");
 }
 
 TEST(Structured, RenameKeepsToOneMeaning) {
@@ -117,8 +119,8 @@ TEST(Structured, OutlineListsDeclarations) {
   const auto found = session.of_all("documentSymbol");
   std::string names;
   for (const auto& one : found)
-    names += one["name"].get<std::string>() + " ";
-  EXPECT_EQ(names, "side visits leg twice ");
+    names += fmt::format("{}:{} ", one["name"].get<std::string>(), one["kind"].get<int>());
+  EXPECT_EQ(names, "side:14 visits:18 leg:12 twice:12 "); // constant, array, functions
   EXPECT_EQ(found[2]["range"]["end"]["line"], 7);
 }
 
