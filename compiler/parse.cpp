@@ -581,21 +581,27 @@ public:
 
   void parse() {
     for (const char* p = begin_; p != end_;)
-      p = after_line_end(parse_line(after_byte_order_mark(p)));
+      p = after_line_end(parse_line(p));
   }
 
 private:
-  /// Of texts that were joined any line may have a mark.
-  const char* after_byte_order_mark(const char* p) const {
-    return p + byte_order_mark_size({p, static_cast<std::size_t>(end_ - p)});
+  /// The begin of a line that starts at `p`, after its blanks. Of texts that were joined any line
+  /// may have byte order marks, which are no part of it.
+  const char* skip_margin(const char*& p) const {
+    for (const char* begin = p;; begin = p) {
+      while (p != end_ && is_blank(*p))
+        ++p;
+      const auto mark = byte_order_mark_size({p, static_cast<std::size_t>(end_ - p)});
+      if (mark == 0)
+        return begin;
+      p += mark;
+    }
   }
 
-  /// Parses the line that begins at `begin`; returns its end.
-  const char* parse_line(const char* begin) {
+  /// Parses the line that starts at `p`; returns its end.
+  const char* parse_line(const char* p) {
     auto& line = program_.lines.emplace_back();
-    const char* p = begin;
-    while (p != end_ && is_blank(*p))
-      ++p;
+    const char* const begin = skip_margin(p);
     if (p != end_ && *p != '\n' && *p != '\r' && *p != '\'')
       p = parse_content(line, p);
     if (p != end_ && *p == '\'') {

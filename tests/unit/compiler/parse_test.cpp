@@ -68,6 +68,12 @@ TEST(Parse, AnyLineOfJoinedTextsMayBeginWithAByteOrderMark) {
   EXPECT_EQ(format(program), "10 print 1\n' b\n20 end\n");
 }
 
+TEST(Parse, ByteOrderMarksAmongBlanksAreNoPartOfALine) {
+  const auto program = parse(" \xEF\xBB\xBF \xEF\xBB\xBF\xEF\xBB\xBF 10 print 1\n \xEF\xBB\xBF");
+  EXPECT_EQ(format(program), "10 print 1\n");
+  EXPECT_EQ(program.lines[0].span.size(), 11U); // with the blank before it
+}
+
 TEST(Parse, PrecedenceHasTwoLevelsAndTakesEqualsFromTheLeft) {
   EXPECT_EQ(expression("1+2&3"), "[[1+2]&3]");
   EXPECT_EQ(expression("2|1*4"), "[2|[1*4]]");
