@@ -5,6 +5,7 @@
 #include "assembler/timing.h"
 #include "base/render.h"
 #include "base/suggest.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "disk/disk.h"
@@ -121,9 +122,9 @@ ExitCode write_text(const Context& context, const std::string& path, const std::
 void add_note(const Context& context, const AsmOptions& options, const Assembly& assembly,
               std::size_t index) {
   const auto& macro = assembly.macros[index];
-  print_note(context, fmt::format("{}: {} commands, {} bytes ({} with id and flags), {}",
-                                  name_of(options, macro), macro.commands.size(), macro.body.size(),
-                                  macro.framed_size(),
+  print_note(context, fmt::format("{}: {}, {} ({} with id and flags), {}", name_of(options, macro),
+                                  plural(macro.commands.size(), "command"),
+                                  plural(macro.body.size(), "byte"), macro.framed_size(),
                                   assembler::to_string(assembler::time_macro(assembly, index))));
 }
 
