@@ -4,6 +4,7 @@
 #include "assembler/rules.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "base/utf8.h"
 
 #include <array>
 #include <cstring>
@@ -278,6 +279,7 @@ Program parse(std::string_view text) {
     if (return_at < at)
       return_at = find(at, end, '\r');
     const char* stop = find(at, return_at, '\n');
+    at += byte_order_mark_size({at, static_cast<std::size_t>(stop - at)});
     if (auto problem = parse_line(builder, at, stop);
         problem && program.diagnostics.size() < most_diagnostics)
       program.diagnostics.push_back(std::move(*problem));

@@ -1,6 +1,7 @@
 #include "cli/config.h"
 
 #include "base/text.h"
+#include "base/utf8.h"
 #include "cli/context.h"
 #include "cli/options.h"
 #include "cli/save_ball.h"
@@ -83,7 +84,7 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
                                                const std::string& text) {
   std::vector<CLI::ConfigItem> items;
   try {
-    std::istringstream stream(text);
+    std::istringstream stream(text.substr(byte_order_mark_size(text)));
     items = CLI::ConfigTOML().from_config(stream);
   } catch (const CLI::Error& error) {
     return tl::unexpected(problem(file, fmt::format("not understood: {}", error.what())));

@@ -2,6 +2,7 @@
 
 #include "base/duration.h"
 #include "base/text.h"
+#include "base/utf8.h"
 #include "testing/rules.h"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ bool ends_word(char c) {
 } // namespace
 
 Cursor::Cursor(const Source& source, std::uint32_t line, std::vector<Diagnostic>& diagnostics)
-    : text_(source.line(line)), begin_(source.line_start(line)), diagnostics_(&diagnostics) {}
+    : text_(source.line(line)), begin_(source.line_start(line)), at_(byte_order_mark_size(text_)),
+      diagnostics_(&diagnostics) {}
 
 void Cursor::skip_blanks() {
   while (at_ < text_.size() && is_blank(text_[at_]))

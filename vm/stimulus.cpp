@@ -3,6 +3,7 @@
 #include "base/duration.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "base/utf8.h"
 #include "vm/rules.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ std::vector<Word> words_of(const Source& source, std::uint32_t line) {
   std::vector<Word> words;
   const auto text = source.line(line);
   const auto start = source.line_start(line);
-  std::size_t at = 0;
+  auto at = byte_order_mark_size(text);
   while (at < text.size() && text[at] != '#') {
     if (text[at] == ' ' || text[at] == '\t') {
       ++at;
