@@ -4,6 +4,7 @@
 #include "assembler/rules.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "base/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -705,15 +706,6 @@ private:
   bool after_end_reported_ = false;
 };
 
-/// By byte: whether it has no place in a text.
-constexpr auto is_binary = [] {
-  std::array<bool, UINT8_MAX + 1> table{};
-  for (std::size_t c = 0; c < ' '; ++c)
-    table[c] = c != '\t' && c != '\n' && c != '\r';
-  table['\x7F'] = true;
-  return table;
-}();
-
 std::optional<Diagnostic> unreadable(const Source& source) {
   const auto text = source.text();
   if (text.empty())
@@ -726,11 +718,11 @@ std::optional<Diagnostic> unreadable(const Source& source) {
   // One pass without branches first: nearly every file is text.
   bool any = false;
   for (const char c : text)
-    any |= is_binary[static_cast<unsigned char>(c)];
+    any |= is_binary_byte[static_cast<unsigned char>(c)];
   if (!any)
     return std::nullopt;
   const auto* const binary = std::find_if(text.data(), text.data() + text.size(), [](char c) {
-    return is_binary[static_cast<unsigned char>(c)];
+    return is_binary_byte[static_cast<unsigned char>(c)];
   });
   const auto at = static_cast<std::uint32_t>(binary - text.data());
   return finding(

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -16,6 +18,15 @@ constexpr std::size_t byte_order_mark_size(std::string_view text) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   return text.starts_with(mark) ? mark.size() : 0;
 }
+
+/// By byte: whether it has no place in a text, as a control character that is no tab or line end.
+inline constexpr auto is_binary_byte = [] {
+  std::array<bool, UINT8_MAX + 1> table{};
+  for (std::size_t c = 0; c < ' '; ++c)
+    table[c] = c != '\t' && c != '\n' && c != '\r';
+  table['\x7F'] = true;
+  return table;
+}();
 
 /// How many code points `text` shows, a byte that is not UTF-8 counting as one (U+FFFD).
 std::size_t code_points(std::string_view text);

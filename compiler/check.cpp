@@ -1,5 +1,6 @@
 #include "compiler/check.h"
 
+#include "base/utf8.h"
 #include "compiler/image.h"
 #include "compiler/parse.h"
 #include "compiler/rules.h"
@@ -20,11 +21,9 @@ bool is_binary(std::string_view text) {
   if (content.find('\0') != std::string_view::npos)
     return true;
   constexpr std::size_t one_in = 16;
-  const auto controls =
-      static_cast<std::size_t>(std::count_if(content.begin(), content.end(), [](char c) {
-        return (static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r') ||
-               c == '\x7F';
-      }));
+  std::size_t controls = 0;
+  for (const char c : content)
+    controls += is_binary_byte[static_cast<unsigned char>(c)] ? 1 : 0;
   return controls * one_in > content.size();
 }
 
