@@ -119,9 +119,13 @@ private:
 
   /// Whether a line changes what a term reads.
   bool disturbs(const CodeLine& line, std::uint32_t term) const {
-    bool found = false;
-    each_read(code_, term, [&](std::uint32_t v) { found = found || writes(line, v); });
-    return found || ((code_.terms[term].effects & effect::elements) != 0 && sets_elements(line));
+    bool found = (code_.terms[term].effects & effect::elements) != 0 && sets_elements(line);
+    each_write(code_, line, [&](std::uint32_t v) { found = found || reads(term, v); });
+    each_callee(code_, line, [&](std::uint32_t routine) {
+      each_read(code_, term,
+                [&](std::uint32_t v) { found = found || contains(flow_.written[routine], v); });
+    });
+    return found;
   }
 
   /// Whether a term can be computed after a line instead of before it.
