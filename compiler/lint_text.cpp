@@ -216,9 +216,9 @@ private:
 
   void check_line(const Line& line) {
     blank_missing_ = false;
-    if (line.has_number() && !is_blank(program_.text[line.number_span.end]))
-      add_missing_blank(line.number_span.end, "the line number");
     const auto& whole = program_.statements[line.statement];
+    if (line.has_number() && whole.span.size() > 0 && whole.span.begin == line.number_span.end)
+      add_missing_blank(line.number_span.end, "the line number");
     for (const auto& statement : program_.whole(whole)) {
       if (statement.error)
         continue;

@@ -665,7 +665,7 @@ private:
   std::optional<Diagnostic> quoted_target() const {
     const auto number = digits_at(begin() + 1);
     if (!is(Reason::ExpectedTarget) || token().empty() || token()[0] != '"' || number.size() == 0 ||
-        text_[number.end] != '"')
+        !text_.substr(number.end).starts_with('"'))
       return std::nullopt;
     auto d = finding(rules::NonLiteralTarget, fault_.span, "a line number takes no quotes",
                      fmt::format("write `goto {}`", program_.text_of(number)));

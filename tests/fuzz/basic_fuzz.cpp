@@ -12,7 +12,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orb::compiler;
-  const std::string text(reinterpret_cast<const char*>(data), size);
+  // Without a NUL behind it, as a user of the library may have it.
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
   static_cast<void>(check(text, {}));
   const auto formatted = format(parse(text));
   if (format(parse(formatted)) != formatted)
@@ -20,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto packed = build_image(parse(text), Packing::Packed).bytes;
   if (build_image(parse(packed), Packing::Packed).bytes != packed)
     std::abort();
-  static_cast<void>(fix(text, {}));
+  static_cast<void>(fix(std::string(text), {}));
   static_cast<void>(load(text));
   return 0;
 }

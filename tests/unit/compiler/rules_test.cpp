@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 namespace orb::compiler {
 namespace {
@@ -40,6 +41,25 @@ TEST(Rules, RowsAreWritten) {
     EXPECT_EQ(rule.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string::npos);
   }
   EXPECT_EQ(rules::find("no-such-rule"), nullptr);
+}
+
+TEST(Rules, ABlankIsMissingOnlyWhereSomethingFollows) {
+  EXPECT_TRUE(raises("10print 1", rules::MissingBlank));
+  EXPECT_TRUE(raises("70000print 1", rules::MissingBlank));
+  EXPECT_FALSE(raises("10 end\n70000", rules::MissingBlank));
+  EXPECT_FALSE(raises("70000\n10 end", rules::MissingBlank));
+}
+
+// The texts of those who use the library end without a NUL; what reads on is seen by the
+// sanitizers.
+TEST(Rules, NothingIsReadBehindAText) {
+  std::size_t findings = 0;
+  for (const auto& rule : rules::all())
+    for (std::size_t size = 1; size <= rule.bad.size(); ++size) {
+      const std::vector<char> exact(rule.bad.begin(), rule.bad.begin() + size);
+      findings += check({exact.data(), exact.size()}, {}).diagnostics.size();
+    }
+  EXPECT_GT(findings, 0U);
 }
 
 // A safe fix mends what it was made for, and fixing again changes nothing.
