@@ -48,30 +48,9 @@ public:
     end_at_once();
     while (remove_unreached())
       ;
-    std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
   }
 
 private:
-  void count_labels() {
-    std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
-    named_.assign(code_.labels, 0);
-    at_.assign(code_.labels, none);
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
-      const auto& line = code_.lines[i];
-      if (line.kind == LineKind::Label)
-        at_[line.label] = i;
-      const auto name = [&](std::uint32_t label) { ++named_[label]; };
-      each_label(code_, line, name);
-      if (line.kind == LineKind::Choice)
-        for (const auto branch : {line.term, line.end})
-          if (branch != none)
-            each_label(code_, code_.branches[branch], name);
-    }
-    for (auto& line : code_.lines)
-      if (line.kind == LineKind::Label && named_[line.label] == 0)
-        line.kind = LineKind::Nothing;
-  }
-
   bool is_label_there(std::uint32_t line, std::uint32_t label) const {
     for (; line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
                                          code_.lines[line].kind == LineKind::Nothing);
@@ -101,8 +80,7 @@ private:
   /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
   /// must do nothing but give a value.
   bool join_tests() {
-    count_labels();
-    compact();
+    named_ = tidy(code_);
     bool changed = false;
     for (std::uint32_t i = 0; i + 1 < code_.lines.size(); ++i) {
       auto& line = code_.lines[i];
@@ -138,13 +116,6 @@ private:
       ++i;
     }
     return changed;
-  }
-
-  void compact() {
-    std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (code_.lines[i].kind == LineKind::Label)
-        at_[code_.lines[i].label] = i;
   }
 
   /// Whether a line may stand after `then` and `else`.
@@ -264,13 +235,11 @@ private:
   }
 
   void fold_branches() {
-    count_labels();
-    compact();
+    named_ = tidy(code_);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
       if (code_.lines[i].kind == LineKind::If)
         fold(i);
-    count_labels();
-    compact();
+    named_ = tidy(code_);
   }
 
   void fold(std::uint32_t i) {
@@ -335,12 +304,15 @@ private:
 
   /// A jump to a `return` or an `end` is one itself.
   void end_at_once() {
-    count_labels();
-    compact();
+    named_ = tidy(code_);
+    std::vector<std::uint32_t> at(code_.labels, none);
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
+      if (code_.lines[i].kind == LineKind::Label)
+        at[code_.lines[i].label] = i;
     for (auto& line : code_.lines) {
-      if (line.kind != LineKind::Goto || at_[line.label] == none)
+      if (line.kind != LineKind::Goto || at[line.label] == none)
         continue;
-      auto target = at_[line.label];
+      auto target = at[line.label];
       while (target < code_.lines.size() && code_.lines[target].kind == LineKind::Label)
         ++target;
       if (target == code_.lines.size())
@@ -358,7 +330,7 @@ private:
 
   /// Lines that nothing leads to since the jumps to them became what they led to.
   bool remove_unreached() {
-    count_labels();
+    named_ = tidy(code_);
     bool removed = false;
     bool reached = true;
     for (auto& line : code_.lines) {
@@ -376,7 +348,6 @@ private:
   Code& code_;
   const Program& program_;
   std::vector<std::uint32_t> named_; ///< of each label: how often
-  std::vector<std::uint32_t> at_;
 };
 
 } // namespace

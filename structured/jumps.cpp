@@ -13,7 +13,7 @@ public:
 
   void run() {
     constexpr int most_rounds = 8;
-    compact();
+    std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
     for (int round = 0; round < most_rounds && once(); ++round) {
     }
   }
@@ -25,13 +25,8 @@ private:
     thread();
     remove_unreached();
     remove_idle();
-    remove_labels();
-    compact();
+    tidy(code_);
     return changed_;
-  }
-
-  void compact() {
-    std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
   }
 
   void find_labels() {
@@ -153,22 +148,29 @@ private:
     }
   }
 
-  void remove_labels() {
-    std::vector<bool> named(code_.labels, false);
-    for (const auto& line : code_.lines) {
-      each_label(code_, line, [&](std::uint32_t label) { named[label] = true; });
-    }
-    for (auto& line : code_.lines)
-      if (line.kind == LineKind::Label && !named[line.label])
-        line.kind = LineKind::Nothing;
-  }
-
   Code& code_;
   std::vector<std::uint32_t> at_; ///< of each label: its line
   bool changed_ = false;
 };
 
 } // namespace
+
+std::vector<std::uint32_t> tidy(Code& code) {
+  std::vector<std::uint32_t> named(code.labels, 0);
+  const auto name = [&](std::uint32_t label) { ++named[label]; };
+  for (const auto& line : code.lines) {
+    each_label(code, line, name);
+    if (line.kind == LineKind::Choice)
+      for (const auto branch : {line.term, line.end})
+        if (branch != none)
+          each_label(code, code.branches[branch], name);
+  }
+  std::erase_if(code.lines, [&](const CodeLine& line) {
+    return line.kind == LineKind::Nothing ||
+           (line.kind == LineKind::Label && named[line.label] == 0);
+  });
+  return named;
+}
 
 void clean_jumps(Code& code) {
   Cleaner(code).run();
