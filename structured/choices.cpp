@@ -80,7 +80,7 @@ private:
   /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
   /// must do nothing but give a value.
   bool join_tests() {
-    named_ = tidy(code_);
+    tidy(code_);
     bool changed = false;
     for (std::uint32_t i = 0; i + 1 < code_.lines.size(); ++i) {
       auto& line = code_.lines[i];
@@ -239,7 +239,7 @@ private:
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
       if (code_.lines[i].kind == LineKind::If)
         fold(i);
-    named_ = tidy(code_);
+    tidy(code_);
   }
 
   void fold(std::uint32_t i) {
@@ -304,11 +304,8 @@ private:
 
   /// A jump to a `return` or an `end` is one itself.
   void end_at_once() {
-    named_ = tidy(code_);
-    std::vector<std::uint32_t> at(code_.labels, none);
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (code_.lines[i].kind == LineKind::Label)
-        at[code_.lines[i].label] = i;
+    tidy(code_);
+    const auto at = lines_of_labels(code_);
     for (auto& line : code_.lines) {
       if (line.kind != LineKind::Goto || at[line.label] == none)
         continue;
@@ -330,7 +327,7 @@ private:
 
   /// Lines that nothing leads to since the jumps to them became what they led to.
   bool remove_unreached() {
-    named_ = tidy(code_);
+    tidy(code_);
     bool removed = false;
     bool reached = true;
     for (auto& line : code_.lines) {
@@ -347,7 +344,7 @@ private:
 
   Code& code_;
   const Program& program_;
-  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
 };
 
 } // namespace

@@ -21,19 +21,12 @@ public:
 private:
   bool once() {
     changed_ = false;
-    find_labels();
+    at_ = lines_of_labels(code_);
     thread();
     remove_unreached();
     remove_idle();
     tidy(code_);
     return changed_;
-  }
-
-  void find_labels() {
-    at_.assign(code_.labels, none);
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (code_.lines[i].kind == LineKind::Label)
-        at_[code_.lines[i].label] = i;
   }
 
   /// The first line after a label that does something; none at the end of the text.
@@ -154,6 +147,14 @@ private:
 };
 
 } // namespace
+
+std::vector<std::uint32_t> lines_of_labels(const Code& code) {
+  std::vector<std::uint32_t> lines(code.labels, none);
+  for (std::uint32_t i = 0; i < code.lines.size(); ++i)
+    if (code.lines[i].kind == LineKind::Label)
+      lines[code.lines[i].label] = i;
+  return lines;
+}
 
 std::vector<std::uint32_t> tidy(Code& code) {
   std::vector<std::uint32_t> named(code.labels, 0);

@@ -14,14 +14,14 @@ public:
   explicit SwitchWriter(Code& code) : code_(code) {}
 
   void join_all() {
-    find_labels();
+    at_ = lines_of_labels(code_);
     for (auto& line : code_.lines)
       if (line.kind == LineKind::On)
         join_calls(line);
     land();
   }
   void write_all() {
-    find_labels();
+    at_ = lines_of_labels(code_);
     const auto lines = std::exchange(code_.lines, {});
     for (std::uint32_t i = 0; i < lines.size(); ++i)
       if (lines[i].kind == LineKind::Switch)
@@ -38,13 +38,6 @@ public:
   }
 
 private:
-  void find_labels() {
-    at_.assign(code_.labels, none);
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (code_.lines[i].kind == LineKind::Label)
-        at_[code_.lines[i].label] = i;
-  }
-
   /// The tests that lead to a body.
   struct Tests {
     CodeLine of;
