@@ -10,80 +10,87 @@ public:
   explicit Reader(const Program& program) : program_(program) {}
 
   Flow read() {
-    collect_lines();
-    for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
-      auto& code = flow_.code[i];
-      code.jumps_begin = static_cast<std::uint32_t>(flow_.jumps.size());
-      const auto& statement = program_.statements[code.statement];
-      code.falls = statement.then_branch != none ? follow_branches(statement) : follow(statement);
-      code.jumps_end = static_cast<std::uint32_t>(flow_.jumps.size());
-    }
+    flow_.code.reserve(program_.lines.size());
+    flow_.numbers.reserve(program_.lines.size());
+    flow_.jumps.reserve(program_.lines.size());
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
+      read_line(i);
+    if (!sorted_)
+      std::stable_sort(flow_.numbers.begin(), flow_.numbers.end(),
+                       [](const auto& a, const auto& b) { return a.number < b.number; });
+    find_targets();
     return std::move(flow_);
   }
 
 private:
-  void collect_lines() {
-    flow_.code.reserve(program_.lines.size());
-    flow_.numbers.reserve(program_.lines.size());
-    bool sorted = true;
-    for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
-      const auto& line = program_.lines[i];
-      const auto index =
-          line.has_statement() ? static_cast<std::uint32_t>(flow_.code.size()) : none;
-      if (line.has_number()) {
-        sorted = sorted && (flow_.numbers.empty() || flow_.numbers.back().number < line.number);
-        flow_.numbers.push_back({line.number, i, index});
-      }
-      if (line.has_statement()) {
-        auto& code = flow_.code.emplace_back();
-        code.line = i;
-        code.statement = line.statement;
-      }
+  void read_line(std::uint32_t index) {
+    const auto& line = program_.lines[index];
+    if (line.has_number()) {
+      sorted_ = sorted_ && (flow_.numbers.empty() || flow_.numbers.back().number < line.number);
+      const auto code = line.has_statement() ? static_cast<std::uint32_t>(flow_.code.size()) : none;
+      flow_.numbers.push_back({line.number, index, code});
     }
-    if (!sorted)
-      std::stable_sort(flow_.numbers.begin(), flow_.numbers.end(),
-                       [](const auto& a, const auto& b) { return a.number < b.number; });
+    if (!line.has_statement())
+      return;
+    auto& code = flow_.code.emplace_back();
+    code.line = index;
+    code.statement = line.statement;
+    code.jumps_begin = static_cast<std::uint32_t>(flow_.jumps.size());
+    const auto& statement = program_.statements[line.statement];
+    code.falls = follow(statement, code);
+    if (statement.then_branch != none)
+      code.falls = follow_branches(statement, code);
+    code.jumps_end = static_cast<std::uint32_t>(flow_.jumps.size());
   }
 
-  bool follow_branches(const StatementNode& statement) {
-    const bool then_falls = follow(program_.statements[statement.then_branch]);
+  bool follow_branches(const StatementNode& statement, Flow::Code& code) {
+    const bool then_falls = follow(program_.statements[statement.then_branch], code);
     if (statement.else_branch == none)
       return true;
-    const bool else_falls = follow(program_.statements[statement.else_branch]);
+    const bool else_falls = follow(program_.statements[statement.else_branch], code);
     return then_falls || else_falls;
   }
 
-  /// Notes where a statement jumps; returns whether the next line can follow.
-  bool follow(const StatementNode& statement) {
+  /// Notes what a statement does to the way of the program, and where it jumps; returns whether the
+  /// next line can follow.
+  bool follow(const StatementNode& statement, Flow::Code& code) {
     if (statement.error)
       return true; // once corrected it goes on; lint asks may_steer() first
-    const auto after = spec::info(statement.kind).after;
+    const auto& row = spec::info(statement.kind);
+    switch (row.after) {
+    case spec::After::Falls: return true;
+    case spec::After::Waits: code.waits = true; return true;
+    case spec::After::Ends: code.ends = true; return false;
+    case spec::After::Steers:
+    case spec::After::Jumps: break;
+    }
+    code.loops = code.loops || row.form == spec::Form::Loop || row.form == spec::Form::LoopEnd;
     const bool calls =
         statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;
-    if (after == spec::After::Steers || after == spec::After::Jumps)
-      add_targets(statement, calls);
-    return calls || (after != spec::After::Jumps && after != spec::After::Ends);
+    add_targets(statement, calls);
+    return calls || row.after != spec::After::Jumps;
   }
 
   void add_targets(const StatementNode& statement, bool call) {
-    for (const auto& item : program_.items_of(statement)) {
-      if (item.kind != ItemKind::Target)
+    for (auto i = statement.items_begin; i < statement.items_end; ++i)
+      if (program_.items[i].kind == ItemKind::Target)
+        flow_.jumps.push_back({none, i, call});
+  }
+
+  void find_targets() {
+    for (auto& jump : flow_.jumps) {
+      const auto* number = flow_.find(program_.items[jump.item].value);
+      if (number == nullptr || number->code == none)
         continue;
-      Flow::Jump jump;
-      jump.item = static_cast<std::uint32_t>(&item - program_.items.data());
-      jump.call = call;
-      if (const auto* number = flow_.find(item.value))
-        jump.to = number->code;
-      if (jump.to != none) {
-        flow_.code[jump.to].target = true;
-        flow_.code[jump.to].called = flow_.code[jump.to].called || call;
-      }
-      flow_.jumps.push_back(jump);
+      jump.to = number->code;
+      flow_.code[jump.to].target = true;
+      flow_.code[jump.to].called = flow_.code[jump.to].called || jump.call;
     }
   }
 
   const Program& program_;
   Flow flow_;
+  bool sorted_ = true; ///< by line numbers, so far
 };
 
 } // namespace

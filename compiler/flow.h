@@ -26,6 +26,10 @@ struct Flow {
     bool falls = true;   ///< the line below can be next, also after a gosub has returned
     bool target = false; ///< something jumps here
     bool called = false; ///< something calls this line
+    // Whether a statement of the line, or one in its branches, does this:
+    bool loops = false; ///< `for` or `next`
+    bool waits = false; ///< spec::After::Waits
+    bool ends = false;  ///< spec::After::Ends
   };
 
   struct Number {

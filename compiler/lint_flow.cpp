@@ -3,7 +3,6 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <string>
 
@@ -19,11 +18,13 @@ public:
   void run() {
     if (size_ == 0)
       return;
+    found_.reserve(flow_.jumps.size());
+    open_.reserve(flow_.jumps.size() + 1);
     read_facts();
     mark_reached();
     check_unreachable();
     lint_loops(program_, flow_, findings_);
-    if (has_return_ || has_call_)
+    if (!returns_.empty() || has_call_)
       check_subroutines();
     check_busy_loops();
   }
@@ -35,63 +36,67 @@ private:
   std::uint32_t line_of(std::uint32_t code) const { return flow_.code[code].line; }
   std::uint32_t number_of(std::uint32_t code) const { return program_.lines[line_of(code)].number; }
 
-  /// Whether the statement of a line, or one in its branches, is one that `test` holds for.
-  template <typename Test>
-  bool any_of_line(std::uint32_t code, Test test) const {
-    const auto whole = program_.whole(statement(code));
-    return std::any_of(whole.begin(), whole.end(), test);
+  /// The statement of a line and those in its branches.
+  std::span<const StatementNode> whole(std::uint32_t code) const {
+    return program_.whole(statement(code));
   }
 
   void read_facts() {
-    for (const auto& node : program_.statements) {
-      if (node.error)
-        continue;
-      if (node.kind == spec::Statement::Return)
-        has_return_ = true;
-      else if (spec::info(node.kind).after == spec::After::Waits)
-        has_wait_ = true;
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      has_wait_ = has_wait_ || flow_.code[i].waits;
+      if (flow_.code[i].ends)
+        read_ends(i);
     }
-    for (const auto& jump : flow_.jumps)
-      has_call_ = has_call_ || jump.call;
+    has_call_ = std::any_of(flow_.jumps.begin(), flow_.jumps.end(),
+                            [](const Flow::Jump& jump) { return jump.call; });
+  }
+
+  void read_ends(std::uint32_t code) {
+    bool returns = false;
+    for (const auto& node : whole(code)) {
+      returns = returns || is_return(node);
+      if (!node.error && node.kind == spec::Statement::Sleep)
+        sleeps_.push_back(&node);
+    }
+    if (returns)
+      returns_.push_back(code);
   }
 
   enum class Calls : std::uint8_t { Enter, StepOver };
 
-  /// Marks what can follow `start`, and returns what was not marked before, until the next call.
-  const std::vector<std::uint32_t>& spread(std::uint32_t start, std::vector<std::uint8_t>& marks,
-                                           Calls calls) {
-    auto& found = found_;
-    found.clear();
-    const auto visit = [&](std::uint32_t to) {
-      if (to < size_ && marks[to] == 0) {
-        marks[to] = 1;
-        found.push_back(to);
+  /// Marks the lines that can follow `start`, and notes in `found_` those of them that jump and
+  /// were not marked before.
+  void spread(std::uint32_t start, std::vector<std::uint8_t>& marks, Calls calls) {
+    found_.clear();
+    open_.assign(1, start);
+    while (!open_.empty()) {
+      auto at = open_.back();
+      open_.pop_back();
+      for (; at < size_ && marks[at] == 0; ++at) {
+        marks[at] = 1;
+        const auto& code = flow_.code[at];
+        const auto jumps = flow_.jumps_of(code);
+        if (!jumps.empty())
+          found_.push_back(at);
+        for (const auto& jump : jumps)
+          if (!jump.call || calls == Calls::Enter)
+            open_.push_back(jump.to);
+        if (!code.falls)
+          break;
       }
-    };
-    visit(start);
-    for (std::size_t n = 0; n < found.size(); ++n) {
-      const auto at = found[n];
-      const auto& code = flow_.code[at];
-      if (code.falls)
-        visit(at + 1);
-      for (const auto& jump : flow_.jumps_of(code))
-        if (!jump.call || calls == Calls::Enter)
-          visit(jump.to);
     }
-    return found;
   }
 
   void mark_reached() {
     reached_.assign(size_, 0);
     spread(0, reached_, Calls::Enter);
     // A line that is named as a wake-up line is an entry of its own.
-    for (const auto& node : program_.statements)
-      if (!node.error && node.kind == spec::Statement::Sleep) {
-        const auto& root = program_.nodes[program_.as<SleepView>(node).line.value];
-        if (root.kind == NodeKind::Number && root.value > 0)
-          if (const auto* number = flow_.find(static_cast<std::uint32_t>(root.value)))
-            spread(number->code, reached_, Calls::Enter);
-      }
+    for (const auto* sleep : sleeps_) {
+      const auto& root = program_.nodes[program_.as<SleepView>(*sleep).line.value];
+      if (root.kind == NodeKind::Number && root.value > 0)
+        if (const auto* number = flow_.find(static_cast<std::uint32_t>(root.value)))
+          spread(number->code, reached_, Calls::Enter);
+    }
   }
 
   void check_unreachable() {
@@ -117,20 +122,35 @@ private:
     main_.assign(size_, 0);
     spread(0, main_, Calls::StepOver);
     inside_.assign(size_, 0);
+    routines_.reserve(flow_.jumps.size());
     for (std::uint32_t i = 0; i < size_; ++i)
-      if (flow_.code[i].called && reached_[i] != 0)
+      if (flow_.code[i].called && reached_[i] != 0) {
+        routines_.push_back(i);
         spread(i, inside_, Calls::StepOver);
+      }
     check_returns();
+    if (!calls_nest())
+      return;
     check_depths();
     check_recursion();
   }
 
+  /// Whether a subroutine calls one.
+  bool calls_nest() const {
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (inside_[i] != 0)
+        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+          if (jump.call)
+            return true;
+    return false;
+  }
+
   void check_returns() {
     bool falls_into = false;
-    for (std::uint32_t i = 0; i < size_; ++i) {
+    for (const auto i : returns_) {
       if (main_[i] == 0)
         continue;
-      for (const auto& node : program_.whole(statement(i))) {
+      for (const auto& node : whole(i)) {
         if (!is_return(node))
           continue;
         if (inside_[i] == 0)
@@ -174,39 +194,32 @@ private:
   bool returns_from(std::uint32_t start) {
     std::vector<std::uint8_t> marks(size_, 0);
     spread(start, marks, Calls::StepOver);
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (marks[i] != 0 && any_of_line(i, is_return))
-        return true;
-    return false;
+    return std::any_of(returns_.begin(), returns_.end(),
+                       [&](std::uint32_t i) { return marks[i] != 0; });
   }
 
   /// The least number of calls that are open when a line runs. A `gosub` that already has four
   /// above it on every way stops the program.
   void check_depths() {
-    constexpr std::uint32_t far = UINT8_MAX;
-    const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GosubDepth));
-    std::vector<std::uint32_t> least(size_, far);
-    std::vector<std::vector<std::uint32_t>> levels(most + 2);
-    levels[0].push_back(0);
-    least[0] = 0;
-    for (std::uint32_t depth = 0; depth <= most; ++depth) {
-      auto& open = levels[depth];
-      while (!open.empty()) {
-        const auto i = open.back();
-        open.pop_back();
-        if (least[i] != depth)
-          continue;
-        const auto visit = [&](std::uint32_t to, std::uint32_t at) {
-          if (to < size_ && least[to] > at) {
-            least[to] = at;
-            levels[at].push_back(to);
-          }
-        };
-        if (flow_.code[i].falls)
-          visit(i + 1, depth);
-        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-          visit(jump.to, jump.call ? depth + 1 : depth);
+    constexpr std::uint8_t far = UINT8_MAX;
+    constexpr auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth));
+    std::vector<std::uint8_t> least(size_, far);
+    std::vector<std::uint32_t> deeper; // where the lines of this depth call
+    open_.assign(1, 0);
+    for (std::uint8_t depth = 0; depth <= most; ++depth) {
+      while (!open_.empty()) {
+        auto i = open_.back();
+        open_.pop_back();
+        for (; i < size_ && least[i] > depth; ++i) {
+          least[i] = depth;
+          const auto& code = flow_.code[i];
+          for (const auto& jump : flow_.jumps_of(code))
+            (jump.call ? deeper : open_).push_back(jump.to);
+          if (!code.falls)
+            break;
+        }
       }
+      open_.swap(deeper);
     }
     for (std::uint32_t i = 0; i < size_; ++i)
       if (least[i] == most)
@@ -221,42 +234,47 @@ private:
 
   /// Looks for subroutines that reach a call of themselves.
   void check_recursion() {
-    std::vector<std::uint32_t> routines;
-    std::vector<std::uint32_t> index(size_, none);
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (flow_.code[i].called && reached_[i] != 0) {
-        index[i] = static_cast<std::uint32_t>(routines.size());
-        routines.push_back(i);
-      }
-    if (routines.empty() || routines.size() > most_routines)
+    if (routines_.size() > most_routines)
       return;
-    std::vector<std::vector<std::uint32_t>> calls(routines.size());
-    std::vector<std::uint8_t> marks(size_, 0);
-    for (std::size_t r = 0; r < routines.size(); ++r)
-      for (const auto i : spread(routines[r], marks, Calls::StepOver)) {
-        marks[i] = 0; // for the next routine
+    std::vector<std::vector<std::uint32_t>> calls(routines_.size());
+    std::vector<std::uint8_t> marks;
+    for (std::size_t r = 0; r < routines_.size(); ++r) {
+      marks.assign(size_, 0);
+      spread(routines_[r], marks, Calls::StepOver);
+      for (const auto i : found_)
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-          if (jump.call && jump.to != none && index[jump.to] != none)
-            calls[r].push_back(index[jump.to]);
-      }
-    for (std::size_t r = 0; r < routines.size(); ++r) {
-      std::vector<std::uint8_t> seen(routines.size(), 0);
-      std::vector<std::uint32_t> open = calls[r];
-      bool recursive = false;
-      while (!open.empty() && !recursive) {
-        const auto next = open.back();
-        open.pop_back();
-        recursive = next == r;
-        if (seen[next] == 0) {
-          seen[next] = 1;
-          open.insert(open.end(), calls[next].begin(), calls[next].end());
-        }
-      }
-      if (recursive)
-        findings_.add(rules::GosubRecursion, statement(routines[r]).span,
-                      fmt::format("the subroutine at line {} calls itself", number_of(routines[r])),
-                      "only 4 calls can be open at once; use a loop");
+          if (jump.call && jump.to != none)
+            calls[r].push_back(routine_at(jump.to));
     }
+    for (std::uint32_t r = 0; r < routines_.size(); ++r)
+      if (calls_itself(r, calls))
+        findings_.add(
+            rules::GosubRecursion, statement(routines_[r]).span,
+            fmt::format("the subroutine at line {} calls itself", number_of(routines_[r])),
+            "only 4 calls can be open at once; use a loop");
+  }
+
+  /// The index of the routine that begins at a line of code.
+  std::uint32_t routine_at(std::uint32_t code) const {
+    const auto at = std::lower_bound(routines_.begin(), routines_.end(), code);
+    return static_cast<std::uint32_t>(at - routines_.begin());
+  }
+
+  static bool calls_itself(std::uint32_t routine,
+                           const std::vector<std::vector<std::uint32_t>>& calls) {
+    auto open = calls[routine];
+    std::vector<bool> seen;
+    while (!open.empty()) {
+      const auto next = open.back();
+      open.pop_back();
+      if (next == routine)
+        return true;
+      seen.resize(calls.size());
+      if (!seen[next])
+        open.insert(open.end(), calls[next].begin(), calls[next].end());
+      seen[next] = true;
+    }
+    return false;
   }
 
   // ---- waiting
@@ -264,11 +282,13 @@ private:
   /// A `goto` back to a line, with no way out between and nothing that waits.
   void check_busy_loops() {
     for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto& node = statement(i);
-      if (node.error || node.kind != spec::Statement::Goto || reached_[i] == 0)
+      const auto jumps = flow_.jumps_of(flow_.code[i]);
+      if (jumps.empty() || reached_[i] == 0)
         continue;
-      const auto& jump = flow_.jumps[flow_.code[i].jumps_begin];
-      if (jump.to > i || i - jump.to > longest_loop || leaves_or_waits(jump.to, i))
+      const auto& node = statement(i);
+      const auto& jump = jumps.front();
+      if (node.kind != spec::Statement::Goto || jump.to > i || i - jump.to > longest_loop ||
+          leaves_or_waits(jump.to, i))
         continue;
       findings_.add(rules::BusyLoop, node.span,
                     fmt::format("lines {} to {} run forever and never wait", number_of(jump.to),
@@ -285,10 +305,9 @@ private:
         if (jump.call ? has_wait_ : (jump.to < first || jump.to > last))
           return true;
       }
-      if (any_of_line(i, [&](const StatementNode& node) {
-            return node.error || stops_or_waits(node.kind) || reads_timer(node);
-          }))
-        return true;
+      for (const auto& node : whole(i))
+        if (node.error || stops_or_waits(node.kind) || reads_timer(node))
+          return true;
     }
     return false;
   }
@@ -319,10 +338,13 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  bool has_return_ = false;
   bool has_call_ = false;
   bool has_wait_ = false;
-  std::vector<std::uint32_t> found_; ///< by spread(), the last time
+  std::vector<std::uint32_t> returns_; ///< lines that have a `return`, ascending
+  std::vector<const StatementNode*> sleeps_;
+  std::vector<std::uint32_t> routines_; ///< lines that something calls, ascending
+  std::vector<std::uint32_t> found_;    ///< by spread(), the last time
+  std::vector<std::uint32_t> open_;     ///< of spread(): where to go on
   std::vector<std::uint8_t> reached_;
   std::vector<std::uint8_t> main_;   ///< can run while no subroutine is open
   std::vector<std::uint8_t> inside_; ///< can run as part of a subroutine

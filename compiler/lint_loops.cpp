@@ -4,7 +4,6 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <string>
 
@@ -21,43 +20,71 @@ bool is(const StatementNode& node, spec::Statement kind) {
   return !node.error && node.kind == kind;
 }
 
-/// The open loops before a line, as far as they are the same on every way that leads there.
-struct Loops {
+/// The open loops before a line, as far as they are the same on every way that leads there. One
+/// number, because they are copied and compared more often than looked into.
+class Loops {
+public:
   static constexpr std::uint32_t most = spec::value_of(spec::Limit::ForDepth);
 
-  bool known = true;
-  std::uint8_t count = 0;
-  std::uint32_t variables = 0; ///< a byte each, the innermost lowest
+  static Loops unknown() {
+    Loops loops;
+    loops.bits_ = UINT64_MAX;
+    return loops;
+  }
+  bool known() const { return bits_ != UINT64_MAX; }
+  std::uint32_t count() const { return bits_ & UINT8_MAX; }
+  std::uint32_t innermost() const { return variables() & UINT8_MAX; }
+  void open(std::uint32_t variable) { bits_ = (variables() << 8 | variable) << 8 | (count() + 1); }
+  void close() { bits_ = variables() >> 8 << 8 | (count() - 1); }
+  friend bool operator==(Loops, Loops) = default;
 
-  static Loops unknown() { return {false, 0, 0}; }
-  std::uint32_t innermost() const { return variables & UINT8_MAX; }
-  void open(std::uint32_t variable) {
-    variables = variables << 8 | variable;
-    ++count;
-  }
-  void close() {
-    variables >>= 8;
-    --count;
-  }
-  friend bool operator==(const Loops&, const Loops&) = default;
+private:
+  std::uint64_t variables() const { return bits_ >> 8; }
+
+  /// How many there are in the lowest byte, then a byte for the variable of each, innermost first.
+  std::uint64_t bits_ = 0;
+  static_assert(most < sizeof bits_);
 };
-static_assert(Loops::most <= sizeof Loops::variables);
+
+/// What a line does to the open loops.
+enum class Effect : std::uint8_t {
+  Nothing,
+  Opens,
+  Closes,
+  Unsure, ///< a `for` or `next` in a branch, which may run or not
+};
+
+/// A line that does more than lead to the next one with the same loops open.
+struct Part {
+  std::uint32_t code = 0;
+  Effect effect = Effect::Nothing;
+  bool returns = false;           ///< it has a `return`
+  std::uint32_t variable = 0;     ///< that it opens or closes a loop of
+  std::uint32_t innermost = none; ///< the pair around it, in the order of the text
+  std::uint32_t first_state = none;
+};
 
 /// The main program, or a subroutine called while these loops are open.
 struct Call {
   std::uint32_t entry = 0; ///< a line of code
   Loops loops;
-  std::uint32_t from = none;          ///< the first line of code that calls it so
-  std::uint32_t from_call = none;     ///< where that line runs
-  std::optional<Loops> returned;      ///< what its `return`s leave open
-  std::vector<std::uint32_t> waiting; ///< states that go on when it returns
+  std::uint32_t from = none;      ///< the first line of code that calls it so
+  std::uint32_t from_call = none; ///< where that line runs
+  std::optional<Loops> returned;  ///< what its `return`s leave open
+  std::uint32_t first_waiting = none;
 };
 
-/// What is known of a line while a call runs it.
+/// A state that goes on when a call returns.
+struct Waiting {
+  std::uint32_t state;
+  std::uint32_t next; ///< the next one of the same call
+};
+
+/// What is known of a part while a call runs it.
 struct State {
-  std::uint32_t code = 0;
+  std::uint32_t part = 0;
   std::uint32_t call = 0;
-  std::uint32_t next = none; ///< the next state of the same line
+  std::uint32_t next = none; ///< the next state of the same part
   Loops loops;
 };
 
@@ -68,20 +95,15 @@ public:
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
-    for (const auto& node : program_.statements) {
-      if (is(node, spec::Statement::For))
-        set_ |= bit(counter_of(node));
-      else if (is(node, spec::Statement::Next))
-        stepped_ |= bit(stepped_by(node));
-    }
+    collect_parts();
     if (set_ == 0 && stepped_ == 0)
       return;
     match_pairs();
     check_jumps();
     check_unended();
     follow();
-    for (std::uint32_t i = 0; i < size_; ++i)
-      report(i);
+    for (const auto& part : parts_)
+      report(part);
   }
 
 private:
@@ -101,10 +123,46 @@ private:
     return variable_of(program_.as<NextView>(node).variable);
   }
 
+  void collect_parts() {
+    ahead_.resize(size_);
+    parts_.reserve(size_);
+    std::uint32_t first_plain = 0;
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const auto& code = flow_.code[i];
+      if (code.falls && code.jumps_begin == code.jumps_end && !code.loops && !code.ends)
+        continue;
+      auto& part = parts_.emplace_back();
+      part.code = i;
+      read(part);
+      std::fill(ahead_.begin() + first_plain, ahead_.begin() + i + 1,
+                static_cast<std::uint32_t>(parts_.size() - 1));
+      first_plain = i + 1;
+    }
+    std::fill(ahead_.begin() + first_plain, ahead_.end(), none);
+  }
+
+  void read(Part& part) {
+    const auto whole = program_.whole(statement(part.code));
+    for (const auto& node : whole) {
+      if (is(node, spec::Statement::Return)) {
+        part.returns = true;
+      } else if (is(node, spec::Statement::For)) {
+        part.variable = counter_of(node);
+        part.effect = whole.size() > 1 ? Effect::Unsure : Effect::Opens;
+        set_ |= bit(part.variable);
+      } else if (is(node, spec::Statement::Next)) {
+        part.variable = stepped_by(node);
+        part.effect = whole.size() > 1 ? Effect::Unsure : Effect::Closes;
+        stepped_ |= bit(part.variable);
+      }
+    }
+  }
+
   // ---- as they stand in the text
 
   struct Pair {
-    std::uint32_t begin;
+    std::uint32_t variable;
+    std::uint32_t begin; ///< lines of code
     std::uint32_t end;
     std::uint32_t outer;
   };
@@ -112,32 +170,30 @@ private:
   /// Pairs `for` and `next` in the order of the text.
   void match_pairs() {
     std::vector<std::uint32_t> open;
-    innermost_.assign(size_, none);
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto& node = statement(i);
-      if (is(node, spec::Statement::For)) {
+    pairs_.reserve(parts_.size());
+    for (auto& part : parts_) {
+      if (part.effect == Effect::Opens) {
         const auto outer = open.empty() ? none : open.back();
         open.push_back(static_cast<std::uint32_t>(pairs_.size()));
-        pairs_.push_back({i, none, outer});
+        pairs_.push_back({part.variable, part.code, none, outer});
       }
-      innermost_[i] = open.empty() ? none : open.back();
-      if (!is(node, spec::Statement::Next))
+      part.innermost = open.empty() ? none : open.back();
+      if (part.effect != Effect::Closes)
         continue;
-      const auto variable = stepped_by(node);
-      while (!open.empty() && counter_of(statement(pairs_[open.back()].begin)) != variable)
+      while (!open.empty() && pairs_[open.back()].variable != part.variable)
         open.pop_back();
       if (!open.empty()) {
-        pairs_[open.back()].end = i;
+        pairs_[open.back()].end = part.code;
         open.pop_back();
       }
     }
   }
 
   void check_jumps() {
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto jumps = flow_.jumps_of(flow_.code[i]);
-      auto pair = jumps.empty() ? none : innermost_[i];
-      while (pair != none && (pairs_[pair].end == none || i > pairs_[pair].end))
+    for (const auto& part : parts_) {
+      const auto jumps = flow_.jumps_of(flow_.code[part.code]);
+      auto pair = jumps.empty() ? none : part.innermost;
+      while (pair != none && (pairs_[pair].end == none || part.code > pairs_[pair].end))
         pair = pairs_[pair].outer;
       if (pair == none)
         continue;
@@ -154,6 +210,8 @@ private:
   }
 
   void check_unended() {
+    if ((set_ & ~stepped_) == 0)
+      return;
     for (const auto& node : program_.statements)
       if (is(node, spec::Statement::For) && (stepped_ & bit(counter_of(node))) == 0)
         findings_.add(
@@ -166,10 +224,10 @@ private:
   /// Carries the open loops along every way, through each subroutine once for each set of open
   /// loops with which it is called. What differs between two ways is unknown.
   void follow() {
-    first_state_.assign(size_, none);
-    ahead_.assign(size_ + 1, size_);
-    for (std::uint32_t i = size_; i-- > 0;)
-      ahead_[i] = is_plain(i) ? ahead_[i + 1] : i;
+    states_.reserve(parts_.size());
+    work_.reserve(parts_.size());
+    calls_.reserve(most_calls);
+    waiting_.reserve(most_calls);
     calls_.push_back({});
     reach(0, 0, {});
     while (!work_.empty()) {
@@ -179,28 +237,18 @@ private:
     }
   }
 
-  /// Whether a line only leads to the next one, with the same loops open.
-  bool is_plain(std::uint32_t i) const {
-    const auto& code = flow_.code[i];
-    const auto whole = program_.whole(statement(i));
-    return code.falls && flow_.jumps_of(code).empty() &&
-           std::none_of(whole.begin(), whole.end(), [](const auto& node) {
-             return is_loop_part(node) || is(node, spec::Statement::Return);
-           });
-  }
-
-  void reach(std::uint32_t call, std::uint32_t code, const Loops& loops) {
-    code = ahead_[std::min(code, size_)];
-    if (code == size_)
+  void reach(std::uint32_t call, std::uint32_t code, Loops loops) {
+    const auto part = code < size_ ? ahead_[code] : none;
+    if (part == none)
       return;
-    auto at = first_state_[code];
+    auto at = parts_[part].first_state;
     while (at != none && states_[at].call != call)
       at = states_[at].next;
     if (at == none) {
       at = static_cast<std::uint32_t>(states_.size());
-      states_.push_back({code, call, first_state_[code], loops});
-      first_state_[code] = at;
-    } else if (states_[at].loops == loops || !states_[at].loops.known) {
+      states_.push_back({part, call, parts_[part].first_state, loops});
+      parts_[part].first_state = at;
+    } else if (states_[at].loops == loops || !states_[at].loops.known()) {
       return;
     } else {
       states_[at].loops = Loops::unknown();
@@ -209,12 +257,12 @@ private:
   }
 
   void go_on(std::uint32_t index) {
-    const auto [i, call, next, before] = states_[index];
-    const auto after = step(i, before);
+    const auto call = states_[index].call;
+    const auto& part = parts_[states_[index].part];
+    const auto after = step(part, states_[index].loops);
     if (!after)
       return;
-    const auto& code = flow_.code[i];
-    const auto whole = program_.whole(statement(i));
+    const auto& code = flow_.code[part.code];
     bool calls = false;
     for (const auto& jump : flow_.jumps_of(code)) {
       if (jump.call && jump.to != none)
@@ -223,86 +271,89 @@ private:
         reach(call, jump.to, *after);
       calls = calls || (jump.call && jump.to != none);
     }
-    if (code.falls && (!calls || whole.size() > 1))
-      reach(call, i + 1, *after);
-    if (std::any_of(whole.begin(), whole.end(),
-                    [](const auto& node) { return is(node, spec::Statement::Return); }))
+    const bool branches = program_.statements[code.statement].then_branch != none;
+    if (code.falls && (!calls || branches))
+      reach(call, part.code + 1, *after);
+    if (part.returns)
       give_back(call, *after);
   }
 
   void enter(std::uint32_t state, std::uint32_t entry, Loops loops) {
     if (calls_.size() >= most_calls)
       loops = Loops::unknown();
+    const auto next_line = parts_[states_[state].part].code + 1;
     auto at = std::find_if(calls_.begin() + 1, calls_.end(), [&](const Call& call) {
       return call.entry == entry && call.loops == loops;
     });
     if (at == calls_.end()) {
-      at = calls_.insert(at, {entry, loops, states_[state].code, states_[state].call, {}, {}});
+      at = calls_.insert(at, {entry, loops, next_line - 1, states_[state].call, {}});
       reach(static_cast<std::uint32_t>(at - calls_.begin()), entry, loops);
     }
-    if (std::find(at->waiting.begin(), at->waiting.end(), state) == at->waiting.end())
-      at->waiting.push_back(state);
+    wait(*at, state);
     if (at->returned)
-      reach(states_[state].call, states_[state].code + 1, *at->returned);
+      reach(states_[state].call, next_line, *at->returned);
   }
 
-  void give_back(std::uint32_t call, const Loops& loops) {
+  void wait(Call& call, std::uint32_t state) {
+    auto* last = &call.first_waiting;
+    while (*last != none && waiting_[*last].state != state)
+      last = &waiting_[*last].next;
+    if (*last != none)
+      return;
+    *last = static_cast<std::uint32_t>(waiting_.size());
+    waiting_.push_back({state, none});
+  }
+
+  void give_back(std::uint32_t call, Loops loops) {
     auto& returned = calls_[call].returned;
-    if (returned == loops || (returned && !returned->known))
+    if (returned == loops || (returned && !returned->known()))
       return;
     returned = returned ? Loops::unknown() : loops;
-    for (const auto state : calls_[call].waiting)
-      reach(states_[state].call, states_[state].code + 1, *returned);
+    for (auto at = calls_[call].first_waiting; at != none; at = waiting_[at].next) {
+      const auto& state = states_[waiting_[at].state];
+      reach(state.call, parts_[state.part].code + 1, *returned);
+    }
   }
 
-  /// The loops after line `i`; nothing where the line ends the program for certain.
-  std::optional<Loops> step(std::uint32_t i, Loops loops) const {
-    const auto& node = statement(i);
-    if (node.then_branch != none) {
-      const auto whole = program_.whole(node);
-      return std::any_of(whole.begin(), whole.end(), is_loop_part) ? Loops::unknown() : loops;
-    }
-    if (!loops.known || !is_loop_part(node))
+  /// The loops after a part; nothing where it ends the program for certain.
+  static std::optional<Loops> step(const Part& part, Loops loops) {
+    if (part.effect == Effect::Unsure)
+      return Loops::unknown();
+    if (!loops.known() || part.effect == Effect::Nothing)
       return loops;
-    if (node.kind == spec::Statement::Next) {
-      if (loops.count == 0 || loops.innermost() != stepped_by(node))
+    const bool innermost = loops.count() > 0 && loops.innermost() == part.variable;
+    if (part.effect == Effect::Closes) {
+      if (!innermost)
         return std::nullopt;
       loops.close();
       return loops;
     }
-    const auto variable = counter_of(node);
-    if (loops.count > 0 && loops.innermost() == variable)
+    if (innermost)
       return loops; // the innermost loop begins again
-    if (loops.count == Loops::most)
+    if (loops.count() == Loops::most)
       return std::nullopt;
-    loops.open(variable);
+    loops.open(part.variable);
     return loops;
-  }
-
-  static bool is_loop_part(const StatementNode& node) {
-    return is(node, spec::Statement::For) || is(node, spec::Statement::Next);
   }
 
   // ---- what is said of it
 
-  void report(std::uint32_t i) {
-    const auto& node = statement(i);
-    if (!is_loop_part(node))
-      return;
-    if (is(node, spec::Statement::Next) && (set_ & bit(stepped_by(node))) == 0) {
-      add_next_of_nobody(i);
+  void report(const Part& part) {
+    const auto& node = statement(part.code);
+    if (part.effect == Effect::Closes && (set_ & bit(part.variable)) == 0) {
+      add_next_of_nobody(part);
       return;
     }
     bool always = true;
     const State* stopped = nullptr;
-    for (auto at = first_state_[i]; at != none; at = states_[at].next)
-      if (step(i, states_[at].loops))
+    for (auto at = part.first_state; at != none; at = states_[at].next)
+      if (step(part, states_[at].loops))
         always = false;
       else
         stopped = &states_[at];
     if (stopped == nullptr)
       return;
-    if (is(node, spec::Statement::For))
+    if (part.effect == Effect::Opens)
       add_depth(node, *stopped).severity = always ? Severity::Error : Severity::Warning;
     else if (always)
       add_stray_next(node, stopped->loops);
@@ -311,25 +362,22 @@ private:
   /// Whether more loops count in a letter than end with it.
   bool lacks_next(std::uint32_t variable) const {
     int open = 0;
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto& node = statement(i);
-      open += is(node, spec::Statement::For) && counter_of(node) == variable ? 1 : 0;
-      open -= is(node, spec::Statement::Next) && stepped_by(node) == variable ? 1 : 0;
-    }
+    for (const auto& part : parts_)
+      if (part.variable == variable)
+        open += (part.effect == Effect::Opens ? 1 : 0) - (part.effect == Effect::Closes ? 1 : 0);
     return open > 0;
   }
 
   /// `next Q` without any `for Q`: where one loop is open on every way and lacks its `next`, this
   /// is the one.
-  void add_next_of_nobody(std::uint32_t i) {
-    const auto& node = statement(i);
-    auto& d =
-        findings_.add(rules::NextWithoutFor, node.span,
-                      fmt::format("there is no `for {}`", spec::letter_name(stepped_by(node))));
+  void add_next_of_nobody(const Part& part) {
+    const auto& node = statement(part.code);
+    auto& d = findings_.add(rules::NextWithoutFor, node.span,
+                            fmt::format("there is no `for {}`", spec::letter_name(part.variable)));
     std::optional<std::uint32_t> innermost;
-    for (auto at = first_state_[i]; at != none; at = states_[at].next) {
+    for (auto at = part.first_state; at != none; at = states_[at].next) {
       const auto& loops = states_[at].loops;
-      if (!loops.known || loops.count == 0)
+      if (!loops.known() || loops.count() == 0)
         return;
       const std::uint32_t here = loops.innermost();
       if (innermost.value_or(here) != here)
@@ -354,15 +402,15 @@ private:
     }
     auto& d =
         findings_.add(rules::ForDepth, node.span,
-                      fmt::format("{} loops are already open here{}", state.loops.count, chain),
+                      fmt::format("{} loops are already open here{}", state.loops.count(), chain),
                       "end one of them first, or compute two counters from one");
     for (const auto caller : callers)
       add_note(d, statement(caller).span, "called here");
     return d;
   }
 
-  void add_stray_next(const StatementNode& node, const Loops& loops) {
-    if (loops.count == 0) {
+  void add_stray_next(const StatementNode& node, Loops loops) {
+    if (loops.count() == 0) {
       findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
       return;
     }
@@ -380,15 +428,15 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::uint32_t set_ = 0;     ///< letters that some `for` counts in
-  std::uint32_t stepped_ = 0; ///< letters that some `next` steps
+  std::uint32_t set_ = 0;            ///< letters that some `for` counts in
+  std::uint32_t stepped_ = 0;        ///< letters that some `next` steps
+  std::vector<Part> parts_;          ///< in the order of the text
+  std::vector<std::uint32_t> ahead_; ///< by line of code: the first part from there on
   std::vector<Pair> pairs_;
-  std::vector<std::uint32_t> innermost_; ///< by line of code: the pair around it
-  std::vector<Call> calls_;              ///< the first is the main program
+  std::vector<Call> calls_; ///< the first is the main program
+  std::vector<Waiting> waiting_;
   std::vector<State> states_;
-  std::vector<std::uint32_t> first_state_; ///< by line of code
-  std::vector<std::uint32_t> ahead_;       ///< by line of code: from there on the first not plain
-  std::vector<std::uint32_t> work_;        ///< states to go on from
+  std::vector<std::uint32_t> work_; ///< states to go on from
 };
 
 } // namespace
