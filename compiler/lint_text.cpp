@@ -5,36 +5,27 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
 #include <optional>
 
 namespace orb::compiler {
 namespace {
 
-/// The high bit of each byte that is neither printable ASCII nor LF, eight bytes at once: a text is
-/// read faster than it is parsed.
-constexpr std::uint64_t unusual_bytes(std::uint64_t word) {
-  constexpr std::uint64_t ones = 0x0101010101010101; // 1 in each byte
-  constexpr std::uint64_t high = 0x80 * ones;        // its high bit
-  // Each byte keeps its carry to itself, because its own high bit is set or cleared first.
-  const auto below_blank = ~((word | high) - ' ' * ones);
-  const auto line_feed = word ^ '\n' * ones;
-  const auto is_line_feed = ~(((line_feed & ~high) + ~high) | line_feed);
-  const auto delete_or_above = ((word & ~high) + ones) | word;
-  return ((below_blank & ~is_line_feed) | delete_or_above) & high;
+/// Neither printable ASCII nor LF.
+constexpr bool is_unusual(char c) {
+  return ((c < ' ') | (c > '~')) & (c != '\n');
 }
 
 bool has_unusual_byte(std::string_view text) {
-  std::uint64_t found = 0;
-  std::uint64_t word = 0;
-  for (; text.size() >= sizeof word; text.remove_prefix(sizeof word)) {
-    std::memcpy(&word, text.data(), sizeof word);
-    found |= unusual_bytes(word);
+  constexpr std::size_t block = 64; // known, so that the compiler looks at many bytes at once
+  for (; text.size() >= block; text.remove_prefix(block)) {
+    std::uint8_t found = 0;
+    for (std::size_t i = 0; i < block; ++i)
+      found |= static_cast<std::uint8_t>(is_unusual(text[i]));
+    if (found != 0)
+      return true;
   }
-  word = 0x2020202020202020; // blanks
-  text.copy(reinterpret_cast<char*>(&word), sizeof word);
-  return (found | unusual_bytes(word)) != 0;
+  return std::any_of(text.begin(), text.end(), is_unusual);
 }
 
 /// What can be said of the text without computing anything.
@@ -48,8 +39,10 @@ public:
     check_numbers();
     for (const auto& code : flow_.code)
       check_line(program_.lines[code.line]);
-    for (std::uint32_t i = 0; i < program_.nodes.size(); ++i)
-      check_node(i);
+    check_targets();
+    for (const auto& node : program_.nodes)
+      if (is_remarkable(node))
+        check_node(node);
   }
 
 private:
@@ -249,12 +242,12 @@ private:
     case spec::Form::Assignment: check_let(statement); break;
     case spec::Form::Conditional: check_if(statement); break;
     case spec::Form::Loop: check_for(program_.as<ForView>(statement)); break;
-    case spec::Form::Branch: check_target(program_.as<BranchView>(statement).target); break;
     case spec::Form::IndexedBranch: check_on(statement); break;
     case spec::Form::Output: check_print(program_.items_of(statement)); break;
     case spec::Form::Values: check_data(program_.items_of(statement)); break;
     case spec::Form::Variables: check_read(statement); break;
     case spec::Form::LoopEnd:
+    case spec::Form::Branch:
     case spec::Form::Entry:
     case spec::Form::Arguments: break;
     }
@@ -299,16 +292,18 @@ private:
     const auto& [selector, targets] = program_.as<OnView>(statement);
     check_gap(selector.span.end, targets.front().span.begin,
               statement.spelling == Spelling::OnGosub ? "gosub" : "goto");
-    for (const auto& target : targets)
-      check_target(target);
   }
 
-  void check_target(const Item& target) {
-    const auto* number = flow_.find(target.value);
-    if (number == nullptr)
-      add_missing_target(target);
-    else if (number->code == none)
-      add_empty_target(target, number->line);
+  void check_targets() {
+    for (const auto& jump : flow_.jumps) {
+      if (jump.to != none)
+        continue;
+      const auto& target = program_.items[jump.item];
+      if (const auto* number = flow_.find(target.value))
+        add_empty_target(target, number->line);
+      else
+        add_missing_target(target);
+    }
   }
 
   void add_empty_target(const Item& target, std::uint32_t index) {
@@ -424,14 +419,20 @@ private:
 
   // ---- expressions
 
-  void check_node(std::uint32_t index) {
-    const auto& node = program_.nodes[index];
+  /// Whether there may be something to say of a node; of most there is nothing.
+  static bool is_remarkable(const Node& node) {
+    constexpr auto bit = [](NodeKind kind) { return 1U << static_cast<unsigned>(kind); };
+    constexpr auto kinds =
+        bit(NodeKind::System) | bit(NodeKind::Group) | bit(NodeKind::Negate) | bit(NodeKind::Call);
+    return (kinds & bit(node.kind)) != 0 || node.overflow;
+  }
+
+  void check_node(const Node& node) {
     switch (node.kind) {
     case NodeKind::Number:
-      if (node.overflow)
-        findings_.add(rules::LiteralTooLarge, node.span,
-                      fmt::format("{} is above {}", program_.text_of(node.span),
-                                  spec::value_of(spec::Limit::GreatestInteger)));
+      findings_.add(rules::LiteralTooLarge, node.span,
+                    fmt::format("{} is above {}", program_.text_of(node.span),
+                                spec::value_of(spec::Limit::GreatestInteger)));
       break;
     case NodeKind::System: check_system(node); break;
     case NodeKind::Group: check_depth(node); break;
@@ -441,7 +442,7 @@ private:
       break;
     case NodeKind::Call:
       check_depth(node);
-      check_operand(node, program_.nodes[index - 1]);
+      check_operand(node, *(&node - 1));
       break;
     case NodeKind::Letter:
     case NodeKind::Indexed:

@@ -65,6 +65,17 @@ TEST(Rules, NothingIsReadBehindAText) {
   EXPECT_GT(findings, 0U);
 }
 
+TEST(Rules, AByteThatIsNotPrintableIsSeenWhereverItStands) {
+  const std::string fine = "10 print \"" + std::string(150, 'a') + "\"";
+  EXPECT_FALSE(raises(fine, rules::NonprintingByte));
+  for (auto i = fine.find('a'); i + 1 < fine.size(); ++i)
+    for (const char byte : {'\x01', '\x1F', '\x7F', '\x80', '\xFF'}) {
+      auto text = fine;
+      text[i] = byte;
+      EXPECT_TRUE(raises(text, rules::NonprintingByte)) << i;
+    }
+}
+
 // A safe fix mends what it was made for, and fixing again changes nothing.
 TEST(Rules, FixesOfTheBadExamplesAreFinal) {
   std::size_t fixed_rules = 0;
