@@ -34,7 +34,6 @@ struct Letter {
   const Node* first_used = nullptr; ///< null where nothing reads it
   bool assigned = false;            ///< by let, read or input
   bool counted = false;             ///< by for
-  bool clears = false;              ///< what it is set to clears a sensor: that is the purpose
 };
 
 /// What is known about A to Y on the way through a straight run of lines.
@@ -87,21 +86,34 @@ private:
   }
 
   void collect_set(const StatementNode& statement) {
-    if (statement.error)
+    auto items = program_.items_of(statement);
+    if (statement.error || items.empty() || statement.kind == spec::Statement::Next)
       return;
-    for (const auto& item : program_.items_of(statement)) {
-      if (item.kind != ItemKind::Letter || statement.kind == spec::Statement::Next)
+    if (statement.kind != spec::Statement::Read) // all others set one variable, which comes first
+      items = items.first(1);
+    for (const auto& item : items) {
+      if (item.kind != ItemKind::Letter)
         continue;
       auto& letter = letters_[item.value];
       if (letter.first_set == nullptr)
         letter.first_set = &item;
       (statement.kind == spec::Statement::For ? letter.counted : letter.assigned) = true;
-      if (statement.kind == spec::Statement::Let)
-        letter.clears = letter.clears || clears(program_.as<LetView>(statement).expression);
     }
   }
 
-  bool clears(const Item& expression) const {
+  /// Whether some `let` of the letter clears a sensor by reading it, which then is the purpose.
+  bool clears(std::uint32_t letter) const {
+    return std::any_of(program_.statements.begin(), program_.statements.end(),
+                       [&](const auto& statement) {
+                         if (statement.error || statement.kind != spec::Statement::Let)
+                           return false;
+                         const auto let = program_.as<LetView>(statement);
+                         return let.variable.kind == ItemKind::Letter &&
+                                let.variable.value == letter && reads_clearing(let.expression);
+                       });
+  }
+
+  bool reads_clearing(const Item& expression) const {
     for (auto n = program_.nodes[expression.value].first; n <= expression.value; ++n)
       if (program_.nodes[n].kind == NodeKind::System &&
           spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
@@ -115,8 +127,7 @@ private:
       const auto& letter = letters_[i];
       const bool used = letter.first_used != nullptr;
       const bool set = letter.first_set != nullptr;
-      if (set && !used && !letter.counted && !letter.clears &&
-          !(i == index_letter && indexed_used_)) {
+      if (set && !used && !letter.counted && !(i == index_letter && indexed_used_) && !clears(i)) {
         findings_.add(rules::UnusedVariable, letter.first_set->span,
                       fmt::format("`{}` is set but never used", letter_name(i)));
       } else if (used && !set) {
@@ -201,19 +212,24 @@ private:
     }
   }
 
-  Range range_of(const Item& expression) const { return ranges_[expression.value]; }
+  const Range& range_of(const Item& expression) const { return ranges_[expression.value]; }
 
   void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter) {
-    const auto range = range_of(value);
-    if (!range.misses(parameter.least, parameter.greatest)) {
-      if (range.lo < parameter.least || range.hi > parameter.greatest)
-        check_loop_range(value, word, parameter);
+    const auto& range = range_of(value);
+    if (parameter.least <= range.lo && range.hi <= parameter.greatest)
       return;
-    }
+    if (range.misses(parameter.least, parameter.greatest))
+      add_out_of_range(value, word, parameter);
+    else
+      check_loop_range(value, word, parameter);
+  }
+
+  void add_out_of_range(const Item& value, std::string_view word,
+                        const spec::Parameter& parameter) {
     const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
     findings_.add(rules::ValueOutOfRange, value.span,
                   fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
-                              parameter.greatest, shown(range)));
+                              parameter.greatest, shown(range_of(value))));
   }
 
   /// A loop that nothing leaves early reaches both ends of its range, and so does what is computed
@@ -485,12 +501,18 @@ private:
 
   // ---- expressions
 
-  /// Goes through the nodes of a statement in the order in which they are computed.
+  /// Goes through the nodes of a statement in the order in which they are computed. They stand
+  /// right after those of the statement before.
   void evaluate(const StatementNode& statement) {
-    for (const auto& part : program_.items_of(statement))
-      if (part.kind == ItemKind::Expression || part.kind == ItemKind::Character)
-        for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
-          ranges_[n] = evaluate(n);
+    const auto items = program_.items_of(statement);
+    const auto last = std::find_if(items.rbegin(), items.rend(), [](const Item& item) {
+      return item.kind == ItemKind::Expression || item.kind == ItemKind::Character;
+    });
+    if (last == items.rend())
+      return;
+    for (auto n = evaluated_; n <= last->value; ++n)
+      ranges_[n] = evaluate(n);
+    evaluated_ = last->value + 1;
   }
 
   Range evaluate(std::uint32_t index) {
@@ -538,8 +560,8 @@ private:
   Range evaluate_binary(const Node& node, std::uint32_t index) {
     const auto op = static_cast<spec::Operator>(node.what);
     const auto right_index = index - 1;
-    const auto right = ranges_[right_index];
-    const auto left = ranges_[program_.nodes[right_index].first - 1];
+    const auto& right = ranges_[right_index];
+    const auto& left = ranges_[program_.nodes[right_index].first - 1];
     const auto& right_span = program_.nodes[right_index].span;
     const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
     const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
@@ -558,7 +580,7 @@ private:
 
   Range evaluate_call(const Node& node, std::uint32_t index) {
     const auto& row = spec::functions[node.what];
-    const auto range = ranges_[index - 1];
+    const auto& range = ranges_[index - 1];
     if (!range.misses(row.least, row.greatest))
       return apply(row.function, range);
     findings_.add(
@@ -572,7 +594,8 @@ private:
   const Target& target_;
   Findings& findings_;
   std::array<Letter, letters> letters_{};
-  std::vector<Range> ranges_; ///< by node
+  std::vector<Range> ranges_;   ///< by node
+  std::uint32_t evaluated_ = 0; ///< how many of them are known
 
   // what is known on the way through a block
   KnownLetters known_;

@@ -21,12 +21,12 @@ Range hull(std::initializer_list<std::int64_t> values) {
   return narrow(lo, hi);
 }
 
-std::int64_t magnitude(Range range) {
+std::int64_t magnitude(const Range& range) {
   return std::max(std::abs(static_cast<std::int64_t>(range.lo)),
                   std::abs(static_cast<std::int64_t>(range.hi)));
 }
 
-Range divide(Range left, Range right) {
+Range divide(const Range& left, const Range& right) {
   const std::int64_t lo = left.lo;
   const std::int64_t hi = left.hi;
   if (right.lo > 0 || right.hi < 0)
@@ -34,14 +34,14 @@ Range divide(Range left, Range right) {
   return narrow(-magnitude(left), magnitude(left));
 }
 
-Range remainder(Range left, Range right) {
+Range remainder(const Range& left, const Range& right) {
   if (left.constant() && right.constant() && right.lo != 0)
     return hull({static_cast<std::int64_t>(left.lo) % right.lo});
   const auto most = std::min(magnitude(left), std::max<std::int64_t>(magnitude(right) - 1, 0));
   return narrow(left.lo < 0 ? -most : 0, left.hi > 0 ? most : 0);
 }
 
-Range shift_left(Range left, Range right) {
+Range shift_left(const Range& left, const Range& right) {
   const int from = std::clamp(right.lo, 0, spec::value_of(spec::Limit::GreatestShift));
   const int to = std::clamp(right.hi, 0, spec::value_of(spec::Limit::GreatestShift));
   const auto times = [](std::int32_t value, int bits) {
@@ -50,7 +50,7 @@ Range shift_left(Range left, Range right) {
   return hull({times(left.lo, from), times(left.lo, to), times(left.hi, from), times(left.hi, to)});
 }
 
-Range shift_right(Range left, Range right) {
+Range shift_right(const Range& left, const Range& right) {
   const int from = std::clamp(right.lo, 0, spec::value_of(spec::Limit::GreatestShift));
   const int to = std::clamp(right.hi, 0, spec::value_of(spec::Limit::GreatestShift));
   return hull({left.lo >> from, left.lo >> to, left.hi >> from, left.hi >> to});
@@ -64,7 +64,7 @@ std::int32_t fill(std::int32_t value) {
   return static_cast<std::int32_t>(bits);
 }
 
-Range bit_and(Range left, Range right) {
+Range bit_and(const Range& left, const Range& right) {
   if (left.constant() && right.constant())
     return Range::only(left.lo & right.lo);
   if (left.lo >= 0 && right.lo >= 0)
@@ -76,7 +76,7 @@ Range bit_and(Range left, Range right) {
   return {};
 }
 
-Range bit_or(Range left, Range right) {
+Range bit_or(const Range& left, const Range& right) {
   if (left.constant() && right.constant())
     return Range::only(left.lo | right.lo);
   if (left.lo >= 0 && right.lo >= 0)
@@ -97,7 +97,7 @@ std::uint32_t digits(std::int64_t value) {
 
 } // namespace
 
-Range apply(spec::Operator op, Range left, Range right) {
+Range apply(spec::Operator op, const Range& left, const Range& right) {
   const std::int64_t a = left.lo;
   const std::int64_t b = left.hi;
   const std::int64_t c = right.lo;
@@ -116,7 +116,7 @@ Range apply(spec::Operator op, Range left, Range right) {
   return {};
 }
 
-Range apply(spec::Function function, Range operand) {
+Range apply(spec::Function function, const Range& operand) {
   switch (function) {
   case spec::Function::Sqrt: return {root(operand.lo), root(operand.hi)};
   case spec::Function::Rnd: return {1, std::max(operand.hi, 1)};
@@ -132,7 +132,7 @@ Range apply(spec::Function function, Range operand) {
   return {};
 }
 
-Range negate(Range operand) {
+Range negate(const Range& operand) {
   return apply(spec::Operator::Subtract, Range::only(0), operand);
 }
 

@@ -30,13 +30,15 @@ constexpr Range join(Range a, Range b) {
 
 /// What the robot's 32-bit arithmetic can make of operands in these ranges. Where it would stop the
 /// program (a zero divisor, a shift by more than 31) the result is what the other values give.
-Range apply(spec::Operator op, Range left, Range right);
+///
+/// Operands go by reference: they have just been written as two halves, for which a copy waits.
+Range apply(spec::Operator op, const Range& left, const Range& right);
 
 /// What a function can give for operands that it accepts.
-Range apply(spec::Function function, Range operand);
+Range apply(spec::Function function, const Range& operand);
 
 /// `0 - operand`.
-Range negate(Range operand);
+Range negate(const Range& operand);
 
 /// How many characters the numbers of a range take when printed: the least and the most.
 struct Digits {

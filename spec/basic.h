@@ -91,8 +91,8 @@ struct StatementInfo {
 
   constexpr std::span<const Parameter> parameters() const {
     std::size_t n = 0;
-    while (n < parameter_slots.size() && !parameter_slots[n].name.empty())
-      ++n;
+    for (const auto& slot : parameter_slots) // those that are taken come first
+      n += slot.name.empty() ? 0 : 1;
     return {parameter_slots.data(), n};
   }
 };
