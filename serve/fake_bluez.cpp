@@ -66,18 +66,19 @@ void constant(sdbus::IObject& object, const char* interface, const char* name, V
       [value = std::move(value)] { return value; });
 }
 
-} // namespace
+class Robot;
 
 /// bluetoothd and the adapter.
-class FakeBluez::Computer {
+class Computer final : public FakeBluez {
 public:
   Computer(asio::io_context& io, const protocol::BleFaultPlan& plan)
       : io_(io), plan_(plan), random_{plan.seed}, socket_(io) {}
   Computer(const Computer&) = delete;
   Computer& operator=(const Computer&) = delete;
-  ~Computer() { socket_.release(); }
+  ~Computer() override { socket_.release(); }
 
-  tl::expected<void, IoError> open();
+  tl::expected<void, IoError> open() override;
+  std::unique_ptr<Link> make_robot(std::string name, std::string address) override;
   std::string bus() const { return bus_.address(); }
 
   void add(Robot& robot) { robots_.push_back(&robot); }
@@ -116,7 +117,7 @@ private:
 };
 
 /// A robot: its device and characteristics on the bus, and the client's end of a link to the ball.
-class FakeBluez::Robot final : public Link {
+class Robot final : public Link {
 public:
   Robot(Computer& computer, std::string name, const std::string& address)
       : Link(computer.io()), computer_(computer), name_(std::move(name)), peer_(computer.io()),
@@ -201,7 +202,7 @@ private:
 
 // The computer.
 
-tl::expected<void, IoError> FakeBluez::Computer::open() {
+tl::expected<void, IoError> Computer::open() {
   if (auto started = bus_.start(plan_.denied ? service_name : ""); !started)
     return started;
   if (plan_.no_daemon)
@@ -234,7 +235,7 @@ tl::expected<void, IoError> FakeBluez::Computer::open() {
   return {};
 }
 
-void FakeBluez::Computer::publish() {
+void Computer::publish() {
   adapter_ = sdbus::createObject(*connection_, adapter_path);
   auto& adapter = *adapter_;
   const auto client = [&adapter] { return adapter.getCurrentlyProcessedMessage()->getSender(); };
@@ -261,7 +262,7 @@ void FakeBluez::Computer::publish() {
 }
 
 /// Everything that has come from the bus, then what comes next.
-void FakeBluez::Computer::pump() {
+void Computer::pump() {
   try {
     while (connection_->processPendingRequest())
       ;
@@ -279,7 +280,7 @@ void FakeBluez::Computer::pump() {
   }
 }
 
-void FakeBluez::Computer::after(Duration time, std::function<void()> act) {
+void Computer::after(Duration time, std::function<void()> act) {
   auto timer = std::make_unique<asio::steady_timer>(io_, time);
   auto& waiting = *timer;
   waiting.async_wait([timer = std::move(timer), act = std::move(act)](asio::error_code error) {
@@ -288,12 +289,12 @@ void FakeBluez::Computer::after(Duration time, std::function<void()> act) {
   });
 }
 
-std::int16_t FakeBluez::Computer::strength(const Robot& robot) const {
+std::int16_t Computer::strength(const Robot& robot) const {
   const auto at = std::ranges::find(robots_, &robot) - robots_.begin();
   return static_cast<std::int16_t>(strongest - farther * at);
 }
 
-void FakeBluez::Computer::start_discovery(const std::string& client) {
+void Computer::start_discovery(const std::string& client) {
   if (std::ranges::find(listeners_, client) != listeners_.end())
     throw bluez_error("InProgress", "Operation already in progress");
   listeners_.push_back(client);
@@ -304,7 +305,7 @@ void FakeBluez::Computer::start_discovery(const std::string& client) {
   });
 }
 
-void FakeBluez::Computer::stop_discovery(const std::string& client) {
+void Computer::stop_discovery(const std::string& client) {
   std::erase(listeners_, client);
   if (!listens())
     for (auto* robot : robots_)
@@ -312,14 +313,14 @@ void FakeBluez::Computer::stop_discovery(const std::string& client) {
 }
 
 /// A client is gone, and what it had asked for.
-void FakeBluez::Computer::forget(const std::string& client) {
+void Computer::forget(const std::string& client) {
   if (std::ranges::find(listeners_, client) != listeners_.end())
     stop_discovery(client);
   for (auto* robot : robots_)
     robot->forget(client);
 }
 
-void FakeBluez::Computer::vanish() {
+void Computer::vanish() {
   for (auto* robot : robots_)
     robot->unpublish();
   if (adapter_) {
@@ -330,7 +331,7 @@ void FakeBluez::Computer::vanish() {
 
 // The robot on the bus.
 
-void FakeBluez::Robot::advertise() {
+void Robot::advertise() {
   if (connected_)
     return;
   if (!device_) {
@@ -347,7 +348,7 @@ void FakeBluez::Robot::advertise() {
   });
 }
 
-void FakeBluez::Robot::fade() {
+void Robot::fade() {
   if (!std::exchange(heard_, false) || !device_)
     return;
   publish_device();
@@ -355,7 +356,7 @@ void FakeBluez::Robot::fade() {
 }
 
 /// Anew, because which properties it has changes.
-void FakeBluez::Robot::publish_device() {
+void Robot::publish_device() {
   device_.reset();
   device_ = sdbus::createObject(computer_.connection(), path_);
   auto& device = *device_;
@@ -389,12 +390,12 @@ void FakeBluez::Robot::publish_device() {
   device.finishRegistration();
 }
 
-bool FakeBluez::Robot::publishes(const spec::BleCharacteristicInfo& row) const {
+bool Robot::publishes(const spec::BleCharacteristicInfo& row) const {
   return !computer_.plan().newer || row.service != spec::BleService::Robot;
 }
 
 /// They stay when the link ends, as BlueZ keeps them.
-void FakeBluez::Robot::publish_services() {
+void Robot::publish_services() {
   if (!services_.empty())
     return;
   for (const auto& row : spec::ble_services) {
@@ -412,8 +413,7 @@ void FakeBluez::Robot::publish_services() {
       publish_characteristic(spec::ble_characteristics[number], number);
 }
 
-void FakeBluez::Robot::publish_characteristic(const spec::BleCharacteristicInfo& row,
-                                              std::size_t number) {
+void Robot::publish_characteristic(const spec::BleCharacteristicInfo& row, std::size_t number) {
   const auto service =
       fmt::format("{}/service{:04x}", path_, static_cast<std::size_t>(row.service));
   // Client libraries read the handle from the path.
@@ -446,7 +446,7 @@ void FakeBluez::Robot::publish_characteristic(const spec::BleCharacteristicInfo&
   characteristics_[which].object = std::move(object);
 }
 
-void FakeBluez::Robot::unpublish() {
+void Robot::unpublish() {
   disconnect();
   for (auto& [which, characteristic] : characteristics_)
     if (characteristic.object)
@@ -462,7 +462,7 @@ void FakeBluez::Robot::unpublish() {
 
 // Its link.
 
-bool FakeBluez::Robot::strikes(BleStep step) {
+bool Robot::strikes(BleStep step) {
   const auto& plan = computer_.plan();
   const auto once = drop_once_ == step;
   if (once)
@@ -476,7 +476,7 @@ bool FakeBluez::Robot::strikes(BleStep step) {
   return true;
 }
 
-bool FakeBluez::Robot::strikes(BleStep step, Result& result) {
+bool Robot::strikes(BleStep step, Result& result) {
   const auto& plan = computer_.plan();
   if (plan.vanish != step && plan.drop != step && drop_once_ != step)
     return false;
@@ -488,14 +488,14 @@ bool FakeBluez::Robot::strikes(BleStep step, Result& result) {
   return true;
 }
 
-void FakeBluez::Robot::keep(Result&& result, Duration time, std::function<void(Result&)> answer) {
+void Robot::keep(Result&& result, Duration time, std::function<void(Result&)> answer) {
   kept_.emplace(++calls_, std::move(result));
   computer_.after(time, [this, number = calls_, answer = std::move(answer)] {
     answer(kept_.extract(number).mapped());
   });
 }
 
-void FakeBluez::Robot::connect(Result&& result) {
+void Robot::connect(Result&& result) {
   if (strikes(BleStep::Connect, result))
     return;
   if (connected_)
@@ -519,13 +519,13 @@ void FakeBluez::Robot::connect(Result&& result) {
   });
 }
 
-void FakeBluez::Robot::resolve() {
+void Robot::resolve() {
   publish_services();
   resolved_ = true;
   tell(*device_, device_interface, {{"ServicesResolved", true}});
 }
 
-void FakeBluez::Robot::disconnect() {
+void Robot::disconnect() {
   if (!connected_)
     return;
   connected_ = resolved_ = false;
@@ -538,20 +538,19 @@ void FakeBluez::Robot::disconnect() {
 }
 
 /// bluetoothd keeps the link of a client that has ended, but tells it nothing any more.
-void FakeBluez::Robot::forget(const std::string& client) {
+void Robot::forget(const std::string& client) {
   for (auto& [which, characteristic] : characteristics_)
     if (characteristic.notified == client)
       set_notified(which, {});
 }
 
-void FakeBluez::Robot::set_notified(BleCharacteristic characteristic, const std::string& client) {
+void Robot::set_notified(BleCharacteristic characteristic, const std::string& client) {
   auto& entry = characteristics_[characteristic];
   entry.notified = client;
   tell(*entry.object, characteristic_interface, {{"Notifying", !client.empty()}});
 }
 
-void FakeBluez::Robot::on_write(BleCharacteristic characteristic, const Bytes& value,
-                                Result&& result) {
+void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Result&& result) {
   if (!connected_)
     return result.returnError(not_connected());
   if (const auto step = protocol::step_of(characteristic); step && strikes(*step, result))
@@ -580,7 +579,7 @@ void FakeBluez::Robot::on_write(BleCharacteristic characteristic, const Bytes& v
 }
 
 /// What the robot does with what was written, after the receipt has left.
-void FakeBluez::Robot::take(BleCharacteristic characteristic, const Bytes& value) {
+void Robot::take(BleCharacteristic characteristic, const Bytes& value) {
   for (const auto& row : spec::ble_greeting)
     if (row.characteristic == characteristic && characteristic == BleCharacteristic::AntiDos)
       admitted_ = as_text(value) == row.bytes;
@@ -589,7 +588,7 @@ void FakeBluez::Robot::take(BleCharacteristic characteristic, const Bytes& value
     static_cast<void>(::write(peer_.native_handle(), value.data(), value.size()));
 }
 
-void FakeBluez::Robot::start_notify(BleCharacteristic characteristic, Result&& result) {
+void Robot::start_notify(BleCharacteristic characteristic, Result&& result) {
   const auto& entry = characteristics_[characteristic];
   const auto client = entry.object->getCurrentlyProcessedMessage()->getSender();
   if (strikes(BleStep::Subscribe, result))
@@ -603,13 +602,13 @@ void FakeBluez::Robot::start_notify(BleCharacteristic characteristic, Result&& r
     set_notified(characteristic, client);
 }
 
-void FakeBluez::Robot::stop_notify(BleCharacteristic characteristic) {
+void Robot::stop_notify(BleCharacteristic characteristic) {
   if (characteristics_[characteristic].notified.empty())
     throw bluez_error("Failed", "No notify session started");
   set_notified(characteristic, {});
 }
 
-void FakeBluez::Robot::await_packets() {
+void Robot::await_packets() {
   peer_.async_read_some(asio::buffer(buffer_),
                         [this, session = session_](asio::error_code error, std::size_t size) {
                           if (session != session_)
@@ -621,7 +620,7 @@ void FakeBluez::Robot::await_packets() {
                         });
 }
 
-void FakeBluez::Robot::notify(ByteView bytes) {
+void Robot::notify(ByteView bytes) {
   auto& answers = characteristics_[BleCharacteristic::Answers];
   const auto& plan = computer_.plan();
   while (!bytes.empty()) {
@@ -635,23 +634,15 @@ void FakeBluez::Robot::notify(ByteView bytes) {
   }
 }
 
-// What others see.
-
-FakeBluez::FakeBluez(asio::io_context& io, const protocol::BleFaultPlan& plan)
-    : computer_(std::make_unique<Computer>(io, plan)) {}
-
-FakeBluez::~FakeBluez() = default;
-
-tl::expected<void, IoError> FakeBluez::open() {
-  return computer_->open();
+std::unique_ptr<Link> Computer::make_robot(std::string name, std::string address) {
+  return std::make_unique<Robot>(*this, std::move(name), address);
 }
 
-std::string FakeBluez::bus() const {
-  return computer_->bus();
-}
+} // namespace
 
-std::unique_ptr<Link> FakeBluez::make_robot(std::string name, std::string address) {
-  return std::make_unique<Robot>(*computer_, std::move(name), address);
+tl::expected<std::unique_ptr<FakeBluez>, IoError>
+make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan) {
+  return std::make_unique<Computer>(io, plan);
 }
 
 } // namespace orb::serve
@@ -660,21 +651,10 @@ std::unique_ptr<Link> FakeBluez::make_robot(std::string name, std::string addres
 
 namespace orb::serve {
 
-class FakeBluez::Computer {};
-class FakeBluez::Robot {};
-
-FakeBluez::FakeBluez(asio::io_context&, const protocol::BleFaultPlan&) {}
-FakeBluez::~FakeBluez() = default;
-
-tl::expected<void, IoError> FakeBluez::open() {
+tl::expected<std::unique_ptr<FakeBluez>, IoError> make_fake_bluez(asio::io_context&,
+                                                                  const protocol::BleFaultPlan&) {
   return tl::unexpected(IoError{"this orb was built without Bluetooth LE; install "
                                 "`libsdbus-c++-dev` and build orb again"});
-}
-std::string FakeBluez::bus() const {
-  return {};
-}
-std::unique_ptr<Link> FakeBluez::make_robot(std::string, std::string) {
-  return nullptr;
 }
 
 } // namespace orb::serve

@@ -14,25 +14,17 @@ namespace orb::serve {
 /// of its own. Source: the documents in doc/ of BlueZ 5.66.
 class FakeBluez {
 public:
-  /// What is wrong with it says `plan`, which must outlive it.
-  FakeBluez(asio::io_context& io, const protocol::BleFaultPlan& plan);
-  FakeBluez(const FakeBluez&) = delete;
-  FakeBluez& operator=(const FakeBluez&) = delete;
-  ~FakeBluez();
+  virtual ~FakeBluez() = default;
 
-  tl::expected<void, IoError> open();
-
-  /// The bus: what DBUS_SYSTEM_BUS_ADDRESS has to be for programs that shall find it.
-  std::string bus() const;
+  virtual tl::expected<void, IoError> open() = 0;
 
   /// A robot near it that advertises `name`; the link must not outlive this.
-  std::unique_ptr<Link> make_robot(std::string name, std::string address);
-
-private:
-  class Computer;
-  class Robot;
-
-  std::unique_ptr<Computer> computer_;
+  virtual std::unique_ptr<Link> make_robot(std::string name, std::string address) = 0;
 };
+
+/// What is wrong with it says `plan`, which must outlive it. An error where this program has no
+/// Bluetooth LE.
+tl::expected<std::unique_ptr<FakeBluez>, IoError>
+make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan);
 
 } // namespace orb::serve

@@ -14,16 +14,19 @@ tl::expected<void, IoError> serve(const ServeOptions& options) {
   asio::signal_set signals(io, SIGINT, SIGTERM);
   signals.async_wait([&io](asio::error_code, int) { io.stop(); });
 
-  std::optional<FakeBluez> bluez;
+  std::unique_ptr<FakeBluez> bluez;
   if (options.bluez) {
-    bluez.emplace(io, *options.bluez);
+    auto made = make_fake_bluez(io, *options.bluez);
+    if (!made)
+      return tl::unexpected(made.error());
+    bluez = *std::move(made);
     if (auto opened = bluez->open(); !opened)
       return opened;
   }
   std::vector<std::unique_ptr<ServedBall>> balls;
   std::string addresses;
   for (int i = 0; i < options.count; ++i) {
-    balls.push_back(std::make_unique<ServedBall>(io, options, i, bluez ? &*bluez : nullptr));
+    balls.push_back(std::make_unique<ServedBall>(io, options, i, bluez.get()));
     if (auto opened = balls.back()->open(); !opened)
       return opened;
     addresses += balls.back()->addresses();

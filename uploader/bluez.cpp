@@ -344,27 +344,12 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
 
 #else
 
+#include "uploader/no_gatt.h"
+
 namespace orb::uploader {
 namespace {
 
 const BleError not_built{BleFailure::NotBuilt, "this orb was built without Bluetooth LE"};
-
-class NoGatt final : public Gatt {
-public:
-  Instant now() const override { return {}; }
-  tl::expected<std::string, BleError> go(protocol::BleStep, const Patience&) override {
-    return tl::unexpected(not_built);
-  }
-  bool has(spec::BleCharacteristic) const override { return false; }
-  tl::expected<void, BleError> write(spec::BleCharacteristic, ByteView, const Patience&) override {
-    return tl::unexpected(not_built);
-  }
-  tl::expected<void, BleError> subscribe(const Patience&) override {
-    return tl::unexpected(not_built);
-  }
-  void rest(const Patience&) override {}
-  tl::expected<Bytes, BleError> read(Instant) override { return tl::unexpected(not_built); }
-};
 
 } // namespace
 
@@ -373,7 +358,7 @@ bool has_ble() {
 }
 
 std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint&) {
-  return std::make_unique<NoGatt>();
+  return std::make_unique<NoGatt>(not_built);
 }
 
 tl::expected<std::vector<SeenDevice>, BleError> scan_ble(Duration, const Budgets&, const Stop&,

@@ -10,7 +10,7 @@
 /// The Bluetooth of Linux, over D-Bus. Source: the documents in doc/ of BlueZ 5.66.
 namespace orb::uploader {
 
-/// Whether this program was built with Bluetooth LE.
+/// Whether this program has Bluetooth LE.
 bool has_ble();
 
 /// The robot that `endpoint` names, as BlueZ shows it; nothing is asked for yet. At its end the

@@ -1,0 +1,83 @@
+// Bluetooth LE in the program `orb`: the functions of uploader/bluez.h and serve/fake_bluez.h, from
+// a module.
+
+#include "cli/bluez/module.h"
+#include "uploader/no_gatt.h"
+
+#include <dlfcn.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <tl/expected.hpp>
+
+namespace orb {
+namespace {
+
+using cli::BluezModule;
+
+/// Where the module lies: at a place that is given relative to the program's.
+std::string module_path() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return (program.parent_path() / ORB_BLUEZ_MODULE).lexically_normal().string();
+}
+
+tl::expected<const BluezModule*, std::string> load() {
+  const auto path = module_path();
+  auto* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // until the program ends
+  if (library == nullptr)
+    return tl::unexpected(std::string(dlerror()));
+  const auto* module = static_cast<const BluezModule*>(dlsym(library, "orb_bluez_module"));
+  if (module == nullptr || std::string_view(module->version) != ORB_VERSION)
+    return tl::unexpected(fmt::format("{} is not of orb {}", path, ORB_VERSION));
+  return module;
+}
+
+const tl::expected<const BluezModule*, std::string>& module() {
+  static const auto loaded = load();
+  return loaded;
+}
+
+uploader::BleError not_loaded() {
+  return {uploader::BleFailure::NotLoaded, "Bluetooth LE cannot be loaded: " + module().error()};
+}
+
+} // namespace
+
+namespace uploader {
+
+bool has_ble() {
+  return module().has_value();
+}
+
+std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
+  if (!has_ble())
+    return std::make_unique<NoGatt>(not_loaded());
+  return (*module())->make_gatt(endpoint);
+}
+
+tl::expected<std::vector<SeenDevice>, BleError>
+scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
+         const std::function<void(std::size_t)>& progress) {
+  if (!has_ble())
+    return tl::unexpected(not_loaded());
+  return (*module())->scan(time, budgets, stop, progress);
+}
+
+} // namespace uploader
+
+namespace serve {
+
+tl::expected<std::unique_ptr<FakeBluez>, IoError>
+make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan) {
+  if (!uploader::has_ble()) {
+    const auto error = not_loaded();
+    return tl::unexpected(IoError{fmt::format("{}; {}", error.seen, remedy(error.failure))});
+  }
+  return (*module())->make_fake(io, plan);
+}
+
+} // namespace serve
+} // namespace orb

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "uploader/gatt.h"
+
+#include <utility>
+
+namespace orb::uploader {
+
+/// The robot of a program without Bluetooth LE: no step leads to it, for a reason.
+class NoGatt final : public Gatt {
+public:
+  explicit NoGatt(BleError why) : why_(std::move(why)) {}
+
+  Instant now() const override { return {}; }
+  tl::expected<std::string, BleError> go(protocol::BleStep, const Patience&) override {
+    return tl::unexpected(why_);
+  }
+  bool has(spec::BleCharacteristic) const override { return false; }
+  tl::expected<void, BleError> write(spec::BleCharacteristic, ByteView, const Patience&) override {
+    return tl::unexpected(why_);
+  }
+  tl::expected<void, BleError> subscribe(const Patience&) override { return tl::unexpected(why_); }
+  void rest(const Patience&) override {}
+  tl::expected<Bytes, BleError> read(Instant) override { return tl::unexpected(why_); }
+
+private:
+  BleError why_;
+};
+
+} // namespace orb::uploader
