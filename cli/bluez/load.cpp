@@ -17,31 +17,30 @@ namespace {
 
 using cli::BluezModule;
 
-/// Where the module lies: at a place that is given relative to the program's.
-std::string module_path() {
+/// The module lies at a place that is given relative to the program's.
+tl::expected<const BluezModule*, std::string> load() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (program.parent_path() / ORB_BLUEZ_MODULE).lexically_normal().string();
-}
-
-tl::expected<const BluezModule*, std::string> load() {
-  const auto path = module_path();
+  if (error) // and not from the current folder, where anybody may have put one
+    return tl::unexpected("/proc/self/exe: " + error.message());
+  const auto path = (program.parent_path() / ORB_BLUEZ_MODULE).lexically_normal().string();
   auto* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // until the program ends
   if (library == nullptr)
     return tl::unexpected(std::string(dlerror()));
-  const auto* module = static_cast<const BluezModule*>(dlsym(library, "orb_bluez_module"));
-  if (module == nullptr || std::string_view(module->version) != ORB_VERSION)
+  const auto* found = static_cast<const BluezModule*>(dlsym(library, "orb_bluez_module"));
+  if (found == nullptr || std::string_view(found->version) != ORB_VERSION)
     return tl::unexpected(fmt::format("{} is not of orb {}", path, ORB_VERSION));
-  return module;
+  return found;
 }
 
-const tl::expected<const BluezModule*, std::string>& module() {
+const tl::expected<const BluezModule*, std::string>& bluez_module() {
   static const auto loaded = load();
   return loaded;
 }
 
 uploader::BleError not_loaded() {
-  return {uploader::BleFailure::NotLoaded, "Bluetooth LE cannot be loaded: " + module().error()};
+  return {uploader::BleFailure::NotLoaded,
+          "Bluetooth LE cannot be loaded: " + bluez_module().error()};
 }
 
 } // namespace
@@ -49,13 +48,13 @@ uploader::BleError not_loaded() {
 namespace uploader {
 
 bool has_ble() {
-  return module().has_value();
+  return bluez_module().has_value();
 }
 
 std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
   if (!has_ble())
     return std::make_unique<NoGatt>(not_loaded());
-  return (*module())->make_gatt(endpoint);
+  return (*bluez_module())->make_gatt(endpoint);
 }
 
 tl::expected<std::vector<SeenDevice>, BleError>
@@ -63,7 +62,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
          const std::function<void(std::size_t)>& progress) {
   if (!has_ble())
     return tl::unexpected(not_loaded());
-  return (*module())->scan(time, budgets, stop, progress);
+  return (*bluez_module())->scan(time, budgets, stop, progress);
 }
 
 } // namespace uploader
@@ -76,7 +75,7 @@ make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan) {
     const auto error = not_loaded();
     return tl::unexpected(IoError{fmt::format("{}; {}", error.seen, remedy(error.failure))});
   }
-  return (*module())->make_fake(io, plan);
+  return (*bluez_module())->make_fake(io, plan);
 }
 
 } // namespace serve
