@@ -49,22 +49,6 @@ constexpr std::array functions{Op::Sqrt, Op::Rnd, Op::Abs};
 static_assert(functions.size() == spec::functions.size() &&
               functions[static_cast<std::size_t>(Function::Abs)] == Op::Abs);
 
-/// The value of a calculation that cannot fault.
-std::optional<std::int32_t> folded(Operator op, std::int32_t x, std::int32_t y) {
-  switch (op) {
-  case Operator::Multiply: return bytecode::multiply(x, y);
-  case Operator::Add: return bytecode::add(x, y);
-  case Operator::Subtract: return bytecode::subtract(x, y);
-  case Operator::And: return x & y;
-  case Operator::Or: return x | y;
-  case Operator::Divide:
-  case Operator::Remainder:
-  case Operator::ShiftLeft:
-  case Operator::ShiftRight: return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 /// Emits instructions in the order of the text: whatever an expression does (fail, draw a random
 /// number, clear what it reads) happens where it is written.
 class Generator {
@@ -193,7 +177,7 @@ private:
     const std::uint16_t left = pop();
     const auto x = constant_in(left);
     const auto y = constant_in(right);
-    if (const auto value = x && y ? folded(written, *x, *y) : std::nullopt) {
+    if (const auto value = x && y ? bytecode::calculate(written, *x, *y) : std::nullopt) {
       stack_.push_back(constant(*value));
       return;
     }
