@@ -305,16 +305,13 @@ private:
         if (jump.call ? has_wait_ : (jump.to < first || jump.to > last))
           return true;
       }
+      if (flow_.code[i].waits || flow_.code[i].ends)
+        return true;
       for (const auto& node : whole(i))
-        if (node.error || stops_or_waits(node.kind) || reads_timer(node))
+        if (node.error || reads_timer(node))
           return true;
     }
     return false;
-  }
-
-  static bool stops_or_waits(spec::Statement kind) {
-    const auto after = spec::info(kind).after;
-    return after == spec::After::Waits || after == spec::After::Ends;
   }
 
   bool reads_timer(const StatementNode& node) const {

@@ -72,6 +72,7 @@ struct Call {
   std::uint32_t from_call = none; ///< where that line runs
   std::optional<Loops> returned;  ///< what its `return`s leave open
   std::uint32_t first_waiting = none;
+  std::uint32_t last_waiting = none;
 };
 
 /// A state that goes on when a call returns.
@@ -129,11 +130,16 @@ private:
     std::uint32_t first_plain = 0;
     for (std::uint32_t i = 0; i < size_; ++i) {
       const auto& code = flow_.code[i];
-      if (code.falls && code.jumps_begin == code.jumps_end && !code.loops && !code.ends)
+      const bool leads_on = code.falls && code.jumps_begin == code.jumps_end && !code.loops;
+      if (leads_on && !code.ends)
         continue;
       auto& part = parts_.emplace_back();
       part.code = i;
       read(part);
+      if (leads_on && !part.returns) { // what ends in a branch is the program
+        parts_.pop_back();
+        continue;
+      }
       std::fill(ahead_.begin() + first_plain, ahead_.begin() + i + 1,
                 static_cast<std::uint32_t>(parts_.size() - 1));
       first_plain = i + 1;
@@ -226,7 +232,7 @@ private:
   void follow() {
     states_.reserve(parts_.size());
     work_.reserve(parts_.size());
-    calls_.reserve(most_calls);
+    calls_.reserve(most_calls + 1);
     waiting_.reserve(most_calls);
     calls_.push_back({});
     reach(0, 0, {});
@@ -281,26 +287,24 @@ private:
   void enter(std::uint32_t state, std::uint32_t entry, Loops loops) {
     if (calls_.size() >= most_calls)
       loops = Loops::unknown();
-    const auto next_line = parts_[states_[state].part].code + 1;
+    const auto from = parts_[states_[state].part].code;
     auto at = std::find_if(calls_.begin() + 1, calls_.end(), [&](const Call& call) {
       return call.entry == entry && call.loops == loops;
     });
-    if (at == calls_.end()) {
-      at = calls_.insert(at, {entry, loops, next_line - 1, states_[state].call, {}});
-      reach(static_cast<std::uint32_t>(at - calls_.begin()), entry, loops);
-    }
+    if (at == calls_.end() && calls_.size() > most_calls)
+      at = calls_.end() - 1; // for all others, where nothing is known
+    else if (at == calls_.end())
+      at = calls_.insert(at, {entry, loops, from, states_[state].call, {}});
+    reach(static_cast<std::uint32_t>(at - calls_.begin()), entry, loops);
     wait(*at, state);
     if (at->returned)
-      reach(states_[state].call, next_line, *at->returned);
+      reach(states_[state].call, from + 1, *at->returned);
   }
 
   void wait(Call& call, std::uint32_t state) {
-    auto* last = &call.first_waiting;
-    while (*last != none && waiting_[*last].state != state)
-      last = &waiting_[*last].next;
-    if (*last != none)
-      return;
-    *last = static_cast<std::uint32_t>(waiting_.size());
+    const auto at = static_cast<std::uint32_t>(waiting_.size());
+    (call.first_waiting == none ? call.first_waiting : waiting_[call.last_waiting].next) = at;
+    call.last_waiting = at;
     waiting_.push_back({state, none});
   }
 
@@ -420,8 +424,8 @@ private:
                   fmt::format("end it first: `next {}`", innermost));
   }
 
-  /// Beyond these, calls of the same subroutine are not told apart any more: no program that fits
-  /// into a robot has as many, and a linter must not take minutes over one.
+  /// Beyond these, calls are not told apart any more: no program that fits into a robot has as
+  /// many, and a linter must not take minutes over one.
   static constexpr std::size_t most_calls = 64;
 
   const Program& program_;

@@ -40,9 +40,9 @@ public:
     for (const auto& code : flow_.code)
       check_line(program_.lines[code.line]);
     check_targets();
-    for (const auto& node : program_.nodes)
-      if (is_remarkable(node))
-        check_node(node);
+    for (std::uint32_t i = 0; i < program_.nodes.size(); ++i)
+      if (is_remarkable(program_.nodes[i]))
+        check_node(i);
   }
 
 private:
@@ -427,12 +427,14 @@ private:
     return (kinds & bit(node.kind)) != 0 || node.overflow;
   }
 
-  void check_node(const Node& node) {
+  void check_node(std::uint32_t index) {
+    const auto& node = program_.nodes[index];
     switch (node.kind) {
     case NodeKind::Number:
-      findings_.add(rules::LiteralTooLarge, node.span,
-                    fmt::format("{} is above {}", program_.text_of(node.span),
-                                spec::value_of(spec::Limit::GreatestInteger)));
+      if (node.overflow)
+        findings_.add(rules::LiteralTooLarge, node.span,
+                      fmt::format("{} is above {}", program_.text_of(node.span),
+                                  spec::value_of(spec::Limit::GreatestInteger)));
       break;
     case NodeKind::System: check_system(node); break;
     case NodeKind::Group: check_depth(node); break;
@@ -442,7 +444,7 @@ private:
       break;
     case NodeKind::Call:
       check_depth(node);
-      check_operand(node, *(&node - 1));
+      check_operand(node, program_.nodes[index - 1]);
       break;
     case NodeKind::Letter:
     case NodeKind::Indexed:

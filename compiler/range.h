@@ -31,7 +31,7 @@ constexpr Range join(Range a, Range b) {
 /// What the robot's 32-bit arithmetic can make of operands in these ranges. Where it would stop the
 /// program (a zero divisor, a shift by more than 31) the result is what the other values give.
 ///
-/// Operands go by reference: they have just been written as two halves, for which a copy waits.
+/// By reference: a copy of a range whose halves have just been stored stalls the processor.
 Range apply(spec::Operator op, const Range& left, const Range& right);
 
 /// What a function can give for operands that it accepts.

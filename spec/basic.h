@@ -91,7 +91,7 @@ struct StatementInfo {
 
   constexpr std::span<const Parameter> parameters() const {
     std::size_t n = 0;
-    for (const auto& slot : parameter_slots) // those that are taken come first
+    for (const auto& slot : parameter_slots) // used slots come first
       n += slot.name.empty() ? 0 : 1;
     return {parameter_slots.data(), n};
   }

@@ -65,6 +65,23 @@ TEST(Rules, NothingIsReadBehindAText) {
   EXPECT_GT(findings, 0U);
 }
 
+// Each line of it is the beginning of a subroutine and runs in all that begin above: followed one
+// by one these would take minutes.
+TEST(Rules, ManyCallsOfTheSameLinesAreFollowedTogether) {
+  constexpr int calls = 2200; // as many as a file may hold
+  for (const std::string last : {"end", "return"}) {
+    std::string text = "1 for A=1 to 2\n2 next A\n3 on A gosub 1000";
+    for (int i = 1; i < calls; ++i)
+      text += "," + std::to_string(1000 + i);
+    text += "\n4 end\n";
+    for (int i = 0; i < calls; ++i)
+      text += std::to_string(1000 + i) + " if A>0 then " + last + "\n";
+    text += std::to_string(1000 + calls) + " return\n";
+    EXPECT_FALSE(raises(text, rules::GosubRecursion));
+    EXPECT_TRUE(raises(text, rules::ProgramTooLarge));
+  }
+}
+
 TEST(Rules, AByteThatIsNotPrintableIsSeenWhereverItStands) {
   const std::string fine = "10 print \"" + std::string(150, 'a') + "\"";
   EXPECT_FALSE(raises(fine, rules::NonprintingByte));
