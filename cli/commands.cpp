@@ -47,7 +47,8 @@ std::string version(const CLI::App& app) {
   if (app.count("--verbose") > 0) { // its variable is set only after the version is asked for
     text += vm::has_native_code() ? "\nmachine code for orbBasic: x86-64"
                                   : "\nmachine code for orbBasic: none, programs are interpreted";
-    text += uploader::has_ble() ? "\nBluetooth LE: BlueZ" : "\nBluetooth LE: none";
+    const auto no_ble = uploader::no_ble();
+    text += no_ble ? "\nBluetooth LE: none; " + no_ble->seen : "\nBluetooth LE: BlueZ";
   }
   return text;
 }

@@ -293,8 +293,8 @@ private:
 
 } // namespace
 
-bool has_ble() {
-  return true;
+std::optional<BleError> no_ble() {
+  return std::nullopt;
 }
 
 std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
@@ -353,8 +353,8 @@ const BleError not_built{BleFailure::NotBuilt, "this orb was built without Bluet
 
 } // namespace
 
-bool has_ble() {
-  return false;
+std::optional<BleError> no_ble() {
+  return not_built;
 }
 
 std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint&) {

@@ -10,8 +10,8 @@
 /// The Bluetooth of Linux, over D-Bus. Source: the documents in doc/ of BlueZ 5.66.
 namespace orb::uploader {
 
-/// Whether this program has Bluetooth LE.
-bool has_ble();
+/// Why this program has no Bluetooth LE, if it has none.
+std::optional<BleError> no_ble();
 
 /// The robot that `endpoint` names, as BlueZ shows it; nothing is asked for yet. At its end the
 /// robot is disconnected.

@@ -5,11 +5,9 @@
 #include "uploader/no_gatt.h"
 
 #include <dlfcn.h>
-#include <filesystem>
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <tl/expected.hpp>
 
 namespace orb {
@@ -19,17 +17,12 @@ using cli::BluezModule;
 
 /// The module lies at a place that is given relative to the program's.
 tl::expected<const BluezModule*, std::string> load() {
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) // and not from the current folder, where anybody may have put one
-    return tl::unexpected("/proc/self/exe: " + error.message());
-  const auto path = (program.parent_path() / ORB_BLUEZ_MODULE).lexically_normal().string();
-  auto* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // until the program ends
+  auto* const library = dlopen("$ORIGIN/" ORB_BLUEZ_MODULE, RTLD_NOW | RTLD_LOCAL); // for good
   if (library == nullptr)
     return tl::unexpected(std::string(dlerror()));
   const auto* found = static_cast<const BluezModule*>(dlsym(library, "orb_bluez_module"));
-  if (found == nullptr || std::string_view(found->version) != ORB_VERSION)
-    return tl::unexpected(fmt::format("{} is not of orb {}", path, ORB_VERSION));
+  if (found == nullptr || std::string_view(found->build) != ORB_BLUEZ_BUILD)
+    return tl::unexpected(std::string(ORB_BLUEZ_MODULE " belongs to another build of orb"));
   return found;
 }
 
@@ -40,19 +33,21 @@ const tl::expected<const BluezModule*, std::string>& bluez_module() {
 
 uploader::BleError not_loaded() {
   return {uploader::BleFailure::NotLoaded,
-          "Bluetooth LE cannot be loaded: " + bluez_module().error()};
+          "the module for Bluetooth LE cannot be loaded: " + bluez_module().error()};
 }
 
 } // namespace
 
 namespace uploader {
 
-bool has_ble() {
-  return bluez_module().has_value();
+std::optional<BleError> no_ble() {
+  if (bluez_module())
+    return std::nullopt;
+  return not_loaded();
 }
 
 std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
-  if (!has_ble())
+  if (!bluez_module())
     return std::make_unique<NoGatt>(not_loaded());
   return (*bluez_module())->make_gatt(endpoint);
 }
@@ -60,7 +55,7 @@ std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
 tl::expected<std::vector<SeenDevice>, BleError>
 scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
          const std::function<void(std::size_t)>& progress) {
-  if (!has_ble())
+  if (!bluez_module())
     return tl::unexpected(not_loaded());
   return (*bluez_module())->scan(time, budgets, stop, progress);
 }
@@ -71,7 +66,7 @@ namespace serve {
 
 tl::expected<std::unique_ptr<FakeBluez>, IoError>
 make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan) {
-  if (!uploader::has_ble()) {
+  if (!bluez_module()) {
     const auto error = not_loaded();
     return tl::unexpected(IoError{fmt::format("{}; {}", error.seen, remedy(error.failure))});
   }
