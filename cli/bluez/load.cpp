@@ -5,9 +5,11 @@
 #include "uploader/no_gatt.h"
 
 #include <dlfcn.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tl/expected.hpp>
 
 namespace orb {
@@ -15,14 +17,20 @@ namespace {
 
 using cli::BluezModule;
 
-/// The module lies at a place that is given relative to the program's.
+/// The module lies at a place that is given relative to the program's. Not by `$ORIGIN`, which
+/// under a sanitizer is the sanitizer's own.
 tl::expected<const BluezModule*, std::string> load() {
-  auto* const library = dlopen("$ORIGIN/" ORB_BLUEZ_MODULE, RTLD_NOW | RTLD_LOCAL); // for good
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) // and not from the current folder, where anybody may have put one
+    return tl::unexpected("/proc/self/exe: " + error.message());
+  const auto path = (program.parent_path() / ORB_BLUEZ_MODULE).lexically_normal().string();
+  auto* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // until the program ends
   if (library == nullptr)
     return tl::unexpected(std::string(dlerror()));
   const auto* found = static_cast<const BluezModule*>(dlsym(library, "orb_bluez_module"));
   if (found == nullptr || std::string_view(found->build) != ORB_BLUEZ_BUILD)
-    return tl::unexpected(std::string(ORB_BLUEZ_MODULE " belongs to another build of orb"));
+    return tl::unexpected(path + " belongs to another build of orb");
   return found;
 }
 
