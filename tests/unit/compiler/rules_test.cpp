@@ -65,6 +65,12 @@ TEST(Rules, NothingIsReadBehindAText) {
   EXPECT_GT(findings, 0U);
 }
 
+TEST(Rules, ANextInABranchMayHaveEndedTheLoopOrNot) {
+  EXPECT_FALSE(raises("10 for I = 1 to 3\n20 if I > 1 then next I\n30 next I\n40 end\n",
+                      rules::NextWithoutFor));
+  EXPECT_TRUE(raises("10 for I = 1 to 3\n20 next I\n30 next I\n40 end\n", rules::NextWithoutFor));
+}
+
 // Each line of it is the beginning of a subroutine and runs in all that begin above: followed one
 // by one these would take minutes.
 TEST(Rules, ManyCallsOfTheSameLinesAreFollowedTogether) {
