@@ -2,7 +2,7 @@
 
 #include "cli/options.h"
 #include "uploader/bluez.h"
-#include "vm/native.h"
+#include "vm/native/native.h"
 
 #include <algorithm>
 #include <array>

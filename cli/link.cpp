@@ -3,7 +3,7 @@
 #include "base/duration.h"
 #include "cli/config.h"
 #include "cli/inputs.h"
-#include "cli/interrupt.h"
+#include "cli/terminal/interrupt.h"
 #include "compiler/load.h"
 #include "disk/disk.h"
 #include "uploader/ble.h"

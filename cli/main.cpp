@@ -1,7 +1,7 @@
 #include "cli/commands.h"
+#include "cli/commands/ports.h"
 #include "cli/options.h"
 #include "cli/output_error.h"
-#include "cli/ports.h"
 #include "reference/completion_words.h"
 #include "run/input.h"
 

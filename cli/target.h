@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/lint.h"
+#include "compiler/lint/lint.h"
 
 #include <cstdint>
 #include <string>

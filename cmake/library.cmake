@@ -10,9 +10,9 @@ set(library_headers
   spec/api.h spec/basic.h spec/firmware.h spec/limits.h spec/macro.h
   protocol/decoder.h protocol/describe.h protocol/macro.h protocol/packet.h protocol/payload.h
   protocol/recording.h protocol/transport.h
-  compiler/check.h compiler/image.h compiler/lint.h compiler/load.h compiler/print.h
+  compiler/check.h compiler/text/image.h compiler/lint/lint.h compiler/load.h compiler/text/print.h
   assembler/assemble.h assembler/disassemble.h
-  structured/compile.h structured/files.h structured/lift.h
+  structured/compile.h structured/text/files.h structured/lift/lift.h
   vm/ball.h vm/ball_transport.h vm/observer.h vm/stimulus.h
   uploader/endpoint.h uploader/plan.h uploader/session.h uploader/upload.h
   report/course.h report/journey.h report/page.h report/svg.h report/trace.h
@@ -28,7 +28,7 @@ function(orb_library_header file)
   endif()
   set_property(GLOBAL APPEND PROPERTY library_seen ${file})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
-  set(ours "#include \"([a-z_]+/[a-z0-9_]+\\.(h|def|inc))\"")
+  set(ours "#include \"([a-z_]+/[a-z0-9_/]+\\.(h|def|inc))\"")
   file(STRINGS ${PROJECT_SOURCE_DIR}/${file} includes REGEX "${ours}")
   foreach(line ${includes})
     string(REGEX REPLACE ".*${ours}.*" "\\1" included "${line}")

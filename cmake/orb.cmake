@@ -29,7 +29,7 @@ orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 # .cpp files, alias orb::<folder>. A new file needs no edit here.
 function(orb_library folder)
   cmake_parse_arguments(ARG "" "PRECOMPILED" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${ORB_ROOT}/${folder}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ORB_ROOT}/${folder}/*.cpp)
   add_library(orb_${folder} STATIC ${sources})
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})

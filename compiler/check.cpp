@@ -1,9 +1,9 @@
 #include "compiler/check.h"
 
 #include "base/utf8.h"
-#include "compiler/image.h"
-#include "compiler/parse.h"
-#include "compiler/rules.h"
+#include "compiler/text/image.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/rules.h"
 #include "spec/limits.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "base/diagnostic.h"
 #include "base/fixes.h"
-#include "compiler/lint.h"
-#include "compiler/program.h"
+#include "compiler/lint/lint.h"
+#include "compiler/text/program.h"
 
 #include <cstddef>
 #include <optional>

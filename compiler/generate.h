@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bytecode/chunk.h"
-#include "compiler/program.h"
+#include "compiler/text/program.h"
 
 namespace orb::compiler {
 

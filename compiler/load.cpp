@@ -1,7 +1,7 @@
 #include "compiler/load.h"
 
 #include "compiler/generate.h"
-#include "compiler/parse.h"
+#include "compiler/text/parse.h"
 
 namespace orb::compiler {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/program.h"
+#include "compiler/text/program.h"
 
 #include <cstdint>
 #include <string>

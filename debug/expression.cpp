@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "bytecode/arithmetic.h"
-#include "structured/parse.h"
+#include "structured/text/parse.h"
 
 #include <algorithm>
 #include <cmath>

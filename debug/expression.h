@@ -1,7 +1,7 @@
 #pragma once
 
 #include "spec/basic.h"
-#include "structured/program.h"
+#include "structured/text/program.h"
 
 #include <cstdint>
 #include <memory>

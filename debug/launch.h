@@ -3,7 +3,7 @@
 #include "base/exit_code.h"
 #include "report/course.h"
 #include "run/run.h"
-#include "structured/files.h"
+#include "structured/text/files.h"
 #include "testing/suite.h"
 
 #include <cstdint>

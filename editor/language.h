@@ -1,13 +1,13 @@
 #pragma once
 
 // What an editor may ask about a text, without any protocol: places are bytes of a Source. The
-// languages answer in editor/basic.cpp, editor/structured.cpp, editor/macro.cpp and
-// editor/test.cpp.
+// languages answer in editor/languages/basic.cpp, editor/languages/structured.cpp,
+// editor/languages/macro.cpp and editor/languages/test.cpp.
 
 #include "base/diagnostic.h"
 #include "base/source.h"
 #include "spec/basic.h"
-#include "structured/files.h"
+#include "structured/text/files.h"
 
 #include <cstdint>
 #include <memory>

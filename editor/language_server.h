@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structured/files.h"
+#include "structured/text/files.h"
 
 #include <memory>
 #include <optional>

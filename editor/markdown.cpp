@@ -1,8 +1,8 @@
 #include "editor/markdown.h"
 
-#include "compiler/parse.h"
-#include "editor/basic_names.h"
-#include "editor/structured_names.h"
+#include "compiler/text/parse.h"
+#include "editor/languages/basic_names.h"
+#include "editor/languages/structured_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "base/time.h"
 #include "editor/language_server.h"
 #include "run/input.h"
-#include "structured/files.h"
+#include "structured/text/files.h"
 
 #include <map>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include "playground/sources.h"
 #include "report/page.h"
 #include "run/want.h"
-#include "structured/words.h"
+#include "structured/text/words.h"
 #include "vm/stimulus.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "assembler/assemble.h"
 #include "base/render.h"
-#include "compiler/image.h"
+#include "compiler/text/image.h"
 #include "editor/language.h"
 #include "protocol/macro.h"
 #include "report/course.h"

@@ -2,9 +2,9 @@
 
 #include "base/render.h"
 #include "report/page.h"
-#include "structured/words.h"
-#include "testing/render.h"
+#include "structured/text/words.h"
 #include "testing/run_suite.h"
+#include "testing/verdicts/render.h"
 
 #include <fmt/format.h>
 #include <utility>

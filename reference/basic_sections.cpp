@@ -1,12 +1,12 @@
 // What the orbBasic tables know.
 
 #include "base/text.h"
-#include "compiler/foreign.h"
+#include "compiler/messages/foreign.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
-#include "structured/blocks.h"
-#include "structured/words.h"
+#include "structured/text/blocks.h"
+#include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 // What the linters look for.
 
 #include "assembler/rules.h"
-#include "compiler/rules.h"
+#include "compiler/text/rules.h"
 #include "reference/sections.h"
 #include "report/rules.h"
 #include "spec/basic.h"
-#include "structured/rules.h"
-#include "testing/rules.h"
+#include "structured/text/rules.h"
+#include "testing/text/rules.h"
 #include "vm/rules.h"
 
 #include <fmt/format.h>

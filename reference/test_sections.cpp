@@ -1,7 +1,7 @@
 // The words of tests and of stimulus scripts.
 
 #include "reference/sections.h"
-#include "testing/vocabulary.h"
+#include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
 
 #include <fmt/format.h>

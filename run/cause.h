@@ -1,8 +1,8 @@
 #pragma once
 
-#include "compiler/program.h"
+#include "compiler/text/program.h"
 #include "spec/basic.h"
-#include "vm/machine.h"
+#include "vm/machine/machine.h"
 
 #include <cstdint>
 #include <optional>

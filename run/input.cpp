@@ -3,7 +3,7 @@
 #include "assembler/assemble.h"
 #include "assembler/lint.h"
 #include "compiler/check.h"
-#include "compiler/parse.h"
+#include "compiler/text/parse.h"
 #include "report/course.h"
 
 #include <algorithm>

@@ -3,12 +3,12 @@
 #include "base/diagnostic.h"
 #include "base/exit_code.h"
 #include "base/source.h"
-#include "compiler/image.h"
-#include "compiler/lint.h"
+#include "compiler/lint/lint.h"
+#include "compiler/text/image.h"
 #include "protocol/macro.h"
 #include "run/line_map.h"
 #include "structured/compile.h"
-#include "structured/files.h"
+#include "structured/text/files.h"
 
 #include <cstdint>
 #include <memory>

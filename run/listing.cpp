@@ -1,7 +1,7 @@
 #include "run/listing.h"
 
 #include "compiler/load.h"
-#include "vm/native.h"
+#include "vm/native/native.h"
 
 namespace orb::run {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/image.h"
+#include "compiler/text/image.h"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "report/journey.h"
 #include "run/input.h"
-#include "vm/machine.h"
+#include "vm/machine/machine.h"
 
 #include <cstdint>
 #include <map>

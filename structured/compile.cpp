@@ -1,19 +1,19 @@
 #include "structured/compile.h"
 
-#include "compiler/image.h"
-#include "compiler/parse.h"
+#include "compiler/text/image.h"
+#include "compiler/text/parse.h"
 #include "spec/limits.h"
-#include "structured/blocks.h"
-#include "structured/check.h"
-#include "structured/choices.h"
-#include "structured/lower.h"
-#include "structured/optimise.h"
-#include "structured/plan.h"
-#include "structured/read.h"
-#include "structured/relay.h"
-#include "structured/rules.h"
-#include "structured/silence.h"
-#include "structured/words.h"
+#include "structured/emit/choices.h"
+#include "structured/emit/relay.h"
+#include "structured/lower/lower.h"
+#include "structured/lower/plan.h"
+#include "structured/meaning/check.h"
+#include "structured/optimise/optimise.h"
+#include "structured/text/blocks.h"
+#include "structured/text/read.h"
+#include "structured/text/rules.h"
+#include "structured/text/silence.h"
+#include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -159,14 +159,6 @@ private:
   std::uint32_t origin_ = none;
 };
 
-} // namespace
-
-bool Compiled::has_errors() const {
-  return any_error(program.diagnostics);
-}
-
-namespace {
-
 /// The variable of the whole program that has a name, or none.
 std::uint32_t shared_variable(const Program& program, const Names& names, std::string_view name) {
   for (std::uint32_t s = 0; s < names.symbols.size(); ++s)
@@ -274,36 +266,6 @@ std::string readable(const Compiled& compiled) {
   constexpr Numbering by_tens{10, 10};
   return variables +
          print(compiled.program, compiled.code, compiled.letters, by_tens, &comments).text;
-}
-
-Place place_of(const Program& program, Span span) {
-  const auto& file = program.file_at(span.begin);
-  const auto index = static_cast<std::uint32_t>(&file - program.files.data());
-  const auto size = file.end - file.begin;
-  const auto begin = std::min(span.begin - file.begin, size);
-  return {index, {begin, std::max(begin, std::min(span.end - file.begin, size))}};
-}
-
-std::vector<std::vector<Diagnostic>> findings_by_file(const Program& program) {
-  std::vector<std::vector<Diagnostic>> files(program.files.size());
-  for (const auto& found : program.diagnostics) {
-    auto diagnostic = found;
-    const auto place = place_of(program, found.span);
-    const auto shift = program.files[place.file].begin;
-    diagnostic.span = place.span;
-    std::erase_if(diagnostic.notes, [&](Note& note) {
-      const auto there = place_of(program, note.span);
-      note.span = there.span;
-      return there.file != place.file; // a note is shown in the file of its finding
-    });
-    if (diagnostic.fix)
-      for (auto& edit : diagnostic.fix->edits)
-        edit.span = {edit.span.begin - shift, edit.span.end - shift};
-    files[place.file].push_back(std::move(diagnostic));
-  }
-  for (auto& findings : files)
-    sort_by_place(findings);
-  return files;
 }
 
 } // namespace orb::structured

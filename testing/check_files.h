@@ -2,9 +2,9 @@
 
 #include "assembler/lint.h"
 #include "base/diagnostic.h"
-#include "compiler/image.h"
+#include "compiler/text/image.h"
 #include "run/input.h"
-#include "structured/files.h"
+#include "structured/text/files.h"
 
 #include <cstddef>
 #include <deque>

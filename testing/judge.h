@@ -1,7 +1,7 @@
 #pragma once
 
 #include "run/run.h"
-#include "testing/test_file.h"
+#include "testing/text/test_file.h"
 
 #include <cstddef>
 #include <cstdint>

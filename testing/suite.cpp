@@ -2,9 +2,9 @@
 
 #include "base/render.h"
 #include "base/suggest.h"
-#include "compiler/image.h"
+#include "compiler/text/image.h"
 #include "spec/limits.h"
-#include "testing/rules.h"
+#include "testing/text/rules.h"
 
 #include <algorithm>
 #include <array>

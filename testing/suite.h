@@ -3,7 +3,7 @@
 #include "base/exit_code.h"
 #include "run/input.h"
 #include "testing/judge.h"
-#include "testing/test_file.h"
+#include "testing/text/test_file.h"
 
 #include <cstdint>
 #include <map>

@@ -3,19 +3,19 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "spec/firmware.h"
+#include "vm/api/dispatcher.h"
+#include "vm/api/streamer.h"
 #include "vm/ask.h"
 #include "vm/body.h"
-#include "vm/dispatcher.h"
 #include "vm/drive.h"
 #include "vm/lamps.h"
 #include "vm/link.h"
-#include "vm/macro_executive.h"
+#include "vm/macros/macro_executive.h"
 #include "vm/observer.h"
 #include "vm/power.h"
 #include "vm/programs.h"
 #include "vm/settings.h"
 #include "vm/stimulus.h"
-#include "vm/streamer.h"
 
 #include <cstdint>
 #include <memory>

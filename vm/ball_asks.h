@@ -2,10 +2,10 @@
 
 // For vm/ball*.cpp only: how a ball answers those who live in it.
 
-#include "vm/api_host.h"
+#include "vm/api/api_host.h"
 #include "vm/ball.h"
-#include "vm/host.h"
-#include "vm/macro_host.h"
+#include "vm/machine/host.h"
+#include "vm/macros/macro_host.h"
 
 namespace orb::vm {
 

@@ -7,7 +7,7 @@
 #include "spec/basic.h"
 #include "spec/limits.h"
 #include "vm/ask.h"
-#include "vm/machine.h"
+#include "vm/machine/machine.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Uploads a program over a link of one's own. This one hands the bytes to a ball in this process
 // and writes them down; yours may be a radio, a test double or a cable.
 #include <orb/compiler/check.h>
-#include <orb/compiler/image.h>
+#include <orb/compiler/text/image.h>
 #include <orb/compiler/load.h>
 #include <orb/uploader/upload.h>
 #include <orb/vm/ball_transport.h>

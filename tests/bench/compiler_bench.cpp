@@ -1,8 +1,8 @@
 // Parse and lint of realistic programs beside LuaJIT's load() of Lua chunks of the same size and
 // the same doing. Both read from memory and throw the result away.
 
-#include "compiler/lint.h"
-#include "compiler/parse.h"
+#include "compiler/lint/lint.h"
+#include "compiler/text/parse.h"
 #include "tests/bench/realistic.h"
 
 #include <benchmark/benchmark.h>

@@ -3,7 +3,7 @@
 #include "assembler/assemble.h"
 #include "assembler/disassemble.h"
 #include "assembler/lint.h"
-#include "vm/macro_executive.h"
+#include "vm/macros/macro_executive.h"
 
 #include <benchmark/benchmark.h>
 

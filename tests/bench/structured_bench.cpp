@@ -2,9 +2,9 @@
 // comparison only reading and checking. The program is the examples' own kind: subs, loops,
 // choices; without comments. The examples themselves are compiled, too, when this runs at the root.
 
-#include "structured/check.h"
 #include "structured/compile.h"
-#include "structured/read.h"
+#include "structured/meaning/check.h"
+#include "structured/text/read.h"
 
 #include <algorithm>
 #include <benchmark/benchmark.h>

@@ -2,9 +2,9 @@
 
 #include "assembler/lint.h"
 #include "compiler/check.h"
-#include "compiler/parse.h"
+#include "compiler/text/parse.h"
 #include "structured/compile.h"
-#include "structured/lift.h"
+#include "structured/lift/lift.h"
 #include "tests/golden/files.h"
 #include "tests/random_program.h"
 #include "tests/unit/structured/random_structured.h"

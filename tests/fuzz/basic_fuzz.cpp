@@ -1,10 +1,10 @@
 // Any bytes as orbBasic: checking, fixing, formatting, packing and loading must survive them.
 
 #include "compiler/check.h"
-#include "compiler/image.h"
 #include "compiler/load.h"
-#include "compiler/parse.h"
-#include "compiler/print.h"
+#include "compiler/text/image.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/print.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -3,8 +3,8 @@
 
 #include "compiler/check.h"
 #include "structured/compile.h"
-#include "structured/format.h"
-#include "structured/lift.h"
+#include "structured/lift/lift.h"
+#include "structured/text/format.h"
 
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
 // Any bytes run as user, temporary and stream macro, and end in time or by an abort.
 
-#include "vm/macro_executive.h"
+#include "vm/macros/macro_executive.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 // every format; what is read from the JSON form is written as the same bytes again.
 
 #include "base/bytes.h"
-#include "testing/merge.h"
-#include "testing/render.h"
+#include "testing/verdicts/merge.h"
+#include "testing/verdicts/render.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orb;

@@ -1,8 +1,8 @@
 // Any text as a test file: it is read, what it names is looked up among a few files that are there,
 // and what could be read is run for a moment and told in every format.
 
-#include "testing/render.h"
 #include "testing/run_suite.h"
+#include "testing/verdicts/render.h"
 
 #include <algorithm>
 

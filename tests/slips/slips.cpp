@@ -4,8 +4,8 @@
 // explained or fixed, or when a fix leaves more errors or others than there were.
 
 #include "compiler/check.h"
-#include "compiler/parse.h"
-#include "compiler/print.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/print.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "disk/disk.h"
-#include "vm/native.h"
+#include "vm/native/native.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "compiler/grammar.h"
+#include "compiler/text/grammar.h"
 
 #include <gtest/gtest.h>
 #include <tao/pegtl/contrib/analyze.hpp>

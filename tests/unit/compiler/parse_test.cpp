@@ -1,7 +1,7 @@
-#include "compiler/parse.h"
+#include "compiler/text/parse.h"
 
-#include "compiler/print.h"
-#include "compiler/words.h"
+#include "compiler/text/print.h"
+#include "compiler/text/words.h"
 
 #include <gtest/gtest.h>
 #include <optional>

@@ -1,14 +1,14 @@
 // What holds for any program: tried on many that are made at random.
 
 #include "compiler/check.h"
-#include "compiler/image.h"
 #include "compiler/load.h"
-#include "compiler/parse.h"
-#include "compiler/print.h"
 #include "compiler/renumber.h"
-#include "compiler/rules.h"
+#include "compiler/text/image.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/print.h"
+#include "compiler/text/rules.h"
 #include "tests/random_program.h"
-#include "vm/machine.h"
+#include "vm/machine/machine.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "compiler/range.h"
+#include "compiler/lint/range.h"
 
 #include "base/random.h"
 #include "bytecode/arithmetic.h"

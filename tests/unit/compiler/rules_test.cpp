@@ -1,4 +1,4 @@
-#include "compiler/rules.h"
+#include "compiler/text/rules.h"
 
 #include "base/fixes.h"
 #include "compiler/check.h"

@@ -1,9 +1,9 @@
 #include "base/random.h"
 #include "compiler/check.h"
-#include "compiler/rules.h"
+#include "compiler/text/rules.h"
 #include "random_structured.h"
 #include "structured/compile.h"
-#include "structured/rules.h"
+#include "structured/text/rules.h"
 #include "tree_evaluator.h"
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "structured/compile.h"
 
-#include "structured/rules.h"
+#include "structured/text/rules.h"
 
 #include <algorithm>
 #include <ctime>

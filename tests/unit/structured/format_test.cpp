@@ -1,8 +1,8 @@
-#include "structured/format.h"
+#include "structured/text/format.h"
 
 #include "random_structured.h"
 #include "structured/compile.h"
-#include "structured/words.h"
+#include "structured/text/words.h"
 
 #include <gtest/gtest.h>
 

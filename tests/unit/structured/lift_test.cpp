@@ -1,12 +1,12 @@
-#include "structured/lift.h"
+#include "structured/lift/lift.h"
 
 #include "compiler/check.h"
 #include "compiler/load.h"
 #include "random_structured.h"
 #include "structured/compile.h"
-#include "structured/format.h"
+#include "structured/text/format.h"
 #include "tests/random_program.h"
-#include "vm/machine.h"
+#include "vm/machine/machine.h"
 
 #include <algorithm>
 #include <cstdlib>

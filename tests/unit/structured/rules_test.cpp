@@ -1,4 +1,4 @@
-#include "structured/rules.h"
+#include "structured/text/rules.h"
 
 #include "base/fixes.h"
 #include "structured/compile.h"

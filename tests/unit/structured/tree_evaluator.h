@@ -1,9 +1,9 @@
 #pragma once
 
-#include "structured/blocks.h"
-#include "structured/names.h"
-#include "structured/program.h"
-#include "structured/words.h"
+#include "structured/meaning/names.h"
+#include "structured/text/blocks.h"
+#include "structured/text/program.h"
+#include "structured/text/words.h"
 #include "tests/unit/vm/basic_run.h"
 
 #include <array>

@@ -3,7 +3,7 @@
 // test.
 
 #include "base/utf8.h"
-#include "testing/render.h"
+#include "testing/verdicts/render.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // What transcripts cannot show: results do not depend on how many threads or machines made them.
 
 #include "base/random.h"
-#include "testing/merge.h"
-#include "testing/render.h"
-#include "testing/rules.h"
 #include "testing/run_suite.h"
+#include "testing/text/rules.h"
+#include "testing/verdicts/merge.h"
+#include "testing/verdicts/render.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/load.h"
-#include "vm/machine.h"
+#include "vm/machine/machine.h"
 
 #include <map>
 #include <string>

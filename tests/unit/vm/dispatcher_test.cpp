@@ -1,4 +1,4 @@
-#include "vm/dispatcher.h"
+#include "vm/api/dispatcher.h"
 
 #include "compiler/load.h"
 #include "vm/ball.h"

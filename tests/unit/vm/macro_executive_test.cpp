@@ -1,6 +1,6 @@
-#include "vm/macro_executive.h"
+#include "vm/macros/macro_executive.h"
 
-#include "vm/system_macros.h"
+#include "vm/macros/system_macros.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

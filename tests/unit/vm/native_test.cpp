@@ -1,4 +1,4 @@
-#include "vm/native.h"
+#include "vm/native/native.h"
 
 #include "basic_run.h"
 #include "tests/hostile_programs.h"

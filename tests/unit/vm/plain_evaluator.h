@@ -1,8 +1,8 @@
 #pragma once
 
 #include "basic_run.h"
-#include "compiler/parse.h"
-#include "compiler/program.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/program.h"
 
 #include <array>
 #include <cmath>

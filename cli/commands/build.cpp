@@ -1,0 +1,165 @@
+#include "base/render.h"
+#include "cli/commands.h"
+#include "cli/commands/asm.h"
+#include "cli/inputs.h"
+#include "cli/target.h"
+#include "compiler/check.h"
+#include "compiler/text/image.h"
+#include "compiler/text/rules.h"
+#include "disk/disk.h"
+#include "run/line_map.h"
+#include "run/listing.h"
+#include "structured/emit/listing.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string lang;
+  std::string out = "-";
+  std::string map;
+  TargetOptions target;
+  bool pack = false;
+  bool readable = false;
+  bool no_check = false;
+  bool listing = false;
+  bool native = false;
+};
+
+/// Prints the errors; the size is left to the image that is really built.
+bool has_errors(Context& context, const Source& source, const std::vector<Diagnostic>& found) {
+  bool errors = false;
+  for (const auto& diagnostic : found) {
+    if (diagnostic.severity != Severity::Error ||
+        diagnostic.rule == &compiler::rules::ProgramTooLarge)
+      continue;
+    errors = true;
+    print_err(render_text(source, diagnostic, context.err_style()));
+  }
+  return errors;
+}
+
+bool write(Context& context, const std::string& path, std::string_view bytes) {
+  if (path == "-") {
+    print_out(bytes);
+    return true;
+  }
+  const auto written = disk::write(path, as_bytes(bytes));
+  if (!written)
+    fail(context, {ExitCode::File, written.error().message});
+  return written.has_value();
+}
+
+void build_basic(Context& context, const Options& options, const Source& source) {
+  const auto target = options.target.target();
+  const auto checked = compiler::check(source.text(), target);
+  const bool refused = !checked.image_bytes;
+  if ((refused || !options.no_check) && has_errors(context, source, checked.diagnostics)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  const auto image = compiler::build_image(
+      checked.program, options.pack ? compiler::Packing::Packed : compiler::Packing::Plain);
+  const auto room = static_cast<std::size_t>(compiler::area_bytes(target));
+  if (image.bytes.size() > room) {
+    return fail(context,
+                {ExitCode::BadInput,
+                 fmt::format("{} takes {} bytes, {} more than the {} of the {} area{}",
+                             source.name(), image.bytes.size(), image.bytes.size() - room, room,
+                             options.target.area, options.pack ? "" : "; try `--pack`")});
+  }
+  if (!options.map.empty() &&
+      !write(context, options.map, run::print_line_map(run::line_map(source.name(), image), image)))
+    return;
+  const auto listed = options.native ? run::Listed::MachineCode : run::Listed::Instructions;
+  if (write(context, options.out, options.listing ? run::listing(image, listed) : image.bytes))
+    print_note(context,
+               fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
+}
+
+void build_structured(Context& context, const Options& options, const Source& source) {
+  const auto target = options.target.target();
+  DiskFiles files;
+  const auto input = run::read_input(source.name(), std::string(source.text()), "structured",
+                                     target, run::Lint::Off, files);
+  if (!input)
+    return fail(context, input.error());
+  if (print_findings(context, *input)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  const auto& program = *input->program;
+  if (!options.map.empty() &&
+      !write(context, options.map, run::print_line_map(program.lines, program.image)))
+    return;
+  const auto text = options.readable  ? structured::readable(*program.compiled)
+                    : options.native  ? run::listing(program.image, run::Listed::MachineCode)
+                    : options.listing ? structured::listing(*program.compiled, program.image)
+                                      : program.image.bytes;
+  if (write(context, options.out, text))
+    print_note(context, fmt::format("{} of {} bytes ({})", program.image.bytes.size(),
+                                    compiler::area_bytes(target), options.target.area));
+}
+
+void build(Context& context, const Options& options) {
+  const auto file = read_source(options.file, options.lang);
+  if (!file)
+    return fail(context, file.error());
+  if (file->language == run::Language::Structured)
+    return build_structured(context, options, file->source);
+  if (options.readable)
+    return fail(context,
+                {ExitCode::Usage,
+                 fmt::format("`--readable` is for structured programs (.orb); {} is not one",
+                             file->source.name())});
+  if (file->language == run::Language::Basic)
+    return build_basic(context, options, file->source);
+  AsmOptions macros;
+  macros.file = options.file;
+  macros.out = options.out;
+  macros.listing = options.listing;
+  if (options.native)
+    return fail(context, {ExitCode::Usage, "`--native` is for orbBasic; macros never become "
+                                           "machine code"});
+  context.exit = run_asm(context, macros);
+}
+
+} // namespace
+
+void add_build(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "build", "make the exact bytes to upload",
+                              "orb build square.bas -o square.img\n"
+                              "orb build --pack square.bas --map square.json -o square.img\n"
+                              "orb build patrol.orb --readable -o patrol.bas\n"
+                              "orb build --listing --native square.bas");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "a source; `-` is standard input")->required();
+  add_language_option(*command, options->lang);
+  command->add_option("-o,--output", options->out,
+                      "where the bytes go; standard output if missing");
+  command->add_flag("--pack", options->pack,
+                    "as small as possible with the same behaviour; structured programs always are");
+  auto* map =
+      command->add_option("--map", options->map, "write which source line became which robot line");
+  auto* readable = command->add_flag("--readable", options->readable,
+                                     "of a structured program: orbBasic for people, with comments");
+  readable->excludes(map);
+  add_target_options(*command, options->target);
+  command->add_flag(
+      "--no-check", options->no_check,
+      "build although the program has errors; of a structured one nothing can be built then");
+  auto* listing = command->add_flag("--listing", options->listing,
+                                    "in place of the bytes: each line and the instructions that "
+                                    "the virtual ball makes of it; of a structured program the "
+                                    "robot's lines and their bytes");
+  listing->excludes(readable);
+  command->add_flag("--native", options->native, "list their machine code, too")->needs(listing);
+  command->callback([&context, options] { build(context, *options); });
+}
+
+} // namespace orb::cli

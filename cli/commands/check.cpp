@@ -1,0 +1,170 @@
+#include "assembler/lint.h"
+#include "base/render.h"
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/policy.h"
+#include "cli/target.h"
+#include "cli/terminal/watch.h"
+#include "disk/disk.h"
+#include "reference/knowledge.h"
+#include "testing/check_files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <span>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string lang;
+  std::string format = "text";
+  TargetOptions target;
+  Policy policy;
+  assembler::LintOptions macro;
+  bool fix = false;
+  bool watch = false;
+};
+
+using run::SourceFile;
+
+using Sources = std::vector<SourceFile>;
+
+tl::expected<Sources, Failure> read_sources(const Options& options) {
+  Sources sources;
+  for (const auto& path : options.files) {
+    if (testing::is_no_program(path)) {
+      auto text = read_text(path);
+      if (!text)
+        return tl::unexpected(text.error());
+      sources.push_back({path, run::Language::Basic, // of no language; is_no_program() comes first
+                         Source(disk::display_name(path), *std::move(text))});
+      continue;
+    }
+    auto source = read_source(path, options.lang);
+    if (!source)
+      return tl::unexpected(source.error());
+    sources.push_back(*std::move(source));
+  }
+  return sources;
+}
+
+testing::Findings check_all(const Options& options, std::span<const SourceFile> sources) {
+  DiskFiles disk;
+  auto found = testing::check_files(sources, options.target.target(), options.macro, disk);
+  for (auto& file : found.files)
+    weigh(options.policy, file.diagnostics);
+  return found;
+}
+
+/// Makes the safe fixes of a file until none is left, and writes it back where one was made.
+bool fix_one(Context& context, const Options& options, SourceFile& input) {
+  const auto made = testing::fix(input, [&](const SourceFile& file) {
+    return check_all(options, {&file, 1}).files.front().diagnostics;
+  });
+  if (made == 0)
+    return true;
+  if (const auto written = disk::write(input.path, as_bytes(input.source.text())); !written) {
+    fail(context, {ExitCode::File, written.error().message});
+    return false;
+  }
+  print_note(context,
+             fmt::format("{}: {} fix{} made", input.source.name(), made, made == 1 ? "" : "es"));
+  return true;
+}
+
+/// The part of the documentation that explains a rule, as it was installed.
+std::string page_of(const std::vector<reference::Section>& sections, const Rule& rule) {
+  for (const auto& section : sections)
+    for (const auto& entry : section.entries)
+      if (entry.name == rule.id)
+        return fmt::format("{}/reference/{}.md#{}", ORB_DOCS, section.id, rule.id);
+  return {};
+}
+
+void print_findings(Context& context, const Options& options,
+                    const std::vector<FileFindings>& files) {
+  if (options.format == "json") {
+    print_out(render_json(files));
+  } else if (options.format == "sarif") {
+    const auto sections = reference::knowledge();
+    print_out(render_sarif(files, [&](const Rule& rule) { return page_of(sections, rule); }));
+  } else {
+    const auto style = context.out_style();
+    std::string out;
+    for (const auto& file : files)
+      for (const auto& diagnostic : file.diagnostics)
+        out += options.format == "gcc" ? render_gcc(*file.source, diagnostic)
+                                       : render_text(*file.source, diagnostic, style);
+    print_out(out);
+    if (options.format == "text" && ::isatty(STDOUT_FILENO) != 0)
+      print_out(render_summary(files));
+  }
+}
+
+void check(Context& context, const Options& options) {
+  if (!check_rules(context, options.policy))
+    return;
+  if (options.fix &&
+      std::find(options.files.begin(), options.files.end(), "-") != options.files.end()) {
+    return fail(context,
+                {ExitCode::Usage, "`--fix` writes files back; standard input is not a file"});
+  }
+  auto inputs = read_sources(options);
+  if (!inputs)
+    return fail(context, inputs.error());
+  for (auto& input : *inputs)
+    if (options.fix && !fix_one(context, options, input))
+      return;
+  auto found = check_all(options, *inputs);
+  auto& files = found.files;
+  if (count(files).errors > 0)
+    context.exit = ExitCode::BadInput;
+  const auto hidden = cut(options.policy, files);
+  print_findings(context, options, files);
+  if (hidden > 0)
+    print_note(context, fmt::format("{} more finding{} not shown; `--max-errors 0` shows all",
+                                    hidden, hidden == 1 ? " is" : "s are"));
+}
+
+} // namespace
+
+void add_check(CLI::App& app, Context& context) {
+  auto* command =
+      add_command(app, "check", "find the mistakes in programs, macros, courses and tests",
+                  "orb check square.bas\n"
+                  "orb check --target 1.2 --ram 1024 *.bas\n"
+                  "orb check --fix patrol.orb\n"
+                  "orb check parking.svg\n"
+                  "orb check --watch square.bas\n"
+                  "orb check --format sarif *.bas *.macro > findings.sarif");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
+  add_language_option(*command, options->lang);
+  add_target_options(*command, options->target);
+  command
+      ->add_option("--executive", options->macro.executive,
+                   "version of the ball's macro executive, for macro source")
+      ->check(whole_number(spec::macro_executive_oldest, spec::macro_executive_newest))
+      ->capture_default_str();
+  command->add_option("--format", options->format, "how findings are printed")
+      ->check(one_of({"text", "json", "sarif", "gcc"}))
+      ->capture_default_str();
+  add_policy_options(*command, options->policy);
+  command->add_flag("--fix", options->fix, "make the safe fixes and write the files back");
+  command->add_flag("--watch", options->watch, "check again whenever a file changes");
+  command->callback([&context, options] {
+    if (options->watch)
+      watch(
+          context, [&] { return files_of(options->files, options->lang); },
+          [&] { check(context, *options); });
+    else
+      check(context, *options);
+  });
+}
+
+} // namespace orb::cli

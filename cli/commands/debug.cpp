@@ -1,0 +1,120 @@
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/terminal/interrupt.h"
+#include "debug/launch.h"
+#include "debug/shell.h"
+#include "disk/disk.h"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+struct DebugOptions {
+  debug::Launch launch;
+  std::uint64_t seed = 1;
+  std::vector<std::string> commands;
+  bool disconnected = false;
+};
+
+class Terminal final : public debug::Console {
+public:
+  void print(std::string_view text) override { print_out(text); }
+  void say(std::string_view text) override { print_out(fmt::format("{}\n", text)); }
+};
+
+tl::expected<void, std::string> write_file(const std::string& name, std::string_view text) {
+  auto written = disk::write(name, as_bytes(text));
+  if (!written)
+    return tl::unexpected(written.error().message);
+  return {};
+}
+
+void obey(debug::Shell& shell, const std::string& line) {
+  const InterruptGuard guard; // Ctrl-C stops the program, not the debugger
+  shell.obey(line, [] { return InterruptGuard::asked(); });
+}
+
+ExitCode converse(debug::Shell& shell, const std::vector<std::string>& commands) {
+  constexpr std::string_view prompt = "(orb) ";
+  for (const auto& line : commands) {
+    print_out(fmt::format("{}{}\n", prompt, line));
+    obey(shell, line);
+  }
+  const bool terminal = ::isatty(STDIN_FILENO) != 0;
+  while (!shell.done()) {
+    if (terminal)
+      print_out(prompt);
+    std::string line;
+    if (!std::getline(std::cin, line))
+      break;
+    if (!terminal) // as a terminal would show it
+      print_out(fmt::format("{}{}\n", prompt, line));
+    obey(shell, line);
+  }
+  return ExitCode::Done;
+}
+
+void debug_it(Context& context, const DebugOptions& options) {
+  auto launch = options.launch;
+  if (launch.files.empty() && launch.test.empty())
+    return fail(context, {ExitCode::Usage, "name a program, or a test file with `--test`"});
+  if (!launch.test_name.empty() && launch.test.empty())
+    return fail(context,
+                {ExitCode::Usage, "`--only` names a test of the file that `--test` names"});
+  if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
+    return fail(context, {ExitCode::Usage, "`--test` brings its course and what happens: leave "
+                                           "`--course` and `--stimulus` out"});
+  launch.seed = options.seed;
+  if (options.disconnected)
+    launch.client = run::Client::Absent;
+  DiskFiles files;
+  const auto launched = debug::read(launch, files);
+  if (!launched)
+    return fail(context, launched.error());
+  Terminal terminal;
+  const auto debugger = debug::Debugger::start((*launched)->inputs, (*launched)->options, terminal);
+  if (!debugger)
+    return fail(context, debugger.error());
+  debug::Shell shell(**debugger, terminal, write_file);
+  shell.show_place();
+  context.exit = converse(shell, options.commands);
+}
+
+} // namespace
+
+void add_debug(CLI::App& app, Context& context) {
+  auto* command = add_command(
+      app, "debug", "run a program line by line on a virtual ball, forwards and backwards",
+      "orb debug patrol.orb\n"
+      "orb debug square.bas --stimulus 'at 2s shake'\n"
+      "orb debug --test corner.test --only 'stops at the wall'\n"
+      "orb debug square.bas --do 'b 40' --do c --do 'p X'");
+  auto options = std::make_shared<DebugOptions>();
+  auto& launch = options->launch;
+  command->add_option("FILE", launch.files, "a program, and macros that go along");
+  add_language_option(*command, launch.language);
+  add_stimulus_option(*command, launch.stimuli);
+  add_course_option(*command, launch.course);
+  command->add_option("--test", launch.test, "a test file: its world in place of one given here")
+      ->type_name("FILE.test");
+  command->add_option("--only", launch.test_name, "the one test of that file, by its name")
+      ->type_name("NAME");
+  command->add_option("--seed", options->seed, "where random numbers begin")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  command->add_option("--input", launch.numbers, "numbers for `input`")->delimiter(',');
+  command->add_flag("--disconnected", options->disconnected, "no client is connected");
+  command->add_option("--do", options->commands, "a command to begin with; may be given again")
+      ->allow_extra_args(false)
+      ->type_name("COMMAND");
+  command->callback([&context, options] { debug_it(context, *options); });
+}
+
+} // namespace orb::cli

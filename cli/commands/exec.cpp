@@ -1,0 +1,158 @@
+#include "base/suggest.h"
+#include "cli/commands.h"
+#include "cli/commands/monitor.h"
+#include "cli/json.h"
+#include "protocol/describe.h"
+#include "protocol/payload.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  PortOptions port;
+  std::string name;
+  std::vector<std::string> arguments;
+  std::string format = "text";
+  bool monitor = false;
+};
+
+const spec::CommandInfo* find(const Context& context, const std::string& name) {
+  if (const auto* row = spec::find_command(name))
+    return row;
+  std::vector<std::string_view> names;
+  for (const auto& row : spec::api_commands)
+    names.push_back(row.name);
+  print_error(context, fmt::format("`{}` is not a command of the API; {}", name,
+                                   did_you_mean(name, names, "`orb spec commands` lists them")));
+  return nullptr;
+}
+
+/// Puts what came as an answer to `command` into words or values.
+template <class Told>
+auto with_answer(spec::ApiCommand command, const protocol::Response& response, Told told) {
+  protocol::Describer describer;
+  const auto asked = protocol::make_command(command, {}, response.seq);
+  const auto question = encode(asked);
+  (void)describer.parts(item_of(asked, question)); // the answer's fields are those of the command
+  const auto packet = encode(response);
+  return told(describer, item_of(response, packet));
+}
+
+constexpr Duration patience = 60s; // a ball that levels itself takes its time
+
+/// The message that the answer to a command announces; null for most, and where it only stops.
+const spec::AsyncInfo* announced(spec::ApiCommand command, const Bytes& data) {
+  if (command == spec::ApiCommand::SelfLevel && (data.at(0) & spec::self_level_options::start) == 0)
+    return nullptr;
+  const auto ids = fmt::format("{:02X}h {:02X}h", spec::did(command), spec::cid(command));
+  const auto row = std::find_if(spec::asyncs.begin(), spec::asyncs.end(), [&](const auto& one) {
+    return one.arrival == spec::Arrival::AsAnswer && one.enabler == ids;
+  });
+  return row == spec::asyncs.end() ? nullptr : &*row;
+}
+
+/// Waits for a message; nothing where none came in time or the link broke.
+std::optional<protocol::Async> wait_for(uploader::Session& session, spec::AsyncId id) {
+  auto& inbox = session.inbox();
+  const auto find = [&] {
+    return std::find_if(inbox.begin(), inbox.end(), [&](const protocol::Async& one) {
+      return one.id == static_cast<std::uint8_t>(id);
+    });
+  };
+  static_cast<void>(
+      session.listen(session.now() + patience, [&] { return find() != inbox.end(); }));
+  const auto found = find();
+  if (found == inbox.end())
+    return std::nullopt;
+  auto message = *std::move(found);
+  inbox.erase(found);
+  return message;
+}
+
+/// A message on a line, or as it is where all of it is text.
+std::string in_words(const protocol::Async& message) {
+  const auto packet = encode(message);
+  const auto item = item_of(message, packet);
+  protocol::Describer describer;
+  const auto parts = describer.parts(item);
+  if (parts.fields.size() == 1 && !parts.fields[0].number && parts.rest.empty() &&
+      spec::fields(static_cast<spec::AsyncId>(message.id))[0].unit == "text")
+    return parts.fields[0].text;
+  return describer.describe(item) + "\n";
+}
+
+ExitCode print_answer(const Context& context, const Options& options, spec::ApiCommand command,
+                      const Bytes& data, const protocol::Response& answer,
+                      uploader::Session& session) {
+  const auto* more = announced(command, data);
+  const auto message = more == nullptr ? std::nullopt : wait_for(session, more->id);
+  if (options.format == "json") {
+    Json json{{"schema", "orb.exec/1"}};
+    with_answer(command, answer, [&](auto& describer, const protocol::Item& item) {
+      json.update(packet_json(describer, item));
+    });
+    if (message)
+      json["message"] = message_json(*message);
+    print_json(json);
+  } else {
+    with_answer(command, answer, [](auto& describer, const protocol::Item& item) {
+      print_out(describer.describe(item) + "\n");
+    });
+    if (message)
+      print_out(in_words(*message));
+  }
+  if (more == nullptr || message)
+    return ExitCode::Done;
+  print_error(context, fmt::format("the answer announces {}, but it never came", more->name));
+  return ExitCode::LinkLost;
+}
+
+void run(Context& context, const Options& options) {
+  const auto* row = find(context, options.name);
+  if (row == nullptr) {
+    context.exit = ExitCode::Usage;
+    return;
+  }
+  const auto data = protocol::encode_operands(row->command, options.arguments);
+  if (!data)
+    return fail(context, {ExitCode::Usage, data.error().message});
+  with_ball(context, options.port,
+            [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
+              const auto answer = request(session, row->command, *data);
+              if (!answer) {
+                print_error(context, answer.error().message);
+                return exit_code(answer.error().kind);
+              }
+              const auto told =
+                  print_answer(context, options, row->command, *data, *answer, session);
+              if (told == ExitCode::Done && options.monitor &&
+                  monitor(context, link, session, {}, options.format).lost)
+                return ExitCode::LinkLost;
+              return told;
+            });
+}
+
+} // namespace
+
+void add_exec(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "exec", "send one command of the API and print the answer",
+                              "orb exec --port /dev/rfcomm0 set-rgb-led 255 0 0\n"
+                              "orb exec --port @red get-power-state\n"
+                              "orb exec perform-level-1-diagnostics\n"
+                              "orb exec get-power-state --format json");
+  auto options = std::make_shared<Options>();
+  command->add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
+      ->required();
+  command->add_option("ARGS", options->arguments, "its operands");
+  add_port_options(*command, options->port);
+  add_format_option(*command, options->format);
+  command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command->callback([&context, options] { run(context, *options); });
+}
+
+} // namespace orb::cli

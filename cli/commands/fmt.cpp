@@ -1,0 +1,175 @@
+#include "assembler/layout.h"
+#include "assembler/lint.h"
+#include "assembler/rules.h"
+#include "base/render.h"
+#include "base/source.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/terminal/diff.h"
+#include "compiler/check.h"
+#include "compiler/renumber.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/print.h"
+#include "disk/disk.h"
+#include "structured/text/format.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string lang;
+  std::string renumber;
+  bool renumbers = false;
+  bool write = false;
+  bool check = false;
+  bool diff = false;
+};
+
+std::optional<std::uint32_t> read_number(std::string_view text) {
+  const auto value = parse_number<std::uint16_t>(text);
+  return value && *value > 0 ? std::optional<std::uint32_t>(*value) : std::nullopt;
+}
+
+/// `START:STEP`, or `START` alone.
+std::optional<compiler::Numbering> read_numbering(const std::string& text) {
+  if (text.empty())
+    return compiler::Numbering{};
+  const auto colon = text.find(':');
+  const auto start = read_number(std::string_view(text).substr(0, colon));
+  const auto step = colon == std::string::npos
+                        ? std::optional<std::uint32_t>(compiler::Numbering{}.step)
+                        : read_number(std::string_view(text).substr(colon + 1));
+  if (!start || !step)
+    return std::nullopt;
+  return compiler::Numbering{*start, *step};
+}
+
+/// The formatted text; nothing, and reported, where the file cannot be formatted.
+std::optional<std::string> format_text(Context& context, const Source& source,
+                                       const std::optional<compiler::Numbering>& numbering) {
+  auto checked = compiler::check(source.text(), {});
+  if (!checked.image_bytes) { // no program at all: empty, binary or far too large
+    for (const auto& diagnostic : checked.diagnostics)
+      print_err(render_text(source, diagnostic, context.err_style()));
+    context.exit = ExitCode::BadInput;
+    return std::nullopt;
+  }
+  if (!numbering)
+    return compiler::format(checked.program);
+  const auto result = compiler::renumber(checked.program, *numbering);
+  if (const auto* obstacle = std::get_if<compiler::Obstacle>(&result)) {
+    const auto place = source.position(obstacle->span.begin);
+    fail(context, {ExitCode::BadInput, fmt::format("{}:{}:{}: cannot renumber: {}", source.name(),
+                                                   place.line, place.column, obstacle->message)});
+    return std::nullopt;
+  }
+  const auto& text = std::get<std::string>(result);
+  return compiler::format(compiler::parse(text));
+}
+
+/// The same for a structured program, which has no numbers.
+std::optional<std::string> format_structured(Context& context, const Source& source) {
+  if (const auto refused = compiler::refuse_text(source.text())) {
+    print_err(render_text(source, *refused, context.err_style()));
+    context.exit = ExitCode::BadInput;
+    return std::nullopt;
+  }
+  return structured::format(source.text());
+}
+
+/// The same for macro source, whose statements keep their order and their remarks.
+std::optional<std::string> format_macro(Context& context, const Source& source) {
+  namespace rules = assembler::rules;
+  for (const auto& diagnostic : assembler::check(source))
+    for (const auto* rule : {&rules::EmptyFile, &rules::BinaryFile, &rules::SourceTooLarge})
+      if (diagnostic.rule == rule) {
+        print_err(render_text(source, diagnostic, context.err_style()));
+        context.exit = ExitCode::BadInput;
+        return std::nullopt;
+      }
+  return assembler::layout(source.text());
+}
+
+void run_one(Context& context, const Options& options, const std::string& path,
+             const std::optional<compiler::Numbering>& numbering) {
+  const auto file = read_source(path, options.lang);
+  if (!file)
+    return fail(context, file.error());
+  const auto& source = file->source;
+  if (file->language != run::Language::Basic && numbering)
+    return fail(context, {ExitCode::Usage, fmt::format("{}: {} have no line numbers", source.name(),
+                                                       file->language == run::Language::Macro
+                                                           ? "macros"
+                                                           : "structured programs")});
+  const auto formatted = [&] {
+    switch (file->language) {
+    case run::Language::Basic: return format_text(context, source, numbering);
+    case run::Language::Structured: return format_structured(context, source);
+    case run::Language::Macro: break;
+    }
+    return format_macro(context, source);
+  }();
+  if (!formatted)
+    return;
+  const bool changed = *formatted != source.text();
+  if (options.diff)
+    print_out(unified_diff(source.name(), source.text(), *formatted));
+  if (options.check && changed) {
+    print_note(context, fmt::format("{} would change", source.name()));
+    context.exit = ExitCode::BadInput;
+  }
+  if (options.write && changed) {
+    if (const auto written = disk::write(path, as_bytes(*formatted)); !written)
+      fail(context, {ExitCode::File, written.error().message});
+  }
+  if (!options.diff && !options.check && !options.write)
+    print_out(*formatted);
+}
+
+void format_all(Context& context, const Options& options) {
+  std::optional<compiler::Numbering> numbering;
+  if (options.renumbers) {
+    numbering = read_numbering(options.renumber);
+    if (!numbering)
+      return fail(context,
+                  {ExitCode::Usage,
+                   fmt::format("`--renumber={}` is not START:STEP, as in `--renumber=100:10`",
+                               options.renumber)});
+  }
+  for (const auto& path : options.files)
+    run_one(context, options, path, numbering);
+}
+
+} // namespace
+
+void add_fmt(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "fmt", "format programs and macros",
+                              "orb fmt square.bas\n"
+                              "orb fmt -w *.bas *.orb\n"
+                              "orb fmt --renumber=100:10 --diff square.bas");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
+  add_language_option(*command, options->lang);
+  auto* write = command->add_flag("-w,--write", options->write, "write the files back");
+  auto* check = command->add_flag("--check", options->check,
+                                  "write nothing; exit 1 where a file would change");
+  auto* diff = command->add_flag("--diff", options->diff, "print the change as a unified diff");
+  write->excludes(check);
+  write->excludes(diff);
+  auto* renumber =
+      command->add_option("--renumber", options->renumber,
+                          "new line numbers START, START+STEP…, and every jump with them (10:10)");
+  renumber->expected(0, 1)->type_name("START:STEP");
+  command->callback([&context, options, renumber] {
+    options->renumbers = renumber->count() > 0;
+    format_all(context, *options);
+  });
+}
+
+} // namespace orb::cli

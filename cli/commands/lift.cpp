@@ -1,0 +1,53 @@
+#include "structured/lift/lift.h"
+
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "disk/disk.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string out = "-";
+};
+
+void lift(Context& context, const Options& options) {
+  const auto language = run::language_of(options.file, "").value_or(run::Language::Basic);
+  if (language != run::Language::Basic)
+    return fail(context,
+                {ExitCode::Usage,
+                 fmt::format("{} is {}; `orb lift` takes programs with line numbers (`.bas`)",
+                             disk::display_name(options.file),
+                             language == run::Language::Macro ? "a macro" : "structured already")});
+  const auto file = read_source(options.file, "basic");
+  if (!file)
+    return fail(context, file.error());
+  const auto& source = file->source;
+  const auto lifted = structured::lift(compiler::check(source.text(), {}));
+  if (print_findings(context, source, lifted.findings)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
+  if (const auto written = disk::write(options.out, as_bytes(lifted.text)); !written)
+    fail(context, {ExitCode::File, written.error().message});
+}
+
+} // namespace
+
+void add_lift(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "lift", "turn a numbered program into a structured one",
+                              "orb lift maze.bas -o maze.orb\n"
+                              "orb lift maze.bas | less");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "a numbered program; `-` is standard input")
+      ->required();
+  command->add_option("-o,--output", options->out,
+                      "where the structured program goes; standard output if missing");
+  command->callback([&context, options] { lift(context, *options); });
+}
+
+} // namespace orb::cli

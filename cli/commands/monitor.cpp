@@ -1,0 +1,206 @@
+#include "cli/commands/monitor.h"
+
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/json.h"
+#include "cli/terminal/interrupt.h"
+#include "disk/disk.h"
+#include "protocol/describe.h"
+#include "protocol/payload.h"
+#include "spec/basic.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace orb::cli {
+namespace {
+
+using protocol::Async;
+using protocol::LinkError;
+using spec::AsyncId;
+
+/// How long the built-in ball may be silent before it is asked whether anything still runs.
+constexpr Duration look = 100ms;
+
+bool is(const Async& message, AsyncId id) {
+  return message.id == static_cast<std::uint8_t>(id);
+}
+
+/// What a ball says of a fault: the line, and a number that its table may not have.
+struct Reported {
+  std::uint16_t line = 0;
+  std::uint16_t code = 0;
+};
+
+std::optional<Reported> fault_in(const Async& message) {
+  if (!is(message, AsyncId::BasicError))
+    return std::nullopt;
+  const auto fields = protocol::read_fields(spec::fields(AsyncId::BasicError), message.data);
+  if (fields.size() != 2)
+    return std::nullopt;
+  return Reported{static_cast<std::uint16_t>(fields[0].number),
+                  static_cast<std::uint16_t>(fields[1].number)};
+}
+
+/// What the source says of a fault; nothing where there is none to look into.
+std::optional<run::ProgramError> explain(const Reported& reported, const Lookup& lookup) {
+  const auto known = spec::find_error(reported.code);
+  if (!known || lookup.input == nullptr)
+    return std::nullopt;
+  return run::explain(*lookup.input, {}, reported.line, *known, nullptr);
+}
+
+std::string place(const run::LineMap& lines, std::uint32_t robot_line) {
+  const auto words = lines.words(robot_line);
+  return words.empty() ? words : words + ": ";
+}
+
+/// Prints the fault that a ball reports: its number alone where the robot's table has no such.
+void print_fault(const Context& context, const Lookup& lookup, const Reported& reported) {
+  if (const auto fault = explain(reported, lookup)) {
+    print_fault(context, *fault);
+    return;
+  }
+  const auto known = spec::find_error(reported.code);
+  const auto where = place(lookup.lines, reported.line);
+  const bool named = !where.empty() && lookup.lines.known == run::Known::FileAndColumn;
+  print_err(fmt::format("{}{}: {}{}\n", where, context.err_style().paint(Role::Error, "error"),
+                        named ? std::string() : fmt::format("line {}: ", reported.line),
+                        known ? std::string(spec::info(*known).text)
+                              : fmt::format("error {:02X}h", reported.code)));
+}
+
+/// A message as JSON; a fault has its place and cause as well.
+void print_json_message(const Async& message, const Lookup& lookup, Watched& watched) {
+  auto json = message_json(message);
+  const auto reported = fault_in(message);
+  watched.faulted |= reported.has_value();
+  if (const auto fault = reported ? explain(*reported, lookup) : std::nullopt) {
+    json["file"] = fault->file;
+    json["line"] = fault->place.line;
+    json["column"] = fault->place.column;
+    if (!fault->cause.seen.empty())
+      json["detail"] = fault->cause.seen;
+    if (const auto& help = run::help_of(*fault); !help.empty())
+      json["help"] = help;
+  }
+  print_json(json);
+}
+
+void print_message(const Context& context, const Async& message, const Lookup& lookup,
+                   Watched& watched) {
+  if (is(message, AsyncId::BasicPrint)) {
+    print_out(as_text(message.data));
+    return;
+  }
+  if (is(message, AsyncId::BasicErrorText))
+    return; // comes in binary too
+  if (const auto reported = fault_in(message)) {
+    watched.faulted = true;
+    print_fault(context, lookup, *reported);
+    return;
+  }
+  const auto packet = encode(message);
+  protocol::Describer describer;
+  print_out(describer.describe(item_of(message, packet)) + "\n");
+}
+
+} // namespace
+
+void print_fault(const Context& context, const run::ProgramError& fault) {
+  print_err(run::render(fault, context.err_style()));
+}
+
+Watched monitor(const Context& context, Link& link, uploader::Session& session,
+                const Lookup& lookup, std::string_view format) {
+  Watched watched;
+  auto& inbox = session.inbox();
+  while (true) {
+    while (!inbox.empty()) {
+      if (format == "json")
+        print_json_message(inbox.front(), lookup, watched);
+      else
+        print_message(context, inbox.front(), lookup, watched);
+      inbox.pop_front();
+    }
+    const auto resting = link.is_sim && link.ball->idle();
+    const auto heard = session.listen(session.now() + look, [&] { return !inbox.empty(); });
+    if (!heard) {
+      const auto why = heard.error().link.kind;
+      watched.lost = why != LinkError::Kind::Interrupted && why != LinkError::Kind::Ended;
+      if (watched.lost)
+        print_error(context, heard.error().link.message);
+      return watched;
+    }
+    if (resting && inbox.empty())
+      return watched;
+  }
+}
+
+namespace {
+
+struct Options {
+  PortOptions port;
+  std::string map;
+  std::string format = "text";
+};
+
+tl::expected<run::LineMap, Failure> read_map(const std::string& path) {
+  const auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  auto map = run::parse_line_map(*text);
+  if (!map)
+    return tl::unexpected(
+        Failure{ExitCode::File, fmt::format("{} is not a map that `orb build --map` wrote", path)});
+  return *std::move(map);
+}
+
+/// The program that a map is of; nothing where it is not there any more, or where the map says the
+/// place of a line better than the source, which has no numbers.
+std::vector<run::Input> read_program(const run::LineMap& map) {
+  if (map.files.empty() || map.known == run::Known::FileAndColumn)
+    return {};
+  auto inputs = read_inputs({map.files.front()}, "basic", {}, run::Lint::Off);
+  return inputs && inputs->front().program ? *std::move(inputs) : std::vector<run::Input>();
+}
+
+void listen(Context& context, const Options& options) {
+  Lookup lookup;
+  std::vector<run::Input> inputs;
+  if (!options.map.empty()) {
+    auto map = read_map(options.map);
+    if (!map)
+      return fail(context, map.error());
+    lookup.lines = *std::move(map);
+    inputs = read_program(lookup.lines);
+    lookup.input = inputs.empty() ? nullptr : &inputs.front();
+  }
+  with_ball(context, options.port,
+            [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
+              print_note(context, "listening; Ctrl-C ends");
+              return monitor(context, link, session, lookup, options.format).lost
+                         ? ExitCode::LinkLost
+                         : ExitCode::Done;
+            });
+}
+
+} // namespace
+
+void add_monitor(CLI::App& app, Context& context) {
+  auto* command =
+      add_command(app, "monitor", "print what a ball says: prints, errors, markers, collisions",
+                  "orb monitor --port /dev/rfcomm0\n"
+                  "orb monitor --port @red --map square.json");
+  auto options = std::make_shared<Options>();
+  add_port_options(*command, options->port);
+  add_format_option(*command, options->format);
+  command
+      ->add_option("--map", options->map,
+                   "a map written by `orb build --map`: errors then point into the source")
+      ->type_name("FILE");
+  command->callback([&context, options] { listen(context, *options); });
+}
+
+} // namespace orb::cli

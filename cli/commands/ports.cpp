@@ -1,0 +1,201 @@
+#include "cli/commands/ports.h"
+
+#include "base/duration.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/json.h"
+#include "cli/save_ball.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/progress_bar.h"
+#include "spec/ble.h"
+#include "uploader/bluez.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Pattern {
+  std::string_view prefix; ///< of the name below /dev
+  std::string_view what;
+};
+
+constexpr std::string_view device_folder = "/dev";
+constexpr Pattern patterns[] = {
+    {"rfcomm", "Bluetooth serial port (rfcomm bind)"},
+    {"cu.Sphero", "Bluetooth serial port of a paired Sphero"},
+    {"cu.BB-8", "Bluetooth serial port of a paired BB-8"},
+    {"ttyUSB", "USB serial adapter"},
+    {"ttyACM", "USB modem or microcontroller"},
+};
+
+} // namespace
+
+std::vector<Port> find_ports(const Config& config) {
+  std::vector<Port> ports;
+  for (const auto& [name, url] : config.balls)
+    ports.push_back({"@" + name, url});
+  std::vector<Port> devices;
+  std::error_code error;
+  for (fs::directory_iterator entry(device_folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto name = entry->path().filename().string();
+    for (const auto& pattern : patterns)
+      if (name.starts_with(pattern.prefix) && entry->is_character_file(error))
+        devices.push_back({entry->path().string(), std::string(pattern.what)});
+  }
+  std::sort(devices.begin(), devices.end(),
+            [](const Port& a, const Port& b) { return a.url < b.url; });
+  ports.insert(ports.end(), devices.begin(), devices.end());
+  return ports;
+}
+
+namespace {
+
+struct Options {
+  std::string format = "text";
+  std::string scan = "5s";
+  std::vector<std::string> saved;
+};
+
+/// A robot that can be flashed comes by its name, where it is the only one of that name. Who has
+/// given it another one is told so.
+Json describe(const Config& config, const uploader::SeenDevice& device,
+              const std::vector<uploader::SeenDevice>& all) {
+  const auto* robot = spec::find_ble_name(device.name);
+  const auto same = std::ranges::count(all, device.name, &uploader::SeenDevice::name);
+  const auto by_name = robot != nullptr && same == 1;
+  auto what = robot != nullptr ? std::string(robot->robot) : std::string("no robot");
+  if (device.rssi)
+    what += fmt::format(", {} dBm", *device.rssi);
+  what += by_name ? ", " + device.address : device.name.empty() ? "" : ", " + device.name;
+  for (const auto& [name, url] : config.balls)
+    if (equal_words(url, "ble://" + device.name) || equal_words(url, "ble://" + device.address))
+      what += ", @" + name;
+  if (device.connected)
+    what += ", connected to this computer";
+  if (robot != nullptr && robot->protocol == spec::BleProtocol::V2)
+    what += ": speaks the newer protocol, which orb does not";
+  Json json{{"url", "ble://" + (by_name ? device.name : device.address)}, {"what", what}};
+  if (device.rssi)
+    json["rssi"] = *device.rssi;
+  return json;
+}
+
+/// Listens for robots over Bluetooth LE. Why that cannot be is a note; only an interruption fails.
+tl::expected<std::vector<uploader::SeenDevice>, Failure> scan(const Context& context,
+                                                              Duration time) {
+  using namespace std::chrono;
+  if (time == Duration{})
+    return {};
+  const InterruptGuard guard;
+  CountBar bar(context, "seconds of listening for Bluetooth LE");
+  const auto start = steady_clock::now();
+  auto devices = uploader::scan_ble(time, {}, InterruptGuard::asked, [&](std::size_t) {
+    bar.show(
+        static_cast<std::uint64_t>(duration_cast<seconds>(steady_clock::now() - start).count()),
+        static_cast<std::uint64_t>(ceil<seconds>(time).count()));
+  });
+  if (devices)
+    return *std::move(devices);
+  if (devices.error().failure == uploader::BleFailure::Interrupted)
+    return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
+  print_note(context, fmt::format("nobody listened for Bluetooth LE: {}; {}", devices.error().seen,
+                                  remedy(devices.error().failure)));
+  return {};
+}
+
+/// Robots first; what is none is counted, and listed with -v.
+void add_robots(const Context& context, const std::vector<uploader::SeenDevice>& devices,
+                Json& ports) {
+  std::size_t others = 0;
+  for (const auto& device : devices)
+    if (spec::find_ble_name(device.name) != nullptr)
+      ports.push_back(describe(context.config, device, devices));
+    else
+      ++others;
+  if (others == 0)
+    return;
+  if (context.verbosity == 0)
+    return print_note(context, fmt::format("{} that no robot is named like; -v lists them",
+                                           plural(others, "other device")));
+  for (const auto& device : devices)
+    if (spec::find_ble_name(device.name) == nullptr)
+      ports.push_back(describe(context.config, device, devices));
+}
+
+void list(Context& context, const Options& options) {
+  const auto devices = scan(context, *parse_duration(options.scan, 1s)); // the option is checked
+  if (!devices)
+    return fail(context, devices.error());
+  auto ports = Json::array();
+  for (const auto& port : find_ports(context.config))
+    ports.push_back({{"url", port.url}, {"what", port.what}});
+  add_robots(context, *devices, ports);
+  const bool none = ports.empty();
+  ports.push_back({{"url", "sim:"}, {"what", "a ball in this process"}});
+  if (options.format == "json")
+    return print_json({{"schema", "orb.ports/1"}, {"ports", ports}});
+  for (const auto& port : ports)
+    print_out(fmt::format("{:<16} {}\n", port["url"].get<std::string>(),
+                          port["what"].get<std::string>()));
+  if (none)
+    print_note(context, "no serial port was found; for a paired Sphero make one with `sudo rfcomm "
+                        "bind 0 AA:BB:CC:DD:EE:FF 1`, or use its address: "
+                        "rfcomm://AA:BB:CC:DD:EE:FF");
+}
+
+/// Gives a port a name in the user's configuration.
+void save(Context& context, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == assignment.npos || equals + 1 == assignment.size())
+    return fail(context, {ExitCode::Usage, fmt::format("`{}` names no port; write `--save "
+                                                       "red=ble://SK-1A2B`",
+                                                       assignment)});
+  const auto name = assignment.substr(0, equals);
+  const auto url = assignment.substr(equals + 1);
+  if (const auto endpoint = uploader::parse_endpoint(url); !endpoint)
+    return fail(context, {ExitCode::Usage, endpoint.error()});
+  const auto file = save_ball(name, url);
+  if (!file)
+    return fail(context, file.error());
+  print_note(context, fmt::format("@{} is {} from now on: {}", name, url, *file));
+}
+
+} // namespace
+
+void add_ports(CLI::App& app, Context& context) {
+  auto* command = add_command(app, "ports", "list where a ball could be, and give it a name",
+                              "orb ports\norb ports --scan 20s\norb ports --format json\n"
+                              "orb ports --save red=ble://SK-1A2B");
+  auto options = std::make_shared<Options>();
+  add_format_option(*command, options->format);
+  command
+      ->add_option("--scan", options->scan,
+                   "how long to listen for robots over Bluetooth LE; 0 for not at all")
+      ->type_name("TIME")
+      ->check([](const std::string& text) {
+        return parse_duration(text, 1s) ? std::string()
+                                        : "`" + text + "` is not a time such as 5s or 500ms";
+      })
+      ->capture_default_str();
+  command
+      ->add_option("--save", options->saved,
+                   "from now on @NAME is this port; several can be saved at once")
+      ->type_name("NAME=URL");
+  command->callback([&context, options] {
+    for (const auto& assignment : options->saved)
+      if (context.exit == ExitCode::Done)
+        save(context, assignment);
+    if (options->saved.empty())
+      list(context, *options);
+  });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,467 @@
+#include "run/run.h"
+#include "base/duration.h"
+#include "cli/commands.h"
+#include "cli/commands/monitor.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/target.h"
+#include "cli/terminal/browser.h"
+#include "cli/terminal/watch.h"
+#include "disk/disk.h"
+#include "report/page.h"
+#include "report/reload.h"
+#include "report/svg.h"
+#include "run/trace.h"
+#include "run/want.h"
+#include "spec/firmware.h"
+#include "structured/text/words.h"
+
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <thread>
+#include <unistd.h>
+
+namespace orb::cli {
+
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> files;
+  std::string language;
+  std::string time = "60s";
+  std::string input;
+  std::string native = "auto";
+  std::string firmware = std::string(spec::info(spec::default_firmware).name);
+  std::vector<std::string> stimuli;
+  std::string course;
+  std::string trace;
+  std::string trace_out;
+  std::string report;
+  std::string compare;
+  std::string svg;
+  TargetOptions target;
+  bool disconnected = false;
+  bool realtime = false;
+  bool watch = false;
+  bool open = false;
+  run::Options run;
+
+  /// The trace's format; nothing where there is no trace.
+  std::optional<report::TraceFormat> format() const {
+    if (trace.empty() && trace_out.empty())
+      return std::nullopt;
+    const bool csv = trace == "csv" || (trace.empty() && trace_out.ends_with(".csv"));
+    return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
+  }
+};
+
+constexpr std::string_view from_stdin = "@stdin";
+
+/// Prints what the program prints, or its trace, and waits where the robot would take its time.
+class Console final : public run::Listener {
+public:
+  Console(const RunOptions& options, const std::vector<run::Input>& inputs) : options_(options) {
+    if (const auto format = options.format())
+      trace_.emplace(*format,
+                     options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
+                     inputs, [this](std::string_view text) { put(text); });
+  }
+
+  void on_event(Duration t, const vm::Event& event) override {
+    if (const auto* print = std::get_if<vm::event::Print>(&event);
+        print != nullptr && (!trace_ || !options_.trace_out.empty()))
+      print_out(print->text);
+    if (trace_)
+      trace_->add(t, event);
+  }
+
+  void on_fault(Duration t, const run::ProgramError& fault) override {
+    if (trace_)
+      trace_->add(t, fault);
+  }
+
+  void on_time(Duration t) override {
+    if (!options_.realtime)
+      return;
+    std::this_thread::sleep_until(start_ + t);
+  }
+
+  std::optional<std::int32_t> ask_number() override {
+    std::int32_t value = 0;
+    if (options_.input == from_stdin && std::cin >> value)
+      return value;
+    return std::nullopt;
+  }
+
+  tl::expected<void, IoError> finish(const run::Ending& ending) {
+    if (trace_)
+      trace_->finish(ending);
+    return options_.trace_out.empty() ? tl::expected<void, IoError>()
+                                      : disk::write(options_.trace_out, as_bytes(text_));
+  }
+
+private:
+  void put(std::string_view text) {
+    if (options_.trace_out.empty())
+      print_out(text);
+    else
+      text_ += text;
+  }
+
+  const RunOptions& options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<run::Trace> trace_;
+  std::string text_; ///< of a trace that goes to a file, which appears whole at the end
+};
+
+/// `1,2,-3`; nothing where that is not a list of 32-bit numbers.
+std::optional<std::vector<std::int32_t>> read_numbers(std::string_view text) {
+  std::vector<std::int32_t> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (;;) {
+    std::int32_t value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc{})
+      return std::nullopt;
+    numbers.push_back(value);
+    if (next == end)
+      return numbers;
+    if (*next != ',')
+      return std::nullopt;
+    at = next + 1;
+  }
+}
+
+tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
+  return tl::unexpected(Failure{code, std::move(message)});
+}
+
+/// What the words of the command line mean.
+tl::expected<run::Options, Failure> read_options(const Context& context, const RunOptions& given) {
+  auto options = given.run;
+  const auto time = parse_duration(given.time, 1s);
+  if (!time)
+    return refuse(ExitCode::Usage, fmt::format("`--for {}` is not a time; write it like 90s, 500ms "
+                                               "or 2min",
+                                               given.time));
+  options.bound = *time;
+  if (!given.input.empty() && given.input != from_stdin) {
+    auto numbers = read_numbers(given.input);
+    if (!numbers)
+      return refuse(
+          ExitCode::Usage,
+          fmt::format("`--input {}` is not a list of numbers such as 1,2,3", given.input));
+    options.numbers = *std::move(numbers);
+  }
+  options.firmware = spec::find_firmware(given.firmware)->firmware; // the option is checked
+  options.native = given.native == "on"    ? vm::Native::On
+                   : given.native == "off" ? vm::Native::Off
+                                           : vm::Native::Auto;
+  options.client = given.disconnected ? run::Client::Absent : run::Client::Connected;
+  options.target = given.target.target();
+  if (given.target.ram != 0)
+    options.ram_bytes = static_cast<std::size_t>(given.target.ram);
+  constexpr Duration frame = 20ms;
+  if (given.realtime)
+    options.slice = frame;
+  options.asks = given.input == from_stdin ? run::Asks::Yes : run::Asks::No;
+  auto stimuli = read_stimuli(context, given.stimuli);
+  if (!stimuli)
+    return tl::unexpected(stimuli.error());
+  options.stimuli = *std::move(stimuli);
+  return options;
+}
+
+/// The run of the page to compare with; empty where none is given.
+tl::expected<std::string, Failure> read_before(const RunOptions& options) {
+  if (options.compare.empty())
+    return std::string();
+  const auto page = disk::read(options.compare);
+  if (!page)
+    return refuse(ExitCode::File, page.error().message);
+  auto run = report::run_of_page(*page);
+  if (!run)
+    return refuse(ExitCode::Usage, fmt::format("{} is not a page of `orb run --report`",
+                                               disk::display_name(options.compare)));
+  return *std::move(run);
+}
+
+tl::expected<void, IoError>
+write_pictures(const RunOptions& options, const report::Journey& journey, std::string_view before) {
+  if (!options.report.empty()) {
+    auto page = report::report_page(journey, disk::display_name(options.files.front()), before,
+                                    structured::keyword_words);
+    if (options.watch)
+      page = report::reloading(std::move(page));
+    if (auto done = disk::write(options.report, as_bytes(page)); !done)
+      return done;
+  }
+  return options.svg.empty() ? tl::expected<void, IoError>()
+                             : disk::write(options.svg, as_bytes(report::path_svg(journey)));
+}
+
+/// Where the run can be seen, or how it could be; empty where there is nothing to see.
+std::string where_to_look(const RunOptions& options, const run::Sight& sight) {
+  if (options.open || (sight.way_cm == 0 && !sight.turned && !sight.color))
+    return "";
+  return fmt::format("; {} shows it", options.report.empty() ? "--open" : options.report);
+}
+
+void tell(const Context& context, const RunOptions& options, const run::Ending& ending) {
+  const auto story = run::story(ending);
+  if (!story.empty())
+    print_note(context, story + where_to_look(options, ending.sight));
+  print_note(context, run::to_string(ending));
+}
+
+/// How the run ended by what it printed, where the user looked for something.
+tl::expected<void, Failure> judge(const RunOptions& options, const run::Ending& ending) {
+  if (ending.seen == run::Sought::Forbidden)
+    return refuse(ExitCode::BadInput,
+                  fmt::format("the program printed `{}`", options.run.fail_text));
+  if (!options.run.expect.empty() && ending.seen != run::Sought::Expected)
+    return refuse(ExitCode::BadInput,
+                  fmt::format("the program never printed `{}`", options.run.expect));
+  return {};
+}
+
+/// Tells `perf report` which lines the machine code of this process belongs to, in the form that it
+/// looks for: /tmp/perf-PID.map, lines of `START SIZE NAME` with hexadecimal numbers.
+void write_perf_map(const Context& context, std::span<const vm::NativeCode::Piece> pieces) {
+  if (std::getenv("ORB_PERF_MAP") == nullptr || pieces.empty())
+    return;
+  std::string text;
+  for (const auto& piece : pieces)
+    text += fmt::format("{:x} {:x} orbBasic {}\n", reinterpret_cast<std::uintptr_t>(piece.address),
+                        piece.size,
+                        piece.line == 0 ? "entry and exit" : fmt::format("line {}", piece.line));
+  const auto path = fmt::format("/tmp/perf-{}.map", getpid());
+  if (const auto written = disk::write(path, as_bytes(text)); !written)
+    print_note(context, written.error().message); // perf shows addresses then; the run is good
+}
+
+/// Opens the report. That this failed does not change how the run ended.
+void show(const Context& context, const RunOptions& options) {
+  if (const auto shown = show_in_browser(options.report); !shown)
+    print_error(context, shown.error());
+}
+
+/// A name for a report that was given none: in a folder of its own, which stays for the browser.
+tl::expected<std::string, Failure> temporary_report(const std::string& program) {
+  std::error_code problem;
+  const auto folder = std::filesystem::temp_directory_path(problem);
+  auto own = (folder / "orb-XXXXXX").string();
+  if (problem || ::mkdtemp(own.data()) == nullptr)
+    return refuse(ExitCode::File, fmt::format("cannot make a folder for the report in {}; name a "
+                                              "file with `--report`",
+                                              folder.empty() ? "/tmp" : folder.string()));
+  const auto name = program == "-" ? "run" : std::filesystem::path(program).stem().string();
+  return fmt::format("{}/{}.html", own, name);
+}
+
+/// Reads the course, where one is given, into `course`, which the options refer to from then on.
+tl::expected<void, Failure> take_course(const Context& context, const std::string& path,
+                                        std::optional<report::Course>& course,
+                                        run::Options& options) {
+  if (path.empty())
+    return {};
+  auto read = read_course(context, path);
+  if (!read)
+    return tl::unexpected(read.error());
+  course = *std::move(read);
+  options.course = &*course;
+  return {};
+}
+
+tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
+  auto options = read_options(context, given);
+  if (!options)
+    return tl::unexpected(options.error());
+  const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
+  if (!inputs)
+    return tl::unexpected(inputs.error());
+  for (const auto& input : *inputs)
+    if (input.has_errors()) {
+      print_findings(context, input);
+      return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name()));
+    }
+  const auto before = read_before(given);
+  if (!before)
+    return tl::unexpected(before.error());
+  if (auto numbered = run::check_start_line(*inputs, options->line); !numbered)
+    return tl::unexpected(numbered.error());
+  std::optional<report::Course> course;
+  if (auto done = take_course(context, given.course, course, *options); !done)
+    return done;
+  if (const auto want = run::want(*inputs, *options))
+    print_note(context, "hint: " + want->advice);
+  Console console(given, *inputs);
+  std::optional<report::Journey> journey;
+  if (!given.report.empty() || !given.svg.empty())
+    journey.emplace();
+  const auto ending = run::run(*inputs, *options, console, journey ? &*journey : nullptr);
+  if (!ending)
+    return tl::unexpected(ending.error());
+  auto written = console.finish(*ending);
+  for (const auto& fault : ending->faults)
+    print_fault(context, fault);
+  if (written && journey)
+    written = write_pictures(given, *journey, *before);
+  if (!written)
+    return refuse(ExitCode::File, written.error().message);
+  tell(context, given, *ending);
+  if (!ending->only_interpreted.empty() && context.verbosity > 0)
+    print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
+  write_perf_map(context, ending->machine_code);
+  if (given.open && !given.watch)
+    show(context, given);
+  if (auto good = judge(given, *ending); !good)
+    return good;
+  if (!ending->aborted.empty())
+    return refuse(ExitCode::BadInput, ending->aborted);
+  if (!ending->faults.empty())
+    context.exit = ExitCode::BadInput;
+  return {};
+}
+
+void run_and_report(Context& context, const RunOptions& options) {
+  if (const auto done = run_files(context, options); !done)
+    fail(context, done.error());
+}
+
+void run_and_watch(Context& context, const RunOptions& options) {
+  const auto files = [&] {
+    auto all = files_of(options.files, options.language);
+    for (const auto& stimulus : options.stimuli)
+      if (!is_stimulus_line(stimulus))
+        all.push_back(stimulus);
+    if (!options.course.empty())
+      all.push_back(options.course);
+    return all;
+  };
+  const auto written = [&] {
+    std::error_code absent;
+    return std::filesystem::last_write_time(options.report, absent);
+  };
+  const auto before = written();
+  bool shown = !options.open;
+  watch(
+      context, files, [&] { run_and_report(context, options); },
+      [&] {
+        if (shown || written() == before)
+          return; // the page reloads itself, or there is none yet
+        shown = true;
+        show(context, options);
+      });
+}
+
+/// Runs once or at every change, and sees to the page that its options ask for.
+void run_with_report(Context& context, RunOptions& options) {
+  if (options.open && options.report == "-")
+    return fail(context,
+                {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` out"});
+  const bool temporary = options.open && options.report.empty();
+  if (temporary) {
+    auto report = temporary_report(options.files.front());
+    if (!report)
+      return fail(context, report.error());
+    options.report = *std::move(report);
+  }
+  if (!options.compare.empty() && options.report.empty())
+    return fail(context, {ExitCode::Usage,
+                          "`--compare` shows a report; add `--report OUT.html` or `--open`"});
+  (options.watch ? run_and_watch : run_and_report)(context, options);
+  if (std::error_code not_empty; temporary)
+    std::filesystem::remove(std::filesystem::path(options.report).parent_path(), not_empty);
+}
+
+void add_program_options(CLI::App& command, RunOptions& options) {
+  command.add_option("FILE", options.files, "programs and macros; the first one runs")->required();
+  add_language_option(command, options.language);
+  command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")
+      ->capture_default_str();
+  command
+      .add_option("--line", options.run.line, "the line to start at; else the first of the file")
+      ->check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
+                           spec::value_of(spec::Limit::GreatestLineNumber)));
+  command.add_option("--seed", options.run.seed, "seeds all random choices")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  command.add_option(
+      "--input", options.input,
+      "numbers for `input`, separated by commas; @stdin reads them as they are asked for");
+  command.add_flag("--disconnected", options.disconnected, "no client is connected");
+  command.add_option("--expect", options.run.expect,
+                     "text that must be printed; ends the run, exit 0; never printed: exit 1");
+  command.add_option("--fail-text", options.run.fail_text,
+                     "text that must not be printed; ends the run, exit 1");
+}
+
+void add_robot_options(CLI::App& command, RunOptions& options) {
+  add_target_options(command, options.target);
+  std::vector<std::string> names;
+  for (const auto& row : spec::firmwares)
+    names.emplace_back(row.name);
+  command.add_option("--firmware", options.firmware, "the firmware that is simulated")
+      ->check(one_of(std::move(names)))
+      ->capture_default_str();
+  add_stimulus_option(command, options.stimuli);
+  add_course_option(command, options.course);
+  command
+      .add_option("--lines-per-second", options.run.lines_per_second,
+                  "how fast the robot's interpreter is, 1 to 1000000000")
+      ->check(whole_number(1, 1'000'000'000))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--native", options.native,
+          "when programs become machine code: auto (once they have run for a while), on (at "
+          "once) or off")
+      ->check(one_of({"auto", "on", "off"}))
+      ->capture_default_str();
+  command.add_flag("--realtime", options.realtime, "takes as long as the robot would");
+}
+
+void add_output_options(CLI::App& command, RunOptions& options) {
+  command.add_option("--trace", options.trace, "every event as a line, in place of the output")
+      ->check(one_of({"json", "csv"}));
+  command.add_flag("--trace-lines", options.run.trace_lines,
+                   "the trace has every executed line, too");
+  command.add_option("--trace-out", options.trace_out, "the file for the trace");
+  command.add_option("--report", options.report, "writes a page that plays the run back");
+  command.add_flag("--open", options.open,
+                   "opens that page in a browser; without --report, a temporary one");
+  command.add_option("--compare", options.compare,
+                     "shows the run of another such page beside this one");
+  command.add_option("--svg", options.svg, "draws the path");
+  command.add_flag("--watch", options.watch, "runs again whenever a file changes");
+}
+
+} // namespace
+
+void add_run(CLI::App& app, Context& context) {
+  auto* command =
+      add_command(app, "run", "run programs and macros on a virtual ball, in virtual time",
+                  "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
+                  "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
+                  "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
+                  "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
+                  "waltz.sphero --expect done");
+  auto options = std::make_shared<RunOptions>();
+  add_program_options(*command, *options);
+  add_robot_options(*command, *options);
+  add_output_options(*command, *options);
+  command->callback([&context, options] { run_with_report(context, *options); });
+}
+
+} // namespace orb::cli

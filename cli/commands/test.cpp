@@ -1,0 +1,336 @@
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/terminal/progress_bar.h"
+#include "disk/disk.h"
+#include "testing/run_suite.h"
+#include "testing/verdicts/merge.h"
+#include "testing/verdicts/render.h"
+#include "testing/verdicts/report.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <thread>
+
+namespace orb::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned most_jobs = 1000;
+/// Where tests are looked for if no place is given.
+const std::vector<std::string> test_paths{"."};
+
+struct TestOptions {
+  std::vector<std::string> paths;
+  std::vector<std::string> programs;
+  unsigned jobs = 0;
+  std::string seeds;
+  std::string only;
+  std::string shard;
+  std::string format = "text";
+  std::string output;
+  std::string report;
+  bool merge = false;
+};
+
+/// The test files below a folder, in the order of their names.
+tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error))
+    if (std::error_code unreadable;
+        testing::is_test(at->path().native()) && at->is_regular_file(unreadable))
+      found.push_back((folder == "." ? at->path().lexically_relative(".") : at->path()).string());
+  if (error)
+    return tl::unexpected(
+        Failure{ExitCode::File, fmt::format("cannot read {}: {}", folder, error.message())});
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Reads the files that were given, and those of the folders.
+tl::expected<std::vector<testing::GivenFile>, Failure>
+read_tests(const std::vector<std::string>& paths) {
+  std::vector<testing::GivenFile> files;
+  const auto add = [&](const std::string& path) -> tl::expected<void, Failure> {
+    auto text = read_text(path);
+    if (!text)
+      return tl::unexpected(text.error());
+    const auto name = disk::display_name(path);
+    const bool known = std::any_of(files.begin(), files.end(),
+                                   [&](const auto& file) { return file.name == name; });
+    if (!known)
+      files.push_back({name, *std::move(text)});
+    return {};
+  };
+  for (const auto& path : paths) {
+    std::error_code absent;
+    if (!fs::is_directory(path, absent)) {
+      if (auto added = add(path); !added)
+        return tl::unexpected(added.error());
+      continue;
+    }
+    const auto found = find_tests(path);
+    if (!found)
+      return tl::unexpected(found.error());
+    if (found->empty())
+      return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there is no {} file below {}",
+                                                                 testing::file_ending, path)});
+    for (const auto& one : *found)
+      if (auto added = add(one); !added)
+        return tl::unexpected(added.error());
+  }
+  return files;
+}
+
+tl::expected<testing::Shard, Failure> read_shard(const std::string& text) {
+  testing::Shard shard;
+  if (text.empty())
+    return shard;
+  const auto slash = text.find('/');
+  const auto index = parse_number<std::uint64_t>(std::string_view(text).substr(0, slash));
+  const auto count = slash == std::string::npos
+                         ? std::nullopt
+                         : parse_number<std::uint64_t>(std::string_view(text).substr(slash + 1));
+  if (!index || !count || *index < 1 || *index > *count)
+    return tl::unexpected(
+        Failure{ExitCode::Usage,
+                fmt::format("`--shard {}` is not a share; write it like 3/16, the third of sixteen",
+                            text)});
+  return testing::Shard{*index, *count};
+}
+
+/// Shows how many runs are done.
+class Bar final : public testing::Progress {
+public:
+  explicit Bar(const Context& context) : bar_(context, "runs") {}
+  void on_cases(std::uint64_t done, std::uint64_t all) override { bar_.show(done, all); }
+
+private:
+  CountBar bar_;
+};
+
+/// The files of a report in its folder. The index is written last, and an old one goes first: a
+/// folder with an index is a whole report.
+class ReportFolder final : public testing::Pages {
+public:
+  explicit ReportFolder(std::string folder) : folder_(std::move(folder)) {}
+
+  tl::expected<void, Failure> begin() {
+    const auto index = folder_ + "/index.html";
+    std::error_code error;
+    if (fs::exists(index, error)) {
+      const auto old = disk::read(index);
+      if (!old || !old->starts_with(testing::report_mark))
+        return refuse(
+            fmt::format("{} is not a report of `orb test`; choose another folder", index));
+      fs::remove(index, error);
+      for (const auto& file : fs::directory_iterator(folder_ + "/runs", error))
+        remove_old(file.path());
+    }
+    fs::create_directories(folder_ + "/runs", error);
+    if (error)
+      return refuse(fmt::format("cannot make {}/runs: {}", folder_, error.message()));
+    return {};
+  }
+
+  bool write(const std::string& name, std::string_view text) override {
+    auto written = disk::write(folder_ + "/" + name, as_bytes(text));
+    if (!written)
+      problem_ = written.error().message;
+    return problem_.empty();
+  }
+
+  const std::string& problem() const { return problem_; }
+
+private:
+  static tl::unexpected<Failure> refuse(std::string message) {
+    return tl::unexpected(Failure{ExitCode::File, std::move(message)});
+  }
+
+  /// A file of an earlier report, known by its name.
+  static void remove_old(const fs::path& path) {
+    const auto stem = path.stem().string();
+    const bool ours = (path.extension() == ".svg" || path.extension() == ".html") &&
+                      !stem.empty() && std::all_of(stem.begin(), stem.end(), is_digit);
+    std::error_code kept;
+    if (ours)
+      fs::remove(path, kept);
+  }
+
+  std::string folder_;
+  std::string problem_;
+};
+
+tl::expected<void, Failure> write_report(const std::string& folder, const testing::Suite& suite,
+                                         const testing::Results& results) {
+  ReportFolder pages(folder);
+  if (auto ready = pages.begin(); !ready)
+    return ready;
+  if (!testing::write_report(suite, results, pages))
+    return tl::unexpected(Failure{ExitCode::File, pages.problem()});
+  return {};
+}
+
+tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& options) {
+  testing::SuiteOptions wanted{options.programs, {}, options.only};
+  if (options.seeds.empty())
+    return wanted;
+  wanted.seeds = testing::parse_seeds(options.seeds);
+  if (!wanted.seeds)
+    return tl::unexpected(
+        Failure{ExitCode::Usage,
+                fmt::format("`--seeds {}` are not seeds; write them like 1..20", options.seeds)});
+  return wanted;
+}
+
+/// Tells what is wrong with the test files; whether nothing is run for it.
+bool are_wrong(Context& context, const testing::Suite& suite) {
+  bool wrong = false;
+  for (const auto& file : suite.files)
+    wrong = print_findings(context, *file.source, file.file.diagnostics) || wrong;
+  if (wrong)
+    context.exit = ExitCode::Usage;
+  return wrong;
+}
+
+tl::expected<void, Failure> write_results(const Context& context, const TestOptions& options,
+                                          const testing::Results& results) {
+  const auto listing = context.quiet ? testing::Listing::Failures : testing::Listing::All;
+  const bool to_file = !options.output.empty();
+  const auto text = testing::render(results, testing::format_called(options.format), listing,
+                                    to_file ? Style{} : context.out_style());
+  if (!to_file) {
+    print_out(text);
+    return {};
+  }
+  if (const auto written = disk::write(options.output, as_bytes(text)); !written)
+    return tl::unexpected(Failure{ExitCode::File, written.error().message});
+  print_note(context, testing::render_summary(results));
+  return {};
+}
+
+/// Prints the results, and leaves the exit code that they are worth.
+tl::expected<void, Failure> tell(Context& context, const TestOptions& options,
+                                 const testing::Results& results) {
+  if (auto written = write_results(context, options, results); !written)
+    return written;
+  if (testing::totals_of(results).failed > 0)
+    context.exit = ExitCode::BadInput;
+  return {};
+}
+
+/// Joins the results of shards.
+tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
+  if (!options.report.empty() || !options.programs.empty() || !options.seeds.empty() ||
+      !options.shard.empty() || !options.only.empty())
+    return tl::unexpected(Failure{
+        ExitCode::Usage, "`--merge` runs nothing: it takes only `--format` and `--output`"});
+  if (options.paths == test_paths)
+    return tl::unexpected(Failure{
+        ExitCode::Usage, "`--merge` needs the files that shards wrote with `--format json`"});
+  std::vector<testing::Part> parts;
+  for (const auto& path : options.paths) {
+    const auto text = read_text(path);
+    if (!text)
+      return tl::unexpected(text.error());
+    auto part = testing::read_results(disk::display_name(path), *text);
+    if (!part)
+      return tl::unexpected(part.error());
+    parts.push_back(*std::move(part));
+  }
+  const auto results = testing::merge(std::move(parts));
+  if (!results)
+    return tl::unexpected(results.error());
+  return tell(context, options, *results);
+}
+
+/// That a test file stands among the programs, where everything after `--program` belongs.
+tl::expected<void, Failure> check_programs(const TestOptions& options) {
+  for (const auto& path : options.programs)
+    if (testing::is_test(path))
+      return tl::unexpected(Failure{
+          ExitCode::Usage, fmt::format("`--program` takes programs; put {} before it", path)});
+  return {};
+}
+
+tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
+  if (options.merge)
+    return join(context, options);
+  if (auto programs = check_programs(options); !programs)
+    return programs;
+  const auto wanted = suite_options(options);
+  if (!wanted)
+    return tl::unexpected(wanted.error());
+  const auto shard = read_shard(options.shard);
+  if (!shard)
+    return tl::unexpected(shard.error());
+  auto files = read_tests(options.paths);
+  if (!files)
+    return tl::unexpected(files.error());
+  DiskFiles disk;
+  const auto suite = testing::make_suite(*std::move(files), *wanted, disk);
+  if (!suite)
+    return tl::unexpected(suite.error());
+  if (are_wrong(context, *suite))
+    return {};
+  testing::RunOptions run;
+  run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+  run.shard = *shard;
+  const auto results = [&] {
+    Bar bar(context);
+    return testing::run_suite(*suite, run, bar);
+  }();
+  if (!options.report.empty())
+    if (auto written = write_report(options.report, *suite, results); !written)
+      return written;
+  return tell(context, options, results);
+}
+
+} // namespace
+
+void add_test(CLI::App& app, Context& context) {
+  auto* command =
+      add_command(app, "test", "run the tests of programs and judge them",
+                  "orb test\norb test corner.test\norb test task.test --program *.bas\n"
+                  "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
+                  "orb test --shard 1/2 --format json > a.json\n"
+                  "orb test --merge a.json b.json --format markdown");
+  auto options = std::make_shared<TestOptions>();
+  options->paths = test_paths;
+  command
+      ->add_option("FILE", options->paths,
+                   "test files, and folders to search for them; with --merge, results")
+      ->capture_default_str();
+  command->add_option("--program", options->programs,
+                      "programs to test, each with every test, in place of those the tests name");
+  command->add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
+      ->check(whole_number(0, most_jobs))
+      ->capture_default_str();
+  command->add_option("--seeds", options->seeds, "the seeds of every test, such as 1..200");
+  command->add_option("--only", options->only, "runs the one test of this name");
+  command->add_option("--shard", options->shard,
+                      "a share of the runs: 3/16 is the third of sixteen");
+  std::vector<std::string> formats(testing::format_names().begin(), testing::format_names().end());
+  command->add_option("--format", options->format, "how results are printed")
+      ->check(one_of(std::move(formats)))
+      ->capture_default_str();
+  command->add_option("--output", options->output, "the file for the results; else stdout");
+  command
+      ->add_option("--report", options->report,
+                   "a folder for a page with a picture of each run and a replay of each failure")
+      ->type_name("FOLDER");
+  command->add_flag("--merge", options->merge,
+                    "joins results: the files are those that shards wrote with --format json");
+  command->callback([&context, options] {
+    if (const auto done = test(context, *options); !done)
+      fail(context, done.error());
+  });
+}
+
+} // namespace orb::cli

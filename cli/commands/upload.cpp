@@ -1,0 +1,232 @@
+#include "base/duration.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/commands/monitor.h"
+#include "cli/inputs.h"
+#include "cli/link.h"
+#include "cli/options.h"
+#include "cli/target.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/progress_bar.h"
+#include "run/delivery.h"
+#include "spec/limits.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace orb::cli {
+namespace {
+
+using uploader::Report;
+
+struct Options {
+  std::vector<std::string> files;
+  std::string lang;
+  TargetOptions target;
+  PortOptions port;
+  bool run = false;
+  std::optional<int> run_line;
+  std::string as;
+  std::optional<int> id;
+  bool clear_macros = false;
+  bool force = false;
+  bool monitor = false;
+  bool dry_run = false;
+  bool no_check = false;
+  int attempts = uploader::Budgets{}.attempts;
+};
+
+ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
+  print_error(context, message);
+  return exit;
+}
+
+tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
+                                                        const Options& options) {
+  auto inputs = read_inputs(options.files, options.lang, options.target.target(),
+                            options.no_check ? run::Lint::Off : run::Lint::On);
+  if (!inputs)
+    return inputs;
+  bool errors = false;
+  bool sendable = true; // as it is: there is something to send
+  for (const auto& input : *inputs) {
+    errors = print_findings(context, input) || errors;
+    sendable = sendable && (input.program || !input.macros.empty());
+  }
+  if (errors)
+    return tl::unexpected(
+        Failure{ExitCode::BadInput,
+                fmt::format("nothing was sent: correct the errors above{}",
+                            sendable ? ", or send it as it is with `--no-check`" : "")});
+  return inputs;
+}
+
+run::DeliveryOptions delivery_options(const Options& options) {
+  run::DeliveryOptions wanted;
+  wanted.area = options.target.area == "flash" ? spec::Area::Flash : spec::Area::Ram;
+  wanted.run = options.run;
+  if (options.run_line)
+    wanted.line = static_cast<std::uint16_t>(*options.run_line);
+  if (options.as == "temp")
+    wanted.kind = uploader::MacroKind::Temporary;
+  else if (options.as == "user")
+    wanted.kind = uploader::MacroKind::User;
+  else if (options.as == "stream")
+    wanted.kind = uploader::MacroKind::Stream;
+  if (options.id)
+    wanted.id = static_cast<std::uint8_t>(*options.id);
+  wanted.clear_macros = options.clear_macros;
+  return wanted;
+}
+
+void print_plan(std::string_view name, const uploader::Plan& plan) {
+  const auto sent = packets(plan, 0);
+  const auto pieces = plan.link_pieces == 0
+                          ? std::string()
+                          : fmt::format(" and {} pieces, about {:.1f} s", plan.link_pieces,
+                                        static_cast<double>(plan.expected.count()) / 1e9);
+  auto text = fmt::format("{}: {} bytes to {} in {} packets{}, over within {:g} s\n", name,
+                          plan.size, to_string(plan.route), sent.size(), pieces,
+                          static_cast<double>(plan.deadline.count()) / 1e9);
+  if (!plan.note.empty())
+    text += fmt::format("note: {}\n", plan.note);
+  for (const auto& packet : sent) {
+    const auto* row = spec::find_command(packet.did, packet.cid);
+    text += fmt::format("{:<28} {}\n", row == nullptr ? std::string_view("?") : row->name,
+                        to_hex(encode(packet)));
+  }
+  print_out(text);
+}
+
+ExitCode dry_run(const Context& context, const Options& options, const uploader::Delivery& delivery,
+                 uploader::Budgets budgets) {
+  budgets.attempts = options.attempts;
+  for (const auto& macro : delivery.macros) {
+    const auto plan = make_plan(macro.job, budgets);
+    if (!plan)
+      return fail(context, ExitCode::BadInput,
+                  fmt::format("{}: {}", macro.name, plan.error().message));
+    print_plan(macro.name, *plan);
+  }
+  if (delivery.program) {
+    auto firmware = uploader::default_capabilities();
+    if (options.target.ram != 0)
+      firmware.ram_bytes = static_cast<std::size_t>(options.target.ram);
+    const auto plan = make_plan(*delivery.program, firmware, budgets);
+    if (!plan)
+      return fail(context, ExitCode::BadInput,
+                  fmt::format("{}: {}", delivery.program_name, plan.error().message));
+    print_plan(delivery.program_name, *plan);
+  }
+  return ExitCode::Done;
+}
+
+Lookup lookup_of(const std::vector<run::Input>& inputs) {
+  const auto* first = run::first_with_program(inputs);
+  return first == nullptr ? Lookup{} : Lookup{first->program->lines, first};
+}
+
+/// Tells how it ended, and watches what runs where that was asked for.
+ExitCode finish(const Context& context, const Options& options, Link& link,
+                uploader::Session& session, const Report& report, Duration took,
+                const Lookup& lookup) {
+  if (report.kind != Report::Kind::Done)
+    return fail(context, exit_code(report.kind), report.message);
+  print_note(context,
+             fmt::format("{}, {} packets sent, {:.2f} s{}", report.message,
+                         session.counts().packets_out, static_cast<double>(took.count()) / 1e9,
+                         link.is_sim ? ", on the built-in virtual ball" : ""));
+  if (!options.monitor)
+    return ExitCode::Done;
+  const auto watched = monitor(context, link, session, lookup);
+  return watched.faulted ? ExitCode::BadInput : watched.lost ? ExitCode::LinkLost : ExitCode::Done;
+}
+
+ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
+              const Lookup& lookup) {
+  const InterruptGuard guard; // from here on the last word is what is on the ball
+  auto link = open_link(context, options.port);
+  if (!link)
+    return fail(context, link.error().code, link.error().message);
+  link->budgets.attempts = options.attempts;
+  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  const auto start = session.now();
+  Report report;
+  {
+    ProgressBar progress(context);
+    report =
+        deliver(session, delivery,
+                options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse,
+                progress);
+  }
+  return link->finish(
+      context, finish(context, options, *link, session, report, session.now() - start, lookup));
+}
+
+void upload(Context& context, const Options& options) {
+  const auto budgets = port_budgets(context, options.port);
+  if (!budgets)
+    return cli::fail(context, budgets.error());
+  const auto inputs = load_all(context, options);
+  if (!inputs)
+    return cli::fail(context, inputs.error());
+  const auto delivery = run::arrange(*inputs, delivery_options(options));
+  if (!delivery)
+    return cli::fail(context, delivery.error());
+  context.exit = options.dry_run ? dry_run(context, options, *delivery, *budgets)
+                                 : send(context, options, *delivery, lookup_of(*inputs));
+}
+
+} // namespace
+
+void add_upload(CLI::App& app, Context& context) {
+  auto* command = add_command(
+      app, "upload", "put programs and macros into a ball",
+      "orb upload square.bas --port /dev/rfcomm0 --run\n"
+      "orb upload dance.macro square.bas --port rfcomm://68:86:E7:00:11:22 --area flash\n"
+      "orb upload square.bas --dry-run");
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->files, "sources or built macros; macros are sent first")
+      ->required();
+  add_language_option(*command, options->lang);
+  add_port_options(*command, options->port);
+  add_target_options(*command, options->target);
+  command
+      ->add_option_function<std::string>(
+          "--run",
+          [options](const std::string& line) {
+            options->run = true;
+            if (!line.empty())
+              options->run_line = std::stoi(line);
+          },
+          "run it; a program at its first line, or at LINE")
+      ->expected(0, 1)
+      ->type_name("LINE")
+      ->check([](const std::string& text) {
+        return text.empty() || parse_number<std::uint16_t>(text).value_or(0) > 0
+                   ? std::string()
+                   : fmt::format("`{}` is not a line number; write one from {} to {}", text,
+                                 spec::value_of(spec::Limit::LeastLineNumber),
+                                 spec::value_of(spec::Limit::GreatestLineNumber));
+      });
+  command->add_option("--as", options->as, "how macros are kept")
+      ->check(one_of({"temp", "user", "stream"}));
+  command->add_option("--id", options->id, "the id to save a macro under, 32 to 253")
+      ->check(whole_number(spec::macro_id_user_first, spec::macro_id_user_last))
+      ->type_name("N");
+  command->add_flag("--clear-macros", options->clear_macros,
+                    "make the ball forget all its user macros first");
+  command->add_flag("--force", options->force, "write to flash even if the battery is low");
+  command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command->add_flag("--dry-run", options->dry_run, "print the packets and send nothing");
+  command->add_flag("--no-check", options->no_check, "send it even if it has errors");
+  constexpr int most_attempts = 1000;
+  command
+      ->add_option("--attempts", options->attempts, "how often a program is sent before giving up")
+      ->check(whole_number(1, most_attempts))
+      ->type_name("N")
+      ->capture_default_str();
+  command->callback([&context, options] { upload(context, *options); });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,67 @@
+#include "cli/terminal/interrupt.h"
+
+#include "uploader/budgets.h"
+
+#include <algorithm>
+#include <csignal>
+
+namespace orb::cli {
+namespace {
+
+/// How often the user asked to stop. A signal handler may touch nothing but this.
+volatile std::sig_atomic_t requests = 0;
+
+extern "C" void count_request(int) {
+  requests = requests + 1;
+}
+
+} // namespace
+
+InterruptGuard::InterruptGuard() {
+  requests = 0;
+  struct sigaction action {};
+  action.sa_handler = count_request;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+InterruptGuard::~InterruptGuard() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+int InterruptGuard::asked() {
+  return requests;
+}
+
+bool InterruptibleTransport::stop() {
+  if (requests <= seen_)
+    return false;
+  seen_ = requests;
+  return true;
+}
+
+tl::expected<void, protocol::LinkError> InterruptibleTransport::write(ByteView bytes) {
+  if (stop())
+    return tl::unexpected(
+        protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
+  auto written = inner_->write(bytes);
+  if (!written && written.error().kind == protocol::LinkError::Kind::Interrupted)
+    seen_ = requests; // it noticed by itself
+  return written;
+}
+
+tl::expected<Bytes, protocol::LinkError> InterruptibleTransport::read(Instant deadline) {
+  while (true) {
+    if (stop())
+      return tl::unexpected(
+          protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
+    const auto slice = std::min(deadline, now() + uploader::stop_notice);
+    auto read = inner_->read(slice);
+    if (!read || !read->empty() || now() >= deadline)
+      return read;
+  }
+}
+
+} // namespace orb::cli

@@ -1,0 +1,108 @@
+#include "compiler/lint/flow.h"
+
+#include <algorithm>
+
+namespace orb::compiler {
+namespace {
+
+class Reader {
+public:
+  explicit Reader(const Program& program) : program_(program) {}
+
+  Flow read() {
+    flow_.code.reserve(program_.lines.size());
+    flow_.numbers.reserve(program_.lines.size());
+    flow_.jumps.reserve(program_.lines.size());
+    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
+      read_line(i);
+    if (!sorted_)
+      std::stable_sort(flow_.numbers.begin(), flow_.numbers.end(),
+                       [](const auto& a, const auto& b) { return a.number < b.number; });
+    find_targets();
+    return std::move(flow_);
+  }
+
+private:
+  void read_line(std::uint32_t index) {
+    const auto& line = program_.lines[index];
+    if (line.has_number()) {
+      sorted_ = sorted_ && (flow_.numbers.empty() || flow_.numbers.back().number < line.number);
+      const auto code = line.has_statement() ? static_cast<std::uint32_t>(flow_.code.size()) : none;
+      flow_.numbers.push_back({line.number, index, code});
+    }
+    if (!line.has_statement())
+      return;
+    auto& code = flow_.code.emplace_back();
+    code.line = index;
+    code.statement = line.statement;
+    code.jumps_begin = static_cast<std::uint32_t>(flow_.jumps.size());
+    const auto& statement = program_.statements[line.statement];
+    code.falls = follow(statement, code);
+    if (statement.then_branch != none)
+      code.falls = follow_branches(statement, code);
+    code.jumps_end = static_cast<std::uint32_t>(flow_.jumps.size());
+  }
+
+  bool follow_branches(const StatementNode& statement, Flow::Code& code) {
+    const bool then_falls = follow(program_.statements[statement.then_branch], code);
+    if (statement.else_branch == none)
+      return true;
+    const bool else_falls = follow(program_.statements[statement.else_branch], code);
+    return then_falls || else_falls;
+  }
+
+  /// Notes what a statement does to the way of the program, and where it jumps; returns whether the
+  /// next line can follow.
+  bool follow(const StatementNode& statement, Flow::Code& code) {
+    if (statement.error)
+      return true; // once corrected it goes on; lint asks may_steer() first
+    const auto& row = spec::info(statement.kind);
+    switch (row.after) {
+    case spec::After::Falls: return true;
+    case spec::After::Waits: code.waits = true; return true;
+    case spec::After::Ends: code.ends = true; return false;
+    case spec::After::Steers:
+    case spec::After::Jumps: break;
+    }
+    code.loops = code.loops || row.form == spec::Form::Loop || row.form == spec::Form::LoopEnd;
+    const bool calls =
+        statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;
+    add_targets(statement, calls);
+    return calls || row.after != spec::After::Jumps;
+  }
+
+  void add_targets(const StatementNode& statement, bool call) {
+    for (auto i = statement.items_begin; i < statement.items_end; ++i)
+      if (program_.items[i].kind == ItemKind::Target)
+        flow_.jumps.push_back({none, i, call});
+  }
+
+  void find_targets() {
+    for (auto& jump : flow_.jumps) {
+      const auto* number = flow_.find(program_.items[jump.item].value);
+      if (number == nullptr || number->code == none)
+        continue;
+      jump.to = number->code;
+      flow_.code[jump.to].target = true;
+      flow_.code[jump.to].called = flow_.code[jump.to].called || jump.call;
+    }
+  }
+
+  const Program& program_;
+  Flow flow_;
+  bool sorted_ = true; ///< by line numbers, so far
+};
+
+} // namespace
+
+const Flow::Number* Flow::find(std::uint32_t number) const {
+  const auto at = std::lower_bound(numbers.begin(), numbers.end(), number,
+                                   [](const auto& row, std::uint32_t n) { return row.number < n; });
+  return at != numbers.end() && at->number == number ? &*at : nullptr;
+}
+
+Flow read_flow(const Program& program) {
+  return Reader(program).read();
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,142 @@
+#include "compiler/lint/lint.h"
+
+#include "base/silence.h"
+#include "compiler/lint/lint_passes.h"
+#include "compiler/messages/messages.h"
+#include "compiler/text/image.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::compiler {
+namespace {
+
+/// The line that holds byte `room` of the image: the first that does not fit.
+std::uint32_t line_at_byte(const Program& program, const Flow& flow, std::int32_t room) {
+  std::int32_t size = 1;
+  for (const auto& code : flow.code) {
+    size += static_cast<std::int32_t>(image_size(program, code.line));
+    if (size > room)
+      return code.line;
+  }
+  return flow.code.back().line;
+}
+
+void check_size(const Program& program, const Flow& flow, const Target& target,
+                Findings& findings) {
+  if (flow.code.empty())
+    return;
+  const auto size = static_cast<std::int32_t>(image_size(program));
+  const auto room = area_bytes(target);
+  const auto oldest = spec::value_of(spec::Limit::RamBytesUntil146);
+  const bool in_ram = target.area == Area::Ram;
+  if (size > room) {
+    const auto line = line_at_byte(program, flow, room);
+    findings.add(rules::ProgramTooLarge, program.lines[line].span,
+                 fmt::format("the program takes {} bytes, {} more than the {} of the {} area", size,
+                             size - room, room, in_ram ? "RAM" : "flash"),
+                 "`orb build --pack` makes it smaller");
+  } else if (in_ram && !target.ram_bytes && size > oldest) {
+    const auto line = line_at_byte(program, flow, oldest);
+    findings.add(
+        rules::LargerThanOldRam, program.lines[line].span,
+        fmt::format("the program takes {} bytes; older robots have room for {}", size, oldest),
+        fmt::format("give `--ram {}` if yours has more", spec::value_of(spec::Limit::RamBytes)));
+  }
+}
+
+/// The line and the place where it ends.
+Span with_end(Span line) {
+  return {line.begin, line.end + 1};
+}
+
+/// What a comment `' orb: allow RULE` names is left out on its line, or on the next one when it
+/// stands alone.
+void silence(const Program& program, Findings& findings) {
+  std::vector<AllowComment> comments;
+  for (std::size_t i = 0; i < program.lines.size(); ++i) {
+    const auto& line = program.lines[i];
+    if (line.comment.size() == 0 ||
+        program.text_of(line.comment).find(allow_mark) == std::string_view::npos)
+      continue;
+    const bool alone = !line.has_number() && !line.has_statement();
+    const auto about = alone ? i + 1 : i;
+    comments.push_back({line.comment, about < program.lines.size()
+                                          ? with_end(program.lines[about].span)
+                                          : Span{}});
+  }
+  if (!comments.empty())
+    orb::silence(program.text, comments, rules::all(), rules::UnknownRule, findings.all());
+}
+
+/// A warning where an error begins is about the same cause and says less.
+void drop_doubles(std::vector<Diagnostic>& findings) {
+  std::vector<std::uint32_t> errors;
+  for (const auto& d : findings)
+    if (d.severity == Severity::Error)
+      errors.push_back(d.span.begin);
+  std::sort(errors.begin(), errors.end());
+  std::erase_if(findings, [&](const Diagnostic& d) {
+    return (d.rule == &rules::NegativeLiteral || d.rule == &rules::NonprintingByte) &&
+           d.severity != Severity::Error &&
+           std::binary_search(errors.begin(), errors.end(), d.span.begin);
+  });
+}
+
+/// Tells each finding the number of its line. How lines end is said of the whole file.
+void place(const Program& program, std::vector<Diagnostic>& findings) {
+  for (auto& d : findings) {
+    const auto next = std::upper_bound(
+        program.lines.begin(), program.lines.end(), d.span.begin,
+        [](std::uint32_t offset, const Line& line) { return offset < line.span.begin; });
+    if (next != program.lines.begin() && next[-1].has_number() && d.rule != &rules::LineEnding)
+      d.basic_line = next[-1].number;
+  }
+}
+
+} // namespace
+
+void add_note(Diagnostic& diagnostic, Span where, std::string_view what) {
+  diagnostic.notes.push_back({where, std::string(what)});
+}
+
+std::int32_t area_bytes(const Target& target) {
+  if (target.area == Area::Flash)
+    return spec::value_of(spec::Limit::FlashBytes);
+  if (target.ram_bytes)
+    return *target.ram_bytes;
+  return spec::value_of(target.version == spec::BasicVersion::V0_9 ? spec::Limit::RamBytesUntil146
+                                                                   : spec::Limit::RamBytes);
+}
+
+std::vector<Diagnostic> lint(const Program& program, const Target& target) {
+  Findings findings;
+  const auto flow = read_flow(program);
+  std::vector<const Fault*> unnumbered;
+  for (const auto& fault : program.faults)
+    if (auto diagnostic = explain(program, fault))
+      findings.add(std::move(*diagnostic));
+    else
+      unnumbered.push_back(&fault);
+  lint_missing_numbers(program, unnumbered, findings);
+  lint_text(program, flow, target, findings);
+  lint_values(program, flow, target, findings);
+  const bool jumps_known =
+      std::none_of(program.faults.begin(), program.faults.end(),
+                   [&](const Fault& fault) { return may_steer(program, fault); });
+  if (jumps_known) {
+    lint_flow(program, flow, findings);
+    lint_intent(program, flow, findings);
+  }
+  check_size(program, flow, target, findings);
+  drop_doubles(findings.all());
+  silence(program, findings);
+  auto all = std::move(findings.all());
+  place(program, all);
+  sort_by_place(all);
+  return all;
+}
+
+} // namespace orb::compiler

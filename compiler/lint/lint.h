@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "compiler/text/program.h"
+#include "spec/api.h"
+#include "spec/basic.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace orb::compiler {
+
+using spec::Area;
+
+/// The robot that a program is meant for.
+struct Target {
+  spec::BasicVersion version = spec::BasicVersion::V1_6;
+  Area area = Area::Ram;
+  /// Bytes of the RAM area: 1024, 3072 or 4096. Nothing means: what the version has, with a warning
+  /// above what every robot has.
+  std::optional<std::int32_t> ram_bytes;
+};
+
+/// The bytes that `target` offers for a program, final NUL included.
+std::int32_t area_bytes(const Target& target);
+
+/// Everything that is to be said about a program, in the order of its text; empty for a program
+/// that is fine. What a comment `' orb: allow RULE` silences is left out.
+std::vector<Diagnostic> lint(const Program& program, const Target& target);
+
+} // namespace orb::compiler

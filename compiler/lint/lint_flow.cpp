@@ -1,0 +1,356 @@
+#include "compiler/lint/lint_passes.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string>
+
+namespace orb::compiler {
+namespace {
+
+class FlowRules {
+public:
+  FlowRules(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings),
+        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+
+  void run() {
+    if (size_ == 0)
+      return;
+    found_.reserve(flow_.jumps.size());
+    open_.reserve(flow_.jumps.size() + 1);
+    read_facts();
+    mark_reached();
+    check_unreachable();
+    lint_loops(program_, flow_, findings_);
+    if (!returns_.empty() || has_call_)
+      check_subroutines();
+    check_busy_loops();
+  }
+
+private:
+  const StatementNode& statement(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+  std::uint32_t line_of(std::uint32_t code) const { return flow_.code[code].line; }
+  std::uint32_t number_of(std::uint32_t code) const { return program_.lines[line_of(code)].number; }
+
+  /// The statement of a line and those in its branches.
+  std::span<const StatementNode> whole(std::uint32_t code) const {
+    return program_.whole(statement(code));
+  }
+
+  void read_facts() {
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      has_wait_ = has_wait_ || flow_.code[i].waits;
+      if (flow_.code[i].ends)
+        read_ends(i);
+    }
+    has_call_ = std::any_of(flow_.jumps.begin(), flow_.jumps.end(),
+                            [](const Flow::Jump& jump) { return jump.call; });
+  }
+
+  void read_ends(std::uint32_t code) {
+    bool returns = false;
+    for (const auto& node : whole(code)) {
+      returns = returns || is_return(node);
+      if (!node.error && node.kind == spec::Statement::Sleep)
+        sleeps_.push_back(&node);
+    }
+    if (returns)
+      returns_.push_back(code);
+  }
+
+  enum class Calls : std::uint8_t { Enter, StepOver };
+
+  /// Marks the lines that can follow `start`, and notes in `found_` those of them that jump and
+  /// were not marked before.
+  void spread(std::uint32_t start, std::vector<std::uint8_t>& marks, Calls calls) {
+    found_.clear();
+    open_.assign(1, start);
+    while (!open_.empty()) {
+      auto at = open_.back();
+      open_.pop_back();
+      for (; at < size_ && marks[at] == 0; ++at) {
+        marks[at] = 1;
+        const auto& code = flow_.code[at];
+        const auto jumps = flow_.jumps_of(code);
+        if (!jumps.empty())
+          found_.push_back(at);
+        for (const auto& jump : jumps)
+          if (!jump.call || calls == Calls::Enter)
+            open_.push_back(jump.to);
+        if (!code.falls)
+          break;
+      }
+    }
+  }
+
+  void mark_reached() {
+    reached_.assign(size_, 0);
+    spread(0, reached_, Calls::Enter);
+    // A line that is named as a wake-up line is an entry of its own.
+    for (const auto* sleep : sleeps_) {
+      const auto& root = program_.nodes[program_.as<SleepView>(*sleep).line.value];
+      if (root.kind == NodeKind::Number && root.value > 0)
+        if (const auto* number = flow_.find(static_cast<std::uint32_t>(root.value)))
+          spread(number->code, reached_, Calls::Enter);
+    }
+  }
+
+  void check_unreachable() {
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      if (reached_[i] != 0)
+        continue;
+      const auto first = i;
+      while (i + 1 < size_ && reached_[i + 1] == 0)
+        ++i;
+      const auto& line = program_.lines[line_of(first)];
+      if (!line.has_number())
+        continue;
+      findings_.add(
+          rules::UnreachableLine, line.number_span,
+          i == first ? fmt::format("line {} is never reached", line.number)
+                     : fmt::format("lines {} to {} are never reached", line.number, number_of(i)));
+    }
+  }
+
+  // ---- subroutines
+
+  void check_subroutines() {
+    main_.assign(size_, 0);
+    spread(0, main_, Calls::StepOver);
+    inside_.assign(size_, 0);
+    routines_.reserve(flow_.jumps.size());
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (flow_.code[i].called && reached_[i] != 0) {
+        routines_.push_back(i);
+        spread(i, inside_, Calls::StepOver);
+      }
+    check_returns();
+    if (!calls_nest())
+      return;
+    check_depths();
+    check_recursion();
+  }
+
+  /// Whether a subroutine calls one.
+  bool calls_nest() const {
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (inside_[i] != 0)
+        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+          if (jump.call)
+            return true;
+    return false;
+  }
+
+  void check_returns() {
+    bool falls_into = false;
+    for (const auto i : returns_) {
+      if (main_[i] == 0)
+        continue;
+      for (const auto& node : whole(i)) {
+        if (!is_return(node))
+          continue;
+        if (inside_[i] == 0)
+          findings_.add(rules::ReturnWithoutGosub, node.span, "no `gosub` leads to this `return`",
+                        "end the program with `end`");
+        else
+          falls_into = true;
+      }
+    }
+    if (!falls_into)
+      return;
+    bool reported = false;
+    for (std::uint32_t i = 1; i < size_; ++i) {
+      const bool runs_in = flow_.code[i].called && main_[i] != 0 && main_[i - 1] != 0 &&
+                           flow_.code[i - 1].falls && inside_[i - 1] == 0;
+      if (!runs_in || !returns_from(i))
+        continue;
+      reported = true;
+      auto& d = findings_.add(
+          rules::FallIntoSubroutine, statement(i - 1).span,
+          fmt::format("the program runs on into the subroutine at line {}", number_of(i)),
+          "put an `end` after this line");
+      add_note(d, statement(i).span, "the subroutine begins here");
+    }
+    if (reported)
+      return;
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (main_[i] != 0 && inside_[i] == 0)
+        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+          if (!jump.call && jump.to != none && inside_[jump.to] != 0 && returns_from(jump.to))
+            findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
+                          fmt::format("line {} belongs to a subroutine and leads to its `return`",
+                                      number_of(jump.to)),
+                          "call it with `gosub`");
+  }
+
+  static bool is_return(const StatementNode& node) {
+    return !node.error && node.kind == spec::Statement::Return;
+  }
+
+  bool returns_from(std::uint32_t start) {
+    std::vector<std::uint8_t> marks(size_, 0);
+    spread(start, marks, Calls::StepOver);
+    return std::any_of(returns_.begin(), returns_.end(),
+                       [&](std::uint32_t i) { return marks[i] != 0; });
+  }
+
+  /// The least number of calls that are open when a line runs. A `gosub` that already has four
+  /// above it on every way stops the program.
+  void check_depths() {
+    constexpr std::uint8_t far = UINT8_MAX;
+    constexpr auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth));
+    std::vector<std::uint8_t> least(size_, far);
+    std::vector<std::uint32_t> deeper; // where the lines of this depth call
+    open_.assign(1, 0);
+    for (std::uint8_t depth = 0; depth <= most; ++depth) {
+      while (!open_.empty()) {
+        auto i = open_.back();
+        open_.pop_back();
+        for (; i < size_ && least[i] > depth; ++i) {
+          least[i] = depth;
+          const auto& code = flow_.code[i];
+          for (const auto& jump : flow_.jumps_of(code))
+            (jump.call ? deeper : open_).push_back(jump.to);
+          if (!code.falls)
+            break;
+        }
+      }
+      open_.swap(deeper);
+    }
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (least[i] == most)
+        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+          if (jump.call) {
+            findings_.add(rules::GosubDepth, statement(i).span,
+                          fmt::format("{} calls are already open here", most),
+                          "put the subroutine's lines here, or call it from further up");
+            break;
+          }
+  }
+
+  /// Looks for subroutines that reach a call of themselves.
+  void check_recursion() {
+    if (routines_.size() > most_routines)
+      return;
+    std::vector<std::vector<std::uint32_t>> calls(routines_.size());
+    std::vector<std::uint8_t> marks;
+    for (std::size_t r = 0; r < routines_.size(); ++r) {
+      marks.assign(size_, 0);
+      spread(routines_[r], marks, Calls::StepOver);
+      for (const auto i : found_)
+        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+          if (jump.call && jump.to != none)
+            calls[r].push_back(routine_at(jump.to));
+    }
+    for (std::uint32_t r = 0; r < routines_.size(); ++r)
+      if (calls_itself(r, calls))
+        findings_.add(
+            rules::GosubRecursion, statement(routines_[r]).span,
+            fmt::format("the subroutine at line {} calls itself", number_of(routines_[r])),
+            "only 4 calls can be open at once; use a loop");
+  }
+
+  /// The index of the routine that begins at a line of code.
+  std::uint32_t routine_at(std::uint32_t code) const {
+    const auto at = std::lower_bound(routines_.begin(), routines_.end(), code);
+    return static_cast<std::uint32_t>(at - routines_.begin());
+  }
+
+  static bool calls_itself(std::uint32_t routine,
+                           const std::vector<std::vector<std::uint32_t>>& calls) {
+    auto open = calls[routine];
+    std::vector<bool> seen;
+    while (!open.empty()) {
+      const auto next = open.back();
+      open.pop_back();
+      if (next == routine)
+        return true;
+      seen.resize(calls.size());
+      if (!seen[next])
+        open.insert(open.end(), calls[next].begin(), calls[next].end());
+      seen[next] = true;
+    }
+    return false;
+  }
+
+  // ---- waiting
+
+  /// A `goto` back to a line, with no way out between and nothing that waits.
+  void check_busy_loops() {
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const auto jumps = flow_.jumps_of(flow_.code[i]);
+      if (jumps.empty() || reached_[i] == 0)
+        continue;
+      const auto& node = statement(i);
+      const auto& jump = jumps.front();
+      if (node.kind != spec::Statement::Goto || jump.to > i || i - jump.to > longest_loop ||
+          leaves_or_waits(jump.to, i))
+        continue;
+      findings_.add(rules::BusyLoop, node.span,
+                    fmt::format("lines {} to {} run forever and never wait", number_of(jump.to),
+                                number_of(i)),
+                    "add a `delay`");
+    }
+  }
+
+  bool leaves_or_waits(std::uint32_t first, std::uint32_t last) const {
+    for (auto i = first; i <= last; ++i) {
+      if (statement(i).error)
+        return true;
+      for (const auto& jump : flow_.jumps_of(flow_.code[i])) {
+        if (jump.call ? has_wait_ : (jump.to < first || jump.to > last))
+          return true;
+      }
+      if (flow_.code[i].waits || flow_.code[i].ends)
+        return true;
+      for (const auto& node : whole(i))
+        if (node.error || reads_timer(node))
+          return true;
+    }
+    return false;
+  }
+
+  bool reads_timer(const StatementNode& node) const {
+    for (const auto& part : program_.items_of(node)) {
+      if (part.kind != ItemKind::Expression && part.kind != ItemKind::Character)
+        continue;
+      for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
+        if (program_.nodes[n].kind == NodeKind::System &&
+            program_.nodes[n].what <= static_cast<std::uint8_t>(spec::Variable::TimerC))
+          return true;
+    }
+    return false;
+  }
+
+  /// Beyond these the checks that look at pairs of lines are left out: no area of the robot holds
+  /// such a program, and a linter must not take minutes over it.
+  static constexpr std::size_t most_routines = 256;
+  static constexpr std::uint32_t longest_loop = 1024; ///< lines
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  std::uint32_t size_;
+  bool has_call_ = false;
+  bool has_wait_ = false;
+  std::vector<std::uint32_t> returns_; ///< lines that have a `return`, ascending
+  std::vector<const StatementNode*> sleeps_;
+  std::vector<std::uint32_t> routines_; ///< lines that something calls, ascending
+  std::vector<std::uint32_t> found_;    ///< by spread(), the last time
+  std::vector<std::uint32_t> open_;     ///< of spread(): where to go on
+  std::vector<std::uint8_t> reached_;
+  std::vector<std::uint8_t> main_;   ///< can run while no subroutine is open
+  std::vector<std::uint8_t> inside_; ///< can run as part of a subroutine
+};
+
+} // namespace
+
+void lint_flow(const Program& program, const Flow& flow, Findings& findings) {
+  FlowRules(program, flow, findings).run();
+}
+
+} // namespace orb::compiler

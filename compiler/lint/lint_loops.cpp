@@ -1,0 +1,452 @@
+#include "compiler/lint/lint_passes.h"
+
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string>
+
+namespace orb::compiler {
+namespace {
+
+constexpr std::uint32_t indexed = spec::letter_count; // Z in masks and stacks of loop variables
+
+std::uint32_t variable_of(const Item& item) {
+  return item.kind == ItemKind::Letter ? item.value : indexed;
+}
+
+bool is(const StatementNode& node, spec::Statement kind) {
+  return !node.error && node.kind == kind;
+}
+
+/// The open loops before a line, as far as they are the same on every way that leads there. One
+/// number, because they are copied and compared more often than looked into.
+class Loops {
+public:
+  static constexpr std::uint32_t most = spec::value_of(spec::Limit::ForDepth);
+
+  static Loops unknown() {
+    Loops loops;
+    loops.bits_ = UINT64_MAX;
+    return loops;
+  }
+  bool known() const { return bits_ != UINT64_MAX; }
+  std::uint32_t count() const { return bits_ & UINT8_MAX; }
+  std::uint32_t innermost() const { return variables() & UINT8_MAX; }
+  void open(std::uint32_t variable) { bits_ = (variables() << 8 | variable) << 8 | (count() + 1); }
+  void close() { bits_ = variables() >> 8 << 8 | (count() - 1); }
+  friend bool operator==(Loops, Loops) = default;
+
+private:
+  std::uint64_t variables() const { return bits_ >> 8; }
+
+  /// How many there are in the lowest byte, then a byte for the variable of each, innermost first.
+  std::uint64_t bits_ = 0;
+  static_assert(most < sizeof bits_);
+};
+
+/// What a line does to the open loops.
+enum class Effect : std::uint8_t {
+  Nothing,
+  Opens,
+  Closes,
+  Unsure, ///< a `for` or `next` in a branch, which may run or not
+};
+
+/// A line that does more than lead to the next one with the same loops open.
+struct Part {
+  std::uint32_t code = 0;
+  Effect effect = Effect::Nothing;
+  bool returns = false;           ///< it has a `return`
+  std::uint32_t variable = 0;     ///< that it opens or closes a loop of
+  std::uint32_t innermost = none; ///< the pair around it, in the order of the text
+  std::uint32_t first_state = none;
+};
+
+/// The main program, or a subroutine called while these loops are open.
+struct Call {
+  std::uint32_t entry = 0; ///< a line of code
+  Loops loops;
+  std::uint32_t from = none;      ///< the first line of code that calls it so
+  std::uint32_t from_call = none; ///< where that line runs
+  std::optional<Loops> returned;  ///< what its `return`s leave open
+  std::uint32_t first_waiting = none;
+  std::uint32_t last_waiting = none;
+};
+
+/// A state that goes on when a call returns.
+struct Waiting {
+  std::uint32_t state;
+  std::uint32_t next; ///< the next one of the same call
+};
+
+/// What is known of a part while a call runs it.
+struct State {
+  std::uint32_t part = 0;
+  std::uint32_t call = 0;
+  std::uint32_t next = none; ///< the next state of the same part
+  Loops loops;
+};
+
+class LoopRules {
+public:
+  LoopRules(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings),
+        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+
+  void run() {
+    collect_parts();
+    if (set_ == 0 && stepped_ == 0)
+      return;
+    match_pairs();
+    check_jumps();
+    check_unended();
+    follow();
+    for (const auto& part : parts_)
+      report(part);
+  }
+
+private:
+  static constexpr std::uint32_t bit(std::uint32_t variable) {
+    return std::uint32_t{1} << variable;
+  }
+  const StatementNode& statement(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+  std::uint32_t number_of(std::uint32_t code) const {
+    return program_.lines[flow_.code[code].line].number;
+  }
+  std::uint32_t counter_of(const StatementNode& node) const {
+    return variable_of(program_.as<ForView>(node).variable);
+  }
+  std::uint32_t stepped_by(const StatementNode& node) const {
+    return variable_of(program_.as<NextView>(node).variable);
+  }
+
+  void collect_parts() {
+    ahead_.resize(size_);
+    parts_.reserve(size_);
+    std::uint32_t first_plain = 0;
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const auto& code = flow_.code[i];
+      const bool leads_on = code.falls && code.jumps_begin == code.jumps_end && !code.loops;
+      if (leads_on && !code.ends)
+        continue;
+      auto& part = parts_.emplace_back();
+      part.code = i;
+      read(part);
+      if (leads_on && !part.returns) { // what ends in a branch is the program
+        parts_.pop_back();
+        continue;
+      }
+      std::fill(ahead_.begin() + first_plain, ahead_.begin() + i + 1,
+                static_cast<std::uint32_t>(parts_.size() - 1));
+      first_plain = i + 1;
+    }
+    std::fill(ahead_.begin() + first_plain, ahead_.end(), none);
+  }
+
+  void read(Part& part) {
+    const auto whole = program_.whole(statement(part.code));
+    for (const auto& node : whole) {
+      if (is(node, spec::Statement::Return)) {
+        part.returns = true;
+      } else if (is(node, spec::Statement::For)) {
+        part.variable = counter_of(node);
+        part.effect = whole.size() > 1 ? Effect::Unsure : Effect::Opens;
+        set_ |= bit(part.variable);
+      } else if (is(node, spec::Statement::Next)) {
+        part.variable = stepped_by(node);
+        part.effect = whole.size() > 1 ? Effect::Unsure : Effect::Closes;
+        stepped_ |= bit(part.variable);
+      }
+    }
+  }
+
+  // ---- as they stand in the text
+
+  struct Pair {
+    std::uint32_t variable;
+    std::uint32_t begin; ///< lines of code
+    std::uint32_t end;
+    std::uint32_t outer;
+  };
+
+  /// Pairs `for` and `next` in the order of the text.
+  void match_pairs() {
+    std::vector<std::uint32_t> open;
+    pairs_.reserve(parts_.size());
+    for (auto& part : parts_) {
+      if (part.effect == Effect::Opens) {
+        const auto outer = open.empty() ? none : open.back();
+        open.push_back(static_cast<std::uint32_t>(pairs_.size()));
+        pairs_.push_back({part.variable, part.code, none, outer});
+      }
+      part.innermost = open.empty() ? none : open.back();
+      if (part.effect != Effect::Closes)
+        continue;
+      while (!open.empty() && pairs_[open.back()].variable != part.variable)
+        open.pop_back();
+      if (!open.empty()) {
+        pairs_[open.back()].end = part.code;
+        open.pop_back();
+      }
+    }
+  }
+
+  void check_jumps() {
+    for (const auto& part : parts_) {
+      const auto jumps = flow_.jumps_of(flow_.code[part.code]);
+      auto pair = jumps.empty() ? none : part.innermost;
+      while (pair != none && (pairs_[pair].end == none || part.code > pairs_[pair].end))
+        pair = pairs_[pair].outer;
+      if (pair == none)
+        continue;
+      for (const auto& jump : jumps)
+        if (!jump.call && jump.to != none &&
+            (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end)) {
+          auto& d = findings_.add(
+              rules::JumpOutOfFor, program_.items[jump.item].span,
+              fmt::format("line {} is outside the loop, which stays open", number_of(jump.to)),
+              "set the loop variable to its end value and go to the `next`");
+          add_note(d, statement(pairs_[pair].begin).span, "the loop");
+        }
+    }
+  }
+
+  void check_unended() {
+    if ((set_ & ~stepped_) == 0)
+      return;
+    for (const auto& node : program_.statements)
+      if (is(node, spec::Statement::For) && (stepped_ & bit(counter_of(node))) == 0)
+        findings_.add(
+            rules::ForWithoutNext, node.span,
+            fmt::format("the loop has no `next {}`", spec::letter_name(counter_of(node))));
+  }
+
+  // ---- as they run
+
+  /// Carries the open loops along every way, through each subroutine once for each set of open
+  /// loops with which it is called. What differs between two ways is unknown.
+  void follow() {
+    states_.reserve(parts_.size());
+    work_.reserve(parts_.size());
+    calls_.reserve(most_calls + 1);
+    waiting_.reserve(most_calls);
+    calls_.push_back({});
+    reach(0, 0, {});
+    while (!work_.empty()) {
+      const auto state = work_.back();
+      work_.pop_back();
+      go_on(state);
+    }
+  }
+
+  void reach(std::uint32_t call, std::uint32_t code, Loops loops) {
+    const auto part = code < size_ ? ahead_[code] : none;
+    if (part == none)
+      return;
+    auto at = parts_[part].first_state;
+    while (at != none && states_[at].call != call)
+      at = states_[at].next;
+    if (at == none) {
+      at = static_cast<std::uint32_t>(states_.size());
+      states_.push_back({part, call, parts_[part].first_state, loops});
+      parts_[part].first_state = at;
+    } else if (states_[at].loops == loops || !states_[at].loops.known()) {
+      return;
+    } else {
+      states_[at].loops = Loops::unknown();
+    }
+    work_.push_back(at);
+  }
+
+  void go_on(std::uint32_t index) {
+    const auto call = states_[index].call;
+    const auto& part = parts_[states_[index].part];
+    const auto after = step(part, states_[index].loops);
+    if (!after)
+      return;
+    const auto& code = flow_.code[part.code];
+    bool calls = false;
+    for (const auto& jump : flow_.jumps_of(code)) {
+      if (jump.call && jump.to != none)
+        enter(index, jump.to, *after);
+      else if (!jump.call)
+        reach(call, jump.to, *after);
+      calls = calls || (jump.call && jump.to != none);
+    }
+    const bool branches = program_.statements[code.statement].then_branch != none;
+    if (code.falls && (!calls || branches))
+      reach(call, part.code + 1, *after);
+    if (part.returns)
+      give_back(call, *after);
+  }
+
+  void enter(std::uint32_t state, std::uint32_t entry, Loops loops) {
+    if (calls_.size() >= most_calls)
+      loops = Loops::unknown();
+    const auto from = parts_[states_[state].part].code;
+    auto at = std::find_if(calls_.begin() + 1, calls_.end(), [&](const Call& call) {
+      return call.entry == entry && call.loops == loops;
+    });
+    if (at == calls_.end() && calls_.size() > most_calls)
+      at = calls_.end() - 1; // for all others, where nothing is known
+    else if (at == calls_.end())
+      at = calls_.insert(at, {entry, loops, from, states_[state].call, {}});
+    reach(static_cast<std::uint32_t>(at - calls_.begin()), entry, loops);
+    wait(*at, state);
+    if (at->returned)
+      reach(states_[state].call, from + 1, *at->returned);
+  }
+
+  void wait(Call& call, std::uint32_t state) {
+    const auto at = static_cast<std::uint32_t>(waiting_.size());
+    (call.first_waiting == none ? call.first_waiting : waiting_[call.last_waiting].next) = at;
+    call.last_waiting = at;
+    waiting_.push_back({state, none});
+  }
+
+  void give_back(std::uint32_t call, Loops loops) {
+    auto& returned = calls_[call].returned;
+    if (returned == loops || (returned && !returned->known()))
+      return;
+    returned = returned ? Loops::unknown() : loops;
+    for (auto at = calls_[call].first_waiting; at != none; at = waiting_[at].next) {
+      const auto& state = states_[waiting_[at].state];
+      reach(state.call, parts_[state.part].code + 1, *returned);
+    }
+  }
+
+  /// The loops after a part; nothing where it ends the program for certain.
+  static std::optional<Loops> step(const Part& part, Loops loops) {
+    if (part.effect == Effect::Unsure)
+      return Loops::unknown();
+    if (!loops.known() || part.effect == Effect::Nothing)
+      return loops;
+    const bool innermost = loops.count() > 0 && loops.innermost() == part.variable;
+    if (part.effect == Effect::Closes) {
+      if (!innermost)
+        return std::nullopt;
+      loops.close();
+      return loops;
+    }
+    if (innermost)
+      return loops; // the innermost loop begins again
+    if (loops.count() == Loops::most)
+      return std::nullopt;
+    loops.open(part.variable);
+    return loops;
+  }
+
+  // ---- what is said of it
+
+  void report(const Part& part) {
+    const auto& node = statement(part.code);
+    if (part.effect == Effect::Closes && (set_ & bit(part.variable)) == 0) {
+      add_next_of_nobody(part);
+      return;
+    }
+    bool always = true;
+    const State* stopped = nullptr;
+    for (auto at = part.first_state; at != none; at = states_[at].next)
+      if (step(part, states_[at].loops))
+        always = false;
+      else
+        stopped = &states_[at];
+    if (stopped == nullptr)
+      return;
+    if (part.effect == Effect::Opens)
+      add_depth(node, *stopped).severity = always ? Severity::Error : Severity::Warning;
+    else if (always)
+      add_stray_next(node, stopped->loops);
+  }
+
+  /// Whether more loops count in a letter than end with it.
+  bool lacks_next(std::uint32_t variable) const {
+    int open = 0;
+    for (const auto& part : parts_)
+      if (part.variable == variable)
+        open += (part.effect == Effect::Opens ? 1 : 0) - (part.effect == Effect::Closes ? 1 : 0);
+    return open > 0;
+  }
+
+  /// `next Q` without any `for Q`: where one loop is open on every way and lacks its `next`, this
+  /// is the one.
+  void add_next_of_nobody(const Part& part) {
+    const auto& node = statement(part.code);
+    auto& d = findings_.add(rules::NextWithoutFor, node.span,
+                            fmt::format("there is no `for {}`", spec::letter_name(part.variable)));
+    std::optional<std::uint32_t> innermost;
+    for (auto at = part.first_state; at != none; at = states_[at].next) {
+      const auto& loops = states_[at].loops;
+      if (!loops.known() || loops.count() == 0)
+        return;
+      const std::uint32_t here = loops.innermost();
+      if (innermost.value_or(here) != here)
+        return;
+      innermost = here;
+    }
+    if (!innermost || !lacks_next(*innermost))
+      return;
+    d.help = fmt::format("write `next {}`", spec::letter_name(*innermost));
+    d.fix = single_fix(d.help, program_.as<NextView>(node).variable.span,
+                       std::string(1, spec::letter_name(*innermost)));
+  }
+
+  Diagnostic& add_depth(const StatementNode& node, const State& state) {
+    std::string chain;
+    std::vector<std::uint32_t> callers; // outermost first
+    for (const auto* call = &calls_[state.call]; call->from != none;
+         call = &calls_[call->from_call]) {
+      chain = fmt::format("{} line {} calls line {}{}", call->from_call == 0 ? ", as" : " and",
+                          number_of(call->from), number_of(call->entry), chain);
+      callers.insert(callers.begin(), call->from);
+    }
+    auto& d =
+        findings_.add(rules::ForDepth, node.span,
+                      fmt::format("{} loops are already open here{}", state.loops.count(), chain),
+                      "end one of them first, or compute two counters from one");
+    for (const auto caller : callers)
+      add_note(d, statement(caller).span, "called here");
+    return d;
+  }
+
+  void add_stray_next(const StatementNode& node, Loops loops) {
+    if (loops.count() == 0) {
+      findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
+      return;
+    }
+    const auto innermost = spec::letter_name(loops.innermost());
+    findings_.add(rules::NextWithoutFor, node.span,
+                  fmt::format("the innermost loop counts in `{}`", innermost),
+                  fmt::format("end it first: `next {}`", innermost));
+  }
+
+  /// Beyond these, calls are not told apart any more: no program that fits into a robot has as
+  /// many, and a linter must not take minutes over one.
+  static constexpr std::size_t most_calls = 64;
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  std::uint32_t size_;
+  std::uint32_t set_ = 0;            ///< letters that some `for` counts in
+  std::uint32_t stepped_ = 0;        ///< letters that some `next` steps
+  std::vector<Part> parts_;          ///< in the order of the text
+  std::vector<std::uint32_t> ahead_; ///< by line of code: the first part from there on
+  std::vector<Pair> pairs_;
+  std::vector<Call> calls_; ///< the first is the main program
+  std::vector<Waiting> waiting_;
+  std::vector<State> states_;
+  std::vector<std::uint32_t> work_; ///< states to go on from
+};
+
+} // namespace
+
+void lint_loops(const Program& program, const Flow& flow, Findings& findings) {
+  LoopRules(program, flow, findings).run();
+}
+
+} // namespace orb::compiler

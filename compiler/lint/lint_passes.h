@@ -1,0 +1,64 @@
+#pragma once
+
+#include "base/diagnostic.h"
+#include "compiler/lint/flow.h"
+#include "compiler/lint/lint.h"
+#include "compiler/text/program.h"
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace orb::compiler {
+
+/// Collects what the passes of the linter find. Private to compiler/.
+class Findings {
+public:
+  /// Adds a finding; the reference is good until the next call.
+  Diagnostic& add(const Rule& rule, Span span, std::string message, std::string help = {}) {
+    return all_.emplace_back(finding(rule, span, std::move(message), std::move(help)));
+  }
+  void add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
+
+  std::vector<Diagnostic>& all() { return all_; }
+
+private:
+  std::vector<Diagnostic> all_;
+};
+
+/// Adds a place that belongs to a finding.
+void add_note(Diagnostic& diagnostic, Span where, std::string_view what);
+
+/// A fix of one edit.
+inline Fix single_fix(std::string title, Span span, std::string text,
+                      Safety safety = Safety::Safe) {
+  return Fix{std::move(title), {Edit{span, std::move(text)}}, safety};
+}
+
+// The passes, in the order in which they run. Each goes once through the program and knows nothing
+// of the others.
+
+/// The lines that lack a number: one finding where all do, as nobody forgets it on every line.
+void lint_missing_numbers(const Program& program, std::span<const Fault* const> faults,
+                          Findings& findings);
+
+/// What can be said of the text without computing anything: bytes, line numbers, words, blanks,
+/// targets, how expressions are written.
+void lint_text(const Program& program, const Flow& flow, const Target& target, Findings& findings);
+
+/// What follows from the values that letters, parameters and data can have.
+void lint_values(const Program& program, const Flow& flow, const Target& target,
+                 Findings& findings);
+
+/// The rules about loops: how `for` and `next` meet on every way. Part of `lint_flow`.
+void lint_loops(const Program& program, const Flow& flow, Findings& findings);
+
+/// The rules about jumps, loops and subroutines.
+void lint_flow(const Program& program, const Flow& flow, Findings& findings);
+
+/// What runs through and is still not meant: colours and rolls that nobody sees, a ball left
+/// driving.
+void lint_intent(const Program& program, const Flow& flow, Findings& findings);
+
+} // namespace orb::compiler

@@ -1,0 +1,153 @@
+#include "compiler/lint/range.h"
+
+#include "spec/limits.h"
+
+#include <cmath>
+#include <initializer_list>
+
+namespace orb::compiler {
+namespace {
+
+/// A range in 64 bits; beyond 32 bits results wrap, so nothing is known of them.
+Range narrow(std::int64_t lo, std::int64_t hi) {
+  if (lo < std::numeric_limits<std::int32_t>::min() ||
+      hi > std::numeric_limits<std::int32_t>::max())
+    return {};
+  return {static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi)};
+}
+
+Range hull(std::initializer_list<std::int64_t> values) {
+  const auto [lo, hi] = std::minmax(values);
+  return narrow(lo, hi);
+}
+
+std::int64_t magnitude(const Range& range) {
+  return std::max(std::abs(static_cast<std::int64_t>(range.lo)),
+                  std::abs(static_cast<std::int64_t>(range.hi)));
+}
+
+Range divide(const Range& left, const Range& right) {
+  const std::int64_t lo = left.lo;
+  const std::int64_t hi = left.hi;
+  if (right.lo > 0 || right.hi < 0)
+    return hull({lo / right.lo, lo / right.hi, hi / right.lo, hi / right.hi});
+  return narrow(-magnitude(left), magnitude(left));
+}
+
+Range remainder(const Range& left, const Range& right) {
+  if (left.constant() && right.constant() && right.lo != 0)
+    return hull({static_cast<std::int64_t>(left.lo) % right.lo});
+  const auto most = std::min(magnitude(left), std::max<std::int64_t>(magnitude(right) - 1, 0));
+  return narrow(left.lo < 0 ? -most : 0, left.hi > 0 ? most : 0);
+}
+
+Range shift_left(const Range& left, const Range& right) {
+  const int from = std::clamp(right.lo, 0, spec::value_of(spec::Limit::GreatestShift));
+  const int to = std::clamp(right.hi, 0, spec::value_of(spec::Limit::GreatestShift));
+  const auto times = [](std::int32_t value, int bits) {
+    return static_cast<std::int64_t>(value) * (std::int64_t{1} << bits);
+  };
+  return hull({times(left.lo, from), times(left.lo, to), times(left.hi, from), times(left.hi, to)});
+}
+
+Range shift_right(const Range& left, const Range& right) {
+  const int from = std::clamp(right.lo, 0, spec::value_of(spec::Limit::GreatestShift));
+  const int to = std::clamp(right.hi, 0, spec::value_of(spec::Limit::GreatestShift));
+  return hull({left.lo >> from, left.lo >> to, left.hi >> from, left.hi >> to});
+}
+
+/// All bits below the highest set one, itself included.
+std::int32_t fill(std::int32_t value) {
+  auto bits = static_cast<std::uint32_t>(value);
+  for (int n = 1; n < 32; n *= 2)
+    bits |= bits >> n;
+  return static_cast<std::int32_t>(bits);
+}
+
+Range bit_and(const Range& left, const Range& right) {
+  if (left.constant() && right.constant())
+    return Range::only(left.lo & right.lo);
+  if (left.lo >= 0 && right.lo >= 0)
+    return {0, std::min(left.hi, right.hi)};
+  if (left.lo >= 0)
+    return {0, left.hi};
+  if (right.lo >= 0)
+    return {0, right.hi};
+  return {};
+}
+
+Range bit_or(const Range& left, const Range& right) {
+  if (left.constant() && right.constant())
+    return Range::only(left.lo | right.lo);
+  if (left.lo >= 0 && right.lo >= 0)
+    return {std::max(left.lo, right.lo), fill(left.hi | right.hi)};
+  return {};
+}
+
+std::int32_t root(std::int32_t value) {
+  return static_cast<std::int32_t>(std::sqrt(static_cast<double>(std::max(value, 0))));
+}
+
+std::uint32_t digits(std::int64_t value) {
+  std::uint32_t n = value < 0 ? 2 : 1;
+  for (value = std::abs(value); value >= 10; value /= 10)
+    ++n;
+  return n;
+}
+
+} // namespace
+
+Range apply(spec::Operator op, const Range& left, const Range& right) {
+  const std::int64_t a = left.lo;
+  const std::int64_t b = left.hi;
+  const std::int64_t c = right.lo;
+  const std::int64_t d = right.hi;
+  switch (op) {
+  case spec::Operator::Multiply: return hull({a * c, a * d, b * c, b * d});
+  case spec::Operator::Divide: return divide(left, right);
+  case spec::Operator::Remainder: return remainder(left, right);
+  case spec::Operator::ShiftLeft: return shift_left(left, right);
+  case spec::Operator::ShiftRight: return shift_right(left, right);
+  case spec::Operator::Add: return narrow(a + c, b + d);
+  case spec::Operator::Subtract: return narrow(a - d, b - c);
+  case spec::Operator::And: return bit_and(left, right);
+  case spec::Operator::Or: return bit_or(left, right);
+  }
+  return {};
+}
+
+Range apply(spec::Function function, const Range& operand) {
+  switch (function) {
+  case spec::Function::Sqrt: return {root(operand.lo), root(operand.hi)};
+  case spec::Function::Rnd: return {1, std::max(operand.hi, 1)};
+  case spec::Function::Abs:
+    if (operand.lo >= 0)
+      return operand;
+    if (operand.lo == std::numeric_limits<std::int32_t>::min())
+      return {}; // the least number has no positive counterpart
+    if (operand.hi <= 0)
+      return {-operand.hi, -operand.lo};
+    return {0, std::max(-operand.lo, operand.hi)};
+  }
+  return {};
+}
+
+Range negate(const Range& operand) {
+  return apply(spec::Operator::Subtract, Range::only(0), operand);
+}
+
+Digits printed(Range range) {
+  const auto lo = digits(range.lo);
+  const auto hi = digits(range.hi);
+  const bool crosses = range.lo <= 0 && range.hi >= 0;
+  std::uint32_t least = std::min(lo, hi);
+  if (crosses)
+    least = 1;
+  else if (range.lo > 0)
+    least = lo;
+  else
+    least = hi;
+  return {least, std::max(lo, hi)};
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,49 @@
+#pragma once
+
+// The names of an orbBasic program: line numbers and letters.
+
+#include "compiler/text/program.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orb::editor {
+
+inline constexpr std::string_view basic_language_id = "orbbasic";
+
+/// A place that names a line: its own number, or a target of a jump.
+struct LineName {
+  std::uint32_t number = 0;
+  Span span;
+  bool is_target = false;
+  bool calls = false; ///< of a target: by gosub
+};
+
+std::vector<LineName> line_names(const compiler::Program& program);
+
+/// `Z` names an element, not a letter's value.
+inline constexpr std::uint8_t indexed_letter = 'Z' - 'A';
+
+struct LetterName {
+  std::uint8_t letter = 0; ///< 0 for A to 25 for Z
+  Span span;
+  bool is_set = false;
+};
+
+/// In the order of the text.
+std::vector<LetterName> letter_names(const compiler::Program& program);
+
+/// A line that something jumps to; of a subroutine all lines up to its end.
+struct BasicPart {
+  std::size_t first = 0; ///< indices into Program::lines
+  std::size_t last = 0;
+  bool is_called = false; ///< by gosub
+  std::string title;      ///< its number and the comment above
+};
+
+/// In the order of the text; of lines of equal numbers only the first, which jumps reach.
+std::vector<BasicPart> parts_of(const compiler::Program& program);
+
+} // namespace orb::editor

@@ -1,0 +1,44 @@
+// What an editor may ask about a stimulus script.
+
+#include "vm/stimulus.h"
+#include "editor/languages/test_names.h"
+
+namespace orb::editor {
+namespace {
+
+std::vector<Diagnostic> check(const Source& source, const LanguageOptions&) {
+  return vm::parse_stimulus(source).diagnostics;
+}
+
+std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
+  const auto spot = spot_at(source, offset);
+  auto text = is_stimulus_place(spot)
+                  ? find_markdown(reference::stimulus_section(), spot.word, stimulus_language_id)
+                  : std::nullopt;
+  return text ? std::optional(Hover{spot.span, *std::move(text)}) : std::nullopt;
+}
+
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions&) {
+  const auto spot = spot_at(source, offset);
+  Suggestions out{{spot.span.begin, offset}, {}};
+  if (is_stimulus_place(spot))
+    suggest_rows(out, vm::stimulus_words, reference::stimulus_section(), stimulus_language_id);
+  return out;
+}
+
+std::vector<Symbol> outline(const Source&) {
+  return {};
+}
+
+tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::string_view,
+                                           const LanguageOptions&) {
+  return tl::unexpected(std::string("nothing in a stimulus script can be renamed"));
+}
+
+} // namespace
+
+const LanguageService stimulus_service = {
+    check,  hover,           suggest,           outline,        nothing::occurrences,
+    rename, nothing::format, nothing::rewrites, &stimulus_shape};
+
+} // namespace orb::editor

@@ -1,0 +1,134 @@
+// What an editor may ask about a test file.
+
+#include "base/text.h"
+#include "editor/languages/test_names.h"
+#include "editor/text.h"
+#include "report/course.h"
+#include "spec/basic.h"
+#include "spec/firmware.h"
+#include "testing/suite.h"
+
+#include <fmt/format.h>
+
+namespace orb::editor {
+namespace {
+
+std::vector<Diagnostic> check(const Source& source, const LanguageOptions& options) {
+  structured::NoFiles none;
+  // What it names counts from its folder.
+  const Source named(path_of_uri(source.name()), std::string(source.text()));
+  return testing::check(named, options.files != nullptr ? *options.files : none);
+}
+
+bool is_expectation(std::string_view word) {
+  return word == "expect" || word == "never";
+}
+
+bool asks_what(const Spot& spot) {
+  return spot.before.size() == 1 && is_expectation(spot.before[0]);
+}
+
+std::optional<Hover> hover(const Source& source, std::uint32_t offset, const LanguageOptions&) {
+  const auto spot = spot_at(source, offset);
+  const auto found = [&](const reference::Section& section) -> std::optional<Hover> {
+    auto text = find_markdown(section, spot.word, test_language_id);
+    return text ? std::optional(Hover{spot.span, *std::move(text)}) : std::nullopt;
+  };
+  if (asks_what(spot))
+    return found(reference::expectations_section());
+  if (auto line = found(reference::test_lines_section()))
+    return line;
+  return is_stimulus_place(spot) ? found(reference::stimulus_section()) : std::nullopt;
+}
+
+/// The zones of the course that the file names.
+void suggest_zones(Suggestions& out, const Source& source, const LanguageOptions& options) {
+  const auto file = testing::parse(source);
+  if (!file.course || options.files == nullptr)
+    return;
+  const auto path = structured::resolve_path(path_of_uri(source.name()), file.course->text);
+  auto drawing = options.files->read(path);
+  if (!drawing)
+    return;
+  for (const auto& zone : report::read_course(Source(path, *std::move(drawing))).course.zones)
+    out.items.push_back({zone.id, SuggestionKind::Name, "zone of " + file.course->text, ""});
+}
+
+void suggest_values(Suggestions& out, std::string_view word) {
+  if (word == testing::info(testing::LineWord::Target).word)
+    for (const auto& row : spec::basic_versions)
+      out.items.push_back(
+          {std::string(row.text), SuggestionKind::Value, std::string(row.summary), ""});
+  if (word == testing::info(testing::LineWord::Firmware).word)
+    for (const auto& row : spec::firmwares)
+      out.items.push_back(
+          {std::string(row.name), SuggestionKind::Value, std::string(row.summary), ""});
+}
+
+/// Whether the last word before takes a zone: `reach`, `inside`, `stay`.
+bool wants_zone(const Spot& spot) {
+  const auto operands_after = [&]() -> std::string_view {
+    if (spot.before.size() == 1)
+      if (const auto* row = row_of(testing::line_words, spot.before[0]))
+        return row->operands;
+    if (spot.before.size() == 2 && is_expectation(spot.before[0]))
+      if (const auto* row = row_of(testing::expectations, spot.before[1]))
+        return row->operands;
+    return {};
+  };
+  return operands_after().starts_with("ZONE");
+}
+
+Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions& options) {
+  const auto spot = spot_at(source, offset);
+  Suggestions out;
+  out.replaces = {spot.span.begin, offset};
+  if (spot.before.empty()) {
+    suggest_rows(out, testing::line_words, reference::test_lines_section(), test_language_id);
+    suggest_rows(out, vm::stimulus_words, reference::stimulus_section(), test_language_id);
+  } else if (asks_what(spot)) {
+    suggest_rows(out, testing::expectations, reference::expectations_section(), test_language_id);
+  } else if (is_stimulus_place(spot)) {
+    suggest_rows(out, vm::stimulus_words, reference::stimulus_section(), test_language_id);
+  } else if (wants_zone(spot)) {
+    suggest_zones(out, source, options);
+  } else if (spot.before.back() == testing::info(testing::Word::Color).word) {
+    for (const auto& row : spec::led_colours)
+      out.items.push_back({std::string(row.name), SuggestionKind::Value, "", ""});
+  } else if (is_expectation(spot.before[0]) || spot.before[0] == "reach") {
+    suggest_rows(out, testing::when_words, reference::test_lines_section(), test_language_id);
+  } else if (spot.before.size() == 1) {
+    suggest_values(out, spot.before[0]);
+  }
+  return out;
+}
+
+std::vector<Symbol> outline(const Source& source) {
+  std::vector<Symbol> symbols;
+  const auto file = testing::parse(source);
+  const auto size = static_cast<std::uint32_t>(source.text().size());
+  for (std::size_t i = 0; i < file.tests.size(); ++i) {
+    const auto& test = file.tests[i];
+    if (test.name.span.size() == 0)
+      continue;
+    const auto end = i + 1 < file.tests.size() ? source.line_start(file.tests[i + 1].line) : size;
+    symbols.push_back({test.name.text,
+                       plural(static_cast<std::uint64_t>(test.points), "point"),
+                       {source.line_start(test.line), std::max(end, test.name.span.end)},
+                       test.name.span});
+  }
+  return symbols;
+}
+
+tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::string_view,
+                                           const LanguageOptions&) {
+  return tl::unexpected(std::string("nothing in a test file can be renamed"));
+}
+
+} // namespace
+
+const LanguageService test_service = {
+    check,  hover,           suggest,           outline,    nothing::occurrences,
+    rename, nothing::format, nothing::rewrites, &test_shape};
+
+} // namespace orb::editor

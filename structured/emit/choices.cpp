@@ -1,0 +1,361 @@
+#include "structured/emit/choices.h"
+
+#include "structured/optimise/flow.h"
+#include "structured/optimise/jumps.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+
+namespace orb::structured {
+namespace {
+
+bool is_missing(Comparison comparison) {
+  return comparison == Comparison::LessEqual || comparison == Comparison::GreaterEqual;
+}
+
+/// Whether the robot can say a relation: it has no `<=` and `>=`, but x <= 5 is x < 6 where that
+/// does not wrap.
+bool can_say(const Code& code, const Relation& relation) {
+  return !is_missing(relation.comparison) || moved_side(code, relation) != Moved::Neither;
+}
+
+bool can_say(const Code& code, const Condition& condition) {
+  return can_say(code, condition.first) &&
+         (condition.glue == Glue::None || can_say(code, condition.second));
+}
+
+Condition opposite_of(Condition condition) {
+  condition.first.comparison = opposite(condition.first.comparison);
+  condition.second.comparison = opposite(condition.second.comparison);
+  if (condition.glue != Glue::None)
+    condition.glue = condition.glue == Glue::And ? Glue::Or : Glue::And;
+  return condition;
+}
+
+bool in_documented_list(spec::Statement statement) {
+  return spec::info(statement).in_then == spec::InThen::Listed;
+}
+
+class ChoiceWriter {
+public:
+  ChoiceWriter(Code& code, const Program& program) : code_(code), program_(program) {}
+
+  void run() {
+    while (join_tests())
+      ;
+    fold_branches();
+    finish_tests();
+    end_at_once();
+    while (remove_unreached())
+      ;
+  }
+
+private:
+  bool is_label_there(std::uint32_t line, std::uint32_t label) const {
+    for (; line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
+                                         code_.lines[line].kind == LineKind::Nothing);
+         ++line)
+      if (code_.lines[line].kind == LineKind::Label && code_.lines[line].label == label)
+        return true;
+    return false;
+  }
+
+  std::uint8_t effects_of(const Condition& condition) const {
+    return static_cast<std::uint8_t>(code_.terms[condition.first.left].effects |
+                                     code_.terms[condition.first.right].effects);
+  }
+
+  /// Whether the second test may be safe only because the first one narrows a variable that both
+  /// read.
+  bool leans_on(const Relation& first, const Relation& second) const {
+    bool shared = false;
+    for (const auto compared : {first.left, first.right})
+      if (code_.terms[compared].kind == TermKind::Variable)
+        for (const auto term : {second.left, second.right})
+          each_read(code_, term,
+                    [&](std::uint32_t v) { shared = shared || v == code_.terms[compared].left; });
+    return shared && (can_fault(code_, second.left) || can_fault(code_, second.right));
+  }
+
+  /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
+  /// must do nothing but give a value.
+  bool join_tests() {
+    tidy(code_);
+    bool changed = false;
+    for (std::uint32_t i = 0; i + 1 < code_.lines.size(); ++i) {
+      auto& line = code_.lines[i];
+      auto& next = code_.lines[i + 1];
+      if (line.kind != LineKind::If || next.kind != LineKind::If)
+        continue;
+      const auto& first = code_.conditions[line.condition];
+      const auto& second = code_.conditions[next.condition];
+      if (first.glue != Glue::None || second.glue != Glue::None ||
+          (effects_of(second) & (effect::faults | effect::clears)) != 0 ||
+          leans_on(first.first, second.first))
+        continue;
+      Condition joined;
+      joined.second = second.first;
+      if (line.label == next.label) {
+        joined.first = first.first;
+        joined.glue = Glue::Or;
+      } else if (is_label_there(i + 2, line.label)) {
+        joined.first = opposite_of(first).first;
+        joined.glue = Glue::And;
+      } else {
+        continue;
+      }
+      // One of the two ways to say it is needed later.
+      if (!can_say(code_, joined) && !can_say(code_, opposite_of(joined)))
+        continue;
+      if ((effects_of(first) & effect::faults) != 0)
+        next.origin = line.origin;
+      next.condition = static_cast<std::uint32_t>(code_.conditions.size());
+      code_.conditions.push_back(joined);
+      line.kind = LineKind::Nothing;
+      changed = true;
+      ++i;
+    }
+    return changed;
+  }
+
+  /// Whether a line may stand after `then` and `else`.
+  static bool fits_branch(const CodeLine& line) {
+    switch (line.kind) {
+    case LineKind::Let:
+    case LineKind::SetElement:
+    case LineKind::SetSystem:
+    case LineKind::Goto:
+    case LineKind::Gosub:
+    case LineKind::Return:
+    case LineKind::On:
+    case LineKind::OnGosub:
+    case LineKind::Print: return true;
+    case LineKind::Do: return in_documented_list(line.robot);
+    case LineKind::Nothing:
+    case LineKind::Label:
+    case LineKind::If:
+    case LineKind::For:
+    case LineKind::Next:
+    case LineKind::Switch:
+    case LineKind::Choice: return false;
+    }
+    return false;
+  }
+
+  std::uint32_t add_branch(const CodeLine& line) {
+    code_.branches.push_back(line);
+    return static_cast<std::uint32_t>(code_.branches.size()) - 1;
+  }
+  CodeLine jump(const CodeLine& of, std::uint32_t label) const {
+    CodeLine line;
+    line.kind = LineKind::Goto;
+    line.label = label;
+    line.origin = of.origin;
+    line.routine = of.routine;
+    return line;
+  }
+
+  /// Whether a statement after `then` may stop the program.
+  bool may_fault(const CodeLine& line) const {
+    if (line.kind == LineKind::SetElement || line.kind == LineKind::SetSystem ||
+        line.kind == LineKind::On || line.kind == LineKind::OnGosub)
+      return true;
+    std::uint8_t effects = 0;
+    each_root(code_, line, [&](std::uint32_t root) { effects |= code_.terms[root].effects; });
+    if ((effects & effect::faults) != 0)
+      return true;
+    if (line.kind != LineKind::Do)
+      return false;
+    const auto parameters = spec::info(line.robot).parameters();
+    for (auto n = line.parts_begin; n < line.parts_end; ++n) {
+      const auto& part = code_.parts[n];
+      const auto which = n - line.parts_begin;
+      if (part.kind != PartKind::Term || which >= parameters.size())
+        return true;
+      const auto range = code_.is_number(part.value)
+                             ? compiler::Range::only(code_.terms[part.value].value)
+                             : part.range;
+      if (range.lo < parameters[which].least || range.hi > parameters[which].greatest)
+        return true;
+    }
+    return false;
+  }
+
+  bool on_one_line(std::uint32_t a, std::uint32_t b) const {
+    const auto [begin, end] =
+        std::minmax(program_.statements[a].span.begin, program_.statements[b].span.begin);
+    const std::string_view text = program_.text;
+    return std::none_of(text.begin() + begin, text.begin() + end, is_line_end);
+  }
+
+  /// One line of the robot speaks for one line of the source: the one whose part may stop the
+  /// program. False where there are several.
+  bool name_origin(CodeLine& line, std::uint32_t taken, std::uint32_t passed) const {
+    std::uint32_t origin = none;
+    bool good = true;
+    const auto add = [&](std::uint32_t statement) {
+      good = good && (origin == none || on_one_line(origin, statement));
+      origin = statement;
+    };
+    const auto& condition = code_.conditions[line.condition];
+    auto effects = effects_of(condition);
+    if (condition.glue != Glue::None)
+      effects |= static_cast<std::uint8_t>(code_.terms[condition.second.left].effects |
+                                           code_.terms[condition.second.right].effects);
+    if ((effects & effect::faults) != 0)
+      add(line.origin);
+    for (const auto branch : {taken, passed})
+      if (branch != none && may_fault(code_.branches[branch]))
+        add(code_.branches[branch].origin);
+    if (good && origin != none)
+      line.origin = origin;
+    return good;
+  }
+
+  /// Makes line `i` a choice: `taken` where its condition holds, `passed` where it does not.
+  bool choose(std::uint32_t i, std::uint32_t taken, std::uint32_t passed) {
+    auto& line = code_.lines[i];
+    auto condition = code_.conditions[line.condition];
+    // Without an `else` the condition must be the one that holds; with one either will do, and the
+    // comparison that the robot has reads better.
+    const bool turned = is_missing(condition.first.comparison) && passed != none &&
+                        can_say(code_, opposite_of(condition));
+    if (taken == none || turned || !can_say(code_, condition)) {
+      condition = opposite_of(condition);
+      std::swap(taken, passed);
+    }
+    if (taken == none || !can_say(code_, condition) || !name_origin(line, taken, passed))
+      return false;
+    code_.conditions.push_back(condition);
+    line.condition = static_cast<std::uint32_t>(code_.conditions.size()) - 1;
+    line.kind = LineKind::Choice;
+    line.term = taken;
+    line.end = passed;
+    return true;
+  }
+
+  void fold_branches() {
+    named_ = tidy(code_);
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
+      if (code_.lines[i].kind == LineKind::If)
+        fold(i);
+    tidy(code_);
+  }
+
+  void fold(std::uint32_t i) {
+    const auto size = code_.lines.size();
+    auto& line = code_.lines[i];
+    if (i + 1 >= size || !fits_branch(code_.lines[i + 1]))
+      return;
+    auto& first = code_.lines[i + 1];
+    // if c goto L1; s1; goto L2; L1: s2; L2:
+    if (i + 4 < size && code_.lines[i + 2].kind == LineKind::Goto && falls(first) &&
+        code_.lines[i + 3].kind == LineKind::Label && code_.lines[i + 3].label == line.label &&
+        named_[line.label] == 1 && fits_branch(code_.lines[i + 4]) &&
+        is_label_there(i + 5, code_.lines[i + 2].label)) {
+      if (choose(i, add_branch(code_.lines[i + 4]), add_branch(first))) {
+        first.kind = code_.lines[i + 2].kind = LineKind::Nothing;
+        code_.lines[i + 3].kind = code_.lines[i + 4].kind = LineKind::Nothing;
+      }
+      return;
+    }
+    // if c goto L; s; L:
+    if (is_label_there(i + 2, line.label)) {
+      const auto target = line.label;
+      if (choose(i, none, add_branch(first))) {
+        first.kind = LineKind::Nothing;
+      } else if (choose(i, add_branch(jump(line, target)), add_branch(first))) {
+        first.kind = LineKind::Nothing;
+      }
+      return;
+    }
+    // if c goto L1; goto L2
+    if (first.kind == LineKind::Goto || first.kind == LineKind::Return) {
+      if (choose(i, add_branch(jump(line, line.label)), add_branch(first)))
+        first.kind = LineKind::Nothing;
+    }
+  }
+
+  static bool falls(const CodeLine& line) { return falls_through(line); }
+
+  /// The tests that are left: `then goto`, where needed with a jump to the next line.
+  void finish_tests() {
+    std::vector<CodeLine> lines;
+    lines.swap(code_.lines);
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+      code_.lines.push_back(lines[i]);
+      if (lines[i].kind != LineKind::If)
+        continue;
+      const auto last = static_cast<std::uint32_t>(code_.lines.size()) - 1;
+      const auto target = add_branch(jump(lines[i], lines[i].label));
+      if (can_say(code_, code_.conditions[lines[i].condition])) {
+        choose(last, target, none);
+        continue;
+      }
+      const auto next = code_.labels++;
+      choose(last, target, add_branch(jump(lines[i], next)));
+      CodeLine label;
+      label.kind = LineKind::Label;
+      label.label = next;
+      label.origin = lines[i].origin;
+      code_.lines.push_back(label);
+    }
+  }
+
+  /// A jump to a `return` or an `end` is one itself.
+  void end_at_once() {
+    tidy(code_);
+    const auto at = lines_of_labels(code_);
+    for (auto& line : code_.lines) {
+      if (line.kind != LineKind::Goto || at[line.label] == none)
+        continue;
+      auto target = at[line.label];
+      while (target < code_.lines.size() && code_.lines[target].kind == LineKind::Label)
+        ++target;
+      if (target == code_.lines.size())
+        continue;
+      const auto& last = code_.lines[target];
+      const bool ends = last.kind == LineKind::Return ||
+                        (last.kind == LineKind::Do && last.robot == spec::Statement::End);
+      if (!ends)
+        continue;
+      const auto origin = line.origin;
+      line = last;
+      line.origin = origin;
+    }
+  }
+
+  /// Lines that nothing leads to since the jumps to them became what they led to.
+  bool remove_unreached() {
+    tidy(code_);
+    bool removed = false;
+    bool reached = true;
+    for (auto& line : code_.lines) {
+      reached = reached || line.kind == LineKind::Label;
+      if (!reached) {
+        line.kind = LineKind::Nothing;
+        removed = true;
+      } else if (line.kind != LineKind::Nothing) {
+        reached = falls(line);
+      }
+    }
+    return removed;
+  }
+
+  Code& code_;
+  const Program& program_;
+  std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
+};
+
+} // namespace
+
+void write_choices(Code& code, const Letters& letters, const Program& program) {
+  for (auto& line : code.lines)
+    if (line.kind == LineKind::Let && code.terms[line.term].kind == TermKind::Variable &&
+        letters.of[code.terms[line.term].left] == letters.of[line.variable])
+      line.kind = LineKind::Nothing;
+  clean_jumps(code);
+  ChoiceWriter(code, program).run();
+}
+
+} // namespace orb::structured

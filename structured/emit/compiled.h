@@ -1,0 +1,27 @@
+#pragma once
+
+#include "structured/emit/letters.h"
+#include "structured/emit/print.h"
+#include "structured/lower/code.h"
+#include "structured/meaning/names.h"
+#include "structured/text/program.h"
+
+#include <cstddef>
+
+namespace orb::structured {
+
+/// A structured program, all that is to be said about it, and, where no error was found, the lines
+/// of the robot that it becomes.
+struct Compiled {
+  Program program;
+  Names names;
+  Code code;
+  Letters letters;
+  RobotText robot;             ///< empty where there are errors, or nothing to run
+  std::size_t image_bytes = 0; ///< of the packed image
+  bool runs = false;           ///< whether there is a program to run
+
+  bool has_errors() const { return any_error(program.diagnostics); }
+};
+
+} // namespace orb::structured

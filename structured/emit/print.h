@@ -1,0 +1,53 @@
+#pragma once
+
+#include "structured/emit/letters.h"
+#include "structured/lower/code.h"
+#include "structured/text/program.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace orb::structured {
+
+/// How the robot's lines are numbered.
+struct Numbering {
+  std::uint32_t start = 1;
+  std::uint32_t step = 1;
+};
+
+/// A letter in a line of the robot and the variable of the source that it holds there.
+struct NamedLetter {
+  std::uint8_t letter = 0; ///< 0 for A
+  std::uint32_t symbol = none;
+};
+
+/// A line of the robot and what it is for.
+struct RobotLine {
+  std::uint32_t number = 0;
+  std::uint32_t statement = 0;   ///< of the structured program
+  std::uint32_t routine = 0;     ///< the sub that it stands in; 0 is the main program
+  std::uint32_t offset = 0;      ///< into the text
+  std::uint32_t names_begin = 0; ///< in RobotText::names
+  std::uint32_t names_end = 0;
+};
+
+/// Plain orbBasic, one line each.
+struct RobotText {
+  std::string text;
+  std::vector<RobotLine> lines;
+  std::vector<NamedLetter> names; ///< line after line; temporaries have none
+  bool numbers_suffice = true;    ///< false: beyond line 65535
+};
+
+/// Numbers the lines in their order, which gives each the shortest number that it can have, and
+/// writes them out. `lead` is put before each line: comments, or nothing.
+class RobotComments {
+public:
+  virtual ~RobotComments() = default;
+  virtual std::string before(const CodeLine& line) = 0;
+};
+RobotText print(const Program& program, const Code& code, const Letters& letters,
+                Numbering numbering, RobotComments* comments = nullptr);
+
+} // namespace orb::structured

@@ -1,0 +1,201 @@
+#include "structured/emit/relay.h"
+
+#include "compiler/text/image.h"
+#include "compiler/text/parse.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace orb::structured {
+namespace {
+
+namespace robot = compiler::rules;
+
+/// The rules whose findings say something about the source, in words that fit it.
+bool is_told(const Rule* rule) {
+  for (const auto* told :
+       {&robot::ValueOutOfRange, &robot::DivisionByZero, &robot::UnknownFlags, &robot::MissingGo,
+        &robot::ReadPastData, &robot::ClearedByReading, &robot::DataReplaced, &robot::BusyLoop,
+        &robot::IndexRange, &robot::NonprintingByte, &robot::MissingDelay, &robot::DrivesOn,
+        &robot::LoopLeavesRange, &robot::HeadingGrows})
+    if (rule == told)
+      return true;
+  return false;
+}
+
+class Relay {
+public:
+  Relay(Compiled& compiled, const compiler::Target& target)
+      : compiled_(compiled), target_(target), plain_(compiler::parse(compiled.robot.text)) {}
+
+  void run() {
+    const auto image = compiler::build_image(plain_, compiler::Packing::Packed);
+    compiled_.image_bytes = image.bytes.size();
+    for (const auto& found : compiler::lint(plain_, target_))
+      if (is_told(found.rule))
+        tell(found);
+    check_size(image);
+  }
+
+private:
+  std::size_t line_at(std::uint32_t offset) const {
+    const auto& lines = compiled_.robot.lines;
+    const auto next =
+        std::upper_bound(lines.begin(), lines.end(), offset,
+                         [](std::uint32_t at, const RobotLine& line) { return at < line.offset; });
+    return static_cast<std::size_t>(next - lines.begin()) - 1;
+  }
+
+  const Statement& statement_at(std::uint32_t offset) const {
+    return compiled_.program.statements[compiled_.robot.lines[line_at(offset)].statement];
+  }
+
+  /// The argument of the source that a value of the robot's line was written for, or null.
+  const Item* argument_of(Span value, const Statement& statement) const {
+    const auto items = compiled_.program.items_of(statement);
+    for (const auto& plain : plain_.statements) {
+      const auto values = plain_.items_of(plain);
+      if (statement.kind != Kind::Robot || plain.kind != statement.robot ||
+          values.size() != items.size())
+        continue;
+      for (std::size_t n = 0; n < items.size(); ++n)
+        if (values[n].span == value)
+          return &items[n];
+    }
+    return nullptr;
+  }
+
+  void tell(const Diagnostic& found) {
+    auto& program = compiled_.program;
+    const auto& statement = statement_at(found.span.begin);
+    const auto* argument = argument_of(found.span, statement);
+    const bool said = std::any_of(
+        program.diagnostics.begin(), program.diagnostics.end(), [&](const Diagnostic& other) {
+          return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
+                 (other.rule == found.rule || other.severity == Severity::Error);
+        });
+    if (said)
+      return;
+    Diagnostic told = finding(*found.rule, argument != nullptr ? argument->span : statement.span,
+                              found.message, found.help);
+    told.severity = found.severity;
+    for (const auto& note : found.notes)
+      if (const auto& there = statement_at(note.span.begin); &there != &statement)
+        told.notes.push_back({there.span, note.message});
+    put_into_source_words(found, statement, told);
+    program.diagnostics.push_back(std::move(told));
+  }
+
+  /// Letters and line numbers of the robot say nothing to whoever wrote names.
+  void put_into_source_words(const Diagnostic& found, const Statement& statement,
+                             Diagnostic& told) const {
+    const auto& program = compiled_.program;
+    if (found.rule == &robot::BusyLoop)
+      told.message = "the loop runs forever and never waits";
+    if (found.rule == &robot::IndexRange)
+      told.message = "the index lies outside of the array";
+    if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
+      tell_of_heading(statement, told);
+    if (found.rule == &robot::LoopLeavesRange) {
+      const auto letters = plain_.text_of(found.span);
+      const auto names = std::string(program.text_of(told.span));
+      const bool single = letters.size() == 1 && names.find_first_of(" +-*/%&|{}") != names.npos;
+      replace(told.message, fmt::format("`{}`", letters), fmt::format("`{}`", names));
+      replace(told.help, fmt::format("`({})", letters), fmt::format("`({})", names));
+      replace(told.help, fmt::format("`{} ", letters),
+              single ? fmt::format("`({}) ", names) : fmt::format("`{} ", names));
+    }
+  }
+
+  static void replace(std::string& text, std::string_view from, std::string_view to) {
+    if (const auto at = text.find(from); at != std::string::npos)
+      text.replace(at, from.size(), to);
+  }
+
+  void tell_of_heading(const Statement& statement, Diagnostic& told) const {
+    const auto& program = compiled_.program;
+    const auto items = program.items_of(statement);
+    const auto name = program.text_of(items[0].span);
+    auto sum = std::string(program.text_of(items[1].span));
+    if (statement.operation != Statement::none_operation)
+      sum = fmt::format("{} {} {}", name,
+                        spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
+    const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
+    told.message =
+        fmt::format("`{}` is a heading and grows forever; headings end at {}", name, turn - 1);
+    told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
+  }
+
+  void check_size(const compiler::Image& image) {
+    const auto size = static_cast<std::int32_t>(image.bytes.size());
+    const auto room = compiler::area_bytes(target_);
+    const bool in_ram = target_.area == compiler::Area::Ram;
+    const auto oldest = spec::value_of(spec::Limit::RamBytesUntil146);
+    if (size <= room && (!in_ram || target_.ram_bytes || size <= oldest))
+      return;
+    const auto limit = static_cast<std::uint32_t>(size > room ? room : oldest);
+    std::size_t first = 0;
+    while (first + 1 < image.lines.size() &&
+           image.lines[first].offset + image.lines[first].size < limit)
+      ++first;
+    auto& program = compiled_.program;
+    const auto span = program.statements[compiled_.robot.lines[first].statement].span;
+    if (size > room)
+      program.diagnostics.push_back(
+          finding(robot::ProgramTooLarge, span,
+                  fmt::format("the program takes {} bytes, {} more than the {} of the {} area",
+                              size, size - room, room, in_ram ? "RAM" : "flash"),
+                  parts(image)));
+    else
+      program.diagnostics.push_back(
+          finding(robot::LargerThanOldRam, span,
+                  fmt::format("the program takes {} bytes; older robots have {}", size, oldest),
+                  "give `--ram 4096` if yours has more"));
+  }
+
+  /// The largest parts of the program, in bytes.
+  std::string parts(const compiler::Image& image) const {
+    std::map<std::uint32_t, std::uint32_t> bytes;
+    for (std::size_t i = 0; i < image.lines.size(); ++i)
+      bytes[compiled_.names.routine_of[compiled_.robot.lines[i].statement]] += image.lines[i].size;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted;
+    for (const auto& [routine, size] : bytes)
+      sorted.push_back({size, routine});
+    std::sort(sorted.rbegin(), sorted.rend());
+    constexpr std::size_t most = 3;
+    std::string text = "the largest parts:";
+    for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i) {
+      const auto [size, routine] = sorted[i];
+      const auto symbol = compiled_.names.routines[routine].symbol;
+      text += fmt::format(
+          "{} {} {} bytes", i == 0 ? "" : ",",
+          symbol == none
+              ? "the main program"
+              : fmt::format("`{}`", compiled_.program.name(compiled_.names.symbols[symbol].name)),
+          size);
+    }
+    return text;
+  }
+
+  Compiled& compiled_;
+  const compiler::Target& target_;
+  compiler::Program plain_;
+};
+
+} // namespace
+
+void relay_findings(Compiled& compiled, const compiler::Target& target) {
+  Relay(compiled, target).run();
+}
+
+void report_too_large(Compiled& compiled, const compiler::Target& target) {
+  const auto room = compiler::area_bytes(target);
+  compiled.program.diagnostics.push_back(
+      finding(robot::ProgramTooLarge, compiled.program.statements.front().span,
+              fmt::format("the program is far larger than the {} bytes of its area", room)));
+}
+
+} // namespace orb::structured

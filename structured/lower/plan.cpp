@@ -1,0 +1,247 @@
+#include "structured/lower/plan.h"
+
+#include "spec/limits.h"
+#include "structured/meaning/check.h"
+#include "structured/text/blocks.h"
+
+#include <algorithm>
+
+namespace orb::structured {
+namespace {
+
+// Rough sizes in bytes of the robot's lines: they only choose between two right programs.
+constexpr std::uint32_t call_bytes = 10;   // `12 gosub 34`
+constexpr std::uint32_t return_bytes = 9;  // `12 return`
+constexpr std::uint32_t line_bytes = 6;    // number, blank, line end, a little word
+constexpr std::uint32_t most_bytes = 4096; // no area holds more
+
+class Planner {
+public:
+  Planner(const Program& program, const Names& names)
+      : program_(program), names_(names), calls_(calls_of(program, names)) {
+    const auto count = names.routines.size();
+    plan_.inlined.assign(count, false);
+    plan_.needed.assign(count, false);
+    plan_.native.assign(program.statements.size(), false);
+    cost_.assign(count, 0);
+    sites_.assign(count, 0);
+    heights_.assign(count, 0);
+  }
+
+  Plan run() {
+    order_routines();
+    count_sites();
+    for (const auto routine : callees_first_)
+      decide(routine);
+    keep_depth();
+    read_loops();
+    return std::move(plan_);
+  }
+
+private:
+  /// Callees before callers; only what the main program reaches.
+  void order_routines() {
+    std::vector<std::pair<std::uint32_t, std::size_t>> path{{0, 0}};
+    plan_.needed[0] = true;
+    while (!path.empty()) {
+      auto& [routine, next] = path.back();
+      if (next == calls_[routine].size()) {
+        callees_first_.push_back(routine);
+        path.pop_back();
+        continue;
+      }
+      const auto callee = calls_[routine][next++];
+      if (!plan_.needed[callee]) {
+        plan_.needed[callee] = true;
+        path.push_back({callee, 0});
+      }
+    }
+  }
+
+  template <typename Visit>
+  void each_call(const Statement& statement, std::uint32_t i, Visit visit) const {
+    const auto routine_of = [&](std::uint32_t symbol) {
+      return symbol == none ? 0 : names_.symbols[symbol].routine;
+    };
+    if (statement.kind == Kind::Call && routine_of(names_.of_statement[i]) != 0)
+      visit(routine_of(names_.of_statement[i]));
+    for (const auto& item : program_.items_of(statement))
+      if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place ||
+          item.kind == ItemKind::Character)
+        for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
+          if (program_.nodes[n].kind == NodeKind::Call && routine_of(names_.of_node[n]) != 0)
+            visit(routine_of(names_.of_node[n]));
+  }
+
+  void count_sites() {
+    own_cost_.assign(names_.routines.size(), 0);
+    for (const auto i : program_.order) {
+      const auto routine = names_.routine_of[i];
+      if (!plan_.needed[routine])
+        continue;
+      const auto& statement = program_.statements[i];
+      each_call(statement, i, [&](std::uint32_t callee) { ++sites_[callee]; });
+      own_cost_[routine] += cost_of(statement);
+    }
+  }
+
+  std::uint32_t cost_of(const Statement& statement) const {
+    const auto kind = statement.kind;
+    if (kind == Kind::Sub || kind == Kind::Function || kind == Kind::EndSub ||
+        kind == Kind::EndFunction || kind == Kind::Local || kind == Kind::Const ||
+        kind == Kind::Array)
+      return 0;
+    std::uint32_t cost = line_bytes;
+    for (const auto& item : program_.items_of(statement)) {
+      if (item.kind == ItemKind::String)
+        cost += item.span.size();
+      else if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place)
+        cost += (item.value - program_.nodes[item.value].first + 1) * 3 / 2;
+      else
+        ++cost;
+    }
+    return cost;
+  }
+
+  /// Decides about a routine whose callees are decided.
+  void decide(std::uint32_t routine) {
+    std::uint64_t cost = own_cost_[routine];
+    for (const auto callee : calls_[routine])
+      cost += plan_.inlined[callee] ? cost_[callee] : call_bytes;
+    cost_[routine] = static_cast<std::uint32_t>(std::min<std::uint64_t>(cost, 1U << 20));
+    if (routine == 0)
+      return;
+    const auto sites = sites_[routine];
+    const std::uint64_t copies = std::uint64_t{sites} * cost_[routine];
+    const std::uint64_t calls = std::uint64_t{sites} * call_bytes + cost_[routine] + return_bytes;
+    plan_.inlined[routine] = sites == 1 || copies <= calls;
+  }
+
+  // ---- the depth of calls
+
+  /// How many calls are open below each routine, and through whom.
+  std::uint32_t depth_below(std::vector<std::uint32_t>& through) const {
+    std::vector<std::uint32_t> depth(names_.routines.size(), 0);
+    through.assign(names_.routines.size(), none);
+    for (const auto routine : callees_first_)
+      for (const auto callee : calls_[routine]) {
+        const auto below = depth[callee] + (plan_.inlined[callee] ? 0 : 1);
+        if (through[routine] == none || below > depth[routine]) {
+          depth[routine] = below;
+          through[routine] = callee;
+        }
+      }
+    return depth[0];
+  }
+
+  void keep_depth() {
+    constexpr int most_rounds = 64;
+    const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GosubDepth));
+    std::vector<std::uint32_t> through;
+    for (int round = 0; depth_below(through) > most; ++round) {
+      std::uint32_t cheapest = none;
+      std::uint64_t least = most_bytes;
+      for (auto routine = through[0]; routine != none; routine = through[routine]) {
+        const auto copies = std::uint64_t{sites_[routine]} * cost_[routine];
+        if (!plan_.inlined[routine] && copies < least) {
+          least = copies;
+          cheapest = routine;
+        }
+      }
+      if (cheapest == none || round == most_rounds) {
+        for (auto routine = through[0]; routine != none; routine = through[routine])
+          plan_.chain.push_back(routine);
+        return;
+      }
+      plan_.inlined[cheapest] = true;
+      for (const auto routine : callees_first_) {
+        std::uint64_t cost = own_cost_[routine];
+        for (const auto callee : calls_[routine])
+          cost += plan_.inlined[callee] ? cost_[callee] : call_bytes;
+        cost_[routine] = static_cast<std::uint32_t>(std::min<std::uint64_t>(cost, 1U << 20));
+      }
+    }
+  }
+
+  // ---- loops
+
+  struct OpenLoop {
+    std::uint32_t statement;
+    bool left = false; ///< something jumps out of it
+    std::uint32_t height = 0;
+  };
+
+  void read_loops() {
+    std::vector<std::vector<std::uint32_t>> bodies(names_.routines.size());
+    for (const auto i : program_.order)
+      bodies[names_.routine_of[i]].push_back(i);
+    for (const auto routine : callees_first_)
+      heights_[routine] = read_loops(bodies[routine]);
+  }
+
+  /// How many of the robot's loops a body needs inside each other.
+  std::uint32_t read_loops(const std::vector<std::uint32_t>& body) {
+    std::vector<OpenLoop> open{{none, false, 0}};
+    const auto raise = [&](std::uint32_t height) {
+      open.back().height = std::max(open.back().height, height);
+    };
+    for (const auto i : body) {
+      const auto& statement = program_.statements[i];
+      each_call(statement, i, [&](std::uint32_t callee) { raise(heights_[callee]); });
+      if (is_loop(statement.kind)) {
+        open.push_back({i, false, 0});
+      } else if (statement.opener != none && statement.opener == open.back().statement) {
+        const auto loop = open.back();
+        open.pop_back();
+        raise(close(loop));
+      } else if (statement.kind == Kind::Exit) {
+        open.back().left = true;
+      } else if (statement.kind == Kind::Return) {
+        for (auto& loop : open)
+          loop.left = true;
+      } else if (statement.kind == Kind::Goto) {
+        const auto label = label_of(statement, body);
+        for (auto& loop : open)
+          if (loop.statement != none &&
+              (label < loop.statement || label > program_.statements[loop.statement].next))
+            loop.left = true;
+      }
+    }
+    return open.front().height;
+  }
+
+  std::uint32_t close(const OpenLoop& loop) {
+    const auto kind = program_.statements[loop.statement].kind;
+    const bool counts = kind == Kind::For || kind == Kind::RepeatTimes;
+    const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::ForDepth));
+    if (!counts || loop.left || loop.height >= most)
+      return loop.height;
+    plan_.native[loop.statement] = true;
+    return loop.height + 1;
+  }
+
+  std::uint32_t label_of(const Statement& jump, const std::vector<std::uint32_t>& body) const {
+    for (const auto i : body)
+      if (program_.statements[i].kind == Kind::Label && program_.statements[i].name == jump.name)
+        return i;
+    return none;
+  }
+
+  const Program& program_;
+  const Names& names_;
+  std::vector<std::vector<std::uint32_t>> calls_;
+  Plan plan_;
+  std::vector<std::uint32_t> callees_first_;
+  std::vector<std::uint32_t> own_cost_;
+  std::vector<std::uint32_t> cost_;
+  std::vector<std::uint32_t> sites_;
+  std::vector<std::uint32_t> heights_;
+};
+
+} // namespace
+
+Plan plan(const Program& program, const Names& names) {
+  return Planner(program, names).run();
+}
+
+} // namespace orb::structured

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "structured/meaning/names.h"
+#include "structured/text/program.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace orb::structured {
+
+/// What is decided about subs and loops before the first line is written.
+struct Plan {
+  std::vector<bool> inlined;        ///< of each routine: written into its callers
+  std::vector<bool> needed;         ///< of each routine: reached from the main program
+  std::vector<bool> native;         ///< of each statement: a loop that becomes the robot's `for`
+  std::vector<std::uint32_t> chain; ///< routines that call each other deeper than the robot follows
+};
+
+/// Inlines what is called once, or is shorter than its calls, or stands too deep in a chain of
+/// calls; makes the innermost loops the robot's own, four deep, where nothing jumps out of them.
+Plan plan(const Program& program, const Names& names);
+
+} // namespace orb::structured

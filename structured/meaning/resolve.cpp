@@ -1,0 +1,582 @@
+#include "base/text.h"
+#include "structured/meaning/names.h"
+
+#include "base/suggest.h"
+#include "spec/limits.h"
+#include "structured/text/blocks.h"
+#include "structured/text/messages.h"
+#include "structured/text/rules.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace orb::structured {
+namespace {
+
+std::string_view kind_word(SymbolKind kind) {
+  switch (kind) {
+  case SymbolKind::Variable: return "variable";
+  case SymbolKind::Local: return "local";
+  case SymbolKind::Parameter: return "parameter";
+  case SymbolKind::Constant: return "constant";
+  case SymbolKind::Array: return "array";
+  case SymbolKind::Sub: return "sub";
+  case SymbolKind::Function: return "function";
+  }
+  return "name";
+}
+
+class Resolver {
+public:
+  explicit Resolver(Program& program)
+      : program_(program), broken_(any_error(program.diagnostics)) {}
+
+  Names run() {
+    incomplete_ =
+        std::any_of(program_.diagnostics.begin(), program_.diagnostics.end(),
+                    [](const Diagnostic& one) {
+                      return one.rule == &rules::MissingFile || one.rule == &rules::BadMacroFile;
+                    }) ||
+        std::any_of(program_.statements.begin(), program_.statements.end(),
+                    [](const Statement& one) { return declares(one.meant); });
+    names_.routines.emplace_back();
+    names_.of_node.assign(program_.nodes.size(), none);
+    names_.of_statement.assign(program_.statements.size(), none);
+    names_.routine_of.assign(program_.statements.size(), 0);
+    shared_.assign(program_.names.size(), none);
+    own_.assign(program_.names.size(), none);
+    declare_all();
+    declare_variables();
+    look_up_all();
+    check_constants();
+    return std::move(names_);
+  }
+
+private:
+  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+    return program_.diagnostics.emplace_back(
+        finding(rule, span, std::move(message), std::move(help)));
+  }
+
+  std::uint32_t add(Symbol symbol) {
+    names_.symbols.push_back(symbol);
+    return static_cast<std::uint32_t>(names_.symbols.size()) - 1;
+  }
+
+  // ---- declarations
+
+  void declare_all() {
+    std::uint32_t routine = 0;
+    rank_.assign(program_.statements.size(), 0);
+    std::uint32_t rank = 0;
+    for (const auto i : program_.order) {
+      rank_[i] = ++rank;
+      const auto& statement = program_.statements[i];
+      if (statement.kind == Kind::Sub || statement.kind == Kind::Function) {
+        routine = static_cast<std::uint32_t>(names_.routines.size());
+        names_.routine_of[i] = routine;
+        declare_routine(i);
+      } else {
+        names_.routine_of[i] = routine;
+      }
+      if (statement.kind == Kind::Const)
+        declare_constant(i);
+      else if (statement.kind == Kind::Array)
+        declare_array(i);
+      else if (statement.kind == Kind::Local)
+        declare_locals(i, routine);
+      else if (statement.kind == Kind::Use)
+        declare_macros(i);
+      else if (statement.kind == Kind::EndSub || statement.kind == Kind::EndFunction)
+        routine = 0;
+    }
+  }
+
+  std::uint32_t declare(Symbol symbol) {
+    const auto name = symbol.name;
+    if (shared_[name] != none) {
+      report_taken(symbol, shared_[name]);
+      return none;
+    }
+    return shared_[name] = add(symbol);
+  }
+
+  void report_taken(const Symbol& symbol, std::uint32_t other) {
+    taken_.push_back(symbol.name);
+    const auto& first = names_.symbols[other];
+    auto& d = report(
+        rules::NameTaken, symbol.span,
+        fmt::format("`{}` is a {} already", program_.text_of(symbol.span), kind_word(first.kind)),
+        "choose another name");
+    d.notes.push_back({first.span, "declared here"});
+  }
+
+  /// What statement `i` declares by its name.
+  Symbol named(SymbolKind kind, std::uint32_t i) const {
+    Symbol symbol;
+    symbol.kind = kind;
+    symbol.name = program_.statements[i].name;
+    symbol.statement = i;
+    symbol.span = program_.statements[i].name_span;
+    return symbol;
+  }
+
+  void declare_routine(std::uint32_t i) {
+    const auto& statement = program_.statements[i];
+    auto symbol = named(statement.kind == Kind::Sub ? SymbolKind::Sub : SymbolKind::Function, i);
+    symbol.routine = static_cast<std::uint32_t>(names_.routines.size());
+    Routine routine;
+    routine.statement = i;
+    routine.symbol = declare(symbol);
+    if (routine.symbol == none)
+      routine.symbol = add(symbol);
+    routine.first_parameter = static_cast<std::uint32_t>(names_.symbols.size());
+    for (const auto& item : program_.items_of(statement)) {
+      Symbol parameter;
+      parameter.kind = SymbolKind::Parameter;
+      parameter.name = item.value;
+      parameter.statement = i;
+      parameter.span = item.span;
+      parameter.routine = symbol.routine;
+      add(parameter);
+      ++routine.parameters;
+    }
+    names_.routines.push_back(std::move(routine));
+  }
+
+  void declare_constant(std::uint32_t i) {
+    auto symbol = named(SymbolKind::Constant, i);
+    if (const auto value = constant(program_.statements[i].items_begin)) {
+      symbol.value = value->value;
+      symbol.duration = value->duration;
+    }
+    declare(symbol);
+  }
+
+  void declare_array(std::uint32_t i) {
+    const auto& statement = program_.statements[i];
+    const auto most = spec::value_of(spec::Limit::IndexedVariables);
+    auto symbol = named(SymbolKind::Array, i);
+    symbol.base = names_.elements;
+    const auto size = constant(statement.items_begin);
+    if (size && (size->value < 1 || size->value > most - names_.elements)) {
+      report(rules::ArraySize, program_.items[statement.items_begin].span,
+             names_.elements == 0
+                 ? fmt::format("an array has 1 to {} elements, found {}", most, size->value)
+                 : fmt::format("{} of {} elements are left, found {}", most - names_.elements, most,
+                               size->value));
+    } else if (size) {
+      symbol.value = size->value;
+      names_.elements += size->value;
+    }
+    declare(symbol);
+  }
+
+  void declare_locals(std::uint32_t i, std::uint32_t routine) {
+    if (routine == 0)
+      return; // reported where statements in the wrong place are
+    for (const auto& item : program_.items_of(program_.statements[i])) {
+      Symbol local;
+      local.kind = SymbolKind::Local;
+      local.name = item.value;
+      local.statement = i;
+      local.span = item.span;
+      local.routine = routine;
+      names_.routines[routine].locals.push_back(add(local));
+    }
+  }
+
+  void declare_macros(std::uint32_t i) {
+    shared_.resize(program_.names.size(), none);
+    own_.resize(program_.names.size(), none);
+    for (const auto& macro : program_.macros) {
+      if (macro.statement != i)
+        continue;
+      Symbol symbol;
+      symbol.kind = SymbolKind::Constant;
+      symbol.name = macro.name;
+      symbol.statement = i;
+      symbol.span = program_.items[program_.statements[i].items_begin].span;
+      symbol.value = macro.id;
+      symbol.read = true;
+      if (shared_[macro.name] != none) {
+        report(rules::NameTaken, symbol.span,
+               fmt::format("the macro `{}` has a name that is taken", program_.name(macro.name)));
+        continue;
+      }
+      declare(symbol);
+    }
+  }
+
+  /// The value of an Expression item that must be constant; names below are looked up as far as
+  /// they are known by now.
+  std::optional<Constant> constant(std::uint32_t item) {
+    const auto root = program_.items[item].value;
+    for (auto n = program_.nodes[root].first; n <= root; ++n)
+      if (program_.nodes[n].kind == NodeKind::Name) {
+        const auto symbol = shared_[static_cast<std::uint32_t>(program_.nodes[n].value)];
+        if (symbol != none && names_.symbols[symbol].kind == SymbolKind::Constant) {
+          names_.of_node[n] = symbol;
+          names_.symbols[symbol].read = true;
+        }
+      }
+    auto value = evaluate(program_, names_, root);
+    if (!value)
+      inconstant_.push_back(item);
+    return value;
+  }
+
+  /// What could not be computed, although all of its names are known by now.
+  void check_constants() {
+    for (const auto item : inconstant_) {
+      const auto& part = program_.items[item];
+      bool known = !program_.nodes[part.value].is_condition();
+      for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
+        known = known && (program_.nodes[n].kind != NodeKind::Name || names_.of_node[n] != none);
+      if (known)
+        report(rules::NotConstant, part.span, "the value is not known when the program is compiled",
+               "use literals and constants that are declared above");
+    }
+  }
+
+  // ---- scopes
+
+  void enter(std::uint32_t routine) {
+    for (const auto symbol : scope_)
+      own_[names_.symbols[symbol].name] = none;
+    scope_.clear();
+    if (routine == 0)
+      return;
+    const auto& entered = names_.routines[routine];
+    for (std::uint32_t n = 0; n < entered.parameters; ++n)
+      open_name(entered.first_parameter + n);
+    for (const auto local : entered.locals)
+      open_name(local);
+  }
+
+  void open_name(std::uint32_t index) {
+    const auto& symbol = names_.symbols[index];
+    if (own_[symbol.name] != none) {
+      if (!scope_reported(index))
+        report_taken(symbol, own_[symbol.name]);
+      return;
+    }
+    const auto shared = shared_[symbol.name];
+    if (shared != none && names_.symbols[shared].kind != SymbolKind::Variable &&
+        !scope_reported(index))
+      report_taken(symbol, shared);
+    own_[symbol.name] = index;
+    scope_.push_back(index);
+  }
+
+  /// Scopes are entered twice; what is wrong with a name is said once.
+  bool scope_reported(std::uint32_t index) {
+    if (reported_.size() < names_.symbols.size())
+      reported_.resize(names_.symbols.size(), false);
+    const bool before = reported_[index];
+    reported_[index] = true;
+    return before;
+  }
+
+  template <typename Visit>
+  void each_statement(Visit visit) {
+    std::uint32_t routine = 0;
+    enter(0);
+    for (const auto i : program_.order) {
+      if (names_.routine_of[i] != routine) {
+        routine = names_.routine_of[i];
+        enter(routine);
+      }
+      visit(i);
+    }
+    enter(0);
+  }
+
+  // ---- variables
+
+  /// Whether a statement sets the Place after its word and does not read it.
+  static bool sets(const Statement& statement) {
+    return statement.kind == Kind::Assign || statement.kind == Kind::For ||
+           statement.kind == Kind::Robot;
+  }
+
+  void declare_variables() {
+    each_statement([&](std::uint32_t i) {
+      const auto& statement = program_.statements[i];
+      if (!sets(statement))
+        return;
+      for (const auto& item : program_.items_of(statement)) {
+        if (item.kind != ItemKind::Place || program_.nodes[item.value].kind != NodeKind::Name)
+          continue;
+        const auto name = static_cast<std::uint32_t>(program_.nodes[item.value].value);
+        if (own_[name] != none || shared_[name] != none)
+          continue;
+        Symbol symbol;
+        symbol.kind = SymbolKind::Variable;
+        symbol.name = name;
+        symbol.statement = i;
+        symbol.span = item.span;
+        shared_[name] = add(symbol);
+      }
+    });
+  }
+
+  // ---- uses
+
+  void look_up_all() {
+    each_statement([&](std::uint32_t i) {
+      look_up(i);
+      const auto& statement = program_.statements[i];
+      if (statement.kind == Kind::Call)
+        look_up_call(i);
+    });
+  }
+
+  void look_up(std::uint32_t i) {
+    const auto& statement = program_.statements[i];
+    // `RGB orange` names a colour where nothing else has that name.
+    const bool colour = statement.kind == Kind::Robot && statement.robot == spec::Statement::Rgb &&
+                        statement.items_end - statement.items_begin < 3;
+    const bool only = statement.items_end - statement.items_begin == 1;
+    for (const auto& item : program_.items_of(statement)) {
+      if (item.kind != ItemKind::Expression && item.kind != ItemKind::Place &&
+          item.kind != ItemKind::Character)
+        continue;
+      const bool place = item.kind == ItemKind::Place;
+      for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {
+        const auto kind = program_.nodes[n].kind;
+        if (kind != NodeKind::Name && kind != NodeKind::Element && kind != NodeKind::Call)
+          continue;
+        if (names_.of_node[n] != none)
+          continue; // of a constant: looked up when it was declared
+        if (colour && kind == NodeKind::Name && symbol_of(n) == none &&
+            find_colour(program_.text_of(program_.nodes[n].span)))
+          continue;
+        if (colour && only && kind == NodeKind::Name && n == item.value && symbol_of(n) == none)
+          report_colour(program_.nodes[n].span);
+        else if (place && n == item.value)
+          look_up_place(n, statement);
+        else
+          look_up_value(n, i);
+      }
+    }
+  }
+
+  std::uint32_t symbol_of(std::uint32_t node) const {
+    const auto name = static_cast<std::uint32_t>(program_.nodes[node].value);
+    return own_[name] != none ? own_[name] : shared_[name];
+  }
+
+  void look_up_place(std::uint32_t n, const Statement& statement) {
+    const auto& node = program_.nodes[n];
+    const auto index = symbol_of(n);
+    const bool element = node.kind == NodeKind::Element;
+    if (index == none) {
+      if (statement.kind != Kind::Next) // which has the name of its loop or is wrong anyway
+        report_unknown(node, element);
+      return;
+    }
+    auto& symbol = names_.symbols[index];
+    names_.of_node[n] = index;
+    const bool variable = symbol.kind == SymbolKind::Variable || symbol.kind == SymbolKind::Local ||
+                          symbol.kind == SymbolKind::Parameter;
+    if (element ? symbol.kind != SymbolKind::Array : !variable) {
+      names_.of_node[n] = none;
+      report_wrong(node, symbol,
+                   element                               ? "it has no elements"
+                   : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
+                   : symbol.kind == SymbolKind::Array    ? "an element has an index"
+                                                         : "it cannot be set");
+    } else if (element && (statement.kind == Kind::For)) {
+      report(rules::WrongUse, node.span, "a loop counts in a variable, not in an element");
+    }
+    // A loop counts in its variable; of a sensor that clears it is the reading that counts.
+    if (statement.kind == Kind::For || (statement.kind == Kind::Assign && clears(statement)))
+      symbol.read = true;
+  }
+
+  /// Whether a statement reads what reading clears.
+  bool clears(const Statement& statement) const {
+    for (const auto& item : program_.items_of(statement))
+      if (item.kind == ItemKind::Expression)
+        for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
+          if (program_.nodes[n].kind == NodeKind::System &&
+              spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
+            return true;
+    return false;
+  }
+
+  void look_up_value(std::uint32_t n, std::uint32_t statement) {
+    const auto& node = program_.nodes[n];
+    const auto index = symbol_of(n);
+    if (index == none) {
+      report_unknown(node, node.kind != NodeKind::Name);
+      return;
+    }
+    auto& symbol = names_.symbols[index];
+    symbol.read = true;
+    names_.of_node[n] = index;
+    const bool value = symbol.kind == SymbolKind::Variable || symbol.kind == SymbolKind::Local ||
+                       symbol.kind == SymbolKind::Parameter || symbol.kind == SymbolKind::Constant;
+    if (node.kind == NodeKind::Name && !value)
+      wrong(n, symbol,
+            symbol.kind == SymbolKind::Array      ? "an element has an index"
+            : symbol.kind == SymbolKind::Function ? "a function is called with parentheses"
+                                                  : "a sub gives no value");
+    else if (node.kind == NodeKind::Element && symbol.kind != SymbolKind::Array)
+      wrong(n, symbol, "it has no elements");
+    else if (node.kind == NodeKind::Call && symbol.kind != SymbolKind::Function)
+      wrong(n, symbol,
+            symbol.kind == SymbolKind::Sub     ? "a sub gives no value; it is called as a statement"
+            : symbol.kind == SymbolKind::Array ? "an element is written with brackets"
+                                               : "it cannot be called");
+    else if (node.kind == NodeKind::Call)
+      check_call(index, node.count, node.span);
+    if (symbol.kind == SymbolKind::Constant && rank_[symbol.statement] > rank_[statement]) {
+      names_.of_node[n] = none;
+      report(rules::NotConstant, node.span,
+             fmt::format("the constant `{}` is declared below", program_.name(symbol.name)),
+             "move its declaration up");
+    }
+  }
+
+  void wrong(std::uint32_t n, const Symbol& symbol, std::string_view why) {
+    names_.of_node[n] = none;
+    report_wrong(program_.nodes[n], symbol, why);
+  }
+
+  void report_wrong(const Node& node, const Symbol& symbol, std::string_view why) {
+    if (std::find(taken_.begin(), taken_.end(), symbol.name) != taken_.end())
+      return; // of two meanings the other may be meant
+    const auto name = program_.name(symbol.name);
+    const auto article = symbol.kind == SymbolKind::Array ? "an" : "a";
+    auto& d = report(rules::WrongUse, node.span,
+                     fmt::format("`{}` is {} {}; {}", name, article, kind_word(symbol.kind), why));
+    d.notes.push_back({symbol.span, "declared here"});
+  }
+
+  void check_call(std::uint32_t index, std::uint32_t count, Span span) {
+    auto& symbol = names_.symbols[index];
+    symbol.used = true;
+    const auto& routine = names_.routines[symbol.routine];
+    if (count != routine.parameters)
+      report(rules::ArgumentCount, span,
+             fmt::format("`{}` takes {}, found {}", program_.name(symbol.name),
+                         plural(routine.parameters, "value"), count));
+  }
+
+  void look_up_call(std::uint32_t i) {
+    const auto& statement = program_.statements[i];
+    const auto index =
+        own_[statement.name] != none ? own_[statement.name] : shared_[statement.name];
+    if (index == none) {
+      report_unknown_word(statement.name_span);
+      return;
+    }
+    const auto& symbol = names_.symbols[index];
+    Node node;
+    node.span = statement.name_span;
+    if (symbol.kind == SymbolKind::Function) {
+      report_wrong(node, symbol, "its value must be used, as in `x = name()`");
+    } else if (symbol.kind != SymbolKind::Sub) {
+      report_wrong(node, symbol, "a statement begins with a word, a sub or `name =`");
+    } else {
+      names_.of_statement[i] = index;
+      check_call(index, statement.items_end - statement.items_begin, statement.span);
+    }
+  }
+
+  // ---- unknown names
+
+  void report_unknown(const Node& node, bool needs_declaration) {
+    if (broken_ && !needs_declaration)
+      return; // a line that does not parse may assign it
+    const Span span{node.span.begin,
+                    node.span.begin +
+                        static_cast<std::uint32_t>(
+                            program_.name(static_cast<std::uint32_t>(node.value)).size())};
+    if (report_foreign(span, compiler::Foreign::Place::Value))
+      return;
+    if (find_colour(program_.text_of(span))) {
+      report(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
+             "a colour stands alone after `RGB`: `RGB red`");
+      return;
+    }
+    std::vector<std::string_view> candidates;
+    for (const auto& symbol : names_.symbols)
+      candidates.push_back(program_.name(symbol.name));
+    for (const auto& row : spec::variables)
+      candidates.push_back(row.word);
+    suggest(span, candidates,
+            node.kind == NodeKind::Name      ? "is never assigned"
+            : node.kind == NodeKind::Element ? "is not an array"
+                                             : "is not a function");
+  }
+
+  void report_colour(Span span) {
+    const auto names = colour_names();
+    const auto name = program_.text_of(span);
+    report(rules::UnknownName, span, fmt::format("`{}` is neither a colour nor a variable", name),
+           did_you_mean(name, names,
+                        fmt::format("colours are {}, or `#FF8000`", fmt::join(names, ", "))));
+  }
+
+  void report_unknown_word(Span span) {
+    if (report_foreign(span, compiler::Foreign::Place::Statement))
+      return;
+    std::vector<std::string_view> candidates;
+    for (const auto& symbol : names_.symbols)
+      if (symbol.kind == SymbolKind::Sub)
+        candidates.push_back(program_.name(symbol.name));
+    for (const auto& row : spec::statements)
+      candidates.push_back(row.word);
+    for (const auto& row : keywords)
+      candidates.push_back(row.word);
+    suggest(span, candidates, "is neither a statement nor a sub");
+  }
+
+  /// Says what a word of another language is here; false where it is none.
+  bool report_foreign(Span span, compiler::Foreign::Place place) {
+    auto known = foreign(program_, span, place);
+    if (known && !incomplete_)
+      program_.diagnostics.push_back(*std::move(known));
+    return known.has_value();
+  }
+
+  void suggest(Span span, const std::vector<std::string_view>& candidates, std::string_view what) {
+    if (incomplete_)
+      return;
+    constexpr std::size_t most = 64; // a suggestion for each of very many would take too long
+    const auto name = std::string(program_.text_of(span));
+    auto& d = report(rules::UnknownName, span, fmt::format("`{}` {}", name, what));
+    if (++unknown_ > most)
+      return;
+    if (const auto meant = closest(name, candidates)) {
+      d.help = fmt::format("did you mean `{}`?", *meant);
+      d.fix = Fix{fmt::format("write `{}`", *meant), {Edit{span, *meant}}, Safety::Unsafe};
+    }
+  }
+
+  Program& program_;
+  Names names_;
+  std::vector<std::uint32_t> shared_; ///< of each name: the symbol of the whole program, or none
+  std::vector<std::uint32_t> own_;    ///< of each name: the local or parameter of this routine
+  std::vector<std::uint32_t> scope_;  ///< the symbols in `own_`
+  std::vector<std::uint32_t> taken_;  ///< names that have two meanings
+  std::vector<bool> reported_;
+  std::vector<std::uint32_t> rank_;       ///< of each statement: its place in the order
+  std::vector<std::uint32_t> inconstant_; ///< items that are not constant so far
+  std::size_t unknown_ = 0;
+  bool incomplete_ = false; ///< a file that may declare what is unknown could not be read
+  bool broken_ = false;
+};
+
+} // namespace
+
+Names resolve(Program& program) {
+  return Resolver(program).run();
+}
+
+} // namespace orb::structured

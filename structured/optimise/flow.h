@@ -1,0 +1,144 @@
+#pragma once
+
+#include "structured/lower/code.h"
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace orb::structured {
+
+/// Sets of variables, one after the other, as bits.
+class VariableSets {
+public:
+  VariableSets() = default;
+  VariableSets(std::size_t sets, std::size_t variables)
+      : words_((variables + 63) / 64), bits_(sets * words_, 0) {}
+
+  std::span<std::uint64_t> operator[](std::size_t set) {
+    return {bits_.data() + set * words_, words_};
+  }
+  std::span<const std::uint64_t> operator[](std::size_t set) const {
+    return {bits_.data() + set * words_, words_};
+  }
+  std::size_t words() const { return words_; }
+
+private:
+  std::size_t words_ = 0;
+  std::vector<std::uint64_t> bits_;
+};
+
+inline void insert(std::span<std::uint64_t> set, std::uint32_t variable) {
+  set[variable / 64] |= std::uint64_t{1} << (variable % 64);
+}
+inline void remove(std::span<std::uint64_t> set, std::uint32_t variable) {
+  set[variable / 64] &= ~(std::uint64_t{1} << (variable % 64));
+}
+inline bool contains(std::span<const std::uint64_t> set, std::uint32_t variable) {
+  return (set[variable / 64] >> (variable % 64) & 1) != 0;
+}
+template <typename Visit>
+void each_member(std::span<const std::uint64_t> set, Visit visit) {
+  for (std::uint32_t word = 0; word < set.size(); ++word)
+    for (auto bits = set[word]; bits != 0; bits &= bits - 1)
+      visit(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
+}
+/// Adds all of `from`; true where that changed something.
+inline bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> from) {
+  std::uint64_t changed = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    changed |= from[i] & ~set[i];
+    set[i] |= from[i];
+  }
+  return changed != 0;
+}
+
+/// Lines that run one after the other. A call stands inside: it comes back.
+struct Block {
+  std::uint32_t begin = 0; ///< lines
+  std::uint32_t end = 0;
+  std::uint32_t successors_begin = 0;
+  std::uint32_t successors_end = 0;
+};
+
+/// How the lines of a program follow each other, and what its routines touch.
+struct Flow {
+  std::vector<Block> blocks;
+  std::vector<std::uint32_t> successors;     ///< blocks
+  std::vector<std::uint32_t> block_of_label; ///< or none
+  std::vector<std::uint32_t> entries;        ///< of each routine: its first block, or none
+  VariableSets written;                      ///< of each sub and function, with all that it calls
+  VariableSets touched;                      ///< the same, read or written
+  std::vector<bool> sets_elements;           ///< the same
+
+  std::span<const std::uint32_t> successors_of(const Block& block) const {
+    return {successors.data() + block.successors_begin, successors.data() + block.successors_end};
+  }
+};
+
+Flow read_flow(const Code& code);
+
+/// Calls `visit` with each label that a line can go to.
+template <typename Visit>
+void each_target(const Code& code, const CodeLine& line, Visit visit) {
+  if (line.kind == LineKind::Goto || line.kind == LineKind::If || line.kind == LineKind::Next)
+    visit(line.label);
+  if (line.kind == LineKind::Switch) {
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      visit(code.cases[i].label);
+    visit(line.label);
+  }
+  if (line.kind == LineKind::On)
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      visit(code.parts[i].value);
+}
+
+/// The same, and the subs that a line calls.
+template <typename Visit>
+void each_label(const Code& code, const CodeLine& line, Visit visit) {
+  each_target(code, line, visit);
+  if (line.kind == LineKind::Gosub)
+    visit(line.label);
+  if (line.kind == LineKind::OnGosub)
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      visit(code.parts[i].value);
+}
+
+/// Calls `visit` with each routine that a line calls.
+template <typename Visit>
+void each_callee(const Code& code, const CodeLine& line, Visit visit) {
+  if (line.kind == LineKind::Gosub)
+    visit(line.variable);
+  if (line.kind == LineKind::OnGosub)
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      visit(code.parts[i].text.begin);
+}
+
+/// Whether the line below can be next.
+inline bool falls_through(const CodeLine& line) {
+  if (line.kind == LineKind::Do)
+    return line.robot != spec::Statement::End && line.robot != spec::Statement::Reset;
+  return line.kind != LineKind::Goto && line.kind != LineKind::Return &&
+         line.kind != LineKind::Switch && line.kind != LineKind::On;
+}
+
+/// Which variables are read later, before they are set again. Kept ones are live everywhere.
+struct Liveness {
+  VariableSets in;        ///< of each block, at its begin
+  VariableSets out;       ///< at its end
+  VariableSets across;    ///< of each routine: what lives on through a call of it, untouched
+  VariableSets at_return; ///< of each routine: what is read after its calls
+};
+
+/// What counts as a read: reads; or also where a variable is set to a number, so that what it held
+/// before is known and a number that it holds already need not be set.
+enum class Counting : std::uint8_t { Reads, SettingsToo };
+
+Liveness read_liveness(const Code& code, const Flow& flow, Counting counting = Counting::Reads);
+
+/// Takes `line` out of `live`, the variables that are live after it: afterwards those before it.
+void step_back(const Code& code, const Flow& flow, const Liveness& liveness, const CodeLine& line,
+               std::span<std::uint64_t> live);
+
+} // namespace orb::structured

@@ -1,0 +1,376 @@
+#include "structured/optimise/forward.h"
+
+#include "spec/limits.h"
+#include "structured/optimise/flow.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace orb::structured {
+namespace {
+
+constexpr std::uint32_t reach = 40; ///< lines that a value is followed
+constexpr std::uint16_t largest_term = 64;
+
+/// Whether a line only sets what nobody reads, or a variable to itself.
+bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64_t> live) {
+  if (line.kind != LineKind::Let)
+    return false;
+  const auto& term = code.terms[line.term];
+  if (term.kind == TermKind::Variable && term.left == line.variable)
+    return true;
+  return !contains(live, line.variable) && (term.effects & (effect::faults | effect::clears)) == 0;
+}
+
+class Forwarder {
+public:
+  explicit Forwarder(Code& code)
+      : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)) {}
+
+  void run() {
+    go_back();
+    count_reads();
+    const auto size = static_cast<std::uint32_t>(code_.lines.size());
+    for (std::uint32_t i = 0; i < size; ++i)
+      if (code_.lines[i].kind == LineKind::Let)
+        drop_repeated(i);
+    for (auto i = size; i-- > 0;)
+      if (code_.lines[i].kind == LineKind::Let && !move(i))
+        copy(i);
+  }
+
+private:
+  // ---- facts about lines
+
+  /// Removes what nobody reads, and finds of each line the variables that it reads and nothing
+  /// after it.
+  void go_back() {
+    last_reads_ = VariableSets(code_.lines.size(), code_.variables.size());
+    std::vector<std::uint64_t> live;
+    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
+      const auto out = liveness_.out[b];
+      live.assign(out.begin(), out.end());
+      for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
+        auto& line = code_.lines[i];
+        if (is_dead(code_, line, live))
+          line.kind = LineKind::Nothing;
+        each_line_read(code_, line, [&](std::uint32_t v) {
+          bool set = false;
+          each_write(code_, line, [&](std::uint32_t w) { set = set || w == v; });
+          if ((set && line.kind != LineKind::Next) || !contains(live, v))
+            insert(last_reads_[i], v);
+        });
+        step_back(code_, flow_, liveness_, line, live);
+      }
+    }
+  }
+
+  void count_reads() {
+    reads_.assign(code_.variables.size(), 0);
+    for (const auto& line : code_.lines)
+      each_line_read(code_, line, [&](std::uint32_t v) { ++reads_[v]; });
+  }
+
+  bool writes(const CodeLine& line, std::uint32_t variable) const {
+    bool found = false;
+    each_write(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
+    each_callee(code_, line, [&](std::uint32_t routine) {
+      found = found || contains(flow_.written[routine], variable);
+    });
+    return found;
+  }
+  bool touches(const CodeLine& line, std::uint32_t variable) const {
+    bool found = writes(line, variable);
+    each_line_read(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
+    each_callee(code_, line, [&](std::uint32_t routine) {
+      found = found || contains(flow_.touched[routine], variable);
+    });
+    return found;
+  }
+  bool sets_elements(const CodeLine& line) const {
+    if (line.kind == LineKind::SetElement)
+      return true;
+    bool found = false;
+    each_callee(code_, line,
+                [&](std::uint32_t routine) { found = found || flow_.sets_elements[routine]; });
+    if (line.kind == LineKind::Do)
+      for (auto i = line.parts_begin; i < line.parts_end; ++i)
+        found = found || code_.parts[i].kind == PartKind::Element;
+    return found;
+  }
+  /// Whether a line does something that can be noticed from outside, or takes time.
+  static bool acts(const CodeLine& line) {
+    return line.kind == LineKind::Do || line.kind == LineKind::Print ||
+           line.kind == LineKind::SetSystem || line.kind == LineKind::Gosub ||
+           line.kind == LineKind::OnGosub || line.kind == LineKind::Return;
+  }
+  std::uint8_t effects_of(const CodeLine& line) const {
+    std::uint8_t effects = 0;
+    each_root(code_, line, [&](std::uint32_t root) { effects |= code_.terms[root].effects; });
+    if (line.kind == LineKind::SetElement)
+      effects |= effect::faults;
+    return effects;
+  }
+  bool reads(std::uint32_t term, std::uint32_t variable) const {
+    bool found = false;
+    each_read(code_, term, [&](std::uint32_t v) { found = found || v == variable; });
+    return found;
+  }
+
+  /// Whether a line changes what a term reads.
+  bool disturbs(const CodeLine& line, std::uint32_t term) const {
+    bool found = (code_.terms[term].effects & effect::elements) != 0 && sets_elements(line);
+    each_write(code_, line, [&](std::uint32_t v) { found = found || reads(term, v); });
+    each_callee(code_, line, [&](std::uint32_t routine) {
+      each_read(code_, term,
+                [&](std::uint32_t v) { found = found || contains(flow_.written[routine], v); });
+    });
+    return found;
+  }
+
+  /// Whether a term can be computed after a line instead of before it.
+  bool passes(const CodeLine& line, std::uint32_t term) const {
+    const auto effects = code_.terms[term].effects;
+    constexpr std::uint8_t noticed = effect::faults | effect::clears;
+    if (disturbs(line, term) || ordered(effects, effects_of(line)))
+      return false;
+    if (acts(line) && (effects & (noticed | effect::senses)) != 0)
+      return false;
+    const bool splits = line.kind == LineKind::If || line.kind == LineKind::Next;
+    return !splits || (effects & noticed) == 0;
+  }
+
+  bool live_at(std::uint32_t label, std::uint32_t variable) const {
+    const auto block = flow_.block_of_label[label];
+    return block != none && contains(liveness_.in[block], variable);
+  }
+
+  /// Whether straight text ends at a line: what follows may come from elsewhere.
+  static bool ends_text(const CodeLine& line) {
+    return line.kind == LineKind::Label || line.kind == LineKind::Next || !falls_through(line);
+  }
+
+  // ---- moving a value to its only reader
+
+  bool move(std::uint32_t i) {
+    const auto variable = code_.lines[i].variable;
+    if (variable == index_variable || code_.variables[variable].kept)
+      return false;
+    const auto term = code_.lines[i].term;
+    const auto last =
+        std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
+    for (auto j = i + 1; j < last; ++j) {
+      auto& line = code_.lines[j];
+      if (line.kind == LineKind::Label)
+        return false;
+      std::uint32_t count = 0;
+      each_line_read(code_, line, [&](std::uint32_t v) { count += v == variable ? 1 : 0; });
+      if (count > 0)
+        return count == 1 && contains(last_reads_[j], variable) && substitute(i, j, variable, term);
+      if (touches(line, variable) || ends_text(line) || !passes(line, term))
+        return false;
+      if (line.kind == LineKind::If && live_at(line.label, variable))
+        return false;
+    }
+    return false;
+  }
+
+  /// Puts `term`, computed at line `i`, in place of the variable in line `j`.
+  bool substitute(std::uint32_t i, std::uint32_t j, std::uint32_t variable, std::uint32_t term) {
+    auto& line = code_.lines[j];
+    // What stops the program stops it at its own statement.
+    if ((code_.terms[term].effects & effect::faults) != 0 && code_.lines[i].origin != line.origin)
+      return false;
+    std::uint8_t before = 0;
+    bool done = false;
+    bool good = true;
+    each_root(code_, line, [&](std::uint32_t& root) {
+      if (done || !good)
+        return;
+      if (!reads(root, variable)) {
+        before |= code_.terms[root].effects;
+        return;
+      }
+      if (line.kind == LineKind::For && &root == &line.end && reads(term, line.variable) &&
+          !is_read_of(line.term, line.variable)) {
+        good = false;
+        return;
+      }
+      const auto result = replaced(root, variable, term, before);
+      if (!result) {
+        good = false;
+        return;
+      }
+      root = *result;
+      done = true;
+    });
+    if (!done)
+      return false;
+    code_.lines[i].kind = LineKind::Nothing;
+    // What the term reads is now read as late as here.
+    each_read(code_, term, [&](std::uint32_t v) {
+      bool last = false;
+      for (auto k = i; k <= j; ++k) {
+        last = last || contains(last_reads_[k], v);
+        remove(last_reads_[k], v);
+      }
+      if (last)
+        insert(last_reads_[j], v);
+    });
+    return true;
+  }
+
+  bool is_read_of(std::uint32_t term, std::uint32_t variable) const {
+    return code_.terms[term].kind == TermKind::Variable && code_.terms[term].left == variable;
+  }
+
+  /// `root` with `term` in place of the variable; nothing where that would be too deep, or would
+  /// change the order of what is noticed. `before` gathers what is computed before the variable.
+  std::optional<std::uint32_t> replaced(std::uint32_t root, std::uint32_t variable,
+                                        std::uint32_t term, std::uint8_t& before) {
+    const auto node = code_.terms[root];
+    if (node.kind == TermKind::Variable && node.left == variable) {
+      if (ordered(before, code_.terms[term].effects))
+        return std::nullopt;
+      return term;
+    }
+    if (!reads(root, variable)) {
+      before |= node.effects;
+      return root;
+    }
+    std::optional<std::uint32_t> result;
+    if (node.kind == TermKind::Binary) {
+      const auto left = replaced(node.left, variable, term, before);
+      const auto right = left ? replaced(node.right, variable, term, before) : std::nullopt;
+      if (!right)
+        return std::nullopt;
+      result = code_.binary(static_cast<spec::Operator>(node.what), *left, *right);
+    } else if (node.kind == TermKind::Call) {
+      const auto operand = replaced(node.left, variable, term, before);
+      if (!operand)
+        return std::nullopt;
+      result = code_.call(static_cast<spec::Function>(node.what), *operand);
+    }
+    if (!result || code_.terms[*result].size > largest_term ||
+        code_.terms[*result].levels > spec::value_of(spec::Limit::ExpressionLevels))
+      return std::nullopt;
+    return result;
+  }
+
+  // ---- copies
+
+  /// Reads the original in place of a copy, where that does away with the copy.
+  void copy(std::uint32_t i) {
+    const auto variable = code_.lines[i].variable;
+    const auto source = code_.lines[i].term;
+    if (variable == index_variable || code_.variables[variable].kept ||
+        code_.terms[source].kind != TermKind::Variable)
+      return;
+    const auto original = code_.terms[source].left;
+    if (original == index_variable || original == variable)
+      return;
+    std::uint32_t found = 0;
+    std::vector<std::uint32_t> readers;
+    const auto last =
+        std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
+    for (auto j = i + 1; j < last; ++j) {
+      const auto& line = code_.lines[j];
+      if (line.kind == LineKind::Label)
+        break;
+      std::uint32_t count = 0;
+      each_root(code_, line, [&](std::uint32_t root) {
+        each_read(code_, root, [&](std::uint32_t v) { count += v == variable ? 1 : 0; });
+      });
+      const bool original_set = line.kind == LineKind::For && line.variable == original;
+      if (count > 0 && original_set)
+        break;
+      if (count > 0)
+        readers.push_back(j);
+      found += count;
+      if (writes(line, variable) || writes(line, original) || ends_text(line))
+        break;
+    }
+    if (found == 0 || found != reads_[variable])
+      return;
+    for (const auto j : readers)
+      each_root(code_, code_.lines[j],
+                [&](std::uint32_t& root) { root = renamed(root, variable, original); });
+    reads_[original] += found;
+    reads_[variable] = 0;
+    code_.lines[i].kind = LineKind::Nothing;
+    for (auto k = i; k <= readers.back(); ++k)
+      remove(last_reads_[k], original);
+  }
+
+  std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
+    const auto node = code_.terms[root];
+    if (node.kind == TermKind::Variable)
+      return node.left == from ? code_.read(to) : root;
+    if (node.kind == TermKind::Binary) {
+      auto copy = node;
+      copy.left = renamed(node.left, from, to);
+      copy.right = renamed(node.right, from, to);
+      return code_.add(copy);
+    }
+    if (node.kind == TermKind::Call) {
+      auto copy = node;
+      copy.left = renamed(node.left, from, to);
+      return code_.add(copy);
+    }
+    return root;
+  }
+
+  // ---- what is set to the same again
+
+  bool equal(std::uint32_t a, std::uint32_t b) const {
+    const auto& x = code_.terms[a];
+    const auto& y = code_.terms[b];
+    if (x.kind != y.kind || x.what != y.what)
+      return false;
+    switch (x.kind) {
+    case TermKind::Number: return x.value == y.value;
+    case TermKind::Variable: return x.left == y.left;
+    case TermKind::Element:
+    case TermKind::System: return false;
+    case TermKind::Binary: return equal(x.left, y.left) && equal(x.right, y.right);
+    case TermKind::Call: return equal(x.left, y.left);
+    }
+    return false;
+  }
+
+  void drop_repeated(std::uint32_t i) {
+    const auto variable = code_.lines[i].variable;
+    const auto term = code_.lines[i].term;
+    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
+    if ((code_.terms[term].effects & moving) != 0 || reads(term, variable))
+      return;
+    const auto last =
+        std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
+    for (auto j = i + 1; j < last; ++j) {
+      auto& line = code_.lines[j];
+      if (line.kind == LineKind::Let && line.variable == variable && equal(line.term, term)) {
+        line.kind = LineKind::Nothing;
+        for (auto k = i; k <= j; ++k) // the value is read on
+          remove(last_reads_[k], variable);
+        continue;
+      }
+      if (line.kind == LineKind::Label || ends_text(line) || writes(line, variable) ||
+          disturbs(line, term))
+        return;
+    }
+  }
+
+  Code& code_;
+  Flow flow_;
+  Liveness liveness_;
+  VariableSets last_reads_;
+  std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
+};
+
+} // namespace
+
+void forward_values(Code& code) {
+  Forwarder(code).run();
+}
+
+} // namespace orb::structured

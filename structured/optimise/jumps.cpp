@@ -1,0 +1,180 @@
+#include "structured/optimise/jumps.h"
+
+#include "structured/optimise/flow.h"
+
+#include <algorithm>
+
+namespace orb::structured {
+namespace {
+
+class Cleaner {
+public:
+  explicit Cleaner(Code& code) : code_(code) {}
+
+  void run() {
+    constexpr int most_rounds = 8;
+    std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
+    for (int round = 0; round < most_rounds && once(); ++round) {
+    }
+  }
+
+private:
+  bool once() {
+    changed_ = false;
+    at_ = lines_of_labels(code_);
+    thread();
+    remove_unreached();
+    remove_idle();
+    tidy(code_);
+    return changed_;
+  }
+
+  /// The first line after a label that does something; none at the end of the text.
+  std::uint32_t after(std::uint32_t line) const {
+    while (line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
+                                         code_.lines[line].kind == LineKind::Nothing))
+      ++line;
+    return line < code_.lines.size() ? line : none;
+  }
+
+  /// Where a jump to `label` ends; one label for all that stand together.
+  std::uint32_t end_of(std::uint32_t label) const {
+    for (int steps = 0; steps < 16; ++steps) {
+      if (at_[label] == none)
+        return label;
+      const auto line = after(at_[label]);
+      if (line != none && code_.lines[line].kind == LineKind::Goto &&
+          code_.lines[line].label != label) {
+        label = code_.lines[line].label;
+        continue;
+      }
+      auto first = at_[label];
+      while (first > 0 && code_.lines[first - 1].kind == LineKind::Label)
+        --first;
+      return code_.lines[first].label;
+    }
+    return label;
+  }
+
+  void redirect(std::uint32_t& label) {
+    const auto end = end_of(label);
+    changed_ = changed_ || end != label;
+    label = end;
+  }
+
+  void thread() {
+    for (auto& line : code_.lines) {
+      if (line.kind == LineKind::Goto || line.kind == LineKind::If)
+        redirect(line.label);
+      if (line.kind == LineKind::Switch) {
+        for (auto i = line.parts_begin; i < line.parts_end; ++i)
+          redirect(code_.cases[i].label);
+        redirect(line.label);
+      }
+      if (line.kind == LineKind::On)
+        for (auto i = line.parts_begin; i < line.parts_end; ++i)
+          redirect(code_.parts[i].value);
+    }
+  }
+
+  void remove_unreached() {
+    std::vector<bool> reached(code_.lines.size(), false);
+    std::vector<std::uint32_t> open{0};
+    while (!open.empty()) {
+      auto i = open.back();
+      open.pop_back();
+      for (bool on = true; on && i < reached.size() && !reached[i]; ++i) {
+        reached[i] = true;
+        const auto& line = code_.lines[i];
+        each_label(code_, line, [&](std::uint32_t label) { open.push_back(at_[label]); });
+        on = falls_through(line);
+      }
+    }
+    std::vector<bool> stepped(code_.labels, false);
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
+      if (reached[i] && code_.lines[i].kind == LineKind::Next)
+        stepped[code_.lines[i].label] = true;
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      auto& line = code_.lines[i];
+      if (!reached[i]) {
+        line.kind = LineKind::Nothing;
+        changed_ = true;
+      } else if (line.kind == LineKind::For && !stepped[line.label]) {
+        // Its body never comes to the `next`: what is left of the loop is its start.
+        line.kind = LineKind::Let;
+        changed_ = true;
+      }
+    }
+    for (std::size_t r = 1; r < code_.routines.size(); ++r)
+      if (code_.routines[r] != none && !reached[at_[code_.routines[r]]])
+        code_.routines[r] = none;
+  }
+
+  bool has_effects(const CodeLine& line) const {
+    std::uint8_t effects = 0;
+    each_root(code_, line, [&](std::uint32_t root) { effects |= code_.terms[root].effects; });
+    return (effects & (effect::faults | effect::clears)) != 0;
+  }
+
+  /// Jumps to the next line, and two jumps that one does.
+  void remove_idle() {
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      auto& line = code_.lines[i];
+      const bool jumps = line.kind == LineKind::Goto;
+      if (!jumps && line.kind != LineKind::If)
+        continue;
+      const auto next = after(i + 1);
+      const auto target = at_[line.label] == none ? none : after(at_[line.label]);
+      if (next == target && (jumps || !has_effects(line))) {
+        line.kind = LineKind::Nothing;
+        changed_ = true;
+      } else if (line.kind == LineKind::If && code_.conditions[line.condition].glue == Glue::None &&
+                 next != none && code_.lines[next].kind == LineKind::Goto && next == i + 1 &&
+                 after(next + 1) == target) {
+        auto& relation = code_.conditions[line.condition].first;
+        relation.comparison = opposite(relation.comparison);
+        line.guard = false;
+        line.label = code_.lines[next].label;
+        code_.lines[next].kind = LineKind::Nothing;
+        changed_ = true;
+      }
+    }
+  }
+
+  Code& code_;
+  std::vector<std::uint32_t> at_; ///< of each label: its line
+  bool changed_ = false;
+};
+
+} // namespace
+
+std::vector<std::uint32_t> lines_of_labels(const Code& code) {
+  std::vector<std::uint32_t> lines(code.labels, none);
+  for (std::uint32_t i = 0; i < code.lines.size(); ++i)
+    if (code.lines[i].kind == LineKind::Label)
+      lines[code.lines[i].label] = i;
+  return lines;
+}
+
+std::vector<std::uint32_t> tidy(Code& code) {
+  std::vector<std::uint32_t> named(code.labels, 0);
+  const auto name = [&](std::uint32_t label) { ++named[label]; };
+  for (const auto& line : code.lines) {
+    each_label(code, line, name);
+    if (line.kind == LineKind::Choice)
+      for (const auto branch : {line.term, line.end})
+        if (branch != none)
+          each_label(code, code.branches[branch], name);
+  }
+  std::erase_if(code.lines, [&](const CodeLine& line) {
+    return line.kind == LineKind::Nothing ||
+           (line.kind == LineKind::Label && named[line.label] == 0);
+  });
+  return named;
+}
+
+void clean_jumps(Code& code) {
+  Cleaner(code).run();
+}
+
+} // namespace orb::structured

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "structured/lower/code.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace orb::structured {
+
+/// Leads jumps to jumps where they end, takes out lines that nothing reaches, jumps to the next
+/// line and labels that nothing names. Keeps what the program does.
+void clean_jumps(Code& code);
+
+/// Of each label: its line, or none.
+std::vector<std::uint32_t> lines_of_labels(const Code& code);
+
+/// Takes out lines that do nothing and labels that nothing names; of each label: how often it is
+/// named.
+std::vector<std::uint32_t> tidy(Code& code);
+
+} // namespace orb::structured

@@ -1,0 +1,377 @@
+#include "structured/optimise/ranges.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace orb::structured {
+namespace {
+
+using compiler::Range;
+using spec::Operator;
+
+constexpr std::int32_t least_value = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t greatest_value = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t most_cells = std::size_t{1} << 21; ///< blocks times variables
+
+template <typename Visit>
+void each_number(const Code& code, std::uint32_t term, Visit visit) {
+  const auto& node = code.terms[term];
+  if (node.kind == TermKind::Number)
+    visit(node.value);
+  if (node.kind == TermKind::Binary || node.kind == TermKind::Call)
+    each_number(code, node.left, visit);
+  if (node.kind == TermKind::Binary)
+    each_number(code, node.right, visit);
+}
+
+} // namespace
+
+/// What the values of a comparison's left side can be where it holds; nothing: it cannot hold.
+std::optional<compiler::Range> where(Comparison comparison, compiler::Range left,
+                                     compiler::Range right) {
+  std::int64_t lo = left.lo;
+  std::int64_t hi = left.hi;
+  switch (comparison) {
+  case Comparison::Equal:
+    lo = std::max<std::int64_t>(lo, right.lo);
+    hi = std::min<std::int64_t>(hi, right.hi);
+    break;
+  case Comparison::NotEqual:
+    if (right.constant() && lo == right.lo)
+      ++lo;
+    if (right.constant() && hi == right.lo)
+      --hi;
+    break;
+  case Comparison::Less: hi = std::min(hi, std::int64_t{right.hi} - 1); break;
+  case Comparison::LessEqual: hi = std::min<std::int64_t>(hi, right.hi); break;
+  case Comparison::Greater: lo = std::max(lo, std::int64_t{right.lo} + 1); break;
+  case Comparison::GreaterEqual: lo = std::max<std::int64_t>(lo, right.lo); break;
+  }
+  if (lo > hi)
+    return std::nullopt;
+  return Range{static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi)};
+}
+
+Range Ranges::range_of(std::uint32_t term, const State& state) const {
+  const auto& node = code_.terms[term];
+  switch (node.kind) {
+  case TermKind::Number: return Range::only(node.value);
+  case TermKind::Variable: return state[node.left];
+  case TermKind::Element: return {};
+  case TermKind::System: {
+    const auto& row = spec::variables[node.what];
+    return {row.least, row.greatest};
+  }
+  case TermKind::Binary:
+    return compiler::apply(static_cast<Operator>(node.what), range_of(node.left, state),
+                           range_of(node.right, state));
+  case TermKind::Call:
+    return compiler::apply(static_cast<spec::Function>(node.what), range_of(node.left, state));
+  }
+  return {};
+}
+
+// ---- what is found before
+
+/// The variables whose values matter at the begin of each block.
+void Ranges::find_tracked() {
+  const auto liveness = read_liveness(code_, flow_, Counting::SettingsToo);
+  begins_.reserve(flow_.blocks.size() + 1);
+  for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
+    begins_.push_back(static_cast<std::uint32_t>(tracked_.size()));
+    each_member(liveness.in[b], [&](std::uint32_t v) { tracked_.push_back(v); });
+  }
+  begins_.push_back(static_cast<std::uint32_t>(tracked_.size()));
+  known_.resize(tracked_.size());
+  returns_.resize(code_.routines.size());
+  for (std::size_t r = 0; r < returns_.size(); ++r)
+    each_member(flow_.written[r], [&](std::uint32_t v) {
+      if (contains(liveness.at_return[r], v))
+        returns_[r].written.push_back(v);
+    });
+}
+
+/// Numbers at which growing ranges stop first: those that tests, loops and
+/// assignments name, and their neighbours.
+void Ranges::find_landmarks() {
+  std::vector<std::int64_t> named;
+  for (const auto& line : code_.lines)
+    if (line.kind == LineKind::If || line.kind == LineKind::For || line.kind == LineKind::Let)
+      each_root(code_, line, [&](std::uint32_t root) {
+        each_number(code_, root, [&](std::int32_t value) { named.push_back(value); });
+      });
+  std::sort(named.begin(), named.end());
+  landmarks_.push_back(least_value);
+  const auto add = [&](std::int64_t value) {
+    if (value > landmarks_.back() && value <= greatest_value)
+      landmarks_.push_back(static_cast<std::int32_t>(value));
+  };
+  for (const auto value : named) {
+    add(value - 1);
+    add(value);
+    add(value + 1);
+  }
+  add(greatest_value);
+}
+
+Range Ranges::widen(Range before, Range now) const {
+  if (now.lo < before.lo)
+    now.lo = *std::prev(std::upper_bound(landmarks_.begin(), landmarks_.end(), now.lo));
+  if (now.hi > before.hi)
+    now.hi = *std::lower_bound(landmarks_.begin(), landmarks_.end(), now.hi);
+  return now;
+}
+
+void Ranges::find_data() {
+  bool any = false;
+  for (const auto& line : code_.lines) {
+    if (line.kind != LineKind::Do || line.robot != spec::Statement::Data)
+      continue;
+    for (auto i = line.parts_begin; i < line.parts_end; ++i) {
+      const auto value = range_of(code_.parts[i].value, {});
+      data_ = any ? compiler::join(data_, value) : value;
+      any = true;
+    }
+  }
+}
+
+// ---- the states of blocks
+
+bool Ranges::follow() {
+  const auto blocks = flow_.blocks.size();
+  if (blocks * code_.variables.size() > most_cells)
+    return false;
+  find_tracked();
+  find_landmarks();
+  find_data();
+  reached_.assign(blocks, false);
+  visits_.assign(blocks, 0);
+  waiting_.assign((blocks + 63) / 64, 0);
+  ends_.assign(code_.labels, Range{greatest_value, least_value});
+  if (blocks == 0)
+    return true;
+  following_ = true;
+  state_.assign(code_.variables.size(), Range::only(0));
+  enter(0, state_);
+  while (first_waiting_ < waiting_.size()) {
+    auto& word = waiting_[first_waiting_];
+    if (word == 0) {
+      ++first_waiting_;
+      continue;
+    }
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(word));
+    word &= word - 1;
+    visit(static_cast<std::uint32_t>(first_waiting_ * 64) + bit);
+  }
+  following_ = false;
+  return true;
+}
+
+void Ranges::wait(std::uint32_t b) {
+  insert(waiting_, b);
+  first_waiting_ = std::min<std::size_t>(first_waiting_, b / 64);
+}
+
+void Ranges::load(std::uint32_t b, State& state) const {
+  for (auto i = begins_[b]; i < begins_[b + 1]; ++i)
+    state[tracked_[i]] = known_[i];
+}
+
+void Ranges::enter(std::uint32_t b, const State& state) {
+  if (b == none)
+    return;
+  constexpr std::uint32_t patience = 2;
+  constexpr std::uint32_t limit = 24;
+  bool changed = !reached_[b];
+  for (auto i = begins_[b]; i < begins_[b + 1]; ++i) {
+    const auto& now = state[tracked_[i]];
+    if (!reached_[b]) {
+      known_[i] = now;
+      continue;
+    }
+    auto joined = compiler::join(known_[i], now);
+    if (joined == known_[i])
+      continue;
+    if (visits_[b] > limit)
+      joined = {};
+    else if (visits_[b] > patience)
+      joined = widen(known_[i], joined);
+    known_[i] = joined;
+    changed = true;
+  }
+  reached_[b] = true;
+  if (changed)
+    wait(b);
+}
+
+void Ranges::visit(std::uint32_t b) {
+  ++visits_[b];
+  const auto& block = flow_.blocks[b];
+  load(b, state_);
+  for (auto i = block.begin; i < block.end; ++i)
+    if (!step(b, code_.lines[i], state_))
+      return;
+  leave(b, code_.lines[block.end - 1], state_);
+}
+
+// ---- lines
+
+/// Goes over a line; false where nothing comes back from its call yet.
+bool Ranges::step(std::uint32_t b, const CodeLine& line, State& state) {
+  if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub)
+    return call(line, state, b);
+  set(line, state);
+  return true;
+}
+
+void Ranges::set(const CodeLine& line, State& state) {
+  if (line.kind == LineKind::Let) {
+    state[line.variable] = range_of(line.term, state);
+  } else if (line.kind == LineKind::For) {
+    // The body is entered with all values of the variable at once: each turn would add but one.
+    const auto begin = state[line.variable] = range_of(line.term, state);
+    const auto end = range_of(line.end, state);
+    ends_[line.label] = compiler::join(ends_[line.label], end);
+    state[line.variable] = line.step > 0 ? Range{begin.lo, std::max(begin.hi, end.hi)}
+                                         : Range{std::min(begin.lo, end.lo), begin.hi};
+  } else if (line.kind == LineKind::Do) {
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      if (code_.parts[i].kind == PartKind::Variable)
+        state[code_.parts[i].value] = line.robot == spec::Statement::Read ? data_ : Range{};
+  }
+}
+
+bool Ranges::call(const CodeLine& line, State& state, std::uint32_t from) {
+  if (line.kind == LineKind::Gosub)
+    return call_one(line.variable, state, from);
+  std::optional<State> joined;
+  for (auto i = line.parts_begin; i < line.parts_end; ++i) {
+    auto after = state;
+    if (!call_one(code_.parts[i].text.begin, after, from))
+      continue;
+    if (joined)
+      for (std::size_t v = 0; v < after.size(); ++v)
+        (*joined)[v] = compiler::join((*joined)[v], after[v]);
+    else
+      joined = std::move(after);
+  }
+  if (joined)
+    state = std::move(*joined);
+  return joined.has_value();
+}
+
+/// Turns `state` into that after the call of a routine; false where nothing comes back from it yet.
+bool Ranges::call_one(std::uint32_t routine, State& state, std::uint32_t from) {
+  auto& returned = returns_[routine];
+  if (following_) {
+    enter(flow_.entries[routine], state);
+    if (std::find(returned.callers.begin(), returned.callers.end(), from) == returned.callers.end())
+      returned.callers.push_back(from);
+  }
+  for (std::size_t i = 0; i < returned.known.size(); ++i)
+    state[returned.written[i]] = returned.known[i];
+  return returned.yet;
+}
+
+// ---- ways from block to block
+
+void Ranges::leave(std::uint32_t b, const CodeLine& line, State& state) {
+  const auto& block = flow_.blocks[b];
+  if (line.kind == LineKind::If)
+    return leave_if(b, line, state);
+  if (line.kind == LineKind::Next)
+    return leave_next(b, line, state);
+  if (line.kind == LineKind::Switch)
+    return leave_switch(line, state);
+  if (line.kind == LineKind::Return)
+    return leave_routine(line.routine, state);
+  for (const auto next : flow_.successors_of(block))
+    enter(next, state);
+}
+
+/// Joins what a routine returns with; where that is news, its callers go on.
+void Ranges::leave_routine(std::uint32_t routine, const State& state) {
+  auto& returned = returns_[routine];
+  bool changed = !returned.yet;
+  returned.known.resize(returned.written.size());
+  for (std::size_t i = 0; i < returned.written.size(); ++i) {
+    const auto& now = state[returned.written[i]];
+    const auto joined = returned.yet ? compiler::join(returned.known[i], now) : now;
+    changed = changed || !(joined == returned.known[i]);
+    returned.known[i] = joined;
+  }
+  returned.yet = true;
+  if (changed)
+    for (const auto caller : returned.callers)
+      wait(caller);
+}
+
+/// Enters a block with what is known where a relation holds; not where it cannot.
+void Ranges::enter_where(const Relation& relation, Comparison comparison, std::uint32_t b,
+                         State& state) {
+  const auto left = range_of(relation.left, state);
+  const auto right = range_of(relation.right, state);
+  const auto narrowed = where(comparison, left, right);
+  const auto mirror = where(mirrored(comparison), right, left);
+  if (!narrowed || !mirror)
+    return;
+  const auto narrow = [&](std::uint32_t term, Range range) {
+    if (code_.terms[term].kind == TermKind::Variable)
+      state[code_.terms[term].left] = range;
+  };
+  narrow(relation.left, *narrowed);
+  narrow(relation.right, *mirror);
+  enter(b, state);
+  narrow(relation.right, right);
+  narrow(relation.left, left);
+}
+
+void Ranges::leave_if(std::uint32_t b, const CodeLine& line, State& state) {
+  const auto& condition = code_.conditions[line.condition];
+  const auto target = flow_.block_of_label[line.label];
+  const auto next = b + 1 < flow_.blocks.size() ? b + 1 : none;
+  if (condition.glue != Glue::None) {
+    enter(target, state);
+    enter(next, state);
+    return;
+  }
+  enter_where(condition.first, condition.first.comparison, target, state);
+  enter_where(condition.first, opposite(condition.first.comparison), next, state);
+}
+
+void Ranges::leave_next(std::uint32_t b, const CodeLine& line, State& state) {
+  const auto stepped = compiler::apply(Operator::Add, state[line.variable], Range::only(line.step));
+  const auto end = ends_[line.label];
+  const bool up = line.step > 0;
+  if (const auto within =
+          where(up ? Comparison::LessEqual : Comparison::GreaterEqual, stepped, end)) {
+    state[line.variable] = *within;
+    enter(flow_.block_of_label[line.label], state);
+  }
+  const auto nearest = up ? Range::only(end.lo) : Range::only(end.hi);
+  if (const auto past = where(up ? Comparison::Greater : Comparison::Less, stepped, nearest)) {
+    state[line.variable] = *past;
+    if (b + 1 < flow_.blocks.size())
+      enter(b + 1, state);
+  }
+}
+
+void Ranges::leave_switch(const CodeLine& line, State& state) {
+  const auto chosen = state[line.variable];
+  auto others = std::int64_t{chosen.hi} - chosen.lo + 1; // values without a case
+  for (auto i = line.parts_begin; i < line.parts_end; ++i) {
+    const auto& one = code_.cases[i];
+    if (chosen.misses(one.lo, one.hi))
+      continue;
+    const Range common{std::max(chosen.lo, one.lo), std::min(chosen.hi, one.hi)};
+    others -= std::int64_t{common.hi} - common.lo + 1;
+    state[line.variable] = common;
+    enter(flow_.block_of_label[one.label], state);
+  }
+  state[line.variable] = chosen;
+  if (others > 0)
+    enter(flow_.block_of_label[line.label], state);
+}
+
+} // namespace orb::structured

@@ -1,0 +1,295 @@
+#include "structured/text/blocks.h"
+
+#include "structured/text/rules.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <set>
+
+namespace orb::structured {
+namespace {
+
+constexpr std::size_t deepest = 64;
+
+struct Block {
+  Kind opener;
+  Kind end;
+  std::string_view word; ///< of the opener
+  std::string_view end_words;
+
+  /// The word that follows `end`; empty where the block ends in another way.
+  constexpr std::string_view after_end() const {
+    constexpr std::string_view end_word = "end ";
+    return end_words.starts_with(end_word) ? end_words.substr(end_word.size()) : std::string_view();
+  }
+};
+
+constexpr auto blocks = std::to_array<Block>({
+    {Kind::If, Kind::EndIf, "if", "end if"},
+    {Kind::While, Kind::EndWhile, "while", "end while"},
+    {Kind::Repeat, Kind::Until, "repeat", "until"},
+    {Kind::RepeatTimes, Kind::EndRepeat, "repeat", "end repeat"},
+    {Kind::Loop, Kind::EndLoop, "loop", "end loop"},
+    {Kind::For, Kind::Next, "for", "next"},
+    {Kind::Select, Kind::EndSelect, "select", "end select"},
+    {Kind::Sub, Kind::EndSub, "sub", "end sub"},
+    {Kind::Function, Kind::EndFunction, "function", "end function"},
+});
+
+const Block* by_opener(Kind kind) {
+  for (const auto& block : blocks)
+    if (block.opener == kind)
+      return &block;
+  return nullptr;
+}
+
+bool parts(Kind part, Kind opener) {
+  return part == Kind::Else     ? opener == Kind::If || opener == Kind::Select
+         : part == Kind::ElseIf ? opener == Kind::If
+                                : opener == Kind::Select;
+}
+
+class Linker {
+public:
+  Linker(Program& program, const File& file) : program_(program), file_(file) {}
+
+  void run() {
+    nested_ = balanced();
+    for (auto i = file_.statements_begin; i < file_.statements_end; ++i) {
+      const auto role = program_.statements[i].role();
+      if (closes_block(role))
+        close(i);
+      else if (parts_block(role))
+        part(i);
+      else if (opens_block(role))
+        open(i);
+    }
+    while (!open_.empty())
+      leave_open();
+    set_depths();
+    // The right word for what ends nothing would end nothing either, nor would a right beginning
+    // end.
+    std::erase_if(program_.diagnostics, [&](const Diagnostic& one) {
+      return one.rule == &rules::ForeignWord && alone_.contains(one.span.begin);
+    });
+  }
+
+private:
+  Kind role(std::uint32_t i) const { return program_.statements[i].role(); }
+
+  /// Whether there are as many ends of subs as subs.
+  bool balanced() const {
+    int open = 0;
+    for (auto i = file_.statements_begin; i < file_.statements_end; ++i)
+      open += is_routine(role(i)) ? 1 : ends_routine(role(i)) ? -1 : 0;
+    return open <= 0;
+  }
+  static bool is_routine(Kind kind) { return kind == Kind::Sub || kind == Kind::Function; }
+  static bool ends_routine(Kind kind) { return kind == Kind::EndSub || kind == Kind::EndFunction; }
+
+  /// A block that is never closed counts for nothing.
+  void set_depths() {
+    std::uint16_t depth = 0;
+    for (auto i = file_.statements_begin; i < file_.statements_end; ++i) {
+      auto& statement = program_.statements[i];
+      const auto role = statement.role();
+      if (closes_block(role) && statement.opener != none)
+        --depth;
+      statement.depth = depth;
+      if (opens_block(role) && !endless_.contains(i))
+        ++depth;
+    }
+  }
+
+  void open(std::uint32_t i) {
+    // Subs do not nest: where ends are missing, a sub ends the one above it.
+    if (is_routine(role(i)) && !nested_)
+      while (routines_ > 0)
+        leave_open();
+    routines_ += is_routine(role(i)) ? 1 : 0;
+    if (open_.size() == deepest && !too_deep_) {
+      too_deep_ = true;
+      report(rules::NestingDepth, i, fmt::format("more than {} blocks are open here", deepest),
+             "put a part into a sub");
+    }
+    open_.push_back(i);
+    last_.push_back(i);
+  }
+
+  /// Ends the innermost block, which has no end of its own.
+  void leave_open() {
+    const auto i = open_.back();
+    const auto* block = by_opener(role(i));
+    if (i != excused_)
+      report_unclosed(i, *block);
+    endless_.insert(i);
+    missing_.push_back(block->end);
+    pop();
+  }
+
+  void report_unclosed(std::uint32_t i, const Block& block) {
+    const auto where = program_.statements[i].word;
+    const auto word = std::string(program_.text_of(where));
+    const auto end = fmt::format("`{}` after its last line", block.end_words);
+    alone_.insert(where.begin);
+    report(rules::UnclosedBlock, i, fmt::format("this `{}` is never closed", word),
+           equal_words(word, block.word)
+               ? fmt::format("write {}", end)
+               : fmt::format("write `{}` instead, and {}", block.word, end));
+  }
+
+  void pop() {
+    routines_ -= is_routine(role(open_.back())) ? 1 : 0;
+    open_.pop_back();
+    last_.pop_back();
+  }
+
+  void link(std::uint32_t i) {
+    program_.statements[i].opener = open_.back();
+    program_.statements[last_.back()].next = i;
+    last_.back() = i;
+  }
+
+  /// Closes blocks without an end until `fits` says yes; false where no open block does.
+  template <typename Fits>
+  bool find(Fits fits) {
+    const auto at = std::find_if(open_.rbegin(), open_.rend(),
+                                 [&](std::uint32_t opener) { return fits(role(opener)); });
+    if (at == open_.rend())
+      return false;
+    for (auto n = at - open_.rbegin(); n > 0; --n)
+      leave_open();
+    return true;
+  }
+
+  void close(std::uint32_t i) {
+    const auto kind = role(i);
+    if (!find([&](Kind opener) { return by_opener(opener)->end == kind; })) {
+      stray_end(i);
+      return;
+    }
+    link(i);
+    pop();
+  }
+
+  /// An end without a block: it may come too late, or be the wrong one of the innermost block.
+  void stray_end(std::uint32_t i) {
+    const auto late = std::find(missing_.begin(), missing_.end(), role(i));
+    if (late != missing_.end()) {
+      missing_.erase(late);
+      program_.statements[i].kind = program_.statements[i].meant = Kind::Broken;
+      return;
+    }
+    report_stray(i);
+    if (!open_.empty())
+      excused_ = open_.back();
+  }
+
+  void part(std::uint32_t i) {
+    const auto kind = role(i);
+    if (!find([&](Kind opener) { return parts(kind, opener); })) {
+      report_stray(i);
+      return;
+    }
+    if (role(last_.back()) == Kind::Else)
+      report(rules::BlockEnd, i, "the `else` above is the last part of its block",
+             "move the `else` to the end");
+    link(i);
+  }
+
+  void report_stray(std::uint32_t i) {
+    auto& statement = program_.statements[i];
+    const auto word = std::string(program_.text_of(statement.word));
+    std::string help;
+    if (!open_.empty()) {
+      const auto* block = by_opener(role(open_.back()));
+      help = fmt::format("the open block is a `{}`; `{}` closes it", block->word, block->end_words);
+    }
+    alone_.insert(statement.word.begin);
+    report(rules::BlockEnd, i, fmt::format("no open block takes this `{}`", word), std::move(help));
+    statement.kind = statement.meant = Kind::Broken;
+  }
+
+  /// Of a line that does not parse all is said.
+  void report(const Rule& rule, std::uint32_t i, std::string message, std::string help) {
+    const auto& statement = program_.statements[i];
+    if (statement.kind == Kind::Broken)
+      return;
+    program_.diagnostics.push_back(
+        finding(rule, statement.word.size() > 0 ? statement.word : statement.span,
+                std::move(message), std::move(help)));
+  }
+
+  Program& program_;
+  const File& file_;
+  std::vector<std::uint32_t> open_; ///< the openers, outermost first
+  std::vector<std::uint32_t> last_; ///< of each: its last part so far
+  std::set<std::uint32_t> endless_; ///< openers without an end
+  std::vector<Kind> missing_;       ///< their ends, which may come yet
+  std::uint32_t excused_ = none;    ///< an opener that has a wrong end
+  std::set<std::uint32_t> alone_;   ///< where ends without a beginning begin, and the reverse
+  int routines_ = 0;                ///< open subs and functions
+  bool nested_ = false;             ///< subs stand inside of each other
+  bool too_deep_ = false;
+};
+
+} // namespace
+
+std::optional<Kind> end_of_block(std::string_view word) {
+  for (const auto& block : blocks)
+    if (!word.empty() && equal_words(block.after_end(), word))
+      return block.end;
+  return std::nullopt;
+}
+
+std::string_view words_of_end(Kind end) {
+  for (const auto& block : blocks)
+    if (block.end == end)
+      return block.end_words;
+  return {};
+}
+
+std::vector<std::string_view> words_after_end() {
+  std::vector<std::string_view> words;
+  for (const auto& block : blocks)
+    if (!block.after_end().empty())
+      words.push_back(block.after_end());
+  return words;
+}
+
+bool is_loop_word(std::string_view word) {
+  return std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    return is_loop(block.opener) && equal_words(block.word, word);
+  });
+}
+
+bool opens_block(Kind kind) {
+  return by_opener(kind) != nullptr;
+}
+
+bool parts_block(Kind kind) {
+  return kind == Kind::ElseIf || kind == Kind::Else || kind == Kind::Case;
+}
+
+bool closes_block(Kind kind) {
+  return std::any_of(blocks.begin(), blocks.end(),
+                     [&](const Block& block) { return block.end == kind; });
+}
+
+bool is_loop(Kind kind) {
+  return kind == Kind::While || kind == Kind::Repeat || kind == Kind::RepeatTimes ||
+         kind == Kind::Loop || kind == Kind::For;
+}
+
+bool declares(Kind kind) {
+  return kind == Kind::Const || kind == Kind::Array || kind == Kind::Sub ||
+         kind == Kind::Function || kind == Kind::Use || kind == Kind::Include;
+}
+
+void link_blocks(Program& program, const File& file) {
+  Linker(program, file).run();
+}
+
+} // namespace orb::structured

@@ -1,0 +1,223 @@
+#pragma once
+
+#include "structured/text/messages.h"
+#include "structured/text/program.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <fmt/format.h>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace orb::structured {
+
+/// Ends the parse of a line. Never leaves structured/text/parse.cpp.
+struct Stop {
+  Reason reason;
+  const char* begin;
+  const char* end = nullptr; ///< null where the span is the token at `begin`
+};
+
+/// Where the rules put what they find: straight into the program.
+class Builder {
+public:
+  explicit Builder(Program& program)
+      : program_(program), base_(program.text.data()), slots_(1024, none) {
+    for (std::uint32_t i = 0; i < program.names.size(); ++i)
+      place(i);
+  }
+
+  Span span(const char* begin, const char* end) const {
+    return {static_cast<std::uint32_t>(begin - base_), static_cast<std::uint32_t>(end - base_)};
+  }
+
+  // ---- names
+
+  std::uint32_t intern(Span name) {
+    auto at = slot_of(program_.text_of(name));
+    for (; slots_[at] != none; at = next_slot(at))
+      if (equal_words(program_.name(slots_[at]), program_.text_of(name)))
+        return slots_[at];
+    program_.names.push_back(name);
+    slots_[at] = size(program_.names) - 1;
+    if (program_.names.size() * 2 > slots_.size()) {
+      slots_.assign(slots_.size() * 4, none);
+      for (std::uint32_t i = 0; i < program_.names.size(); ++i)
+        place(i);
+    }
+    return size(program_.names) - 1;
+  }
+
+  // ---- expressions
+
+  void leaf(NodeKind kind, std::uint8_t what, std::int32_t value, Span where) {
+    program_.nodes.push_back({kind, what, 0, size(program_.nodes), value, where});
+  }
+  /// A node over all nodes from `first`.
+  void over(NodeKind kind, std::uint8_t what, std::uint32_t first, Span where) {
+    program_.nodes.push_back({kind, what, 0, first, 0, where});
+  }
+  void unary(NodeKind kind, std::uint8_t what, Span where) {
+    over(kind, what, program_.nodes.back().first, where);
+  }
+  void binary(NodeKind kind, std::uint8_t what) {
+    const auto& right = program_.nodes.back();
+    const auto& left = program_.nodes[right.first - 1];
+    over(kind, what, left.first, {left.span.begin, right.span.end});
+  }
+  void operation(char sign) {
+    binary(NodeKind::Binary, static_cast<std::uint8_t>(*spec::find_operator(sign)));
+  }
+  void relation(const char* begin) {
+    const std::string_view two(begin, 2);
+    auto comparison = Comparison::Equal;
+    if (two == "<>" || two == "!=" || *begin == '!')
+      comparison = Comparison::NotEqual;
+    else if (two == "<=")
+      comparison = Comparison::LessEqual;
+    else if (two == ">=")
+      comparison = Comparison::GreaterEqual;
+    else if (*begin == '<')
+      comparison = Comparison::Less;
+    else if (*begin == '>')
+      comparison = Comparison::Greater;
+    if (two == "==")
+      report(habit(program_, span(begin, begin + 2), "="));
+    binary(NodeKind::Relation, static_cast<std::uint8_t>(comparison));
+  }
+  void signs(const char* begin, std::string_view instead) {
+    const bool apart = base_ < begin && is_name_char(begin[-1]);
+    report(habit(program_, span(begin, begin + 2), fmt::format("{}{}", apart ? " " : "", instead)));
+  }
+  std::uint32_t nodes() const { return size(program_.nodes); }
+  Node& last() { return program_.nodes.back(); }
+
+  void open(const char* at) {
+    ++brackets_;
+    if (++depth_ > deepest)
+      throw Stop{Reason::TooDeep, at};
+  }
+  void close() {
+    --brackets_;
+    --depth_;
+  }
+  void open_not(const char* at) {
+    if (++depth_ > deepest)
+      throw Stop{Reason::TooDeep, at};
+  }
+  void close_not() { --depth_; }
+  bool in_brackets() const { return brackets_ > 0; }
+
+  // ---- statements
+
+  void item(ItemKind kind, std::uint32_t value, Span where) {
+    program_.items.push_back({kind, value, where});
+  }
+  void expression(ItemKind kind) { item(kind, nodes() - 1, program_.nodes.back().span); }
+  void widen_item(const char* begin) {
+    program_.items.back().span.begin = span(begin, begin).begin;
+  }
+
+  Statement& begin(Kind kind, Span word) {
+    auto& statement = program_.statements.emplace_back();
+    statement.kind = kind;
+    statement.word = word;
+    statement.span = word;
+    statement.items_begin = statement.items_end = size(program_.items);
+    return statement;
+  }
+  Statement& statement() { return program_.statements.back(); }
+  void finish(const char* end) {
+    auto& last = statement();
+    last.items_end = size(program_.items);
+    const auto begin = base_ + last.span.begin;
+    while (end > begin && (is_blank(end[-1]) || is_line_end(end[-1])))
+      --end;
+    last.span.end = std::max(last.span.end, static_cast<std::uint32_t>(end - base_));
+  }
+
+  struct Mark {
+    std::size_t statements;
+    std::size_t items;
+    std::size_t nodes;
+    std::size_t diagnostics;
+  };
+  Mark mark() const {
+    return {program_.statements.size(), program_.items.size(), program_.nodes.size(),
+            program_.diagnostics.size()};
+  }
+  /// Puts one broken statement in place of all since `mark`.
+  void fail(const Mark& mark, const Stop& stop, const char* begin, const char* limit) {
+    const auto meant = meaning_of(mark, stop, limit);
+    program_.statements.resize(mark.statements);
+    program_.items.resize(mark.items);
+    program_.nodes.resize(mark.nodes);
+    program_.diagnostics.resize(mark.diagnostics);
+    const auto found = stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin, limit);
+    report(explain(program_, stop.reason, found));
+    this->begin(Kind::Broken, span(begin, begin)).meant = meant;
+    begin_line();
+  }
+  void begin_line() { depth_ = brackets_ = 0; }
+
+  void report(Diagnostic diagnostic) { program_.diagnostics.push_back(std::move(diagnostic)); }
+  Program& program() { return program_; }
+
+  /// The word, number, text or sign at `at`; empty at the end of a line.
+  Span token(const char* at, const char* end) const {
+    const char* p = at;
+    if (p == end || is_line_end(*p) || *p == '\'')
+      return span(at, at);
+    if (is_name_char(*p))
+      p = end_of_name(p, end);
+    else if (*p == '"')
+      p = std::find_if(p, end, is_line_end);
+    else
+      do
+        ++p;
+      while (p != end && is_utf8_tail(*p));
+    return span(at, p);
+  }
+
+private:
+  static constexpr int deepest = 64; ///< open brackets
+
+  /// What the line that begins at `mark` would have been. An `if` opens a block only where the line
+  /// ends: otherwise a statement may have been meant to follow.
+  Kind meaning_of(const Mark& mark, const Stop& stop, const char* limit) const {
+    if (mark.statements == program_.statements.size())
+      return Kind::Broken;
+    const auto& first = program_.statements[mark.statements];
+    const bool goes_on = stop.reason == Reason::ExpectedThen && token(stop.begin, limit).size() > 0;
+    return first.one_line || goes_on ? Kind::Broken : first.kind;
+  }
+
+  template <typename T>
+  static std::uint32_t size(const std::vector<T>& vector) {
+    return static_cast<std::uint32_t>(vector.size());
+  }
+  std::size_t slot_of(std::string_view name) const {
+    std::uint64_t hash = 0xCBF29CE484222325U;
+    for (const char c : name)
+      hash = (hash ^ static_cast<unsigned char>(to_lower(c))) * 0x100000001B3U;
+    return static_cast<std::size_t>(hash ^ hash >> 32) & (slots_.size() - 1);
+  }
+  std::size_t next_slot(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
+  void place(std::uint32_t index) {
+    auto at = slot_of(program_.name(index));
+    while (slots_[at] != none)
+      at = next_slot(at);
+    slots_[at] = index;
+  }
+
+  Program& program_;
+  const char* base_;
+  std::vector<std::uint32_t> slots_; ///< names by their hash; a power of two
+  int depth_ = 0;
+  int brackets_ = 0;
+};
+
+} // namespace orb::structured

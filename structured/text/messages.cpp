@@ -1,0 +1,424 @@
+#include "structured/text/messages.h"
+
+#include "base/suggest.h"
+#include "spec/limits.h"
+#include "structured/text/rules.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <optional>
+
+namespace orb::structured {
+namespace {
+
+std::string shown(const Program& program, Span found) {
+  if (found.size() == 0)
+    return "the line ends here";
+  return fmt::format("found `{}`", program.text_of(found));
+}
+
+Diagnostic malformed(const Program& program, Span found, std::string_view what,
+                     std::string help = {}) {
+  return finding(rules::MalformedLine, found, fmt::format("{}, {}", what, shown(program, found)),
+                 std::move(help));
+}
+
+/// What stands before a place, blanks and the ends of lines apart.
+char sign_before(std::string_view text, std::uint32_t at) {
+  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
+    --at;
+  return at == 0 ? '\n' : text[at - 1];
+}
+
+/// The name or word that ends before a place, blanks apart.
+Span word_before(std::string_view text, std::uint32_t at) {
+  while (at > 0 && is_blank(text[at - 1]))
+    --at;
+  auto begin = at;
+  while (begin > 0 && is_name_char(text[begin - 1]))
+    --begin;
+  return {begin, at};
+}
+
+bool begins_line(std::string_view text, std::uint32_t at) {
+  while (at > 0 && is_blank(text[at - 1]))
+    --at;
+  return at == 0 || is_line_end(text[at - 1]);
+}
+
+/// The `{` that the line above ends with.
+std::optional<std::uint32_t> brace_above(std::string_view text, std::uint32_t at) {
+  while (at > 0 && !is_line_end(text[at - 1]))
+    --at;
+  const auto begin = at;
+  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
+    --at;
+  return at < begin && at > 0 && text[at - 1] == '{' ? std::optional(at - 1) : std::nullopt;
+}
+
+using Where = compiler::Foreign::Place;
+
+constexpr auto no_braces = "blocks need no braces; they end with `next`, `end if`, `end while` …";
+
+/// Where structured programs say it in another way than numbered ones.
+constexpr auto structured_words = std::to_array<compiler::Foreign>({
+    {"set", Where::Statement, "", "leave it out: `x = 5`"},
+    {"int", Where::Statement, "", "leave it out: `x = 5`"},
+    {"clear", Where::Statement, "", "variables are 0 when a program starts; or write `x = 0`"},
+    {"begin", Where::Statement, "", "blocks need no `begin`; leave the line out"},
+    {"def", Where::Statement, "", "write `sub name` … `end sub`"},
+    {"func", Where::Statement, "", "write `function name()` … `end function`"},
+    {"proc", Where::Statement, "", "write `sub name` … `end sub`"},
+    {"procedure", Where::Statement, "", "write `sub name` … `end sub`"},
+    {"void", Where::Statement, "", "write `sub name` … `end sub`"},
+    {"switch", Where::Statement, "", "write `select e`, `case 1` … `end select`"},
+    {"foreach", Where::Statement, "", "write `for n = 1 to 4` … `next n`"},
+    {"forever", Where::Statement, "", "write `loop` … `end loop`"},
+    {"rand", Where::Value, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"random", Where::Value, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"randint", Where::Value, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"sqr", Where::Value, "sqrt", "write `sqrt(x)`"},
+    {"is", Where::Value, "",
+     "`case` names values: `case 6 to 100`; for other questions write `if`"},
+    {"mod", Where::Value, "%", "write `a % b`"},
+    {"!", Where::Value, "", "write `not`"},
+    {"^", Where::Value, "", "there are no powers: write `a * a`"},
+    {"{", Where::Value, "", no_braces},
+    {"}", Where::Value, "", no_braces},
+    {"do", Where::Value, "", "leave it out"},
+    {"times", Where::Value, "", "leave it out: `repeat 5`"},
+});
+
+/// The word that begins the line of a place.
+std::string_view first_word(std::string_view text, std::uint32_t at) {
+  while (at > 0 && !is_line_end(text[at - 1]))
+    --at;
+  while (at < text.size() && is_blank(text[at]))
+    ++at;
+  const char* const begin = text.data() + at;
+  const char* const end = end_of_name(begin, text.data() + text.size());
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+/// What stands after a complete statement.
+Diagnostic trailing(const Program& program, Span found) {
+  const auto text = program.text_of(found);
+  const auto statement = first_word(program.text, found.begin);
+  const char before = sign_before(program.text, found.begin);
+  if (before == ',' && begins_line(program.text, found.begin))
+    return malformed(program, found, "the comma above continues its line",
+                     "to print a blank at the end write `, ;`");
+  if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name)
+    return malformed(program, found, "the index of an element stands in brackets",
+                     fmt::format("write `{}[1] = 2`", statement));
+  if (text == ":")
+    return finding(rules::ForeignWord, found, "`:` does not separate statements",
+                   "write one statement on a line");
+  if (text == "+" && before == '"')
+    return malformed(program, found, "texts are not added",
+                     "write what to print side by side: `print \"x is \" x`");
+  if (is_digit(before) &&
+      (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
+    return malformed(program, found, "a unit stands right after its number", "write `500ms`");
+  if (equal_words(statement, "loop"))
+    return malformed(program, found, "`loop` goes on forever",
+                     "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
+  const auto word = find_word(statement);
+  if (word.kind == WordKind::Statement &&
+      spec::statements[word.index].form == spec::Form::Arguments && is_name_char(before) &&
+      is_name_char(text.front()))
+    return malformed(program, found, "the statement is complete",
+                     "values are parted by commas: `RGB 255, 0, 0`");
+  return malformed(program, found, "the statement is complete");
+}
+
+/// A value that is missing at the end of a line shows in the next one, but is to be written there.
+Diagnostic missing_value(const Program& program, Span found) {
+  const std::string_view text = program.text;
+  auto end = found.begin;
+  while (end > 0 && (is_blank(text[end - 1]) || is_line_end(text[end - 1])))
+    --end;
+  if (!begins_line(text, found.begin) || end == 0 || is_name_char(text[end - 1]))
+    return malformed(program, found, "a value is missing");
+  return finding(rules::MalformedLine, {end - 1, end},
+                 fmt::format("a value is missing after `{}`", text[end - 1]));
+}
+
+/// Values after a name without parentheses: a statement that is misspelt, or a call.
+Diagnostic naked_arguments(const Program& program, Span found) {
+  const auto called = word_before(program.text, found.begin);
+  if (auto known = foreign(program, called, Where::Statement))
+    return *std::move(known);
+  const auto word = std::string(program.text_of(called));
+  if (program.text[found.begin] == '$')
+    return finding(rules::MalformedLine, found, "names have no `$`",
+                   "variables hold whole numbers; texts stand in `print` only");
+  if (spec::find_operator(program.text[found.begin]))
+    return malformed(program, found, "a value is no statement",
+                     fmt::format("write `{0} = {0} + 1`, or `print {0}`", word));
+  std::vector<std::string_view> statements;
+  for (const auto& row : spec::statements)
+    statements.push_back(row.word);
+  if (const auto meant = closest(word, statements))
+    return finding(rules::UnknownName, called,
+                   fmt::format("`{}` is neither a statement nor a sub", word),
+                   fmt::format("did you mean `{}`?", *meant));
+  return malformed(program, found, "the arguments of a call stand in parentheses");
+}
+
+/// Whether `=` or `+=` and the like stand at a place.
+bool assigns(std::string_view text, std::size_t at) {
+  if (at < text.size() && std::string_view("+-*/%").find(text[at]) != std::string_view::npos)
+    ++at;
+  return at < text.size() && text[at] == '=';
+}
+
+/// A word of the language where the line makes sense only with a name: `heading = 90`.
+std::optional<Span> word_for_name(const Program& program, Reason reason, Span found) {
+  const std::string_view text = program.text;
+  const auto kind = find_word(program.text_of(found)).kind;
+  if (reason == Reason::ExpectedExpression && kind == WordKind::Statement)
+    return begins_line(text, found.begin) || text.substr(found.end).starts_with('(')
+               ? std::nullopt
+               : std::optional(found);
+  if (reason == Reason::NotAStatement && kind != WordKind::Name)
+    return assigns(text, text.find_first_not_of(" \t", found.end)) ? std::optional(found)
+                                                                   : std::nullopt;
+  if (!assigns(text, found.begin))
+    return std::nullopt;
+  const auto word = word_before(text, found.begin);
+  const auto before = find_word(program.text_of(word)).kind;
+  if (before != WordKind::Statement && before != WordKind::Keyword)
+    return std::nullopt;
+  return word;
+}
+
+bool is_foreign(char c) {
+  return static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// What typing and copying bring in place of `"` and of letters.
+Diagnostic foreign_character(const Program& program, Span found) {
+  const std::string_view text = program.text;
+  const auto sign = program.text_of(found);
+  for (const std::string_view quote : {"“", "”", "„", "«", "»"})
+    if (sign.starts_with(quote))
+      return finding(rules::MalformedLine, found, fmt::format("`{}` does not quote a text", sign),
+                     "write `\"` before the text and after it");
+  const auto is_part = [&](std::uint32_t at) {
+    return is_name_char(text[at]) || is_foreign(text[at]);
+  };
+  auto word = found;
+  while (word.begin > 0 && is_part(word.begin - 1))
+    --word.begin;
+  while (word.end < text.size() && is_part(word.end))
+    ++word.end;
+  return finding(rules::MalformedLine, word,
+                 fmt::format("`{}` is no name: `{}` cannot be in one", program.text_of(word), sign),
+                 "names have the letters a to z, digits and `_`");
+}
+
+Diagnostic reserved(const Program& program, Span word) {
+  return finding(rules::ReservedName, word,
+                 fmt::format("`{}` is a word of the language", program.text_of(word)),
+                 "choose another name");
+}
+
+/// How the functions are written.
+std::string functions() {
+  std::string all = "write ";
+  for (const auto& row : spec::functions)
+    all += fmt::format("`{}(e)`, ", row.word);
+  for (const auto word : {Keyword::Min, Keyword::Max})
+    all += fmt::format("{}`{}(a, b)`", word == Keyword::Max ? ", " : "",
+                       keywords[static_cast<std::size_t>(word)].word);
+  return all;
+}
+
+/// The robot's variables that a program can set.
+std::string settable() {
+  std::string all;
+  for (const auto& row : spec::variables)
+    if (row.access == spec::Access::ReadWrite)
+      all += fmt::format("{}`{}`", all.empty() ? "" : ", ", row.word);
+  return fmt::format("of the robot's variables only these can be set: {}", all);
+}
+
+Diagnostic bad_number(Span found, std::string_view text) {
+  if (text.starts_with('#'))
+    return finding(rules::BadNumber, found, fmt::format("`{}` is not a colour", text),
+                   "a colour has six digits: `#FF8000`");
+  const bool hex = text.size() > 2 && to_lower(text[1]) == 'x' &&
+                   text.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
+  if (hex || std::all_of(text.begin(), text.end(), is_digit))
+    return finding(
+        rules::BadNumber, found,
+        fmt::format("`{}` is above {}", text, spec::value_of(spec::Limit::GreatestInteger)));
+  return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
+                 "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");
+}
+
+/// Values of a statement in parentheses, as other languages call their functions.
+Diagnostic parenthesised(const Program& program, Span found) {
+  const auto statement = first_word(program.text, found.begin);
+  auto d = finding(rules::MalformedLine, found,
+                   fmt::format("`{}` takes its values without parentheses", statement),
+                   "leave the parentheses out");
+  d.fix =
+      Fix{d.help,
+          {Edit{{found.begin, found.begin + 1}, is_blank(program.text[found.begin - 1]) ? "" : " "},
+           Edit{{found.end - 1, found.end}, ""}},
+          Safety::Safe};
+  return d;
+}
+
+} // namespace
+
+Diagnostic explain(const Program& program, Reason reason, Span found) {
+  const auto text = std::string(program.text_of(found));
+  if (!text.empty() && is_foreign(text.front()))
+    return foreign_character(program, found);
+  if (reason == Reason::ExpectedExpression && sign_before(program.text, found.begin) == '{')
+    return finding(rules::MalformedLine, found, "`{` shifts left, and no value follows it",
+                   no_braces);
+  if (const auto brace = brace_above(program.text, found.begin))
+    return finding(rules::MalformedLine, {*brace, *brace + 1},
+                   "`{` shifts left, so that its line goes on in the next one", no_braces);
+  if (reason == Reason::ExpectedExpression && text == "#")
+    return malformed(program, found, "a colour is no value",
+                     "it stands alone after `RGB`: `RGB #FF8000`");
+  const bool other_expected = reason <= Reason::ExpectedParenthesis;
+  if (other_expected || reason == Reason::NotAStatement)
+    if (auto known = foreign(program, found, Where::Value))
+      return *std::move(known);
+  if (const auto word = word_for_name(program, reason, found))
+    return reserved(program, *word);
+  switch (reason) {
+  case Reason::Trailing: return trailing(program, found);
+  case Reason::ExpectedStatement: return malformed(program, found, "a statement is missing");
+  case Reason::ExpectedExpression:
+    if (text.starts_with('"'))
+      return malformed(program, found, "a text is no value",
+                       "texts stand in `print` only, without parentheses: `print \"hello\"`");
+    return missing_value(program, found);
+  case Reason::ExpectedPlace:
+    return malformed(program, found, "a variable or an element belongs here",
+                     text == "(" && equal_words(first_word(program.text, found.begin), "for")
+                         ? "write `for n = 1 to 4` … `next n`"
+                         : "");
+  case Reason::ExpectedName: return malformed(program, found, "a name belongs here");
+  case Reason::ExpectedEquals:
+    return malformed(
+        program, found, "`=` is missing",
+        equal_words(first_word(program.text, found.begin), "for") ? "write `for n = 1 to 4`" : "");
+  case Reason::ExpectedThen:
+    return malformed(
+        program, found, "`then` is missing",
+        "write `if … then` and the statement, or `if … then` alone and `end if` below");
+  case Reason::ExpectedTo: return malformed(program, found, "`to` is missing");
+  case Reason::ExpectedComma: return malformed(program, found, "more values are missing");
+  case Reason::ExpectedBracket:
+    return malformed(program, found, "a bracket is missing",
+                     text == "(" ? "the size of an array stands in brackets: `array a[5]`"
+                     : equal_words(first_word(program.text, found.begin), "dim")
+                         ? "a variable needs no declaration: leave the line out"
+                         : "");
+  case Reason::ExpectedParenthesis: return malformed(program, found, "a parenthesis is missing");
+  case Reason::ExpectedOperand:
+    return malformed(program, found, "a function takes its value in parentheses", functions());
+  case Reason::ExpectedOne:
+    return finding(rules::ArgumentCount, found, fmt::format("`{}` takes one value", text),
+                   fmt::format("write `{}(e)`", text));
+  case Reason::ExpectedTwo:
+    return finding(rules::ArgumentCount, found, fmt::format("`{}` takes two values", text),
+                   fmt::format("write `{}(a, b)`", text));
+  case Reason::ExpectedQuote:
+    return finding(rules::MalformedLine, found, "the text has no closing `\"`");
+  case Reason::ExpectedFile:
+    return malformed(program, found, "the name of a file in quotes belongs here");
+  case Reason::NotAStatement:
+    return finding(rules::MalformedLine, found, fmt::format("no statement begins with `{}`", text));
+  case Reason::NakedArguments: return naked_arguments(program, found);
+  case Reason::TooManyArguments:
+    return finding(rules::ArgumentCount, found, "the statement takes no more values");
+  case Reason::ReadOnly:
+    return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text), settable());
+  case Reason::Reserved: return reserved(program, found);
+  case Reason::NameTooLong:
+    return finding(
+        rules::ReservedName, found,
+        fmt::format("the name has {} characters; the limit is {}", found.size(), longest_name));
+  case Reason::BadNumber: return bad_number(found, text);
+  case Reason::FractionOfMillisecond:
+    return finding(rules::BadNumber, found,
+                   fmt::format("`{}` is not a whole number of milliseconds", text));
+  case Reason::TooDeep:
+    return finding(rules::NestingDepth, found, "more than 64 brackets are open here",
+                   "compute a part on a line of its own");
+  case Reason::NestedIf:
+    return finding(rules::MisplacedStatement, found, "an `if` stands inside an `if` of one line",
+                   "write `if … then`, the inner `if` below it, and `end if`");
+  case Reason::BlockInOneLine:
+    return finding(rules::MisplacedStatement, found,
+                   fmt::format("`{}` cannot stand in an `if` of one line", text),
+                   "write `if … then`, the statement below it, and `end if`");
+  case Reason::LineNumber:
+    return finding(rules::NumberedLine, found, "structured programs have no line numbers",
+                   "`orb lift` turns a numbered "
+                   "program into a structured one");
+  case Reason::Gosub:
+    return finding(rules::ForeignWord, found, "there is no `gosub`",
+                   "write `sub name` … `end sub` and call it by its name");
+  case Reason::On:
+    return finding(rules::ForeignWord, found, "there is no `on`",
+                   "write `select e`, `case 1` … `end select`");
+  case Reason::Parenthesised: return parenthesised(program, found);
+  }
+  return finding(rules::MalformedLine, found, "the line does not parse");
+}
+
+Diagnostic habit(const Program& program, Span found, std::string_view instead,
+                 std::string_view help) {
+  auto d = finding(rules::ForeignWord, found,
+                   fmt::format("`{}` belongs to another language", program.text_of(found)),
+                   std::string(help));
+  if (!instead.empty()) {
+    const auto written = instead == " " ? std::string_view() : instead;
+    d.help = written.empty() ? "leave it out" : fmt::format("write `{}`", written);
+    d.fix = Fix{d.help, {Edit{found, std::string(written)}}, Safety::Safe};
+  }
+  return d;
+}
+
+Diagnostic single_quotes(const Program& program, Span text) {
+  const auto inner = program.text_of({text.begin + 1, text.end - 1});
+  auto d = finding(rules::ForeignWord, text, "`'` begins a comment, not a text",
+                   fmt::format("write `\"{}\"`", inner));
+  if (inner.find('"') == std::string_view::npos)
+    d.fix = Fix{d.help, {Edit{text, fmt::format("\"{}\"", inner)}}, Safety::Safe};
+  return d;
+}
+
+std::optional<Diagnostic> foreign(const Program& program, Span word, Where place) {
+  const auto text = program.text_of(word);
+  const auto row = std::find_if(structured_words.begin(), structured_words.end(),
+                                [&](const compiler::Foreign& one) {
+                                  return one.place == place && equal_words(one.spelling, text);
+                                });
+  const auto* const known =
+      row != structured_words.end() ? &*row : compiler::find_foreign(text, place);
+  if (known == nullptr)
+    return std::nullopt;
+  auto d = habit(program, word, {}, known->help);
+  if (find_word(text).kind == WordKind::Statement)
+    d.message = fmt::format("`{}` is a statement, not a value", text);
+  if (!known->instead.empty() && !known->instead.starts_with('-'))
+    d.fix = Fix{fmt::format("write `{}`", known->instead),
+                {Edit{word, std::string(known->instead)}},
+                Safety::Unsafe};
+  return d;
+}
+
+} // namespace orb::structured

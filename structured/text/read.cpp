@@ -1,0 +1,207 @@
+#include "structured/text/read.h"
+
+#include "assembler/assemble.h"
+#include "compiler/check.h"
+#include "compiler/text/rules.h"
+#include "structured/text/blocks.h"
+#include "structured/text/parse.h"
+#include "structured/text/rules.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::structured {
+namespace {
+
+constexpr std::size_t most_files = 64; ///< of each kind
+
+bool is_declaration(Kind kind) {
+  return declares(kind) || kind == Kind::EndSub || kind == Kind::EndFunction ||
+         kind == Kind::Broken;
+}
+
+class Reader {
+public:
+  Reader(Program& program, Files& files) : program_(program), files_(files) {}
+
+  void main(std::string name, std::string path, std::string_view text) {
+    if (auto refused = compiler::refuse_text(text)) {
+      program_.files.push_back({std::move(name), std::move(path), 0, 0, 0, 0});
+      program_.text += '\n';
+      program_.diagnostics.push_back(std::move(*refused));
+      return;
+    }
+    add(std::move(name), std::move(path), text);
+  }
+
+private:
+  struct Open {
+    std::string path;
+    std::string identity;
+  };
+
+  static bool contains(const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  }
+
+  /// Parses a file and all that it includes.
+  void add(std::string name, std::string path, std::string_view text) {
+    open_.push_back({path, files_.identity(path)});
+    taken_.push_back(open_.back().identity);
+    parse(program_, std::move(name), std::move(path), text);
+    const auto begin = program_.files.back().statements_begin;
+    const auto end = program_.files.back().statements_end;
+    for (auto i = begin; i < end; ++i) {
+      program_.order.push_back(i);
+      const auto kind = program_.statements[i].kind;
+      if (kind == Kind::Include)
+        include(i);
+      else if (kind == Kind::Use)
+        use(i);
+    }
+    open_.pop_back();
+  }
+
+  /// The path that a statement names, as it counts from the file that is read.
+  std::string path_of(std::uint32_t i) const {
+    const auto quoted = program_.text_of(program_.items[program_.statements[i].items_begin].span);
+    return resolve_path(open_.back().path, quoted.substr(1, quoted.size() - 2));
+  }
+
+  void report(const Rule& rule, std::uint32_t i, std::string message, std::string help = {}) {
+    program_.diagnostics.push_back(finding(rule,
+                                           program_.items[program_.statements[i].items_begin].span,
+                                           std::move(message), std::move(help)));
+  }
+
+  /// Whether there are too many files of a kind to take another one; that is said once.
+  bool is_full(std::size_t& files, std::uint32_t i, std::string_view what) {
+    if (++files == most_files + 1)
+      report(rules::MissingFile, i, fmt::format("more than {} files are {}", most_files, what));
+    return files > most_files;
+  }
+
+  void include(std::uint32_t i) {
+    auto path = path_of(i);
+    const auto identity = files_.identity(path);
+    if (std::any_of(open_.begin(), open_.end(),
+                    [&](const Open& file) { return file.identity == identity; })) {
+      report(rules::IncludeCircle, i, fmt::format("`{}` includes itself", path),
+             "put what both files need into a third one");
+      return;
+    }
+    if (contains(taken_, identity) || is_full(included_, i, "included"))
+      return;
+    const auto text = read(path, i);
+    if (!text)
+      return;
+    if (auto refused = compiler::refuse_text(*text)) {
+      report(*refused->rule, i, fmt::format("`{}`: {}", path, refused->message));
+      return;
+    }
+    const auto first = program_.statements.size();
+    add(path, path, *text);
+    check_included(static_cast<std::uint32_t>(first), path);
+  }
+
+  void check_included(std::uint32_t first, const std::string& path) {
+    for (auto i = first; i < program_.statements.size(); ++i) {
+      const auto& statement = program_.statements[i];
+      if (program_.file_at(statement.span.begin).path != path || statement.depth > 0)
+        continue;
+      if (is_declaration(statement.kind))
+        continue;
+      program_.diagnostics.push_back(finding(rules::IncludedStatement, statement.span,
+                                             "an included file holds declarations only",
+                                             "put the statement into a sub"));
+      return;
+    }
+  }
+
+  std::optional<std::string> read(const std::string& path, std::uint32_t i) {
+    auto text = files_.read(path);
+    if (!text)
+      report(rules::MissingFile, i, fmt::format("cannot read `{}`", path.empty() ? "." : path));
+    return text;
+  }
+
+  void use(std::uint32_t i) {
+    const auto path = path_of(i);
+    auto identity = files_.identity(path);
+    if (contains(taken_macros_, identity) || is_full(used_, i, "used"))
+      return;
+    auto text = read(path, i);
+    if (!text)
+      return;
+    const auto assembly = assembler::assemble(Source(path, *text));
+    if (assembly.has_errors()) {
+      report(rules::BadMacroFile, i, fmt::format("`{}` has errors", path),
+             fmt::format("`orb check {}` shows them", path));
+      return;
+    }
+    bool any = false;
+    for (const auto& macro : assembly.macros) {
+      if (macro.name.empty() || !macro.id)
+        continue;
+      any = true;
+      // The name becomes text of the program, so that it is a name like any other.
+      const auto begin = static_cast<std::uint32_t>(program_.text.size());
+      program_.text += macro.name;
+      const Span where{begin, static_cast<std::uint32_t>(program_.text.size())};
+      program_.macros.push_back({intern(where), *macro.id, i});
+    }
+    if (!any)
+      report(rules::BadMacroFile, i, fmt::format("`{}` holds no macro with a name and an id", path),
+             "write `.macro name id=40`");
+    program_.macro_files.push_back({path, *std::move(text)});
+    taken_macros_.push_back(std::move(identity));
+  }
+
+  std::uint32_t intern(Span name) {
+    for (std::uint32_t i = 0; i < program_.names.size(); ++i)
+      if (equal_words(program_.name(i), program_.text_of(name)))
+        return i;
+    program_.names.push_back(name);
+    return static_cast<std::uint32_t>(program_.names.size()) - 1;
+  }
+
+  Program& program_;
+  Files& files_;
+  std::size_t included_ = 0;
+  std::size_t used_ = 0;
+  std::vector<Open> open_;                ///< the files that lead to the one that is read
+  std::vector<std::string> taken_;        ///< the identities of the program's files
+  std::vector<std::string> taken_macros_; ///< and of those with macros
+};
+
+} // namespace
+
+std::string resolve_path(std::string_view from, std::string_view path) {
+  std::string whole(path.starts_with('/') ? std::string_view()
+                                          : from.substr(0, from.rfind('/') + 1));
+  whole += path;
+  std::vector<std::string_view> parts;
+  for (std::string_view rest = whole; !rest.empty();) {
+    const auto part = rest.substr(0, rest.find('/'));
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    if (part == ".." && !parts.empty() && parts.back() != "..")
+      parts.pop_back();
+    else if (!part.empty() && part != ".")
+      parts.push_back(part);
+  }
+  return fmt::format("{}{}", whole.starts_with('/') ? "/" : "", fmt::join(parts, "/"));
+}
+
+std::string Files::identity(const std::string& path) {
+  return resolve_path({}, path);
+}
+
+Program read(std::string name, std::string path, std::string_view text, Files& files) {
+  Program program;
+  Reader(program, files).main(std::move(name), std::move(path), text);
+  return program;
+}
+
+} // namespace orb::structured

@@ -1,0 +1,367 @@
+#include "testing/text/cursor.h"
+
+#include "base/duration.h"
+#include "base/text.h"
+#include "base/utf8.h"
+#include "testing/text/rules.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <utility>
+
+namespace orb::testing {
+namespace {
+
+// Farther, faster and more often than any ball; arithmetic on it stays exact.
+constexpr double most_number = 1e9;
+
+bool is_hex_digit(char c) {
+  return is_digit(c) || (to_lower(c) >= 'a' && to_lower(c) <= 'f');
+}
+
+bool ends_word(char c) {
+  return is_blank(c) || c == '#';
+}
+
+} // namespace
+
+Cursor::Cursor(const Source& source, std::uint32_t line, std::vector<Diagnostic>& diagnostics)
+    : text_(source.line(line)), begin_(source.line_start(line)), at_(byte_order_mark_size(text_)),
+      diagnostics_(&diagnostics) {}
+
+void Cursor::skip_blanks() {
+  while (at_ < text_.size() && is_blank(text_[at_]))
+    ++at_;
+}
+
+bool Cursor::at_end() {
+  skip_blanks();
+  return at_ == text_.size() || text_[at_] == '#';
+}
+
+std::uint32_t Cursor::offset() {
+  skip_blanks();
+  return begin_ + static_cast<std::uint32_t>(at_);
+}
+
+Span Cursor::span_from(std::uint32_t from) const {
+  auto end = at_;
+  while (end > 0 && is_blank(text_[end - 1]))
+    --end;
+  return {from, std::max(from, begin_ + static_cast<std::uint32_t>(end))};
+}
+
+std::string_view Cursor::peek() {
+  skip_blanks();
+  const auto end =
+      std::find_if(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.end(), ends_word);
+  return text_.substr(at_, static_cast<std::size_t>(end - text_.begin()) - at_);
+}
+
+Span Cursor::peek_span() {
+  const auto from = offset();
+  const auto size = static_cast<std::uint32_t>(peek().size());
+  return {from, from + size};
+}
+
+char Cursor::peek_char() {
+  skip_blanks();
+  return at_ < text_.size() ? text_[at_] : '\0';
+}
+
+std::string_view Cursor::word() {
+  const auto found = peek();
+  at_ += found.size();
+  return found;
+}
+
+std::string_view Cursor::color_word() {
+  constexpr std::size_t digits = 6;
+  skip_blanks();
+  const auto text = text_.substr(at_);
+  const auto rest = text.substr(0, digits + 1);
+  const bool is_color = rest.size() == digits + 1 && rest.front() == '#' &&
+                        std::all_of(rest.begin() + 1, rest.end(), is_hex_digit) &&
+                        (text.size() == rest.size() || ends_word(text[rest.size()]));
+  return is_color ? rest : peek();
+}
+
+bool Cursor::take(char wanted) {
+  if (peek_char() != wanted)
+    return false;
+  ++at_;
+  return true;
+}
+
+bool Cursor::take_word(std::string_view wanted) {
+  if (peek() != wanted)
+    return false;
+  at_ += wanted.size();
+  return true;
+}
+
+void Cursor::character(char wanted, std::string_view help) {
+  if (!take(wanted))
+    fail(rules::Syntax, fmt::format("`{}` is missing", wanted), std::string(help));
+}
+
+void Cursor::fail(const Rule& rule, std::string message, std::string help) {
+  auto span = peek_span();
+  if (span.size() == 0) // at the end of the line: what stands last
+    span = {begin_ + static_cast<std::uint32_t>(at_ == 0 ? 0 : at_ - 1),
+            begin_ + static_cast<std::uint32_t>(at_)};
+  fail_at(span, rule, std::move(message), std::move(help));
+}
+
+void Cursor::fail_at(Span span, const Rule& rule, std::string message, std::string help) {
+  if (!std::exchange(failed_, true))
+    diagnostics_->push_back(finding(rule, span, std::move(message), std::move(help)));
+}
+
+std::string Cursor::quoted(std::string_view what) {
+  if (!take('"')) {
+    fail(rules::Syntax, fmt::format("the {} is missing: a text in quotes", what));
+    return {};
+  }
+  const auto end = text_.find('"', at_);
+  if (end == std::string_view::npos) {
+    --at_;
+    fail(rules::Syntax, fmt::format("the {} does not end", what), "write `\"` after it");
+    return {};
+  }
+  const auto found = text_.substr(at_, end - at_);
+  at_ = end + 1;
+  return std::string(found);
+}
+
+std::string Cursor::slashed() {
+  const auto open = begin_ + static_cast<std::uint32_t>(at_);
+  std::string pattern;
+  for (++at_; at_ < text_.size() && text_[at_] != '/'; ++at_) {
+    if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[++at_] != '/')
+      pattern += '\\';
+    pattern += text_[at_];
+  }
+  if (at_ == text_.size())
+    fail_at({open, begin_ + static_cast<std::uint32_t>(at_)}, rules::Syntax,
+            "the pattern does not end", "write `/` after it");
+  else
+    ++at_;
+  return pattern;
+}
+
+std::string Cursor::file_name() {
+  if (at_end()) {
+    fail(rules::Syntax, "the name of a file is missing");
+    return {};
+  }
+  return peek_char() == '"' ? quoted("name of the file") : std::string(word());
+}
+
+std::optional<double> Cursor::digits() {
+  skip_blanks();
+  auto end = at_;
+  if (end < text_.size() && (text_[end] == '-' || text_[end] == '+'))
+    ++end;
+  const auto first = end;
+  const auto run = [&] {
+    while (end < text_.size() && is_digit(text_[end]))
+      ++end;
+  };
+  run();
+  if (end > first && end + 1 < text_.size() && text_[end] == '.' && is_digit(text_[end + 1])) {
+    ++end;
+    run();
+  }
+  auto number = text_.substr(at_, end - at_);
+  if (number.starts_with('+'))
+    number.remove_prefix(1);
+  const auto value = parse_number<double>(number, std::chars_format::fixed);
+  if (value)
+    at_ = end;
+  return value;
+}
+
+double Cursor::number(std::string_view what) {
+  const auto from = offset();
+  const auto value = digits();
+  if (!value)
+    fail(rules::Value, at_end() ? fmt::format("the {} is missing: a number", what)
+                                : fmt::format("the {} is a number, found `{}`", what, peek()));
+  else if (*value < -most_number || *value > most_number)
+    fail_at(span_from(from), rules::Value, fmt::format("the {} is too large", what));
+  return value.value_or(0);
+}
+
+std::int64_t Cursor::whole(std::string_view what, std::int64_t least, std::int64_t greatest) {
+  const auto from = offset();
+  const auto value = digits();
+  const auto wanted = fmt::format("{} to {}", least, greatest);
+  if (!value) {
+    fail(rules::Value, at_end() ? fmt::format("the {} is missing: {}", what, wanted)
+                                : fmt::format("the {} is {}, found `{}`", what, wanted, peek()));
+    return least;
+  }
+  if (*value < static_cast<double>(least) || *value > static_cast<double>(greatest) ||
+      *value != static_cast<double>(static_cast<std::int64_t>(*value))) {
+    const auto span = span_from(from);
+    fail_at(span, rules::Value,
+            fmt::format("the {} is {}, found `{}`", what, wanted,
+                        text_.substr(span.begin - begin_, span.size())));
+    return least;
+  }
+  return static_cast<std::int64_t>(*value);
+}
+
+std::string_view Cursor::unit_word() {
+  auto end = at_;
+  while (end < text_.size() && (is_letter(text_[end]) || text_[end] == '/'))
+    ++end;
+  return text_.substr(at_, end - at_);
+}
+
+Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
+                            std::string_view example) {
+  const auto from = offset();
+  const auto help = fmt::format("write it like `{}`", example);
+  const auto factor = [&](std::string_view word) {
+    const auto found = std::find_if(units.begin(), units.end(),
+                                    [&](const Unit& unit) { return unit.word == word; });
+    return found == units.end() ? 0.0 : found->factor;
+  };
+  const auto least = digits();
+  const auto first_unit = unit_word();
+  at_ += first_unit.size();
+  if (!least || !text_.substr(at_).starts_with("..")) {
+    at_ = from - begin_;
+    fail(rules::Value, fmt::format("the {} goes from one value to another", what), help);
+    return {};
+  }
+  at_ += 2;
+  const auto most = digits();
+  const auto unit = unit_word();
+  at_ += unit.size();
+  const auto span = span_from(from);
+  if (!most) {
+    fail_at(span, rules::Value, fmt::format("the {} goes from one value to another", what), help);
+    return {};
+  }
+  const double second = factor(unit);
+  const double first = first_unit.empty() ? second : factor(first_unit);
+  if (first == 0 || second == 0) {
+    const auto wrong = first == 0 && !first_unit.empty() ? first_unit : unit;
+    fail_at(span, rules::Value,
+            wrong.empty() ? fmt::format("the {} needs a unit", what)
+                          : fmt::format("`{}` is not a unit of a {}", wrong, what),
+            help);
+    return {};
+  }
+  const Range found{*least * first, *most * second};
+  if (found.least > found.most)
+    fail_at(span, rules::Value, fmt::format("the {} runs backwards", what),
+            "write the smaller value first");
+  else if (found.most > most_number)
+    fail_at(span, rules::Value, fmt::format("the {} is too large", what));
+  return found;
+}
+
+namespace {
+
+// clang-format off
+constexpr auto length_words = std::to_array<std::pair<std::string_view, double>>({{"mm", 0.1}, {"cm", 1}, {"m", 100}});
+// clang-format on
+
+} // namespace
+
+double Cursor::length() {
+  const auto from = offset();
+  const auto value = digits();
+  if (!value) {
+    fail(rules::Value,
+         at_end() ? std::string("the length is missing")
+                  : fmt::format("a length is a number and a unit, found `{}`", peek()),
+         "write it like `12cm`");
+    return 0;
+  }
+  const auto unit = unit_word();
+  at_ += unit.size();
+  const auto row = std::find_if(length_words.begin(), length_words.end(),
+                                [&](const auto& one) { return one.first == unit; });
+  if (row == length_words.end()) {
+    fail_at(span_from(from), rules::Value,
+            unit.empty() ? std::string("the length needs a unit")
+                         : fmt::format("`{}` is not a unit of a length", unit),
+            fmt::format("write `{}cm`",
+                        text_.substr(from - begin_, at_ - unit.size() - (from - begin_))));
+    return 0;
+  }
+  if (*value < 0 || *value * row->second > most_number)
+    fail_at(span_from(from), rules::Value, "a length is not negative");
+  return *value * row->second;
+}
+
+Cursor::Range Cursor::lengths() {
+  std::array<Unit, length_words.size()> units{};
+  for (std::size_t i = 0; i < units.size(); ++i)
+    units[i] = {length_words[i].first, length_words[i].second};
+  return range(units, "distance", "90cm..110cm");
+}
+
+Cursor::Range Cursor::speeds() {
+  constexpr std::array<Unit, 2> units{{{"cm/s", 1}, {"m/s", 100}}};
+  return range(units, "speed", "50..60cm/s");
+}
+
+Cursor::Range Cursor::numbers(std::string_view what, std::int64_t least, std::int64_t greatest) {
+  constexpr std::array<Unit, 1> units{{{"", 1}}};
+  const auto from = offset();
+  const auto found = range(units, what, fmt::format("{}..{}", least, greatest));
+  if (!failed_ &&
+      (found.least < static_cast<double>(least) || found.most > static_cast<double>(greatest)))
+    fail_at(span_from(from), rules::Value,
+            fmt::format("the {} is {} to {}", what, least, greatest));
+  return found;
+}
+
+Duration Cursor::time() {
+  const auto text = peek();
+  const auto found = parse_duration(text);
+  if (!found) {
+    fail(rules::Value,
+         at_end() ? std::string("the time is missing")
+                  : fmt::format("a time is a number and a unit, found `{}`", text),
+         parse_number<double>(text, std::chars_format::fixed) ? fmt::format("write `{}s`", text)
+                                                              : "write it like `2.5s` or `800ms`");
+    return {};
+  }
+  at_ += text.size();
+  return *found;
+}
+
+std::pair<Duration, Duration> Cursor::times() {
+  const auto text = peek();
+  const auto dots = text.find("..");
+  const auto to =
+      dots == std::string_view::npos ? std::nullopt : parse_duration(text.substr(dots + 2));
+  auto from = dots == std::string_view::npos ? std::nullopt : parse_duration(text.substr(0, dots));
+  if (to && !from) // `2..3s`: the unit of the second
+    if (const auto unit = text.find_first_of("hms", dots); unit != std::string_view::npos)
+      from = parse_duration(fmt::format("{}{}", text.substr(0, dots), text.substr(unit)));
+  if (!from || !to) {
+    fail(rules::Value,
+         at_end() ? std::string("the span of time is missing")
+                  : fmt::format("a span of time is two times, found `{}`", text),
+         "write it like `2s..3s`");
+    return {};
+  }
+  if (*from > *to) {
+    fail(rules::Value, "the span of time runs backwards", "write the earlier time first");
+    return {};
+  }
+  at_ += text.size();
+  return {*from, *to};
+}
+
+} // namespace orb::testing

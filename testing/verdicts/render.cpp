@@ -1,0 +1,33 @@
+#include "testing/verdicts/render.h"
+
+#include <algorithm>
+#include <array>
+
+namespace orb::testing {
+namespace {
+
+// In the order of Format.
+constexpr std::array<std::string_view, 5> names{"text", "json", "junit", "github", "markdown"};
+
+} // namespace
+
+std::span<const std::string_view> format_names() {
+  return names;
+}
+
+Format format_called(std::string_view name) {
+  return static_cast<Format>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::string render(const Results& results, Format format, Listing listing, Style style) {
+  switch (format) {
+  case Format::Text: return render_text(results, listing, style);
+  case Format::Json: return render_json(results);
+  case Format::JUnit: return render_junit(results);
+  case Format::GitHub: return render_github(results);
+  case Format::Markdown: return render_markdown(results);
+  }
+  return {};
+}
+
+} // namespace orb::testing

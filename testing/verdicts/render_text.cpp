@@ -1,0 +1,154 @@
+#include "base/text.h"
+#include "base/utf8.h"
+#include "testing/verdicts/render.h"
+#include "testing/verdicts/table.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::testing {
+namespace {
+
+// A table that is wider has numbers for its tests, and a list of them below.
+constexpr std::size_t widest_table = 100;
+constexpr std::size_t longest_seeds = 60;
+
+/// Each line of `text` after `before`.
+std::string indented(std::string_view text, std::string_view before) {
+  std::string out;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    out += fmt::format("{}{}\n", before, text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+/// `passed` and its sisters as people find them at a glance.
+std::string verdict_words(Verdict verdict, Style style) {
+  switch (verdict) {
+  case Verdict::Passed: return style.paint(Role::Good, "ok   ");
+  case Verdict::Failed: return style.paint(Role::Error, "FAIL ");
+  case Verdict::Error: return style.paint(Role::Error, "ERROR");
+  }
+  return {};
+}
+
+std::string details(const GroupResult& group, const CaseResult& one, Style style) {
+  std::string out;
+  if (one.verdict == Verdict::Error)
+    return indented(one.problem, "  ");
+  for (const auto& miss : one.misses) {
+    out +=
+        fmt::format("  {}:{}: {}\n", group.file, miss.line, style.paint(Role::Bold, miss.expected));
+    out += fmt::format("    seen:  {}\n", miss.seen);
+    if (!miss.where.empty())
+      out += fmt::format("    ran:   {}\n", miss.where);
+  }
+  out += fmt::format("    again: {}\n", one.again);
+  return out;
+}
+
+/// What is said after the name of a test: which program, how many of its runs, which seeds.
+std::string about(const GroupResult& group, bool with_program) {
+  std::string out = with_program ? fmt::format(", {}", group.program) : std::string();
+  const auto failed = static_cast<std::uint64_t>(
+      std::count_if(group.cases.begin(), group.cases.end(),
+                    [](const CaseResult& one) { return one.verdict != Verdict::Passed; }));
+  if (group.cases.size() < 2)
+    return group.cases.empty() || group.cases.front().seed == 1
+               ? out
+               : fmt::format("{}, seed {}", out, group.cases.front().seed);
+  if (failed == 0)
+    return fmt::format("{}, {}", out, plural(group.cases.size(), "run"));
+  if (group.verdict() == Verdict::Error)
+    return out;
+  auto seeds = failed_seeds(group);
+  if (seeds.size() > longest_seeds)
+    seeds = seeds.substr(0, seeds.rfind(',', longest_seeds)) + ", …";
+  return fmt::format("{}, {} of {} runs: seed{} {}", out, failed, group.cases.size(),
+                     failed == 1 ? "" : "s", seeds);
+}
+
+std::string cell_text(const GroupResult* cell) {
+  if (cell == nullptr || cell->cases.empty())
+    return "";
+  switch (cell->verdict()) {
+  case Verdict::Passed: return "ok";
+  case Verdict::Failed: return "FAIL";
+  case Verdict::Error: return "error";
+  }
+  return "";
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  const auto taken = code_points(text);
+  return std::string(text) + std::string(width > taken ? width - taken : 0, ' ');
+}
+
+std::string draw(const Table& table, Style style) {
+  std::size_t first = std::string_view("program").size();
+  for (const auto& row : table.rows)
+    first = std::max(first, code_points(row.program));
+  auto heads = table.tests;
+  std::size_t width = first;
+  for (const auto& head : heads)
+    width += 2 + std::max<std::size_t>(code_points(head), 5);
+  const bool numbered = width + 10 > widest_table;
+  for (std::size_t i = 0; numbered && i < heads.size(); ++i)
+    heads[i] = std::to_string(i + 1);
+
+  std::string out = style.paint(Role::Bold, padded("program", first));
+  for (const auto& head : heads)
+    out += "  " + style.paint(Role::Bold, padded(head, 5));
+  out += "  " + style.paint(Role::Bold, "points") + "\n";
+  for (const auto& row : table.rows) {
+    out += padded(row.program, first);
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      const auto text =
+          padded(cell_text(row.cells[i]), std::max<std::size_t>(5, code_points(heads[i])));
+      const bool good = row.cells[i] == nullptr || row.cells[i]->verdict() == Verdict::Passed;
+      out += "  " + style.paint(good ? Role::Good : Role::Error, text);
+    }
+    out += fmt::format("  {}/{}\n", row.points, row.points_of);
+  }
+  for (std::size_t i = 0; numbered && i < heads.size(); ++i)
+    out += fmt::format("{}: {}\n", i + 1, table.tests[i]);
+  return out;
+}
+
+} // namespace
+
+std::string render_text(const Results& results, Listing listing, Style style) {
+  const auto table = table_of(results);
+  const bool many = !table.rows.empty();
+  std::string out;
+  for (const auto& group : results.groups) {
+    if (group.cases.empty())
+      continue;
+    const auto* failure = first_failure(group);
+    if (failure == nullptr && (listing == Listing::Failures || many))
+      continue;
+    out += fmt::format("{} {}:{}: {}{}\n", verdict_words(group.verdict(), style), group.file,
+                       group.line, group.test, about(group, many));
+    if (failure != nullptr)
+      out += details(group, *failure, style);
+  }
+  if (many)
+    out += (out.empty() ? "" : "\n") + draw(table, style);
+  return out + render_summary(results) + "\n";
+}
+
+std::string render_summary(const Results& results) {
+  const auto totals = totals_of(results);
+  if (totals.cases == 0)
+    return results.cases == 0 ? "no tests" : "no case of this shard";
+  auto out = fmt::format("{} of {} passed", totals.tests_passed, plural(totals.tests, "test"));
+  if (totals.points_of != static_cast<std::int64_t>(totals.tests))
+    out += fmt::format(", {} of {} points", totals.points, totals.points_of);
+  if (totals.cases != totals.tests)
+    out += fmt::format(", {} of {} runs", totals.cases - totals.failed, totals.cases);
+  return out;
+}
+
+} // namespace orb::testing

@@ -1,0 +1,80 @@
+#include "testing/verdicts/table.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+namespace orb::testing {
+
+Table table_of(const Results& results) {
+  using Key = std::pair<std::string, std::string>;
+  Table table;
+  std::map<Key, std::size_t> columns;
+  std::map<std::string, std::size_t> rows;
+  std::map<std::string, std::string> file_of; // of a test's name, where one file has it
+  for (const auto& group : results.groups) {
+    const auto [known, fresh] = file_of.try_emplace(group.test, group.file);
+    if (!fresh && known->second != group.file)
+      known->second.clear();
+  }
+  for (const auto& group : results.groups) {
+    const auto [column, new_test] =
+        columns.try_emplace({group.file, group.test}, table.tests.size());
+    if (new_test)
+      table.tests.push_back(
+          file_of[group.test].empty() ? fmt::format("{}: {}", group.file, group.test) : group.test);
+    const auto [row, new_program] = rows.try_emplace(group.program, table.rows.size());
+    if (new_program)
+      table.rows.push_back({group.program, {}, 0, 0});
+    auto& cells = table.rows[row->second].cells;
+    cells.resize(std::max(cells.size(), column->second + 1));
+    cells[column->second] = &group;
+  }
+  for (auto& row : table.rows) {
+    row.cells.resize(table.tests.size());
+    for (const auto* cell : row.cells)
+      if (cell != nullptr) {
+        row.points_of += cell->points;
+        row.points += cell->verdict() == Verdict::Passed ? cell->points : 0;
+      }
+  }
+  const auto groups = static_cast<std::size_t>(results.groups.size());
+  if (table.rows.size() < 2 || groups <= table.tests.size()) // each test has one program
+    table.rows.clear();
+  return table;
+}
+
+std::string failed_seeds(const GroupResult& group) {
+  std::string text;
+  std::optional<std::uint64_t> first, last;
+  const auto tell = [&] {
+    if (!first)
+      return;
+    text += text.empty() ? "" : ", ";
+    text += *first == *last       ? fmt::format("{}", *first)
+            : *last == *first + 1 ? fmt::format("{}, {}", *first, *last)
+                                  : fmt::format("{} to {}", *first, *last);
+  };
+  for (const auto& one : group.cases) {
+    if (one.verdict == Verdict::Passed)
+      continue;
+    if (last && one.seed == *last + 1) {
+      last = one.seed;
+      continue;
+    }
+    tell();
+    first = last = one.seed;
+  }
+  tell();
+  return text;
+}
+
+const CaseResult* first_failure(const GroupResult& group) {
+  const auto found =
+      std::find_if(group.cases.begin(), group.cases.end(),
+                   [](const CaseResult& one) { return one.verdict != Verdict::Passed; });
+  return found == group.cases.end() ? nullptr : &*found;
+}
+
+} // namespace orb::testing

@@ -1,0 +1,128 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "base/time.h"
+#include "protocol/decoder.h"
+#include "protocol/payload.h"
+#include "spec/api.h"
+#include "spec/firmware.h"
+#include "vm/api/api_host.h"
+#include "vm/api/self_level.h"
+#include "vm/machine/profile.h"
+
+#include <cstdint>
+#include <string>
+
+namespace orb::vm {
+
+/// The API: finds packets in what a client sends, obeys them through its host and answers. What a
+/// command takes, and whether it is refused, stands in spec/api.def.
+class Dispatcher {
+public:
+  Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware);
+  /// A copy that serves another ball.
+  Dispatcher(const Dispatcher& other, ApiHost& host) : Dispatcher(other) { host_ = &host; }
+
+  /// Bytes from the client, at the host's present instant.
+  void receive(ByteView bytes);
+  /// What it must do by itself: half packets that time out, power notifications, self levelling,
+  /// soul-block messages.
+  Instant next_event() const;
+  void run(Instant now);
+
+  // What happens to the ball.
+  void on_disconnect();
+  void on_sleep();
+  void on_wake();
+  /// The state of the battery changed (power notifications).
+  void on_battery();
+  /// A collision was reported (shield).
+  void on_collision();
+  /// The ball began to move (experience).
+  void on_motion();
+
+  /// The counters of its life are as of now.
+  const Profile& profile();
+  void restore(const Profile& profile) { profile_ = profile; }
+  /// Counts up with every command that changes what outlives a power cycle.
+  std::uint64_t revision() const { return revision_; }
+
+private:
+  Dispatcher(const Dispatcher&) = default;
+
+  struct Reply {
+    spec::ResponseCode code = spec::ResponseCode::Ok;
+    Bytes data;
+  };
+  /// A command whose operands have been checked.
+  struct Call {
+    const protocol::Operands& operands;
+    spec::ApiCommand command;
+
+    /// OK with the fields of the command's answer.
+    Reply answer(std::initializer_list<protocol::FieldContent> contents) const {
+      return {spec::ResponseCode::Ok,
+              protocol::write_fields(spec::answer(command), {contents.begin(), contents.size()})};
+    }
+  };
+
+  // Source: API §Perform Level 2 Diagnostics.
+  struct Counters {
+    std::uint32_t good = 0;
+    std::uint32_t bad_did = 0;
+    std::uint32_t bad_dlen = 0;
+    std::uint32_t bad_cid = 0;
+    std::uint32_t bad_checksum = 0;
+    std::uint32_t overruns = 0;
+  };
+
+  void take_items();
+  void answer(const protocol::Item& item, const Reply& reply);
+  Reply obey(const protocol::Item& item);
+
+  /// What one command does: a specialisation for each implemented row of spec/api.def, without
+  /// which the table of handlers does not link. They stand in vm/dispatch_*.cpp.
+  template <spec::ApiCommand command>
+  Reply handle(Call call);
+  using Handler = Reply (Dispatcher::*)(Call call);
+  struct Handlers;
+
+  std::string level_1();
+  /// Starts or ends the boost macro.
+  void boost(Switch state);
+  void tick_soul();
+  void check_gyro();
+  void watch_gyro();
+  void level(const SelfLevel::Request& request);
+  void finish_levelling(std::uint8_t result);
+  void send_power_state();
+  void bring_up_to_date();
+  void persist() { ++revision_; }
+
+  ApiHost* host_;
+  std::uint64_t seed_;
+  const spec::FirmwareInfo& firmware_;
+  protocol::Decoder decoder_{protocol::Direction::ToBall};
+  Instant last_byte_{};
+  Counters counters_;
+  Profile profile_;
+  std::uint64_t revision_ = 0;
+
+  // Lost in sleep.
+  bool in_bootloader_ = false;
+  std::uint8_t device_mode_ = spec::device_mode::normal;
+  std::uint8_t accelerometer_range_ = spec::accelerometer_range::g8;
+  Instant power_notice_at_ = never;
+  bool soul_messages_ = false;
+  Instant soul_tick_at_ = never;
+  Instant consumable_until_{};
+  SelfLevel self_level_;
+  Instant gyro_check_at_ = never;
+  std::uint8_t gyro_exceeded_ = 0;
+  int speed_before_boost_ = 0;
+
+  Instant counted_until_{}; ///< how far the counters of a life have come
+  bool was_charging_ = false;
+};
+
+} // namespace orb::vm

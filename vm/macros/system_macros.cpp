@@ -1,0 +1,59 @@
+#include "vm/macros/system_macros.h"
+
+#include "spec/ball.h"
+#include "spec/macro.h"
+
+namespace orb::vm {
+namespace {
+
+using enum spec::MacroCommand;
+
+constexpr std::uint8_t byte(spec::MacroCommand command) {
+  return static_cast<std::uint8_t>(command);
+}
+constexpr std::uint8_t byte(spec::MacroFlag flag) {
+  return static_cast<std::uint8_t>(flag);
+}
+/// The two bytes of a number, as an image holds them.
+constexpr std::uint8_t high(int number) {
+  return static_cast<std::uint8_t>(number >> 8);
+}
+constexpr std::uint8_t low(int number) {
+  return static_cast<std::uint8_t>(number);
+}
+
+constexpr int half_second = 500;   // ms
+constexpr int second = 1000;       // ms
+constexpr std::uint8_t wink = 200; // ms
+constexpr int turn = spec::ball::full_circle;
+constexpr std::uint8_t full = spec::ball::greatest;
+
+// clang-format off
+constexpr std::uint8_t stop[]      = {1, 0, byte(SetSpeed), 0, 0, byte(End)};
+constexpr std::uint8_t blink[]     = {2, 0, byte(LoopStart), 3,
+                                      byte(Rgb), full, full, full, wink, byte(Rgb), 0, 0, 0, wink,
+                                      byte(LoopEnd), byte(End)};
+constexpr std::uint8_t spin[]      = {3, byte(spec::MacroFlag::MotorControl),
+                                      byte(Rotate), high(turn), low(turn), high(second), low(second),
+                                      byte(Delay), high(second), low(second), byte(End)};
+constexpr std::uint8_t heartbeat[] = {4, byte(spec::MacroFlag::Unkillable),
+                                      byte(Fade), full, 0, 0, high(half_second), low(half_second),
+                                      byte(Delay), high(half_second), low(half_second),
+                                      byte(Fade), 0, 0, 0, high(half_second), low(half_second),
+                                      byte(Delay), high(half_second), low(half_second), byte(End)};
+
+constexpr SystemMacro macros[] = {
+    {1, "stops without a turn",                    stop},
+    {2, "blinks white three times",                blink},
+    {3, "turns round once in a second",            spin},
+    {4, "fades red in and out; cannot be aborted", heartbeat},
+};
+// clang-format on
+
+} // namespace
+
+std::span<const SystemMacro> system_macros() {
+  return macros;
+}
+
+} // namespace orb::vm
