@@ -11,9 +11,10 @@
 //
 // A step is a line `$ COMMAND` (run by sh in a fresh folder that holds the input files), then the
 // expected stdout, then `[stderr]` and the expected stderr where there is any, then `[exit N]`
-// where it is not 0. Output that does not end in a line end is followed by a line `[no newline]`.
-// Input files follow at the end: `=== NAME`, or `=== NAME hex` for bytes, or `=== NAME bare` for a
-// text without its last line end. `--update` rewrites the expectations: read the diff.
+// where it is not 0. `~` is an empty folder of the transcript's own. Output that does not end in a
+// line end is followed by a line `[no newline]`. Input files follow at the end: `=== NAME`, or `===
+// NAME hex` for bytes, or `=== NAME bare` for a text without its last line end. `--update` rewrites
+// the expectations: read the diff.
 //
 // A file that ends in `.md` is a page of the documentation: tests/docs/page.h.
 
@@ -128,6 +129,24 @@ std::string content_of(const Input& input) {
   return input.text;
 }
 
+/// Makes `folder` the place in which everything happens: the files lie in `work`, and a home of
+/// its own beside them is whatever `~` says, so that nobody's settings count and nothing stays.
+fs::path settle(const fs::path& folder) {
+  const auto home = folder / "home";
+  const auto work = folder / "work";
+  fs::create_directory(home);
+  fs::create_directory(work);
+  fs::permissions(folder, fs::perms(0755)); // for transcripts in which root becomes somebody else
+  ::setenv("HOME", home.c_str(), 1);
+  return work;
+}
+
+/// Output is compared without the names of folders that are new each time.
+void replace_folders(std::string& text, const fs::path& work) {
+  files::replace_all(text, work.string(), "$PWD");
+  files::replace_all(text, (work.parent_path() / "home").string(), "$HOME");
+}
+
 Step run(const std::string& command, const fs::path& folder, const fs::path& logs) {
   const auto out = logs / "stdout";
   const auto err = logs / "stderr";
@@ -137,7 +156,7 @@ Step run(const std::string& command, const fs::path& folder, const fs::path& log
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   Step step{command, files::read(out), files::read(err), code};
   for (auto* text : {&step.out, &step.err})
-    files::replace_all(*text, folder.string(), "$PWD");
+    replace_folders(*text, folder);
   return step;
 }
 
@@ -172,15 +191,16 @@ bool check_transcript(const fs::path& path, const Options& options) {
   const auto expected = parse(files::read(path));
   const files::Scratch scratch;
   const files::Scratch logs;
+  const auto work = settle(scratch.path());
   for (const auto& input : expected.inputs)
-    files::write(scratch.path() / input.name, content_of(input));
+    files::write(work / input.name, content_of(input));
   if (expected.steps.empty()) {
     fmt::print("{}: holds no step; write a line `$ orb …`\n", path.string());
     return false;
   }
   auto actual = expected;
   for (auto& step : actual.steps)
-    step = run(step.command, scratch.path(), logs.path());
+    step = run(step.command, work, logs.path());
   return actual.steps == expected.steps || compare(path, print(expected), print(actual), options);
 }
 
@@ -190,14 +210,15 @@ bool check_page(const fs::path& path, const Options& options) {
   const auto page = docs::read(text);
   const files::Scratch scratch;
   const files::Scratch logs;
+  const auto work = settle(scratch.path());
   for (const auto& file : page.files)
-    files::write(scratch.path() / file.name, file.text);
-  auto ran = docs::run(page, scratch.path().string(), logs.path().string());
+    files::write(work / file.name, file.text);
+  auto ran = docs::run(page, work.string(), logs.path().string());
   bool good = page.problems.empty();
   for (const auto& problem : page.problems)
     fmt::print("{}:{}: {}\n", path.string(), problem.line, problem.text);
   for (auto& command : ran) {
-    files::replace_all(command.output, scratch.path().string(), "$PWD");
+    replace_folders(command.output, work);
     if (command.shown || command.exit == 0)
       continue;
     fmt::print("{}:{}: `{}` exits with {}:\n{}", path.string(), command.line, command.text,
@@ -235,7 +256,6 @@ void set_environment(const Options& options) {
   ::setenv("ROOT", fs::canonical(options.root).c_str(), 1);
   ::setenv("LC_ALL", "C", 1);
   ::setenv("TERM", "dumb", 1);
-  ::setenv("HOME", "/nonexistent", 1);
   // No transcript hears the robots around it.
   ::setenv("DBUS_SYSTEM_BUS_ADDRESS", "unix:path=/nonexistent/bus", 1);
   for (const char* name :

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "disk/disk.h"
+#include "tests/golden/files.h"
 #include "vm/native/native.h"
 
 #include <cstdlib>
@@ -14,7 +15,7 @@ constexpr std::string_view cannot_forbid = "this kernel cannot forbid it";
 
 /// `orb run -v` in a process whose written memory must not become executable, as Linux has it from
 /// 6.3 on; the process ends with the command.
-[[noreturn]] void run_where_forbidden(const std::string& file) {
+[[noreturn]] void run_where_forbidden(const std::filesystem::path& file) {
   constexpr int set_mdwe = 65;
   if (prctl(set_mdwe, 1, 0, 0, 0) != 0) {
     print_err(cannot_forbid);
@@ -23,14 +24,16 @@ constexpr std::string_view cannot_forbid = "this kernel cannot forbid it";
   CLI::App app{"", "orb"};
   Context context;
   add_commands(app, context);
-  app.parse(std::vector<std::string>{file, "--native=on", "-v", "run"}); // CLI11: the last first
+  app.parse(
+      std::vector<std::string>{file.string(), "--native=on", "-v", "run"}); // CLI11: the last first
   std::_Exit(static_cast<int>(context.exit));
 }
 
 TEST(Run, SaysThatTheSystemForbidsMachineCode) {
   if (!vm::has_native_code())
     GTEST_SKIP() << "no back end in this build";
-  const auto file = ::testing::TempDir() + "run_test.bas";
+  const files::Scratch folder;
+  const auto file = folder.path() / "run_test.bas";
   ASSERT_TRUE(disk::write(file, as_bytes("10 A = 1\n")));
   EXPECT_EXIT(run_where_forbidden(file), ::testing::ExitedWithCode(0),
               "only interpreted: this system does not let memory become executable|" +
