@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <random>
+#include <utility>
 
 namespace orb::cli {
 namespace {
@@ -62,15 +63,26 @@ void add_port_options(CLI::App& command, PortOptions& options) {
 
 void WireLog::on_bytes(protocol::Direction direction, ByteView bytes, Instant) {
   const auto line = protocol::recording_line(direction, bytes);
-  recording_ += line;
+  if (recording_)
+    recording_->append(as_bytes(line));
   if (verbosity_ >= 2)
     print_err(line);
 }
 
-ExitCode Link::finish(const Context& context, ExitCode exit) const {
-  if (record_file.empty())
+ExitCode Link::finish(const Context& context, ExitCode exit) {
+  if (log == nullptr || !log->recording())
     return exit;
-  const auto written = disk::write(record_file, as_bytes(log->recording()));
+  auto recording = std::exchange(log->recording(), std::nullopt);
+  tl::expected<void, IoError> written;
+  if (exit == ExitCode::Done) {
+    written = recording->publish();
+  } else if (!recording->empty()) {
+    const auto kept = recording->keep_beside();
+    if (!kept)
+      written = tl::unexpected(kept.error());
+    else if (*kept)
+      print_note(context, fmt::format("the recording of this is {}; the one before stays", **kept));
+  }
   if (written)
     return exit;
   print_error(context, written.error().message);
@@ -155,9 +167,13 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   if (!endpoint)
     return tl::unexpected(endpoint.error());
   // Nothing may be done to a ball whose recording then cannot be written.
-  if (!options.record.empty())
-    if (const auto writable = disk::prepare(options.record); !writable)
-      return failure(ExitCode::File, writable.error().message);
+  std::optional<disk::Draft> recording;
+  if (!options.record.empty()) {
+    auto draft = disk::Draft::of(options.record);
+    if (!draft)
+      return failure(ExitCode::File, draft.error().message);
+    recording = *std::move(draft);
+  }
   Link link;
   link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
@@ -172,9 +188,8 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
     opened = open_real(link, *endpoint, on_step);
   if (!opened)
     return tl::unexpected(opened.error());
-  link.record_file = options.record;
-  if (!options.record.empty() || context.verbosity >= 2) {
-    link.log = std::make_unique<WireLog>(context.verbosity);
+  if (recording || context.verbosity >= 2) {
+    link.log = std::make_unique<WireLog>(context.verbosity, std::move(recording));
     link.transport =
         std::make_unique<protocol::RecordingTransport>(std::move(link.transport), *link.log);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/context.h"
+#include "disk/disk.h"
 #include "protocol/recording.h"
 #include "uploader/ble_error.h"
 #include "uploader/budgets.h"
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 
@@ -34,13 +36,15 @@ void add_port_options(CLI::App& command, PortOptions& options);
 /// Hears the wire for a recording and for `-vv`.
 class WireLog final : public protocol::WireListener {
 public:
-  explicit WireLog(int verbosity) : verbosity_(verbosity) {}
+  WireLog(int verbosity, std::optional<disk::Draft> recording)
+      : verbosity_(verbosity), recording_(std::move(recording)) {}
   void on_bytes(protocol::Direction direction, ByteView bytes, Instant now) override;
-  const std::string& recording() const { return recording_; }
+  /// Nothing where nothing is recorded.
+  std::optional<disk::Draft>& recording() { return recording_; }
 
 private:
   int verbosity_;
-  std::string recording_;
+  std::optional<disk::Draft> recording_;
 };
 
 /// An open link to a ball and a session on it.
@@ -50,14 +54,13 @@ struct Link {
   std::string name; ///< the port, for messages
   uploader::Budgets budgets;
   std::uint8_t first_seq = 0;
-  std::string record_file;
   std::unique_ptr<WireLog> log;
   std::unique_ptr<vm::Ball> ball; ///< of `sim:`
   std::unique_ptr<protocol::Transport> transport;
 
-  /// Writes the recording, if there is to be one. The code to end with: `exit`, where that is a
-  /// failure already, whatever becomes of the recording.
-  ExitCode finish(const Context& context, ExitCode exit) const;
+  /// Puts the recording into its place, if there is one; after a failure beside an older one. The
+  /// code to end with: `exit`, where that is a failure already, whatever becomes of the recording.
+  ExitCode finish(const Context& context, ExitCode exit);
 };
 
 /// The waits of the port that the options name, or why they name none; nothing is opened.

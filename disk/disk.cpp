@@ -180,13 +180,93 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
   return replace(place, bytes, exists ? &status : nullptr);
 }
 
-tl::expected<void, IoError> prepare(const std::string& path) {
+// A draft.
+
+tl::expected<Draft, IoError> Draft::of(const std::string& path) {
+  Draft draft(path == "-" ? path : resolved(path));
   struct stat status {};
-  if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISFIFO(status.st_mode))
-    return write(path, {});
-  if (::access(path.c_str(), W_OK) != 0)
+  const bool exists = path == "-" || ::stat(draft.path_.c_str(), &status) == 0;
+  if (exists && path != "-" && S_ISDIR(status.st_mode)) {
+    errno = EISDIR;
     return failure("write", path);
-  return {};
+  }
+  if (path != "-" && (exists ? ::access(draft.path_.c_str(), W_OK) != 0 : errno != ENOENT))
+    return failure("write", path);
+  if (path == "-" || (exists && !S_ISREG(status.st_mode)))
+    return draft;
+  draft.beside_ = draft.path_ + ".XXXXXX";
+  draft.fd_ = ::mkostemp(draft.beside_.data(), O_CLOEXEC);
+  if (draft.fd_ < 0) {
+    draft.beside_.clear();
+    return failure(exists ? "write beside" : "write", path);
+  }
+  return draft;
+}
+
+Draft::Draft(Draft&& other) noexcept
+    : path_(std::move(other.path_)), beside_(std::exchange(other.beside_, {})),
+      fd_(std::exchange(other.fd_, -1)), error_(other.error_), size_(other.size_),
+      held_(std::move(other.held_)) {}
+
+Draft& Draft::operator=(Draft&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(beside_, other.beside_);
+  std::swap(fd_, other.fd_);
+  std::swap(error_, other.error_);
+  std::swap(size_, other.size_);
+  std::swap(held_, other.held_);
+  return *this;
+}
+
+Draft::~Draft() {
+  if (fd_ < 0)
+    return;
+  ::close(fd_);
+  if (!beside_.empty())
+    ::unlink(beside_.c_str());
+}
+
+void Draft::append(ByteView bytes) {
+  size_ += bytes.size();
+  if (fd_ < 0)
+    held_.insert(held_.end(), bytes.begin(), bytes.end());
+  else if (error_ == 0 && !write_all(fd_, bytes))
+    error_ = errno;
+}
+
+tl::expected<void, IoError> Draft::move_to(const std::string& path) {
+  struct stat before {};
+  const bool exists = ::lstat(path.c_str(), &before) == 0;
+  // What renaming would lose: other names, another owner.
+  const bool in_place = exists && (!S_ISREG(before.st_mode) || before.st_nlink > 1 ||
+                                   ::fchown(fd_, before.st_uid, before.st_gid) != 0);
+  if (error_ == 0 && in_place) {
+    const auto text = read(beside_);
+    if (!text)
+      return tl::unexpected(text.error());
+    return overwrite(path, as_bytes(*text));
+  }
+  const auto mode = exists ? before.st_mode & 07777 : default_mode();
+  if (error_ == 0 && ::fchmod(fd_, mode) == 0 && ::fsync(fd_) == 0 &&
+      ::rename(beside_.c_str(), path.c_str()) == 0) {
+    beside_.clear();
+    return {};
+  }
+  if (error_ != 0)
+    errno = error_;
+  return failure("write", path);
+}
+
+tl::expected<void, IoError> Draft::publish() {
+  return fd_ < 0 ? write(path_, held_) : move_to(path_);
+}
+
+tl::expected<std::optional<std::string>, IoError> Draft::keep_beside() {
+  const bool free = fd_ < 0 || ::access(path_.c_str(), F_OK) != 0;
+  const auto place = free ? path_ : path_ + ".failed";
+  if (const auto kept = free ? publish() : move_to(place); !kept)
+    return tl::unexpected(kept.error());
+  return free ? std::nullopt : std::optional(place);
 }
 
 } // namespace orb::disk
