@@ -32,6 +32,8 @@ struct Place {
 
 constexpr auto places = std::to_array<Place>({{"drop@", &BleFaultPlan::drop},
                                               {"drop-once@", &BleFaultPlan::drop_once},
+                                              {"refuse@", &BleFaultPlan::balk},
+                                              {"refuse-once@", &BleFaultPlan::balk_once},
                                               {"vanish@", &BleFaultPlan::vanish}});
 
 constexpr auto others =

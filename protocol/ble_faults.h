@@ -22,6 +22,8 @@ struct BleFaultPlan {
   double refuse = 0;   ///< … of written pieces that are not acknowledged; every other one arrives
   std::optional<BleStep> drop;      ///< the link is lost in this step, every time
   std::optional<BleStep> drop_once; ///< … the first time
+  std::optional<BleStep> balk;      ///< this step fails every time, and the link stays
+  std::optional<BleStep> balk_once; ///< … the first time
   std::optional<BleStep> vanish;    ///< the adapter is pulled out in this step
   bool no_daemon = false;           ///< there is no bluetoothd
   bool no_adapter = false;

@@ -121,7 +121,7 @@ class Robot final : public Link {
 public:
   Robot(Computer& computer, std::string name, const std::string& address)
       : Link(computer.io()), computer_(computer), name_(std::move(name)), peer_(computer.io()),
-        drop_once_(computer.plan().drop_once) {
+        drop_once_(computer.plan().drop_once), balk_once_(computer.plan().balk_once) {
     for (std::size_t i = 0; i + 1 < address.size(); i += 2)
       address_ += (i > 0 ? ":" : "") + address.substr(i, 2);
     path_ = fmt::format("{}/dev_{}", adapter_path, address_);
@@ -167,6 +167,8 @@ private:
   /// Whether the plan ends the link in this step; then it is done.
   bool strikes(BleStep step, Result& result);
   bool strikes(BleStep step);
+  /// Whether the plan makes this step fail while the link stays.
+  bool balks(BleStep step);
   /// Lets `answer` have the result of a call later.
   void keep(Result&& result, Duration time, std::function<void(Result&)> answer);
 
@@ -189,6 +191,7 @@ private:
   std::map<BleCharacteristic, Characteristic> characteristics_;
   std::array<std::uint8_t, 4096> buffer_{}; // bytes; more than a ball says at once
   std::optional<BleStep> drop_once_;
+  std::optional<BleStep> balk_once_;
   /// Calls that are not answered yet, by number: none of them may outlive the connection.
   std::map<std::uint64_t, Result> kept_;
   std::uint64_t calls_ = 0;
@@ -430,6 +433,7 @@ void Robot::publish_characteristic(const spec::BleCharacteristicInfo& row, std::
   object->registerProperty("Notifying")
       .onInterface(characteristic_interface)
       .withGetter([this, which] { return !characteristics_[which].notified.empty(); });
+  constant(*object, characteristic_interface, "NotifyAcquired", notifies && computer_.plan().held);
   object->registerMethod("WriteValue")
       .onInterface(characteristic_interface)
       .implementedAs([this, which](Result&& result, const Bytes& value, const Properties&) {
@@ -488,6 +492,13 @@ bool Robot::strikes(BleStep step, Result& result) {
   return true;
 }
 
+bool Robot::balks(BleStep step) {
+  const auto once = balk_once_ == step;
+  if (once)
+    balk_once_.reset();
+  return once || computer_.plan().balk == step;
+}
+
 void Robot::keep(Result&& result, Duration time, std::function<void(Result&)> answer) {
   kept_.emplace(++calls_, std::move(result));
   computer_.after(time, [this, number = calls_, answer = std::move(answer)] {
@@ -500,6 +511,8 @@ void Robot::connect(Result&& result) {
     return;
   if (connected_)
     return result.returnResults();
+  if (balks(BleStep::Connect))
+    return result.returnError(bluez_error("Failed", "le-connection-abort-by-local"));
   std::array<int, 2> ends{};
   if (!door_->admits() ||
       ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()) != 0)
@@ -514,7 +527,8 @@ void Robot::connect(Result&& result) {
   door_->enter(*this);
   await_packets();
   computer_.after(computer_.plan().late, [this, session = session_] {
-    if (session == session_ && connected_ && !strikes(BleStep::Services))
+    if (session == session_ && connected_ && !strikes(BleStep::Services) &&
+        !balks(BleStep::Services))
       resolve();
   });
 }
@@ -555,6 +569,8 @@ void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Resul
     return result.returnError(not_connected());
   if (const auto step = protocol::step_of(characteristic); step && strikes(*step, result))
     return;
+  if (const auto step = protocol::step_of(characteristic); step && balks(*step))
+    return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x0e"));
   if (characteristic == BleCharacteristic::Answers)
     return result.returnError(bluez_error("NotPermitted", "Write not permitted"));
   if (value.size() > spec::ble_piece_bytes) // a robot does not know long writes
@@ -595,6 +611,8 @@ void Robot::start_notify(BleCharacteristic characteristic, Result&& result) {
     return;
   if (computer_.plan().held)
     return result.returnError(bluez_error("NotPermitted", "Notify acquired"));
+  if (balks(BleStep::Subscribe))
+    return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x0e"));
   if (characteristic != BleCharacteristic::Answers)
     return result.returnError(bluez_error("NotSupported", "Operation is not supported"));
   result.returnResults();

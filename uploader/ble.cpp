@@ -79,14 +79,15 @@ public:
   }
 
 private:
-  static tl::unexpected<LinkError> link_error(const BleError& error) {
-    return tl::unexpected(LinkError{LinkError::Kind::Closed,
-                                    fmt::format("{}; {}", error.seen, remedy(error.failure))});
+  tl::unexpected<LinkError> link_error(BleError error) const {
+    error.address = gatt_->address();
+    return tl::unexpected(
+        LinkError{LinkError::Kind::Closed, fmt::format("{}; {}", error.seen, remedy(error))});
   }
 
   /// A piece that was not acknowledged may have arrived, so it is never sent again: the packet is
   /// lost, unless the link is.
-  static tl::expected<void, LinkError> lose(const BleError& error) {
+  tl::expected<void, LinkError> lose(const BleError& error) const {
     if (error.failure == BleFailure::Refused)
       return {};
     if (error.failure == BleFailure::Interrupted)
@@ -115,6 +116,7 @@ public:
         return {};
       if (time >= budgets_.opens || !info(done.error().failure).again || stop_() > 0)
         return give_up(done.error());
+      gatt_.let_go(); // what a link has not given it will not give later
       gatt_.rest(patience(budgets_.backoff(time)));
     }
   }
@@ -128,6 +130,9 @@ private:
         return done;
     if (auto known = check_characteristics(); !known)
       return known;
+    // Noticed before a word is written: it would reach the robot in the middle of their talk.
+    if (gatt_.held())
+      return tl::unexpected(BleError{BleFailure::Held, std::string(held_by_another)});
     for (const auto& row : spec::ble_greeting) {
       step_ = *protocol::step_of(row.characteristic);
       if (auto written =
@@ -186,7 +191,8 @@ private:
     }
   }
 
-  tl::unexpected<BleError> give_up(const BleError& error) {
+  tl::unexpected<BleError> give_up(BleError error) {
+    error.address = gatt_.address();
     if (on_step_)
       on_step_(step_, tl::unexpected(error));
     return tl::unexpected(error);
@@ -202,8 +208,12 @@ private:
 
 } // namespace
 
-std::string_view remedy(BleFailure failure) {
-  return info(failure).remedy;
+std::string remedy(const BleError& error) {
+  constexpr std::string_view placeholder = "ADDRESS";
+  auto text = std::string(info(error.failure).remedy);
+  if (const auto at = text.find(placeholder); at != text.npos && !error.address.empty())
+    text.replace(at, placeholder.size(), error.address);
+  return text;
 }
 
 tl::expected<std::unique_ptr<protocol::Transport>, BleError> open_ble(std::unique_ptr<Gatt> gatt,
@@ -219,7 +229,7 @@ LinkError describe_open_error(const Endpoint& endpoint, const BleError& error) {
   if (error.failure == BleFailure::Interrupted)
     return {LinkError::Kind::Interrupted, error.seen};
   return {LinkError::Kind::CannotOpen,
-          fmt::format("cannot open {}: {}; {}", endpoint.text, error.seen, remedy(error.failure))};
+          fmt::format("cannot open {}: {}; {}", endpoint.text, error.seen, remedy(error))};
 }
 
 Budgets ble_budgets(Budgets budgets) {

@@ -33,11 +33,12 @@ enum class BleFailure : std::uint8_t {
 
 struct BleError {
   BleFailure failure{};
-  std::string seen; ///< what happened, in words
+  std::string seen;      ///< what happened, in words
+  std::string address{}; ///< of the robot, where it is known
 };
 
-/// What helps after a failure.
-std::string_view remedy(BleFailure failure);
+/// What helps after a failure: a sentence, or the command to write.
+std::string remedy(const BleError& error);
 
 /// Hears of each step to a robot once: what was found, or why it ends there.
 using OnBleStep =

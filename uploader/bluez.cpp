@@ -50,11 +50,7 @@ public:
 
   /// A robot that stays connected is awake, and nobody else finds it; but what another program
   /// has is left to it.
-  ~BluezGatt() override {
-    if (ours_ && connected())
-      static_cast<void>(
-          bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
-  }
+  ~BluezGatt() override { hang_up(); }
 
   Instant now() const override { return bluez::steady_now(); }
 
@@ -77,6 +73,20 @@ public:
     return !path_of(characteristic).empty();
   }
 
+  bool held() const override {
+    const auto path = path_of(BleCharacteristic::Answers);
+    const auto is = [&](const char* property) {
+      return bus_->get<bool>(path, bluez::characteristic_interface, property).value_or(false);
+    };
+    return is("Notifying") || is("NotifyAcquired");
+  }
+
+  std::string address() const override {
+    return bus_ == nullptr || device_.empty() ? std::string() : describe(*bus_, device_).address;
+  }
+
+  void let_go() override { hang_up(); }
+
   tl::expected<void, BleError> write(BleCharacteristic characteristic, ByteView bytes,
                                      const Patience& patience) override {
     step_ = protocol::step_of(characteristic);
@@ -85,22 +95,25 @@ public:
         bus_->call(path_of(characteristic), bluez::characteristic_interface, "WriteValue", patience,
                    Bytes(bytes.begin(), bytes.end()), options);
     if (!written || !connected())
-      return failed(BleFailure::Refused, "the robot does not take what is written to it",
-                    written ? CallError{} : written.error());
+      return failed(
+          BleFailure::Refused,
+          step_ ? fmt::format("the robot refused what was written while {}", info(*step_).doing)
+                : std::string("the robot does not take what is written to it"),
+          written ? CallError{} : written.error());
     return {};
   }
 
   tl::expected<void, BleError> subscribe(const Patience& patience) override {
     step_ = BleStep::Subscribe;
     const auto path = path_of(BleCharacteristic::Answers);
-    constexpr auto held = "another program has the robot's answers";
+    const BleError taken{BleFailure::Held, std::string(held_by_another)};
     // Two programs at once would each read the answers to both.
-    if (bus_->get<bool>(path, bluez::characteristic_interface, "Notifying").value_or(false))
-      return tl::unexpected(BleError{BleFailure::Held, held});
+    if (held())
+      return tl::unexpected(taken);
     bus_->collect(path);
     const auto started = bus_->call(path, bluez::characteristic_interface, "StartNotify", patience);
     if (!started && started.error().is("NotPermitted"))
-      return tl::unexpected(BleError{BleFailure::Held, held});
+      return tl::unexpected(taken);
     if (!started || !connected())
       return failed(BleFailure::Refused, "the robot's answers cannot be subscribed to",
                     started ? CallError{} : started.error());
@@ -123,6 +136,13 @@ public:
   }
 
 private:
+  void hang_up() {
+    if (ours_ && connected())
+      static_cast<void>(
+          bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
+    ours_ = false;
+  }
+
   bool flag(const char* property) const {
     return bus_->get<bool>(device_, bluez::device_interface, property).value_or(false);
   }
@@ -264,7 +284,7 @@ private:
       return tl::unexpected(interrupted());
     if (!risen)
       return failed(BleFailure::NotConnected, "the robot does not connect", {});
-    ours_ = !before;
+    ours_ = ours_ || !before;
     return std::string(before ? "it was connected already" : "it is connected");
   }
 

@@ -7,14 +7,14 @@
 
 namespace orb::uploader {
 
+inline constexpr std::string_view held_by_another = "another program has the robot's answers";
+
 /// How long something is waited for.
 struct Patience {
   Instant deadline;
   Stop stop; ///< asked while it is waited
 
-  bool stopped() const {
-    return stop && stop() > 0;
-  }
+  bool stopped() const { return stop && stop() > 0; }
 };
 
 /// One robot as the Bluetooth LE of a computer shows it. It ends a wait within stop_notice of its
@@ -31,6 +31,15 @@ public:
 
   /// Whether the robot has it; known after the step Services.
   virtual bool has(spec::BleCharacteristic characteristic) const = 0;
+
+  /// Whether another program has the robot's answers; known after the step Services.
+  virtual bool held() const = 0;
+
+  /// The robot's address, for what helps; empty where it is not known yet.
+  virtual std::string address() const = 0;
+
+  /// Ends the link to the robot if it was made here, so that the next step Connect makes a new one.
+  virtual void let_go() = 0;
 
   /// Writes at most spec::ble_piece_bytes and waits for the receipt. A piece that fails may have
   /// arrived.

@@ -16,6 +16,9 @@ public:
     return tl::unexpected(why_);
   }
   bool has(spec::BleCharacteristic) const override { return false; }
+  bool held() const override { return false; }
+  std::string address() const override { return {}; }
+  void let_go() override {}
   tl::expected<void, BleError> write(spec::BleCharacteristic, ByteView, const Patience&) override {
     return tl::unexpected(why_);
   }

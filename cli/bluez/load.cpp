@@ -76,7 +76,7 @@ tl::expected<std::unique_ptr<FakeBluez>, IoError>
 make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan) {
   if (!bluez_module()) {
     const auto error = not_loaded();
-    return tl::unexpected(IoError{fmt::format("{}; {}", error.seen, remedy(error.failure))});
+    return tl::unexpected(IoError{fmt::format("{}; {}", error.seen, remedy(error))});
   }
   return (*bluez_module())->make_fake(io, plan);
 }

@@ -101,7 +101,7 @@ void check_ble(Checkup& checkup) {
     const auto found = gatt->go(step, {gatt->now() + uploader::Budgets{}.ble_answer, {}});
     if (!found)
       return checkup.bad(fmt::format("Bluetooth LE: {}", found.error().seen),
-                         remedy(found.error().failure));
+                         remedy(found.error()));
     checkup.good(fmt::format("Bluetooth LE: {}", *found));
   }
 }
@@ -142,7 +142,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
     if (found)
       checkup.good(*found);
     else if (found.error().failure != uploader::BleFailure::Interrupted)
-      checkup.bad(found.error().seen, remedy(found.error().failure));
+      checkup.bad(found.error().seen, remedy(found.error()));
   });
   if (!link) {
     if (link.error().code == ExitCode::Interrupted)

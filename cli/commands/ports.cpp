@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace orb::cli {
 namespace {
@@ -88,12 +89,13 @@ Json describe(const Config& config, const uploader::SeenDevice& device,
   return json;
 }
 
-/// Listens for robots over Bluetooth LE. Why that cannot be is a note; only an interruption fails.
-tl::expected<std::vector<uploader::SeenDevice>, Failure> scan(const Context& context,
-                                                              Duration time) {
+/// Listens for robots over Bluetooth LE; nothing where nobody listened. Why that cannot be is a
+/// note; only an interruption fails.
+tl::expected<std::optional<std::vector<uploader::SeenDevice>>, Failure> scan(const Context& context,
+                                                                             Duration time) {
   using namespace std::chrono;
   if (time == Duration{})
-    return {};
+    return std::nullopt;
   const InterruptGuard guard;
   CountBar bar(context, "seconds of listening for Bluetooth LE");
   const auto start = steady_clock::now();
@@ -107,19 +109,23 @@ tl::expected<std::vector<uploader::SeenDevice>, Failure> scan(const Context& con
   if (devices.error().failure == uploader::BleFailure::Interrupted)
     return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
   print_note(context, fmt::format("nobody listened for Bluetooth LE: {}; {}", devices.error().seen,
-                                  remedy(devices.error().failure)));
-  return {};
+                                  remedy(devices.error())));
+  return std::nullopt;
 }
 
 /// Robots first; what is none is counted, and listed with -v.
 void add_robots(const Context& context, const std::vector<uploader::SeenDevice>& devices,
-                Json& ports) {
+                const std::string& listened, Json& ports) {
   std::size_t others = 0;
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) != nullptr)
       ports.push_back(describe(context.config, device, devices));
     else
       ++others;
+  if (others == devices.size())
+    print_note(context, fmt::format("no robot was heard within {}; take it off the charger, shake "
+                                    "it awake, hold it near, and end the app that may hold it",
+                                    listened));
   if (others == 0)
     return;
   if (context.verbosity == 0)
@@ -137,7 +143,8 @@ void list(Context& context, const Options& options) {
   auto ports = Json::array();
   for (const auto& port : find_ports(context.config))
     ports.push_back({{"url", port.url}, {"what", port.what}});
-  add_robots(context, *devices, ports);
+  if (*devices)
+    add_robots(context, **devices, options.scan, ports);
   const bool none = ports.empty();
   ports.push_back({{"url", "sim:"}, {"what", "a ball in this process"}});
   if (options.format == "json")

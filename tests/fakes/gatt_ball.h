@@ -27,9 +27,12 @@ public:
                                                    const uploader::Patience& patience) override {
     ++steps_taken;
     if (step == protocol::BleStep::Connect)
-      connected_ = true;
+      stale_ = std::exchange(connected_, true);
     if (strikes(step))
       return tl::unexpected(lost());
+    // What a link does not give at once it does not give later either.
+    if (balks(step) || (stale_ && step == protocol::BleStep::Services))
+      return tl::unexpected(refused());
     if (step == protocol::BleStep::Services && now() + plan_.late > patience.deadline) {
       pass(patience.deadline - now());
       return tl::unexpected(
@@ -43,11 +46,20 @@ public:
     return !plan_.newer || spec::info(characteristic).service != spec::BleService::Robot;
   }
 
+  bool held() const override { return false; } // it shows when it is subscribed to
+
+  std::string address() const override { return "68:86:E7:00:00:01"; }
+
+  void let_go() override { connected_ = false; }
+
   tl::expected<void, uploader::BleError> write(spec::BleCharacteristic characteristic,
                                                ByteView bytes, const uploader::Patience&) override {
     longest_piece = std::max(longest_piece, bytes.size());
-    if (const auto step = protocol::step_of(characteristic); step && strikes(*step))
+    const auto step = protocol::step_of(characteristic);
+    if (step && strikes(*step))
       return tl::unexpected(lost());
+    if (step && balks(*step))
+      return tl::unexpected(refused());
     for (const auto& row : spec::ble_greeting)
       if (row.characteristic == characteristic)
         greeting += std::string(row.bytes) + "|";
@@ -70,6 +82,8 @@ public:
   tl::expected<void, uploader::BleError> subscribe(const uploader::Patience&) override {
     if (strikes(protocol::BleStep::Subscribe))
       return tl::unexpected(lost());
+    if (balks(protocol::BleStep::Subscribe))
+      return tl::unexpected(refused());
     if (plan_.held)
       return tl::unexpected(uploader::BleError{uploader::BleFailure::Held, "held"});
     subscribed_ = true;
@@ -101,6 +115,17 @@ public:
 
 private:
   static uploader::BleError lost() { return {uploader::BleFailure::Lost, "the link was lost"}; }
+
+  static uploader::BleError refused() {
+    return {uploader::BleFailure::Refused, "the robot does not want to"};
+  }
+
+  bool balks(protocol::BleStep step) {
+    const auto once = plan_.balk_once == step;
+    if (once)
+      plan_.balk_once.reset();
+    return once || plan_.balk == step;
+  }
 
   bool strikes(protocol::BleStep step) {
     const auto once = plan_.drop_once == step;
@@ -141,6 +166,7 @@ private:
   Random random_;
   Bytes pieces_;
   bool connected_ = false;
+  bool stale_ = false; ///< the link is that of an earlier try
   bool subscribed_ = false;
 };
 

@@ -78,6 +78,17 @@ TEST(Ble, ALinkThatIsLostOnceIsOpenedAgain) {
   }
 }
 
+TEST(Ble, AStepThatFailsOnceIsTakenAgainOverALinkOfItsOwn) {
+  for (const auto& row : protocol::ble_steps) {
+    if (row.step < BleStep::Connect)
+      continue;
+    BleFaultPlan plan;
+    plan.balk_once = row.step;
+    const Robot robot(plan);
+    EXPECT_TRUE(robot.link) << row.word;
+  }
+}
+
 TEST(Ble, ALinkThatIsAlwaysLostIsGivenUpInTheStepThatLosesIt) {
   for (const auto& row : protocol::ble_steps) {
     BleFaultPlan plan;
@@ -110,7 +121,16 @@ TEST(Ble, NobodyTriesAgainAfterARequestToStop) {
 
 TEST(Ble, EveryFailureButAnInterruptionHasARemedy) {
   for (int i = 0; i < static_cast<int>(BleFailure::Interrupted); ++i)
-    EXPECT_FALSE(remedy(static_cast<BleFailure>(i)).empty()) << i;
+    EXPECT_FALSE(remedy({static_cast<BleFailure>(i), {}}).empty()) << i;
+}
+
+TEST(Ble, ARemedyNamesTheRobotByItsAddress) {
+  BleFaultPlan plan;
+  plan.held = true;
+  const Robot robot(plan);
+  ASSERT_TRUE(robot.error);
+  EXPECT_EQ(remedy(*robot.error), "end that program; `bluetoothctl disconnect 68:86:E7:00:00:01` "
+                                  "lets go of the robot");
 }
 
 TEST(Ble, BudgetsCountPieces) {
