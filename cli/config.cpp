@@ -1,11 +1,11 @@
 #include "cli/config.h"
 
 #include "base/text.h"
-#include "base/utf8.h"
 #include "cli/context.h"
 #include "cli/options.h"
 #include "cli/save_ball.h"
 #include "disk/disk.h"
+#include "disk/lock.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -16,6 +16,8 @@
 #include <optional>
 #include <sstream>
 #include <sys/stat.h>
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
 #include <unistd.h>
 
 namespace orb::cli {
@@ -76,35 +78,138 @@ std::optional<fs::path> nearest_project_file() {
   return std::nullopt;
 }
 
-ConfigError problem(const std::string& file, std::string_view what) {
-  return {fmt::format("{}: {}", file, what)};
+ConfigError problem(const std::string& where, std::string_view what) {
+  return {fmt::format("{}: {}", where, what)};
+}
+
+std::string place_in(const std::string& file, const toml::source_position& at) {
+  return fmt::format("{}:{}:{}", file, at.line, at.column);
+}
+
+std::string place_in(const std::string& file, const toml::node& node) {
+  return place_in(file, node.source().begin);
+}
+
+/// The words of one value, as if they stood on the command line; nothing for what cannot.
+std::optional<std::string> words_of(const toml::node& value) {
+  if (const auto* text = value.as_string())
+    return text->get();
+  if (const auto* number = value.as_integer())
+    return fmt::format("{}", number->get());
+  if (const auto* number = value.as_floating_point())
+    return fmt::format("{}", number->get());
+  if (const auto* flag = value.as_boolean())
+    return flag->get() ? "true" : "false";
+  return std::nullopt;
+}
+
+tl::expected<std::vector<std::string>, ConfigError>
+values_of(const std::string& file, std::string_view name, const toml::node& node) {
+  std::vector<std::string> values;
+  const auto wrong = [&](const toml::node& value) {
+    return tl::unexpected(
+        problem(place_in(file, value),
+                fmt::format("`{}` takes texts, numbers, true or false, or a list of them", name)));
+  };
+  if (const auto* list = node.as_array()) {
+    for (const auto& value : *list) {
+      auto words = words_of(value);
+      if (!words)
+        return wrong(value);
+      values.push_back(*std::move(words));
+    }
+    return values;
+  }
+  auto words = words_of(node);
+  if (!words)
+    return wrong(node);
+  values.push_back(*std::move(words));
+  return values;
+}
+
+tl::expected<void, ConfigError> take_balls(Config& config, const std::string& file,
+                                           const toml::table& section) {
+  for (const auto& [name, node] : section) {
+    const auto* url = node.as_string();
+    if (url == nullptr)
+      return tl::unexpected(
+          problem(place_in(file, node),
+                  fmt::format("ball `{}` takes one URL, such as \"rfcomm://68:86:E7:00:11:22\"",
+                              name.str())));
+    config.balls[std::string(name.str())] = url->get();
+  }
+  return {};
+}
+
+tl::expected<void, ConfigError> take_setting(Config& config, const std::string& file,
+                                             const Section& section, const toml::key& name,
+                                             const toml::node& node) {
+  if (node.is_table() || node.is_array_of_tables())
+    return tl::unexpected(problem(
+        place_in(file, node), fmt::format("`[{}.{}]` is nested too deep; sections are `[balls]` or "
+                                          "a command such as `[check]`",
+                                          section.name, name.str())));
+  auto values = values_of(file, name.str(), node);
+  if (!values)
+    return tl::unexpected(values.error());
+  config.settings.push_back({file, place_in(file, name.source().begin), section,
+                             std::string(name.str()), *std::move(values)});
+  return {};
+}
+
+/// What the library says, without its preface.
+std::string in_our_words(std::string_view description) {
+  if (const auto colon = description.find(": ");
+      description.starts_with("Error while") && colon != description.npos)
+    description.remove_prefix(colon + 2);
+  std::string text(description);
+  if (!text.empty())
+    text.front() = to_lower(text.front());
+  return text;
+}
+
+/// A value that is no TOML, mostly because it stands without quotes: `for = 60s`.
+std::string quotes_help(const std::string& text, std::uint32_t number) {
+  std::istringstream stream(text);
+  std::string line;
+  for (std::uint32_t i = 0; i < number && std::getline(stream, line); ++i)
+    ;
+  const auto equals = line.find('=');
+  const auto value =
+      equals == line.npos ? std::string_view() : trim(std::string_view(line).substr(equals + 1));
+  if (value.empty() || value.find_first_of("\"'[]{}#\\\r") != value.npos)
+    return {};
+  return fmt::format("; a text stands in quotes: `{} = \"{}\"`", trim(line.substr(0, equals)),
+                     value);
 }
 
 tl::expected<void, ConfigError> read_text_into(Config& config, const std::string& file,
                                                const std::string& text) {
-  std::vector<CLI::ConfigItem> items;
-  try {
-    std::istringstream stream(text.substr(byte_order_mark_size(text)));
-    items = CLI::ConfigTOML().from_config(stream);
-  } catch (const CLI::Error& error) {
-    return tl::unexpected(problem(file, fmt::format("not understood: {}", error.what())));
+  const auto parsed = toml::parse(text, file);
+  if (!parsed) {
+    const auto& error = parsed.error();
+    return tl::unexpected(problem(place_in(file, error.source().begin),
+                                  fmt::format("not TOML: {}{}", in_our_words(error.description()),
+                                              quotes_help(text, error.source().begin.line))));
   }
-  for (const auto& item : items) {
-    if (item.name == "++" || item.name == "--")
-      continue; // CLI11 marks where sections open and close
-    if (item.parents.size() > 1)
-      return tl::unexpected(problem(file, fmt::format("`[{}]` is nested too deep; sections are "
-                                                      "`[balls]` or a command such as `[check]`",
-                                                      fmt::join(item.parents, "."))));
-    const auto section = item.parents.empty() ? std::string() : item.parents.front();
-    if (section == balls_section) {
-      if (item.inputs.size() != 1)
-        return tl::unexpected(problem(
-            file, fmt::format("ball `{}` takes one URL, such as \"rfcomm://68:86:E7:00:11:22\"",
-                              item.name)));
-      config.balls[item.name] = item.inputs.front();
+  for (const auto& [key, node] : parsed.table()) {
+    const auto name = std::string(key.str());
+    const auto* section = node.as_table();
+    if (section == nullptr) {
+      if (name == balls_section || node.is_array_of_tables())
+        return tl::unexpected(
+            problem(place_in(file, key.source().begin),
+                    fmt::format("`{0}` is a section; write `[{0}]` on a line of its own", name)));
+      if (auto taken = take_setting(config, file, {}, key, node); !taken)
+        return taken;
+    } else if (name == balls_section) {
+      if (auto taken = take_balls(config, file, *section); !taken)
+        return taken;
     } else {
-      config.settings.push_back({file, section, item.name, item.inputs});
+      const Section command{name, place_in(file, key.source().begin)};
+      for (const auto& [option, value] : *section)
+        if (auto taken = take_setting(config, file, command, option, value); !taken)
+          return taken;
     }
   }
   return {};
@@ -131,14 +236,14 @@ void set_default(CLI::Option& option, const std::vector<std::string>& values) {
 }
 
 tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
-  const auto commands = addressed(app, setting.command);
+  const auto commands = addressed(app, setting.section.name);
   if (commands.empty()) {
     std::vector<std::string> names = {std::string(balls_section)};
     for (const auto* command : addressed(app, ""))
       names.push_back(command->get_name());
-    return tl::unexpected(
-        problem(setting.file, fmt::format("`[{}]` is not a section{}", setting.command,
-                                          meant_instead(setting.command, names))));
+    return tl::unexpected(problem(setting.section.place,
+                                  fmt::format("`[{}]` is not a section{}", setting.section.name,
+                                              meant_instead(setting.section.name, names))));
   }
   const bool allowed = fs::path(setting.file).filename() != project_file ||
                        std::find(project_options.begin(), project_options.end(), setting.option) !=
@@ -158,18 +263,18 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
     try {
       set_default(*option, setting.values);
     } catch (const CLI::Error& error) {
-      return tl::unexpected(problem(setting.file, error.what()));
+      return tl::unexpected(problem(setting.place, error.what()));
     }
   }
   if (!known)
-    return tl::unexpected(
-        problem(setting.file,
-                fmt::format("`{}` is not an option{}{}", setting.option,
-                            setting.command.empty() ? "" : " of `orb " + setting.command + "`",
-                            meant_instead(setting.option, names))));
+    return tl::unexpected(problem(
+        setting.place,
+        fmt::format("`{}` is not an option{}{}", setting.option,
+                    setting.section.name.empty() ? "" : " of `orb " + setting.section.name + "`",
+                    meant_instead(setting.option, names))));
   if (!allowed)
     return tl::unexpected(
-        problem(setting.file,
+        problem(setting.place,
                 fmt::format("a project's file cannot set `{0}`; write `--{0}` on the command line, "
                             "or `{0}` in {1}",
                             setting.option, user_file().value_or("config.toml").string())));
@@ -197,9 +302,10 @@ bool sets(const std::string& line, std::string_view name) {
 
 /// What follows the value of a line: blanks and a comment, or nothing.
 std::string comment_of(const std::string& line) {
-  const auto open = line.find('"', line.find('='));
-  const auto close = open == line.npos ? open : line.find('"', open + 1);
-  const auto hash = line.find('#', close == line.npos ? line.find('=') : close);
+  const auto equals = line.find('=');
+  const auto open = line.find_first_of("\"'", equals);
+  const auto close = open == line.npos ? open : line.find(line[open], open + 1);
+  const auto hash = line.find('#', close == line.npos ? equals : close);
   if (hash == line.npos)
     return {};
   return close == line.npos ? "  " + line.substr(hash) : line.substr(close + 1);
@@ -247,6 +353,11 @@ bool is_ball_name(const std::string& name) {
   });
 }
 
+bool same_but_for_place(const Setting& one, const Setting& other) {
+  return one.section.name == other.section.name && one.option == other.option &&
+         one.values == other.values;
+}
+
 tl::unexpected<Failure> unsaved(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
 }
@@ -265,25 +376,29 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
                                    "XDG_CONFIG_HOME nor HOME is set");
   const auto file = path->string();
   std::error_code error;
+  if (fs::create_directories(path->parent_path(), error); error)
+    return unsaved(ExitCode::File,
+                   fmt::format("cannot make the folder of {}: {}", file, error.message()));
+  // From reading it to writing it again nobody else may.
+  constexpr Duration patience = 5s;
+  const auto lock = disk::Lock::take(file, patience, "wait until that has ended, and save again");
+  if (!lock)
+    return unsaved(ExitCode::File, lock.error().message);
   std::string text;
   if (fs::exists(*path, error)) {
     auto read = disk::read(file);
     if (!read)
       return unsaved(ExitCode::File, read.error().message);
     text = *std::move(read);
-  } else if (fs::create_directories(path->parent_path(), error); error) {
-    return unsaved(ExitCode::File,
-                   fmt::format("cannot make the folder of {}: {}", file, error.message()));
   }
   const auto edited = with_ball(text, name, url);
   Config before;
-  Config after; // what will be read of it
-  using Reading = std::pair<Config*, const std::string*>;
-  for (const auto& [config, words] : {Reading{&before, &text}, Reading{&after, &edited}})
-    if (auto read = read_text_into(*config, file, *words); !read)
-      return unsaved(ExitCode::Usage, read.error().message);
+  if (auto read = read_text_into(before, file, text); !read)
+    return unsaved(ExitCode::Usage, read.error().message);
   before.balls[name] = url;
-  if (after.balls != before.balls || after.settings != before.settings)
+  Config after; // what will be read of it
+  if (!read_text_into(after, file, edited) || after.balls != before.balls ||
+      !std::ranges::equal(after.settings, before.settings, same_but_for_place))
     return unsaved(
         ExitCode::Usage,
         fmt::format("{0}: the balls in it are written in a way that is not edited; write "

@@ -11,13 +11,19 @@ class App;
 
 namespace orb::cli {
 
+/// A section of a configuration file: the name of a command, or empty for all commands.
+struct Section {
+  std::string name;
+  std::string place; ///< `FILE:LINE:COLUMN`
+};
+
 /// One setting of a configuration file, with the place it came from for messages.
 struct Setting {
   std::string file;
-  std::string command; ///< the section: a command's name, or empty for all commands
-  std::string option;  ///< the long option's name without dashes
+  std::string place; ///< `FILE:LINE:COLUMN`
+  Section section;
+  std::string option; ///< the long option's name without dashes
   std::vector<std::string> values;
-  bool operator==(const Setting&) const = default;
 };
 
 /// What the configuration files say: `orb.toml`, found by walking up from the working folder, over

@@ -92,16 +92,6 @@ bool write_all(int fd, ByteView bytes) {
   return true;
 }
 
-/// Where the bytes go in the end: what links at `path` lead to, even where that is not there yet.
-std::string resolved(std::string path) {
-  namespace fs = std::filesystem;
-  constexpr int links_most = 40; // as the kernel
-  std::error_code error;
-  for (int i = 0; i < links_most && fs::is_symlink(path, error); ++i)
-    path = (fs::path(path).parent_path() / fs::read_symlink(path, error)).string();
-  return path;
-}
-
 mode_t default_mode() {
   const auto mask = ::umask(0);
   ::umask(mask);
@@ -163,7 +153,7 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
       return failure("write", "<stdout>");
     return {};
   }
-  const auto place = resolved(path);
+  const auto place = target_of_links(path);
   struct stat status {};
   const bool exists = ::stat(place.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
@@ -180,10 +170,19 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
   return replace(place, bytes, exists ? &status : nullptr);
 }
 
+std::string target_of_links(std::string path) {
+  namespace fs = std::filesystem;
+  constexpr int links_most = 40; // as the kernel
+  std::error_code error;
+  for (int i = 0; i < links_most && fs::is_symlink(path, error); ++i)
+    path = (fs::path(path).parent_path() / fs::read_symlink(path, error)).string();
+  return path;
+}
+
 // A draft.
 
 tl::expected<Draft, IoError> Draft::of(const std::string& path) {
-  Draft draft(path == "-" ? path : resolved(path));
+  Draft draft(path == "-" ? path : target_of_links(path));
   struct stat status {};
   const bool exists = path == "-" || ::stat(draft.path_.c_str(), &status) == 0;
   if (exists && path != "-" && S_ISDIR(status.st_mode)) {

@@ -51,6 +51,9 @@ private:
   Bytes held_;
 };
 
+/// What links at `path` lead to, even where that is not there yet.
+std::string target_of_links(std::string path);
+
 /// How a file is called in messages: its path, or `<stdin>` for `-`.
 std::string display_name(const std::string& path);
 
