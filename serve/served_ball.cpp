@@ -56,14 +56,22 @@ std::string ServedBall::numbered(const std::string& name) const {
 
 tl::expected<void, IoError> ServedBall::load() {
   const auto path = numbered(options_.state_file);
-  if (path.empty() || ::access(path.c_str(), F_OK) != 0)
+  if (path.empty())
+    return {};
+  auto lock =
+      disk::Lock::take(path, Duration{}, "end that ball, or give this one another `--state`");
+  if (!lock)
+    return tl::unexpected(lock.error());
+  lock_ = *std::move(lock);
+  if (::access(path.c_str(), F_OK) != 0)
     return {}; // a new ball
   const auto text = disk::read(path);
   if (!text)
     return tl::unexpected(text.error());
   if (const auto loaded = vm::load_state(*text, ball_); !loaded)
     return tl::unexpected(
-        IoError{fmt::format("{} is not the state of a ball: {}; remove it to start with a new ball",
+        IoError{fmt::format("{} cannot be used as the state of a ball: {}; remove it to start with "
+                            "a new ball, or give another file",
                             path, loaded.error())});
   saved_revision_ = ball_.dispatcher().revision();
   return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "disk/lock.h"
 #include "serve/fake_bluez.h"
 #include "serve/link.h"
 #include "serve/packet_spacer.h"
@@ -81,6 +82,7 @@ private:
   bool reading_ = false;
 
   std::ofstream log_;
+  std::optional<disk::Lock> lock_; ///< on the state
   std::uint64_t saved_revision_ = 0;
   std::optional<IoError> error_;
 };

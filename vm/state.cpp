@@ -1,5 +1,7 @@
 #include "vm/state.h"
 
+#include "base/hash.h"
+#include "base/text.h"
 #include "protocol/payload.h"
 #include "vm/ball.h"
 
@@ -9,7 +11,12 @@
 namespace orb::vm {
 namespace {
 
-constexpr std::string_view header = "orb.state/1";
+constexpr std::string_view kind = "orb.state/";
+constexpr int version = 2; ///< since 2 there is a checksum
+
+std::string checksum(std::string_view text) {
+  return fmt::format("{:016X}", hash(text));
+}
 
 Bytes life(const Profile& profile, std::uint64_t rolled_cm) {
   const protocol::FieldContent contents[] = {profile.charges,  profile.cold_boots,
@@ -34,8 +41,7 @@ void load_life(ByteView bytes, Profile& profile) {
 
 std::string save_state(Ball& ball) {
   const auto& profile = ball.profile();
-  std::string out(header);
-  out += '\n';
+  auto out = fmt::format("{}{}\n", kind, version);
   const auto line = [&](std::string_view word, ByteView bytes) {
     out += fmt::format("{} {}\n", word, to_hex(bytes));
   };
@@ -43,33 +49,60 @@ std::string save_state(Ball& ball) {
   line("soul", profile.soul.block());
   line("life", life(profile, profile.rolled_cm + ball.body().rolled_cm()));
   line("flash", as_bytes(ball.basic_text(Area::Flash)));
-  out += "end\n";
-  return out;
+  return out + fmt::format("sum {}\nend\n", checksum(out));
 }
 
+namespace {
+
+/// Takes the first line off a text.
+std::string_view take_line(std::string_view& text) {
+  const auto line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(text.size(), line.size() + 1));
+  return line;
+}
+
+/// The version of the file, from its first line.
+tl::expected<int, std::string> read_version(std::string_view line) {
+  const auto number =
+      line.starts_with(kind) ? parse_number<int>(line.substr(kind.size())) : std::optional<int>();
+  if (!number || *number < 1)
+    return tl::unexpected(fmt::format("it does not begin with `{}{}`", kind, version));
+  if (*number > version)
+    return tl::unexpected(
+        fmt::format("it is of version {}, and this orb reads 1 to {}", *number, version));
+  return *number;
+}
+
+} // namespace
+
 tl::expected<void, std::string> load_state(std::string_view text, Ball& ball) {
+  const auto whole = text;
+  const auto found = read_version(take_line(text));
+  if (!found)
+    return tl::unexpected(found.error());
   std::map<std::string_view, Bytes> fields;
-  bool headed = false;
   bool ended = false;
+  bool summed = false;
   while (!text.empty() && !ended) {
-    const auto line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    if (!headed) {
-      headed = line == header;
-      if (!headed)
-        return tl::unexpected(fmt::format("it does not begin with `{}`", header));
-      continue;
-    }
+    const auto before = whole.substr(0, whole.size() - text.size());
+    const auto line = take_line(text);
     const auto blank = std::min(line.find(' '), line.size());
     const auto word = line.substr(0, blank);
+    const auto rest = line.substr(std::min(blank + 1, line.size()));
     ended = word == "end";
-    const auto bytes = from_hex(line.substr(std::min(blank + 1, line.size())));
+    if (word == "sum") {
+      summed = rest == checksum(before);
+      continue;
+    }
+    const auto bytes = from_hex(rest);
     if (!bytes)
       return tl::unexpected(fmt::format("`{}` is not followed by hex bytes", word));
     fields.insert_or_assign(word, *bytes);
   }
   if (!ended)
     return tl::unexpected(std::string("its last line is not `end`"));
+  if (*found >= 2 && !summed)
+    return tl::unexpected(std::string("its checksum is wrong, so it is damaged"));
   Settings settings;
   Profile profile;
   if (!load_config_block(fields["config"], settings, profile))
