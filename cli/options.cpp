@@ -154,6 +154,16 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
                         bounded ? fmt::format("{} to {}", least, greatest) : std::string());
 }
 
+CLI::Validator number_between(double least, double greatest) {
+  auto check = [=](std::string& value) -> std::string {
+    const auto number = parse_real(value);
+    return number && *number >= least && *number <= greatest
+               ? std::string()
+               : fmt::format("takes {} to {}, found `{}`", least, greatest, value);
+  };
+  return CLI::Validator(std::move(check), fmt::format("{} to {}", least, greatest));
+}
+
 bool is_hidden(const CLI::App& command) {
   return command.get_group().empty();
 }

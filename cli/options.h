@@ -23,6 +23,9 @@ CLI::Validator one_of(std::vector<std::string> words);
 /// A check that a value is a whole number of that range, decimal or 0x hex; help lists the range.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest);
 
+/// A check that a value is a number of that range; not a number is in none.
+CLI::Validator number_between(double least, double greatest);
+
 /// Whether the command is for programs, not for people: left out of help, completion and manual.
 bool is_hidden(const CLI::App& command);
 

@@ -138,7 +138,7 @@ void add_ball(CLI::App& app, Context& context) {
       ->capture_default_str();
   command
       ->add_option("--speed", arguments->speed, "how many seconds of the ball pass in one second")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(number_between(0.001, 1000))
       ->capture_default_str();
   command
       ->add_option("--seed", arguments->seed,

@@ -1,5 +1,6 @@
 #include "run/run.h"
 #include "base/duration.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/commands/monitor.h"
 #include "cli/inputs.h"
@@ -95,12 +96,27 @@ public:
     std::this_thread::sleep_until(start_ + t);
   }
 
+  /// Who types gets another try; what comes out of a file or a program is wrong for good.
   std::optional<std::int32_t> ask_number() override {
-    std::int32_t value = 0;
-    if (options_.input == from_stdin && std::cin >> value)
-      return value;
+    std::string word;
+    while (options_.input == from_stdin && no_number_.empty() && std::cin >> word) {
+      const auto digits = std::string_view(word).substr(word.starts_with('+') ? 1 : 0);
+      if (const auto value = parse_number<std::int32_t>(digits))
+        return value;
+      const auto message = fmt::format("`{}` is not a whole number from {} to {}, which `input` "
+                                       "takes",
+                                       word, std::numeric_limits<std::int32_t>::min(),
+                                       std::numeric_limits<std::int32_t>::max());
+      if (::isatty(STDIN_FILENO) == 0)
+        no_number_ = "on standard input " + message;
+      else
+        print_err(message + "; again\n");
+    }
     return std::nullopt;
   }
+
+  /// What came instead of a number, for a message; empty for nothing.
+  const std::string& no_number() const { return no_number_; }
 
   tl::expected<void, IoError> finish(const run::Ending& ending) {
     if (trace_)
@@ -120,6 +136,7 @@ private:
   const RunOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<run::Trace> trace_;
+  std::string no_number_;
   std::string text_; ///< of a trace that goes to a file, which appears whole at the end
 };
 
@@ -317,20 +334,24 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     print_fault(context, fault);
   if (written && journey)
     written = write_pictures(given, *journey, *before);
-  if (!written)
-    return refuse(ExitCode::File, written.error().message);
+  if (!written) // how the run ended is told all the same
+    print_error(context, written.error().message);
   tell(context, given, *ending);
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
     print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
   write_perf_map(context, ending->machine_code);
-  if (given.open && !given.watch)
+  if (given.open && !given.watch && written)
     show(context, given);
   if (auto good = judge(given, *ending); !good)
     return good;
   if (!ending->aborted.empty())
     return refuse(ExitCode::BadInput, ending->aborted);
+  if (!console.no_number().empty())
+    return refuse(ExitCode::BadInput, console.no_number());
   if (!ending->faults.empty())
     context.exit = ExitCode::BadInput;
+  else if (!written)
+    context.exit = ExitCode::File;
   return {};
 }
 
