@@ -26,7 +26,7 @@ std::string_view kind_name(Item::Kind kind) {
 } // namespace
 
 void add_format_option(CLI::App& command, std::string& format) {
-  command.add_option("--format", format, "text, or JSON for programs (docs/json.md)")
+  command.add_option("--format", format, "text, or JSON for programs")
       ->check(one_of({"text", "json"}))
       ->capture_default_str();
 }

@@ -134,6 +134,7 @@ private:
     for (const auto& port : ports_)
       add(port.word, port.summary);
     add("rfcomm://", "rfcomm://AA:BB:CC:DD:EE:FF, a ball by its Bluetooth address");
+    add("ble://", "ble://NAME or ble://ADDRESS, a robot over Bluetooth LE");
     add("serial://", "serial:///dev/NAME, a serial device");
     add("tcp://", "tcp://HOST:PORT, a served ball");
     add("pty://", "pty:///PATH, a served ball");

@@ -156,6 +156,11 @@ std::optional<Language> language_of(std::string_view name, std::string_view lang
 Failure unknown_content(std::string_view name) {
   if (report::is_course(name))
     return {ExitCode::Usage, fmt::format("{0} is a course; give it with `--course {0}`", name)};
+  if (name.ends_with(".test"))
+    return {ExitCode::Usage, fmt::format("{0} is a test; run it with `orb test {0}`", name)};
+  if (name.ends_with(".stimulus"))
+    return {ExitCode::Usage,
+            fmt::format("{0} is a stimulus script; give it with `--stimulus {0}`", name)};
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} by its name; give "
                                        "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};

@@ -11,20 +11,6 @@ namespace {
 // With more of them the command is longer than what it repeats.
 constexpr std::size_t most_stimuli = 6;
 
-/// A word as a shell takes it.
-std::string shell(std::string_view word) {
-  const auto is_plain = [](char c) {
-    return is_letter(c) || is_digit(c) ||
-           std::string_view("/._-+=:,@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain))
-    return std::string(word);
-  std::string out = "'";
-  for (const char c : word)
-    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string seconds(Duration t) {
   const auto ms = std::chrono::ceil<std::chrono::milliseconds>(t).count();
   return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000) : fmt::format("{}ms", ms);
@@ -74,13 +60,14 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   const auto& test = suite.test_of(group);
   const auto& program = suite.programs[group.program];
   if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
-    auto command = fmt::format("orb test {} --only {} --seeds {}..{}", shell(file.source->name()),
-                               shell(test.name.text), seed, seed);
-    return fmt::format("{} --program {} --report report", command, shell(program.name));
+    auto command =
+        fmt::format("orb test {} --only {} --seeds {}..{}", shell_word(file.source->name()),
+                    shell_word(test.name.text), seed, seed);
+    return fmt::format("{} --program {} --report report", command, shell_word(program.name));
   }
-  std::string command = "orb run " + shell(program.name);
+  std::string command = "orb run " + shell_word(program.name);
   for (const auto& with : file.file.with)
-    command += " " + shell(structured::resolve_path(file.source->name(), with.text));
+    command += " " + shell_word(structured::resolve_path(file.source->name(), with.text));
   if (test.bound != default_bound)
     command += " --for " + seconds(test.bound);
   if (seed != 1)
@@ -92,11 +79,12 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   if (file.file.firmware != spec::default_firmware)
     command += fmt::format(" --firmware {}", spec::info(file.file.firmware).name);
   if (file.file.course)
-    command +=
-        " --course " + shell(structured::resolve_path(file.source->name(), file.file.course->text));
+    command += " --course " +
+               shell_word(structured::resolve_path(file.source->name(), file.file.course->text));
   for (const auto& line : test.stimulus_lines)
-    command += " --stimulus " + shell(line);
-  return command + fmt::format(" --report {}", shell(fmt::format("{}.html", stem(program.name))));
+    command += " --stimulus " + shell_word(line);
+  return command +
+         fmt::format(" --report {}", shell_word(fmt::format("{}.html", stem(program.name))));
 }
 
 } // namespace orb::testing

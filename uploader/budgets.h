@@ -35,6 +35,8 @@ struct Budgets {
   Duration ble_send = 5s;
   /// What a piece and its receipt take over LE, about two intervals of 15 to 50 ms [?].
   Duration receipt = 60ms;
+  /// What a packet and its answer take over classic Bluetooth [?]; for an estimate only.
+  Duration round_trip = 40ms;
   /// The most bytes that the link takes at once; 0 where it takes any number.
   std::size_t piece = 0;
   /// For a packet to be handed to the link; none where a link takes it at once.

@@ -100,12 +100,13 @@ Duration deadline(const Plan& plan, const Budgets& budgets) {
   return time;
 }
 
-/// What a link in pieces makes of the plan: each piece waits for its receipt, each packet for its
-/// answer.
-void count_pieces(Plan& plan, const Budgets& budgets) {
+/// What the link makes of the plan: each packet waits for its answer, on a link in pieces each
+/// piece for its receipt, too.
+void estimate(Plan& plan, const Budgets& budgets) {
+  const auto sent = packets(plan, 0);
+  plan.expected = budgets.drain + static_cast<int>(sent.size()) * budgets.round_trip;
   if (budgets.piece == 0)
     return;
-  const auto sent = packets(plan, 0);
   for (const auto& packet : sent)
     plan.link_pieces += budgets.pieces(encode(packet).size());
   plan.expected = static_cast<int>(plan.link_pieces + sent.size()) * budgets.receipt;
@@ -311,7 +312,7 @@ tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Capabilitie
   if (job.start_line)
     plan.steps.push_back(
         {StepKind::Start, ApiCommand::ExecuteOrbbasicProgram, run_data(job.area, *job.start_line)});
-  count_pieces(plan, budgets);
+  estimate(plan, budgets);
   plan.deadline = deadline(plan, budgets);
   return plan;
 }
@@ -341,7 +342,7 @@ tl::expected<Plan, PlanError> make_plan(const MacroJob& job, const Budgets& budg
   plan.steps.push_back({StepKind::Barrier, count});
   if (job.run && plan.route != Route::StreamedMacro)
     plan.steps.push_back({StepKind::Start, ApiCommand::RunMacro, u8(image.id)});
-  count_pieces(plan, budgets);
+  estimate(plan, budgets);
   plan.deadline = deadline(plan, budgets);
   return plan;
 }

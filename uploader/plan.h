@@ -79,13 +79,13 @@ struct Step {
 struct Plan {
   Route route = Route::Ram;
   std::vector<Step> steps;
-  int attempts = 1;            ///< how often the steps up to the Barrier may be done
-  std::size_t size = 0;        ///< bytes of the program or macro
-  std::size_t pieces = 1;      ///< packets that carry them, where none is shortened
-  std::size_t link_pieces = 0; ///< of all packets, on a link that takes them in pieces
-  Duration expected{};         ///< about how long these and their receipts take; else nothing
-  Duration deadline{};         ///< from the first attempt to open the link
-  std::string note;            ///< what the user should know of the route; may be empty
+  int attempts = 1;                        ///< how often the steps up to the Barrier may be done
+  std::size_t size = 0;                    ///< bytes of the program or macro
+  std::size_t pieces = 1;                  ///< packets that carry them, where none is shortened
+  std::size_t link_pieces = 0;             ///< of all packets, on a link that takes them in pieces
+  Duration expected{};                     ///< about how long it takes when nothing goes wrong
+  Duration deadline{};                     ///< from the first attempt to open the link
+  std::string note;                        ///< what the user should know of the route; may be empty
   std::string_view again = "upload again"; ///< what helps after a failure
 };
 

@@ -133,6 +133,15 @@ bool check_node(Checkup& checkup, const Endpoint& endpoint) {
   return true;
 }
 
+/// What this computer needs for any robot, and what could be one.
+void check_computer(const Context& context, Checkup& checkup) {
+  for (const auto& port : find_ports(context.config))
+    checkup.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer", port.url,
+                             port.what, port.url));
+  check_bluetooth(checkup);
+  check_ble(checkup);
+}
+
 /// Opens the link and greets the ball.
 void check_ball(Context& context, Checkup& checkup, const PortOptions& options) {
   const InterruptGuard guard;
@@ -151,7 +160,8 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
       checkup.bad("the link does not open", link.error().message);
     return;
   }
-  checkup.good(fmt::format("{} opens", link->name));
+  if (!link->is_sim)
+    checkup.good(fmt::format("{} opens", link->name));
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto greeting = uploader::greet(session);
   if (!greeting) {
@@ -161,7 +171,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
     checkup.bad("no ball answers", greeting.error().message);
     return;
   }
-  checkup.good("a ball answers");
+  checkup.good(link->is_sim ? "the built-in virtual ball answers" : "a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
     checkup.good(fmt::format("{} stray bytes came before that, as real balls send them", noise));
   const auto state = greeting->power_state();
@@ -172,10 +182,14 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
     checkup.good(fmt::format("its battery is {}", spec::value_name("power state", state)));
 }
 
-void run(Context& context, const PortOptions& options, const std::string& format) {
+enum class Asked { ThePort, TheComputer };
+
+void run(Context& context, const PortOptions& options, const std::string& format, Asked asked) {
   auto list = Json::array();
   auto* const gathered = format == "json" ? &list : nullptr;
   Checkup checkup(context, gathered);
+  if (asked == Asked::TheComputer)
+    check_computer(context, checkup);
   const auto url = resolve_port(context.config, options.port);
   const auto endpoint =
       url ? uploader::parse_endpoint(*url)
@@ -189,19 +203,14 @@ void run(Context& context, const PortOptions& options, const std::string& format
   case Scheme::Rfcomm: check_bluetooth(checkup); break;
   case Scheme::Ble:
   case Scheme::Tcp:
-  case Scheme::Replay: break;
-  case Scheme::Sim: {
-    Checkup system(context, gathered); // what is amiss here keeps nobody from the built-in ball
-    for (const auto& port : find_ports(context.config))
-      system.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer",
-                              port.url, port.what, port.url));
-    check_bluetooth(system);
-    check_ble(system);
-    break;
-  }
+  case Scheme::Replay:
+  case Scheme::Sim: break;
   }
   if (reachable)
     check_ball(context, checkup, options);
+  if (asked == Asked::TheComputer)
+    print_note(context,
+               "no robot was tried: `orb doctor --port URL` tries one, `orb ports` lists them");
   if (gathered != nullptr)
     print_json({{"schema", "orb.doctor/1"}, {"healthy", checkup.healthy()}, {"findings", list}});
   if (!checkup.healthy())
@@ -212,6 +221,7 @@ void run(Context& context, const PortOptions& options, const std::string& format
 
 void add_doctor(CLI::App& app, Context& context) {
   auto* command = add_command(app, "doctor", "find out why a connection fails, and how to fix it",
+                              "orb doctor\n"
                               "orb doctor --port /dev/rfcomm0\n"
                               "orb doctor --port rfcomm://68:86:E7:00:11:22\n"
                               "orb doctor --port ble://SK-1A2B");
@@ -219,7 +229,10 @@ void add_doctor(CLI::App& app, Context& context) {
   add_port_options(*command, *options);
   auto format = std::make_shared<std::string>("text");
   add_format_option(*command, *format);
-  command->callback([&context, options, format] { run(context, *options, *format); });
+  command->callback([&context, options, format, command] {
+    const auto asked = command->count("--port") > 0 ? Asked::ThePort : Asked::TheComputer;
+    run(context, *options, *format, asked);
+  });
 }
 
 } // namespace orb::cli

@@ -5,10 +5,12 @@
 #include "disk/disk.h"
 #include "reference/manual.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <string_view>
+#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -22,11 +24,22 @@ std::string_view name_of(const reference::ManualPage& page) {
   return std::string_view(page.file).substr(0, page.file.rfind('.'));
 }
 
+/// Shows a page as `man` lays it out; false where there is no `man` to do it.
+bool show_laid_out(const std::string& text) {
+  auto* const reader = ::popen("man -l - 2>/dev/null", "w");
+  if (reader == nullptr)
+    return false;
+  std::fwrite(text.data(), 1, text.size(), reader);
+  return ::pclose(reader) == 0;
+}
+
 void print_page(Context& context, const std::vector<reference::ManualPage>& pages,
                 const std::string& name) {
   std::vector<std::string_view> names;
   for (const auto& page : pages) {
     if (name_of(page) == name || name_of(page) == "orb-" + name) {
+      if (::isatty(STDOUT_FILENO) != 0 && show_laid_out(page.text))
+        return;
       print_out(page.text);
       return;
     }
@@ -54,7 +67,7 @@ void write_pages(Context& context, const std::vector<reference::ManualPage>& pag
 
 void add_man(CLI::App& app, Context& context) {
   auto* command = add_command(app, "man", "print a page of the manual, or write all of them",
-                              "orb man run | man -l -\n"
+                              "orb man run\n"
                               "orb man orbbasic > orbbasic.7\n"
                               "orb man --all man");
   auto options = std::make_shared<Options>();

@@ -8,10 +8,13 @@
 #include "protocol/describe.h"
 #include "protocol/payload.h"
 #include "spec/basic.h"
+#include "spec/macro.h"
 
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace orb::cli {
 namespace {
@@ -88,6 +91,25 @@ void print_json_message(const Async& message, const Lookup& lookup, Watched& wat
   print_json(json);
 }
 
+/// A message as `NAME: FIELD VALUE, …`, without the frame that carried it; the end of a macro,
+/// which comes as a marker of its own, as a sentence.
+std::string words_of(const Async& message) {
+  const auto packet = encode(message);
+  const auto parts = protocol::Describer().parts(item_of(message, packet));
+  const auto number = [&](std::size_t field) { return parts.fields[field].number.value_or(0); };
+  if (is(message, AsyncId::MacroMarker) && parts.fields.size() == 3 &&
+      number(0) == spec::macro_end_marker)
+    return fmt::format("macro {} ended", number(1));
+  std::vector<std::string> fields;
+  for (const auto& field : parts.fields)
+    fields.push_back(field.number && field.text.empty()
+                         ? fmt::format("{} {}", field.name, *field.number)
+                         : fmt::format("{} {}", field.name, field.text));
+  if (!parts.rest.empty())
+    fields.push_back(to_hex(parts.rest));
+  return fmt::format("{}: {}", parts.name, fmt::join(fields, ", "));
+}
+
 void print_message(const Context& context, const Async& message, const Lookup& lookup,
                    Watched& watched) {
   if (is(message, AsyncId::BasicPrint)) {
@@ -101,9 +123,7 @@ void print_message(const Context& context, const Async& message, const Lookup& l
     print_fault(context, lookup, *reported);
     return;
   }
-  const auto packet = encode(message);
-  protocol::Describer describer;
-  print_out(describer.describe(item_of(message, packet)) + "\n");
+  print_out(words_of(message) + "\n");
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "cli/commands.h"
 #include "disk/disk.h"
 
@@ -15,7 +16,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string folder;
-  bool structured = false;
+  bool numbered = false;
+  bool structured = false; ///< the default, said aloud
   bool course = false;
 };
 
@@ -24,8 +26,8 @@ struct Starter {
   std::string_view text;
 };
 
-// A project that checks without a finding and runs at once. `%` stands for its name, `.@` for the
-// ending of its program.
+// A project that checks without a finding and runs at once. `%` stands for its name, `$` for its
+// program as a word of the shell.
 constexpr Starter numbered{"%.bas",
                            R"(' %: drives a square in four colours, then waits to be shaken.
 10 locate 0,0
@@ -103,7 +105,7 @@ test "comes home"
 constexpr Starter course{"course.svg",
                          R"(<?xml version="1.0" encoding="UTF-8"?>
 <!-- What the ball of % drives through, in centimetres; open it in Inkscape or a browser.
-     A class says what an element is: wall, start, or zone with an id. docs/courses.md has the rest. -->
+     A class says what an element is: wall, start, or zone with an id. `orb spec course-rules` has the rest. -->
 <svg xmlns="http://www.w3.org/2000/svg" width="200cm" height="200cm" viewBox="0 0 200 200">
   <style>
     .wall { fill: none; stroke: #14212b; stroke-width: 3 }
@@ -133,7 +135,8 @@ constexpr auto starters = std::to_array<Starter>({
   rotate 360 1000
   delay 1000
 )"},
-    {"world.stimulus", R"(# What happens to the ball while it runs (docs/ball.md lists every line).
+    {"world.stimulus",
+     R"(# What happens to the ball while it runs (`orb spec stimuli` lists every line).
 at 10s shake
 )"},
     {"orb.toml", R"(# Defaults for every orb command in this folder; flags are stronger.
@@ -146,11 +149,11 @@ target = "1.6"
 )"},
     {"README.md", R"(# %
 
-    orb check %.@ wink.macro
-    orb run %.@ --stimulus world.stimulus --report report.html
+    orb check $ wink.macro
+    orb run $ --stimulus world.stimulus --report report.html
     orb test
     orb run wink.macro
-    orb upload %.@ --port rfcomm://68:86:E7:00:11:22 --run
+    orb upload $ --port rfcomm://68:86:E7:00:11:22 --run
 )"},
 });
 
@@ -159,8 +162,8 @@ std::string filled(std::string_view text, const std::string& name, std::string_v
   for (const char c : text) {
     if (c == '%')
       out += name;
-    else if (c == '@' && out.ends_with('.'))
-      out += ending;
+    else if (c == '$')
+      out += shell_word(fmt::format("{}.{}", name, ending));
     else
       out += c;
   }
@@ -182,7 +185,7 @@ void make(Context& context, const Options& options) {
   auto name = fs::absolute(path, error).lexically_normal().filename().string();
   if (name.empty())
     name = fs::absolute(path, error).lexically_normal().parent_path().filename().string();
-  const auto& program = options.structured ? structured : numbered;
+  const auto& program = options.numbered ? numbered : structured;
   const auto ending = program.name.substr(2);
   std::vector<Starter> files{program};
   files.push_back(test);
@@ -198,18 +201,18 @@ void make(Context& context, const Options& options) {
       return fail(context, {ExitCode::File, written.error().message});
     print_out(fmt::format("{}\n", file));
   }
-  const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", folder);
-  print_note(context,
-             fmt::format("now try:\n{}  orb run {}.{} --stimulus world.stimulus "
-                         "{}--report report.html",
-                         step, name, ending, options.course ? "--course course.svg " : ""));
+  const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", shell_word(folder));
+  print_note(context, fmt::format("now try:\n{}  orb run {} --stimulus world.stimulus "
+                                  "{}--report report.html",
+                                  step, shell_word(fmt::format("{}.{}", name, ending)),
+                                  options.course ? "--course course.svg " : ""));
 }
 
 } // namespace
 
 void add_new(CLI::App& app, Context& context) {
   auto* command = add_command(app, "new", "make a folder with a working starter project",
-                              "orb new dance\norb new dance --structured --course\norb new .");
+                              "orb new dance\norb new dance --course\norb new dance --numbered");
   auto options = std::make_shared<Options>();
   command
       ->add_option(
@@ -219,8 +222,13 @@ void add_new(CLI::App& app, Context& context) {
       ->check([](const std::string& name) {
         return name.empty() ? std::string("a name is needed") : std::string();
       });
-  command->add_flag("--structured", options->structured,
-                    "the program has names and blocks in place of line numbers (.orb)");
+  auto* numbered = command->add_flag("--numbered", options->numbered,
+                                     "the program has line numbers (.bas), as the robot itself "
+                                     "has them");
+  command
+      ->add_flag("--structured", options->structured,
+                 "the program has names and blocks (.orb), which is the default")
+      ->excludes(numbered);
   command->add_flag("--course", options->course,
                     "also a course: a drawing of walls, zones and a start");
   command->callback([&context, options] { make(context, *options); });

@@ -79,15 +79,16 @@ run::DeliveryOptions delivery_options(const Options& options) {
   return wanted;
 }
 
-void print_plan(std::string_view name, const uploader::Plan& plan) {
+void print_plan(const Context& context, std::string_view name, const uploader::Plan& plan) {
+  const auto seconds = [](Duration t) { return static_cast<double>(t.count()) / 1e9; };
   const auto sent = packets(plan, 0);
-  const auto pieces = plan.link_pieces == 0
-                          ? std::string()
-                          : fmt::format(" and {} pieces, about {:.1f} s", plan.link_pieces,
-                                        static_cast<double>(plan.expected.count()) / 1e9);
-  auto text = fmt::format("{}: {} bytes to {} in {} packets{}, over within {:g} s\n", name,
-                          plan.size, to_string(plan.route), sent.size(), pieces,
-                          static_cast<double>(plan.deadline.count()) / 1e9);
+  const auto pieces =
+      plan.link_pieces == 0 ? std::string() : fmt::format(" and {} pieces", plan.link_pieces);
+  auto text = fmt::format("{}: {} bytes to {} in {} packets{}, about {:.1f} s\n", name, plan.size,
+                          to_string(plan.route), sent.size(), pieces, seconds(plan.expected));
+  if (context.verbosity > 0)
+    text += fmt::format("on a link that loses nearly everything it gives up after {:.0f} s\n",
+                        seconds(plan.deadline));
   if (!plan.note.empty())
     text += fmt::format("note: {}\n", plan.note);
   for (const auto& packet : sent) {
@@ -106,7 +107,7 @@ ExitCode dry_run(const Context& context, const Options& options, const uploader:
     if (!plan)
       return fail(context, ExitCode::BadInput,
                   fmt::format("{}: {}", macro.name, plan.error().message));
-    print_plan(macro.name, *plan);
+    print_plan(context, macro.name, *plan);
   }
   if (delivery.program) {
     auto firmware = uploader::default_capabilities();
@@ -116,7 +117,7 @@ ExitCode dry_run(const Context& context, const Options& options, const uploader:
     if (!plan)
       return fail(context, ExitCode::BadInput,
                   fmt::format("{}: {}", delivery.program_name, plan.error().message));
-    print_plan(delivery.program_name, *plan);
+    print_plan(context, delivery.program_name, *plan);
   }
   return ExitCode::Done;
 }
@@ -218,7 +219,8 @@ void add_upload(CLI::App& app, Context& context) {
                     "make the ball forget all its user macros first");
   command->add_flag("--force", options->force, "write to flash even if the battery is low");
   command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
-  command->add_flag("--dry-run", options->dry_run, "print the packets and send nothing");
+  command->add_flag("--dry-run", options->dry_run,
+                    "print the packets and send nothing; with -v also when it would give up");
   command->add_flag("--no-check", options->no_check, "send it even if it has errors");
   constexpr int most_attempts = 1000;
   command

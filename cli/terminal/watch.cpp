@@ -4,8 +4,10 @@
 #include "structured/text/read.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <fmt/format.h>
 #include <optional>
@@ -65,6 +67,9 @@ public:
   Run(Context& context, Held& held, const std::function<void()>& once) {
     std::fflush(nullptr);
     process_ = ::fork();
+    if (process_ < 0)
+      print_error(context, fmt::format("cannot start a run: {}; the next change tries again",
+                                       std::strerror(errno)));
     if (process_ != 0)
       return;
     held.release();
