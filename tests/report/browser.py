@@ -11,6 +11,11 @@ import tempfile
 import time
 
 
+def environment(home):
+    """For a browser whose font cache, settings and crash reports lie in `home`, not in the user's."""
+    return {**{name: value for name, value in os.environ.items() if not name.startswith("XDG_")}, "HOME": home}
+
+
 def find():
     """The path of an installed Chromium, or None."""
     for name in ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"):
@@ -102,9 +107,7 @@ class Browser:
              "--disable-dev-shm-usage", "--hide-scrollbars", "--remote-debugging-pipe",
              f"--user-data-dir={self._home.name}", "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False,
-            # Its fonts' cache, its settings and its crash reports are no affair of the user's.
-            env={**{name: value for name, value in os.environ.items() if not name.startswith("XDG_")},
-                 "HOME": self._home.name},
+            env=environment(self._home.name),
             preexec_fn=hand_over)
         os.close(to_read)
         os.close(to_write)

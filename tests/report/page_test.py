@@ -431,7 +431,7 @@ class Report(unittest.TestCase):
         out = os.path.join(self.folder.name, "parking.pdf")
         subprocess.run([chromium.find(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
                         f"--user-data-dir={self.folder.name}/print", f"--print-to-pdf={out}", "file://" + drawing],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
+                       check=True, env=chromium.environment(self.folder.name), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
         with open(out, "rb") as file:
             pages = re.findall(rb"/MediaBox \[([0-9. ]+)\]", file.read())
         self.assertEqual(len(pages), 1)
