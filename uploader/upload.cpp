@@ -541,7 +541,8 @@ std::string_view to_string(Stage stage) {
 }
 
 tl::expected<Greeting, Report> greet(Session& session) {
-  constexpr std::string_view state = "; the ball is unchanged";
+  constexpr std::string_view unchanged = "the ball is unchanged";
+  const auto state = fmt::format("; {}", unchanged);
   const auto absent = [&](const NoAnswer& failure) {
     if (is_interruption(failure))
       return tl::unexpected(lost(session, ApiCommand::Ping, failure, Content::Unchanged, state));
@@ -553,11 +554,10 @@ tl::expected<Greeting, Report> greet(Session& session) {
   if (const auto pong = session.ask(ApiCommand::Ping); !pong)
     return absent(pong.error());
   Greeting greeting;
-  auto versions = request(session, ApiCommand::GetVersioning);
-  if (!versions) {
-    versions.error().message += state;
+  auto versions = request(session, ApiCommand::GetVersioning, {},
+                          {std::string(unchanged), std::string(unchanged)});
+  if (!versions)
     return tl::unexpected(versions.error());
-  }
   greeting.versions = versions->data;
   greeting.firmware = read_capabilities(greeting.versions);
   const auto power = session.ask(ApiCommand::GetPowerState);
@@ -569,19 +569,40 @@ tl::expected<Greeting, Report> greet(Session& session) {
   return greeting;
 }
 
-tl::expected<Response, Report> request(Session& session, ApiCommand command, const Bytes& data) {
+namespace {
+
+/// Whether a command changes nothing about the ball.
+bool only_asks(ApiCommand command) {
+  const auto name = spec::info(command).name;
+  return command == ApiCommand::Ping || name.starts_with("get-") || name.starts_with("poll-");
+}
+
+/// What is known of the ball where a command was sent and no answer came.
+std::string after_silence(ApiCommand command) {
+  if (only_asks(command))
+    return "the ball is unchanged";
+  return fmt::format("whether the ball has carried out {} is not known{}", spec::info(command).name,
+                     spec::info(command).idempotent == spec::Idempotent::Yes
+                         ? "; sent again it does no harm"
+                         : "");
+}
+
+} // namespace
+
+tl::expected<Response, Report> request(Session& session, ApiCommand command, const Bytes& data,
+                                       const Known& known) {
   const auto harmless = spec::info(command).idempotent == spec::Idempotent::Yes;
   const auto answer = harmless ? session.ask(command, data) : session.exchange(command, data);
   if (answer && is_ok(*answer))
     return *answer;
   if (answer)
-    return tl::unexpected(refused(command, *answer, Content::Unchanged, {}));
-  auto report = lost(session, command, answer.error(), Content::Unchanged, {});
-  if (!harmless && report.kind == Report::Kind::LinkLost) {
+    return tl::unexpected(
+        refused(command, *answer, Content::Unchanged,
+                known.if_refused.empty() ? std::string() : "; " + known.if_refused));
+  auto report = lost(session, command, answer.error(), Content::Unchanged,
+                     "; " + (known.if_lost.empty() ? after_silence(command) : known.if_lost));
+  if (!harmless && report.kind == Report::Kind::LinkLost)
     report.kind = Report::Kind::Unknown;
-    report.message = fmt::format("no answer to {}; whether the ball did it is not known",
-                                 spec::info(command).name);
-  }
   return tl::unexpected(report);
 }
 

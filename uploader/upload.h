@@ -123,8 +123,14 @@ Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery
 /// Stops what runs and commits the program in RAM to flash.
 Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery);
 
+/// What is known of the ball when a command has failed, for the end of a message.
+struct Known {
+  std::string if_lost; ///< or interrupted; empty for what is known of any such command
+  std::string if_refused{};
+};
+
 /// Sends one command and says how it went: until it is answered where that does no harm, else once.
 tl::expected<protocol::Response, Report> request(Session& session, spec::ApiCommand command,
-                                                 const Bytes& data = {});
+                                                 const Bytes& data = {}, const Known& known = {});
 
 } // namespace orb::uploader

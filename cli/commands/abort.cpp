@@ -31,11 +31,18 @@ ExitCode abort_all(Context& context, uploader::Session& session,
                    const uploader::Greeting& greeting) {
   session.inbox().clear();
   if (greeting.firmware.has_basic)
-    if (const auto done = request(session, ApiCommand::AbortOrbbasicProgram); !done) {
+    if (const auto done =
+            request(session, ApiCommand::AbortOrbbasicProgram, {},
+                    {"whether the program was stopped is not known, and the macro was "
+                     "not; abort again"});
+        !done) {
       print_error(context, done.error().message);
       return exit_code(done.error().kind);
     }
-  const auto macro = request(session, ApiCommand::AbortMacro);
+  const auto program = std::string(greeting.firmware.has_basic ? "the program was stopped, " : "");
+  const auto macro = request(
+      session, ApiCommand::AbortMacro, {},
+      {program + "whether the macro was is not known; abort again", program + "the macro was not"});
   if (!macro) {
     print_error(context, macro.error().message);
     return exit_code(macro.error().kind);

@@ -17,19 +17,25 @@ struct Options {
 
 ExitCode erase(Context& context, uploader::Session& session, const std::string& area) {
   const auto number = area == "flash" ? spec::Area::Flash : spec::Area::Ram;
-  // A running program holds its area.
-  for (const auto& [command, data] :
-       {std::pair{ApiCommand::AbortOrbbasicProgram, Bytes{}},
-        std::pair{ApiCommand::EraseOrbbasicStorage, Bytes{static_cast<std::uint8_t>(number)}}})
-    if (const auto done = request(session, command, data); !done) {
-      const auto& report = done.error();
-      const auto maybe = command == ApiCommand::EraseOrbbasicStorage &&
-                         report.kind == uploader::Report::Kind::LinkLost;
-      print_error(context, maybe ? fmt::format("no answer to the erase; the program in {} is "
-                                               "erased or unchanged; erase again",
-                                               area)
-                                 : report.message);
-      return exit_code(report.kind);
+  struct Step {
+    ApiCommand command;
+    Bytes data;
+    uploader::Known known;
+  };
+  const auto unchanged = fmt::format("the program in {} is unchanged", area);
+  const Step steps[] = {
+      // A running program holds its area.
+      {ApiCommand::AbortOrbbasicProgram,
+       {},
+       {unchanged + ", what ran may have been stopped; erase again", unchanged}},
+      {ApiCommand::EraseOrbbasicStorage,
+       {static_cast<std::uint8_t>(number)},
+       {fmt::format("the program in {} is erased or unchanged; erase again", area),
+        unchanged + ", what ran was stopped"}}};
+  for (const auto& step : steps)
+    if (const auto done = request(session, step.command, step.data, step.known); !done) {
+      print_error(context, done.error().message);
+      return exit_code(done.error().kind);
     }
   print_note(context, fmt::format("the program in {} is erased", area));
   return ExitCode::Done;

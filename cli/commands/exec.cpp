@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/commands/monitor.h"
 #include "cli/json.h"
+#include "cli/terminal/interrupt.h"
 #include "protocol/describe.h"
 #include "protocol/payload.h"
 
@@ -108,6 +109,11 @@ ExitCode print_answer(const Context& context, const Options& options, spec::ApiC
   }
   if (more == nullptr || message)
     return ExitCode::Done;
+  if (InterruptGuard::asked() > 0) {
+    print_error(context, fmt::format("interrupted; the ball has begun {} and will still send {}",
+                                     spec::info(command).name, more->name));
+    return ExitCode::Interrupted;
+  }
   print_error(context, fmt::format("the answer announces {}, but it never came", more->name));
   return ExitCode::LinkLost;
 }
