@@ -53,9 +53,17 @@ std::string target_of(const std::string& link) {
   return fs::read_symlink(link, error).string();
 }
 
-bool leads_to_gone_pty(const std::string& link) {
+/// Where a link to `slave` leads, spelt as nobody else would: so a ball knows the link of one that
+/// was killed from that of another program.
+std::string our_target(const std::string& slave) {
+  const auto number = slave.rfind('/');
+  return slave.substr(0, number) + "/." + slave.substr(number);
+}
+
+/// Left over from a ball that was killed.
+bool is_left_over(const std::string& link) {
   const auto target = target_of(link);
-  return target.starts_with("/dev/pts/") && ::access(target.c_str(), F_OK) != 0;
+  return target.starts_with(our_target("/dev/pts/")) && ::access(target.c_str(), F_OK) != 0;
 }
 
 IoError failure(std::string_view what) {
@@ -65,7 +73,7 @@ IoError failure(std::string_view what) {
 } // namespace
 
 PtyLink::~PtyLink() {
-  if (!path_.empty() && target_of(path_) == slave_)
+  if (!path_.empty() && target_of(path_) == our_target(slave_))
     ::unlink(path_.c_str());
 }
 
@@ -86,13 +94,14 @@ tl::expected<void, IoError> PtyLink::open() {
 }
 
 tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
-  // Left over from a ball that was killed; its number may be the one that this pty was given.
-  if (leads_to_gone_pty(path) || target_of(path) == slave_)
+  // Its number may be the one that this pty was given.
+  if (is_left_over(path) || target_of(path) == our_target(slave_))
     ::unlink(path.c_str());
   if (const auto target = target_of(path); !target.empty())
-    return tl::unexpected(IoError{
-        fmt::format("`{}` leads to {} already; remove it or give another name", path, target)});
-  if (::symlink(slave_.c_str(), path.c_str()) != 0) {
+    return tl::unexpected(
+        IoError{fmt::format("`{}` leads to {} already; remove it or give another name", path,
+                            fs::path(target).lexically_normal().string())});
+  if (::symlink(our_target(slave_).c_str(), path.c_str()) != 0) {
     if (errno == EEXIST)
       return tl::unexpected(
           IoError{fmt::format("`{}` exists and is not a link; give another name", path)});
@@ -113,6 +122,9 @@ void PtyLink::start(Door& door) {
     while (read(unheard) > 0)
       ;
   }
+  // A client that said nothing may have locked the door behind it.
+  if (!has_visit() && is_exclusive())
+    replace();
   timer_.expires_after(interval);
   timer_.async_wait([this](asio::error_code error) {
     if (!error)
@@ -161,7 +173,8 @@ void PtyLink::replace() {
   if (path_.empty())
     return door_->moved(*this);
   const auto beside = path_ + ".new";
-  if (target_of(path_) == before && ::symlink(slave_.c_str(), beside.c_str()) == 0)
+  if (target_of(path_) == our_target(before) &&
+      ::symlink(our_target(slave_).c_str(), beside.c_str()) == 0)
     ::rename(beside.c_str(), path_.c_str());
 }
 

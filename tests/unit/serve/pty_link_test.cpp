@@ -205,7 +205,38 @@ TEST(PtyLinkOfAnOrdinaryUser, LetsTheNextOneInAfterAnExclusiveClient) {
   }));
 }
 
-TEST_F(PtyLinkTest, ReplacesNothingButALinkToAPtyThatIsGone) {
+/// Whether a visit is let in after one that said nothing and left TIOCEXCL behind.
+bool lets_in_after_silent_exclusive() {
+  asio::io_context io{1};
+  const auto work = asio::make_work_guard(io);
+  Hall hall;
+  PtyLink link(io);
+  if (!link.open())
+    return false;
+  link.start(hall);
+  const int silent = open_at(link.address());
+  if (silent < 0 || ::ioctl(silent, TIOCEXCL) != 0)
+    return false;
+  ::close(silent); // before it has been looked at
+  for (int i = 0; i < 200; ++i) {
+    const int second = open_at(link.address());
+    while (second >= 0 && !hall.visited)
+      io.run_one_for(5s);
+    if (second >= 0)
+      return true;
+    io.run_one_for(20ms);
+  }
+  return false;
+}
+
+TEST(PtyLinkOfAnOrdinaryUser, LetsTheNextOneInAfterAnExclusiveClientThatSaidNothing) {
+  asio::io_context io{1};
+  if (!PtyLink(io).open())
+    GTEST_SKIP() << "no pty can be opened here";
+  EXPECT_TRUE(as_ordinary_user(lets_in_after_silent_exclusive));
+}
+
+TEST_F(PtyLinkTest, ReplacesNothingButTheLinkOfABallThatWasKilled) {
   const Folder folder;
   const auto file = folder.path / "file";
   std::ofstream(file) << "mine";
@@ -221,8 +252,12 @@ TEST_F(PtyLinkTest, ReplacesNothingButALinkToAPtyThatIsGone) {
   ASSERT_TRUE(second.open());
   EXPECT_FALSE(second.make_link(living));
   EXPECT_EQ(fs::read_symlink(living), slave);
+  const auto foreign = folder.path / "foreign"; // of a program that may come back
+  fs::create_symlink("/dev/pts/2000000000", foreign);
+  EXPECT_FALSE(second.make_link(foreign));
+  EXPECT_EQ(fs::read_symlink(foreign), "/dev/pts/2000000000");
   const auto dead = folder.path / "dead";
-  fs::create_symlink("/dev/pts/2000000000", dead);
+  fs::create_symlink("/dev/pts/./2000000000", dead); // as a ball writes it
   const auto made = second.make_link(dead);
   EXPECT_TRUE(made) << (made ? "" : made.error().message);
 }
