@@ -61,10 +61,18 @@ bool report_chain(Compiled& compiled, const Plan& plan) {
     return false;
   auto& program = compiled.program;
   std::string chain;
-  for (const auto routine : plan.chain)
-    chain += fmt::format(
-        "{}`{}`", chain.empty() ? "" : " calls ",
-        program.name(compiled.names.symbols[compiled.names.routines[routine].symbol].name));
+  constexpr std::size_t told = 6; // names; of a long chain the first and the last
+  for (std::size_t i = 0; i < plan.chain.size(); ++i) {
+    const auto& routine = compiled.names.routines[plan.chain[i]];
+    if (const auto left_out = plan.chain.size() - told;
+        plan.chain.size() > told + 1 && i == told / 2) {
+      chain += fmt::format(" calls … ({} more)", left_out);
+      i += left_out - 1;
+      continue;
+    }
+    chain += fmt::format("{}`{}`", chain.empty() ? "" : " calls ",
+                         program.name(compiled.names.symbols[routine.symbol].name));
+  }
   const auto& last = compiled.names.symbols[compiled.names.routines[plan.chain.back()].symbol];
   program.diagnostics.push_back(finding(
       rules::CallDepth, last.span,

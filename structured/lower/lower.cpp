@@ -7,11 +7,7 @@
 
 namespace orb::structured {
 namespace lowering {
-namespace {
-
-constexpr int deepest_inline = 64;
-
-} // namespace
+namespace {} // namespace
 
 Code Lowering::run() {
   frames_.emplace_back();
@@ -98,7 +94,7 @@ void Lowering::call_routine(std::uint32_t routine, std::size_t count) {
   for (std::size_t n = 0; n < count; ++n)
     let(variable_of(callee.first_parameter + static_cast<std::uint32_t>(n)), pending_[below + n]);
   pending_.resize(below);
-  if (plan_.inlined[routine] && frames_.size() < deepest_inline && !full()) {
+  if (plan_.inlined[routine] && frames_.size() <= deepest_inline && !full()) {
     const auto end = new_label();
     frames_.push_back({routine, end, {}, loops_.size()});
     body(routine);

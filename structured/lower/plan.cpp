@@ -25,6 +25,7 @@ public:
     plan_.native.assign(program.statements.size(), false);
     cost_.assign(count, 0);
     sites_.assign(count, 0);
+    nested_.assign(count, 0);
     heights_.assign(count, 0);
   }
 
@@ -114,7 +115,30 @@ private:
     const auto sites = sites_[routine];
     const std::uint64_t copies = std::uint64_t{sites} * cost_[routine];
     const std::uint64_t calls = std::uint64_t{sites} * call_bytes + cost_[routine] + return_bytes;
-    plan_.inlined[routine] = sites == 1 || copies <= calls;
+    nested_[routine] = nesting(routine);
+    plan_.inlined[routine] = (sites == 1 || copies <= calls) && nested_[routine] < deepest_inline;
+  }
+
+  /// How deep routines are written into each other below this one.
+  std::size_t nesting(std::uint32_t routine) const {
+    std::size_t deepest = 0;
+    for (const auto callee : calls_[routine])
+      if (plan_.inlined[callee])
+        deepest = std::max(deepest, nested_[callee] + 1);
+    return deepest;
+  }
+
+  /// Writes a routine into its callers, unless that goes too deep.
+  bool write_into_callers(std::uint32_t routine) {
+    const auto before = nested_;
+    plan_.inlined[routine] = true;
+    for (const auto one : callees_first_)
+      nested_[one] = nesting(one);
+    if (std::ranges::all_of(nested_, [](auto deep) { return deep <= deepest_inline; }))
+      return true;
+    plan_.inlined[routine] = false;
+    nested_ = before;
+    return false;
   }
 
   // ---- the depth of calls
@@ -138,12 +162,13 @@ private:
     constexpr int most_rounds = 64;
     const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GosubDepth));
     std::vector<std::uint32_t> through;
+    std::vector<bool> stays(names_.routines.size(), false); // called, as it is too deep
     for (int round = 0; depth_below(through) > most; ++round) {
       std::uint32_t cheapest = none;
       std::uint64_t least = most_bytes;
       for (auto routine = through[0]; routine != none; routine = through[routine]) {
         const auto copies = std::uint64_t{sites_[routine]} * cost_[routine];
-        if (!plan_.inlined[routine] && copies < least) {
+        if (!plan_.inlined[routine] && !stays[routine] && copies < least) {
           least = copies;
           cheapest = routine;
         }
@@ -153,7 +178,11 @@ private:
           plan_.chain.push_back(routine);
         return;
       }
-      plan_.inlined[cheapest] = true;
+      if (!write_into_callers(cheapest)) {
+        stays[cheapest] = true;
+        --round; // nothing has changed
+        continue;
+      }
       for (const auto routine : callees_first_) {
         std::uint64_t cost = own_cost_[routine];
         for (const auto callee : calls_[routine])
@@ -235,6 +264,7 @@ private:
   std::vector<std::uint32_t> own_cost_;
   std::vector<std::uint32_t> cost_;
   std::vector<std::uint32_t> sites_;
+  std::vector<std::size_t> nested_;
   std::vector<std::uint32_t> heights_;
 };
 

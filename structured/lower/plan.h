@@ -3,10 +3,14 @@
 #include "structured/meaning/names.h"
 #include "structured/text/program.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace orb::structured {
+
+/// How deep routines are written into each other: the compiler goes down once for each.
+inline constexpr std::size_t deepest_inline = 63;
 
 /// What is decided about subs and loops before the first line is written.
 struct Plan {
