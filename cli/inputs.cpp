@@ -24,8 +24,15 @@ tl::expected<std::string, Failure> read_text(const std::string& path) {
 }
 
 std::optional<std::string> DiskFiles::read(const std::string& path) {
+  // Reading from anything but a file can wait for ever.
+  if (!disk::what_else(path).empty())
+    return std::nullopt;
   auto text = disk::read(path == "-" ? "./-" : path); // a file of that name, never standard input
   return text ? std::optional(*std::move(text)) : std::nullopt;
+}
+
+std::string DiskFiles::obstacle(const std::string& path) {
+  return std::string(disk::what_else(path));
 }
 
 std::string DiskFiles::identity(const std::string& path) {

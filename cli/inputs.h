@@ -26,6 +26,7 @@ tl::expected<std::string, Failure> read_text(const std::string& path);
 class DiskFiles final : public structured::Files {
 public:
   std::optional<std::string> read(const std::string& path) override;
+  std::string obstacle(const std::string& path) override;
   std::string identity(const std::string& path) override;
 };
 

@@ -92,6 +92,13 @@ bool write_all(int fd, ByteView bytes) {
   return true;
 }
 
+constexpr std::string_view a_pipe = "a pipe";
+
+/// What the process has been given: /dev/stdin, or /dev/fd/63 of a shell's `<(command)`.
+bool is_descriptor(const std::string& path) {
+  return path.starts_with("/dev/") || path.starts_with("/proc/");
+}
+
 mode_t default_mode() {
   const auto mask = ::umask(0);
   ::umask(mask);
@@ -134,6 +141,19 @@ tl::expected<void, IoError> replace(const std::string& path, ByteView bytes,
 
 } // namespace
 
+std::string_view what_else(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    return {};
+  if (S_ISFIFO(status.st_mode))
+    return a_pipe;
+  if (S_ISDIR(status.st_mode))
+    return "a folder";
+  if (S_ISSOCK(status.st_mode))
+    return "a socket";
+  return S_ISREG(status.st_mode) && !is_descriptor(path) ? std::string_view() : "a device";
+}
+
 std::string display_name(const std::string& path) {
   return path == "-" ? "<stdin>" : path;
 }
@@ -141,6 +161,9 @@ std::string display_name(const std::string& path) {
 tl::expected<std::string, IoError> read(const std::string& path) {
   if (path == "-")
     return read_descriptor(STDIN_FILENO, display_name(path));
+  if (!is_descriptor(path) && what_else(path) == a_pipe)
+    return tl::unexpected(IoError{
+        fmt::format("cannot read {0}: it is a pipe; `- <{0}` reads it as standard input", path)});
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0)
     return failure("read", path);

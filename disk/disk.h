@@ -5,12 +5,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
 
 namespace orb::disk {
 
-/// The whole content of `path`; `-` is standard input. Directories and unreadable files are errors.
+/// The whole content of `path`; `-` is standard input. Directories and unreadable files are errors,
+/// and pipes that have a name: nobody may ever write into them.
 tl::expected<std::string, IoError> read(const std::string& path);
 
 /// Writes `bytes` to what `path` leads to, whole or not at all; mode, owner and other names stay
@@ -50,6 +52,10 @@ private:
   std::size_t size_ = 0;
   Bytes held_;
 };
+
+/// What is at `path` if it is not a file: `a pipe`, `a folder`, `a device`, `a socket`. Empty for a
+/// file, and for nothing.
+std::string_view what_else(const std::string& path);
 
 /// What links at `path` lead to, even where that is not there yet.
 std::string target_of_links(std::string path);

@@ -136,6 +136,9 @@ struct LanguageServer::State final : structured::Files, Wording {
         return std::string(document.source.text());
     return disk != nullptr ? disk->read(path) : std::nullopt;
   }
+  std::string obstacle(const std::string& path) override {
+    return disk != nullptr ? disk->obstacle(path) : Files::obstacle(path);
+  }
   std::string identity(const std::string& path) override {
     return disk != nullptr ? disk->identity(path) : Files::identity(path);
   }

@@ -59,6 +59,7 @@ public:
       at->second = files_.read(path);
     return at->second;
   }
+  std::string obstacle(const std::string& path) override { return files_.obstacle(path); }
 
 private:
   structured::Files& files_;

@@ -14,6 +14,9 @@ public:
   /// The text of `path`, or nothing where it cannot be read.
   virtual std::optional<std::string> read(const std::string& path) = 0;
 
+  /// What `path` is that it is not read: `a pipe`, `a device`; empty for a file, and for nothing.
+  virtual std::string obstacle(const std::string& path);
+
   /// What two paths of one file have in common.
   virtual std::string identity(const std::string& path);
 };

@@ -123,8 +123,14 @@ private:
   std::optional<std::string> read(const std::string& path, std::uint32_t i) {
     auto text = files_.read(path);
     if (!text)
-      report(rules::MissingFile, i, fmt::format("cannot read `{}`", path.empty() ? "." : path));
+      report(rules::MissingFile, i,
+             fmt::format("cannot read `{}`{}", path.empty() ? "." : path, obstacle(path)));
     return text;
+  }
+
+  std::string obstacle(const std::string& path) {
+    const auto what = files_.obstacle(path);
+    return what.empty() ? what : fmt::format(": it is {}, not a file", what);
   }
 
   void use(std::uint32_t i) {
@@ -192,6 +198,10 @@ std::string resolve_path(std::string_view from, std::string_view path) {
       parts.push_back(part);
   }
   return fmt::format("{}{}", whole.starts_with('/') ? "/" : "", fmt::join(parts, "/"));
+}
+
+std::string Files::obstacle(const std::string&) {
+  return {};
 }
 
 std::string Files::identity(const std::string& path) {
