@@ -1,6 +1,7 @@
 #include "base/utf8.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace orb {
 namespace {
@@ -89,6 +90,26 @@ std::string to_printable(std::string_view text) {
     const auto length = std::max<std::size_t>(1, utf8_length(text));
     out += text.front() == '\t' ? " " : is_shown(text) ? text.substr(0, length) : replacement;
     text.remove_prefix(length);
+  }
+  return out;
+}
+
+std::string shown_name(std::string_view name) {
+  std::string out;
+  if (name.substr(std::min(name.size(), name.find_first_not_of(' '))).starts_with("::"))
+    out = "./";
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n')
+      out += "\\n";
+    else if (c == '\r')
+      out += "\\r";
+    else if (c == '\t')
+      out += "\\t";
+    else if (byte < ' ' || byte == 0x7F)
+      out += fmt::format("\\x{:02X}", byte);
+    else
+      out += c;
   }
   return out;
 }

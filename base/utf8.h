@@ -41,6 +41,11 @@ std::string from_latin1(std::string_view bytes);
 /// so that every code point takes one column and no escape sequence gets through.
 std::string to_printable(std::string_view text);
 
+/// A file's name as lines of output begin with it: control characters as `\n` or `\x1B`, so that it
+/// stays on its line; `./` before a name that begins with `::`, which would be a command to the
+/// runners of GitHub.
+std::string shown_name(std::string_view name);
+
 /// `text` as it may be written to a terminal: as to_printable(), but line ends and tabs stay, and
 /// so do the colours and the clearing of a line that our own output is made of.
 std::string to_terminal_text(std::string_view text);

@@ -32,6 +32,18 @@ Style style_for(const std::string& color, int fd) {
   return {!dumb && ::isatty(fd) == 1};
 }
 
+/// A message is a line of its own, whatever names are in it: what comes after the end of a line
+/// would be read by a CI as something else.
+std::string on_one_line(std::string_view message) {
+  std::string out;
+  for (const char c : message)
+    if (c == '\n' || c == '\r')
+      out += c == '\n' ? "\\n" : "\\r";
+    else
+      out += c;
+  return out;
+}
+
 /// A ball's or a file's name must not drive the user's terminal.
 bool print_to(std::FILE* file, std::string_view text) {
   std::string shown;
@@ -65,11 +77,12 @@ void print_err(std::string_view text) {
 
 void print_note(const Context& context, std::string_view message) {
   if (!context.quiet)
-    print_err(fmt::format("{}\n", message));
+    print_err(fmt::format("{}\n", on_one_line(message)));
 }
 
 void print_error(const Context& context, std::string_view message) {
-  print_err(fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Error, "error"), message));
+  print_err(fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Error, "error"),
+                        on_one_line(message)));
 }
 
 void fail(Context& context, const Failure& failure) {

@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "base/utf8.h"
 #include "run/run.h"
 
 #include <algorithm>
@@ -118,9 +119,9 @@ std::string render(const ProgramError& fault, Style style) {
                          : fmt::format(":{}:{}", fault.place.line, fault.place.column);
   const auto& cause = fault.cause;
   const auto line = fault.numbered ? fmt::format("line {}: ", fault.robot_line) : std::string();
-  auto text =
-      fmt::format("{}{}: {}: {}{}{}{}\n", fault.file, place, style.paint(Role::Error, "error"),
-                  line, spec::info(fault.code).text, cause.seen.empty() ? "" : ": ", cause.seen);
+  auto text = fmt::format("{}{}: {}: {}{}{}{}\n", shown_name(fault.file), place,
+                          style.paint(Role::Error, "error"), line, spec::info(fault.code).text,
+                          cause.seen.empty() ? "" : ": ", cause.seen);
   if (const auto& details = cause.seen.empty() ? fault.finding : cause.variables; !details.empty())
     text += fmt::format("  {}\n", details);
   if (const auto& help = help_of(fault); !help.empty())

@@ -58,7 +58,7 @@ std::string render_text(const Source& source, const Diagnostic& diagnostic, Styl
   const auto place = source.position(diagnostic.span.begin);
   const auto role = role_of(diagnostic.severity);
   const auto kind = fmt::format("{}[{}]", to_string(diagnostic.severity), diagnostic.rule->id);
-  auto out = fmt::format("{}:{}:{}: {}: {}\n", source.name(), place.line, place.column,
+  auto out = fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), place.line, place.column,
                          style.paint(role, kind), to_printable(diagnostic.message));
   out += excerpt(source, diagnostic.span, role, style);
   if (!diagnostic.help.empty())
@@ -66,7 +66,7 @@ std::string render_text(const Source& source, const Diagnostic& diagnostic, Styl
         fmt::format("  {}: {}\n", style.paint(Role::Good, "help"), to_printable(diagnostic.help));
   for (const auto& note : diagnostic.notes) {
     const auto at = source.position(note.span.begin);
-    out += fmt::format("{}:{}:{}: {}: {}\n", source.name(), at.line, at.column,
+    out += fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), at.line, at.column,
                        style.paint(Role::Note, "note"), to_printable(note.message));
     out += excerpt(source, note.span, Role::Note, style);
   }
@@ -75,12 +75,12 @@ std::string render_text(const Source& source, const Diagnostic& diagnostic, Styl
 
 std::string render_gcc(const Source& source, const Diagnostic& diagnostic) {
   const auto place = source.position(diagnostic.span.begin);
-  auto out = fmt::format("{}:{}:{}: {}: {} [{}]\n", source.name(), place.line, place.column,
-                         gcc_word(diagnostic.severity), to_printable(diagnostic.message),
-                         diagnostic.rule->id);
+  auto out = fmt::format("{}:{}:{}: {}: {} [{}]\n", shown_name(source.name()), place.line,
+                         place.column, gcc_word(diagnostic.severity),
+                         to_printable(diagnostic.message), diagnostic.rule->id);
   for (const auto& note : diagnostic.notes) {
     const auto at = source.position(note.span.begin);
-    out += fmt::format("{}:{}:{}: note: {}\n", source.name(), at.line, at.column,
+    out += fmt::format("{}:{}:{}: note: {}\n", shown_name(source.name()), at.line, at.column,
                        to_printable(note.message));
   }
   return out;

@@ -4,6 +4,7 @@
 #include "base/render.h"
 #include "base/source.h"
 #include "base/text.h"
+#include "base/utf8.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/terminal/diff.h"
@@ -121,7 +122,7 @@ void run_one(Context& context, const Options& options, const std::string& path,
   if (options.diff)
     print_out(unified_diff(source.name(), source.text(), *formatted));
   if (options.check && changed) {
-    print_note(context, fmt::format("{} would change", source.name()));
+    print_note(context, fmt::format("{} would change", shown_name(source.name())));
     context.exit = ExitCode::BadInput;
   }
   if (options.write && changed) {

@@ -55,9 +55,10 @@ tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
   }
   if (errors)
     return tl::unexpected(
-        Failure{ExitCode::BadInput,
-                fmt::format("nothing was sent: correct the errors above{}",
-                            sendable ? ", or send it as it is with `--no-check`" : "")});
+        Failure{ExitCode::BadInput, fmt::format("nothing was sent: correct the errors above{}",
+                                                sendable && !options.no_check
+                                                    ? ", or send it as it is with `--no-check`"
+                                                    : "")});
   return inputs;
 }
 

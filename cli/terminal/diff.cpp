@@ -1,5 +1,7 @@
 #include "cli/terminal/diff.h"
 
+#include "base/utf8.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <fmt/format.h>
@@ -37,7 +39,7 @@ public:
     walk();
     if (steps_.size() == 1 && steps_[0].equal)
       return {};
-    std::string out = fmt::format("--- a/{}\n+++ b/{}\n", name, name);
+    std::string out = fmt::format("--- a/{0}\n+++ b/{0}\n", shown_name(name));
     for (std::size_t i = 0; i < steps_.size();)
       i = steps_[i].equal ? i + 1 : print_hunk(out, i);
     return out;

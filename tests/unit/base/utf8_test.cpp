@@ -45,5 +45,14 @@ TEST(Utf8, LetsOnlyOurOwnSequencesThroughToATerminal) {
   }
 }
 
+TEST(ShownName, StaysOnItsLineAndIsNoCommandOfACi) {
+  EXPECT_EQ(shown_name("größe 1.bas"), "größe 1.bas");
+  EXPECT_EQ(shown_name("a\n\r\t\x1B\x7F"), "a\\n\\r\\t\\x1B\\x7F");
+  EXPECT_EQ(shown_name("::stop::x"), "./::stop::x");
+  EXPECT_EQ(shown_name("  ::stop::x"), "./  ::stop::x");
+  EXPECT_EQ(shown_name("a::stop::x"), "a::stop::x");
+  EXPECT_EQ(shown_name(""), "");
+}
+
 } // namespace
 } // namespace orb
