@@ -31,7 +31,7 @@ void print_out(std::string_view text);
 /// Writes to stderr.
 void print_err(std::string_view text);
 
-/// Prints a note to stderr, unless -q was given.
+/// Prints a note to stderr, a line, unless -q was given.
 void print_note(const Context& context, std::string_view message);
 
 /// Prints `orb: error: MESSAGE` to stderr.

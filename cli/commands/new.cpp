@@ -201,10 +201,11 @@ void make(Context& context, const Options& options) {
       return fail(context, {ExitCode::File, written.error().message});
     print_out(fmt::format("{}\n", file));
   }
-  const auto step = folder == "." ? std::string() : fmt::format("  cd {}\n", shell_word(folder));
-  print_note(context, fmt::format("now try:\n{}  orb run {} --stimulus world.stimulus "
-                                  "{}--report report.html",
-                                  step, shell_word(fmt::format("{}.{}", name, ending)),
+  print_note(context, "now try:");
+  if (folder != ".")
+    print_note(context, fmt::format("  cd {}", shell_word(folder)));
+  print_note(context, fmt::format("  orb run {} --stimulus world.stimulus {}--report report.html",
+                                  shell_word(fmt::format("{}.{}", name, ending)),
                                   options.course ? "--course course.svg " : ""));
 }
 
