@@ -39,17 +39,32 @@ function(orb_library folder)
   target_precompile_headers(orb_${folder} REUSE_FROM precompiled_${ARG_PRECOMPILED})
 endfunction()
 
-# orb_page(<folder> <name>): NAME.html, NAME.css and NAME.js, written as real files, travel inside the
-# folder's library as the texts that assets.h declares.
+# orb_page(<folder> <name> <script>...): NAME.html, NAME.css and the modules NAME/SCRIPT.js, written as real
+# files, travel inside the folder's library as the texts that assets.h declares. The modules become one
+# script: they share a scope, so each stands after those that it imports, and no two have a name in common.
 function(orb_page folder name)
+  set(page_js "(() => {\n\"use strict\";\n")
+  foreach(script IN LISTS ARGN)
+    orb_page_text(text ${name}/${script}.js)
+    string(REGEX REPLACE "\nimport [^;]*;" "" text "\n${text}")
+    string(REGEX REPLACE "\nexport " "\n" text "${text}")
+    string(APPEND page_js "${text}")
+  endforeach()
+  string(APPEND page_js "})();\n")
+  orb_page_text(page_html ${name}.html)
+  orb_page_text(page_css ${name}.css)
   set(assets "#include \"${folder}/assets.h\"\n\nnamespace orb::${folder} {\n")
   foreach(kind html css js)
-    set(file ${ORB_ROOT}/${name}.${kind})
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-    file(READ ${file} text)
-    string(APPEND assets "const std::string_view page_${kind} = R\"asset(${text})asset\";\n")
+    string(APPEND assets "const std::string_view page_${kind} = R\"asset(${page_${kind}})asset\";\n")
   endforeach()
   string(APPEND assets "} // namespace orb::${folder}\n")
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${folder}_assets.cpp CONTENT "${assets}" @ONLY)
   target_sources(orb_${folder} PRIVATE ${CMAKE_BINARY_DIR}/${folder}_assets.cpp)
+endfunction()
+
+# orb_page_text(<variable> <path>): the text of a file, read again by CMake when it changes.
+function(orb_page_text variable path)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ORB_ROOT}/${path})
+  file(READ ${ORB_ROOT}/${path} text)
+  set(${variable} "${text}" PARENT_SCOPE)
 endfunction()

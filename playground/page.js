@@ -1,6 +1,6 @@
 // The playground's page: what its parts have to do with each other.
 
-import { orb_player } from "../report/page.js";
+import { orb_player } from "../report/page/player.js";
 import { Client } from "./client.js";
 import { make_editor } from "./editor.js";
 import { Ball } from "./page/ball.js";

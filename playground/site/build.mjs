@@ -15,13 +15,6 @@ const out = resolve(process.argv[2] ?? join(root, "build/playground"));
 const read = path => readFileSync(join(root, path), "utf8");
 mkdirSync(out, { recursive: true });
 
-/** The player of a report is a script of its own there; here it is a part of the page. */
-const player = {
-  name: "player",
-  setup(build) {
-    build.onLoad({ filter: /report\/page\.js$/ }, args => ({ contents: `${readFileSync(args.path, "utf8")}\nexport { orb_player };`, loader: "js" }));
-  },
-};
 /** The engine stands where emscripten has put it; and what is to be weighed has no library for all of Markdown. */
 const stand_ins = { "./orb.mjs": join(root, "build/wasm/orb.mjs"), marked: join(root, "playground/page/markdown.js") };
 const places = {
@@ -32,7 +25,7 @@ const places = {
 };
 const bundle = await esbuild.build({
   entryPoints: ["page", "worker"].map(name => join(root, `playground/${name}.js`)), outdir: out, absWorkingDir: root, write: false,
-  bundle: true, format: "esm", target: "es2022", external: ["node:*"], plugins: [player, places],
+  bundle: true, format: "esm", target: "es2022", external: ["node:*"], plugins: [places],
   metafile: true, legalComments: "none", logLevel: "warning",
 });
 // Terser takes twenty times as long as esbuild, and makes the page's script lighter by a thirtieth.

@@ -1,0 +1,60 @@
+// A run, and the ball at any moment of it.
+
+import { last_at } from "./dom.js";
+
+function turn(from, to, share) {
+  let by = (to - from) % 360;
+  if (by > 180) by -= 360;
+  if (by < -180) by += 360;
+  return ((from + by * share) % 360 + 360) % 360;
+}
+// Columns are differences of whole numbers, summed up again here.
+export const sums = list => { let sum = 0; return list.map(step => sum += step); };
+export const column = (list, scale) => sums(list).map(value => value / scale);
+
+export const base_name = path => path.split("/").pop() || path;
+
+export function journey(run) {
+  const pose = {
+    t: sums(run.pose.t), x: column(run.pose.x, 1000), y: column(run.pose.y, 1000),
+    heading: column(run.pose.heading, 10), speed: column(run.pose.speed, 100),
+  };
+  const led = { t: sums(run.led.t), rgb: run.led.rgb };
+  const backled = { t: sums(run.backled.t), value: run.backled.value };
+  // Where the run was, file by file: a program and a macro run side by side.
+  const steps = run.files.map(() => ({ t: [], line: [] }));
+  sums(run.line.t).forEach((t, i) => {
+    const own = steps[run.line.file[i]];
+    own.t.push(t);
+    own.line.push(run.line.line[i]);
+  });
+  const line_times = sums(run.line.t);
+  const variables = (run.variables ?? []).map(one => ({ ...one, t: sums(one.t), v: sums(one.v) }));
+  const state_at = t => {
+    const i = last_at(pose.t, t);
+    if (i < 0) return { x: pose.x[0] ?? 0, y: pose.y[0] ?? 0, heading: pose.heading[0] ?? 0, speed: 0, index: -1 };
+    const next = i + 1;
+    if (next >= pose.t.length)
+      return { x: pose.x[i], y: pose.y[i], heading: pose.heading[i], speed: pose.speed[i], index: i };
+    // A pose comes while something moves; over a longer gap the ball stood where it was.
+    const gap = pose.t[next] - pose.t[i];
+    const share = gap > run.pose.step * 1.5 ? 0 : (t - pose.t[i]) / gap;
+    const mix = list => list[i] + (list[next] - list[i]) * share;
+    return { x: mix(pose.x), y: mix(pose.y), heading: turn(pose.heading[i], pose.heading[next], share), speed: mix(pose.speed), index: i };
+  };
+  const lamp_at = t => led.rgb[last_at(led.t, t)] ?? 0;
+  const tail_at = t => backled.value[last_at(backled.t, t)] ?? 0;
+  // Stretches of path in one colour; the LED may change between two poses.
+  const stretches = [];
+  let color = -1;
+  for (let i = 1; i < pose.t.length; ++i) {
+    const lit = lamp_at(pose.t[i - 1]);
+    if (pose.x[i] === pose.x[i - 1] && pose.y[i] === pose.y[i - 1]) continue;
+    const open = stretches[stretches.length - 1];
+    if (lit === color && open && open.to === i - 1) open.to = i;
+    else stretches.push({ from: i - 1, to: i, color: lit });
+    color = lit;
+  }
+  const name = base_name(run.title);
+  return { run, name, pose, led, backled, steps, line_times, variables, stretches, state_at, lamp_at, tail_at };
+}

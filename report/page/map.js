@@ -1,0 +1,123 @@
+// The maps: of the run, and of the one before it.
+
+import { $, clamp, css_color, length_words, position_words, shape, speed_words } from "./dom.js";
+import { area, grid_step, make_chart, measure, view } from "./map_chart.js";
+import { draw_grid, draw_paper_scale, draw_walls, draw_zones } from "./map_ground.js";
+import { draw_marks } from "./map_marks.js";
+import { draw_ball, draw_path, draw_progress } from "./map_path.js";
+import { playback, show, watch } from "./playback.js";
+
+function make_map(map) {
+  const chart = make_chart(map);
+  let layers = null;
+  function draw() {
+    measure(chart);
+    for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
+    map.setAttribute("viewBox", `0 0 ${chart.width} ${chart.height}`);
+    const grid = shape("g", {}, map);
+    const floor = shape("g", {}, map); // zones lie on the grid
+    draw_zones(chart, floor);
+    draw_walls(chart, shape("g", {}, map));
+    draw_grid(chart, grid, shape("g", {}, map));
+    draw_path(chart);
+    draw_marks(chart, shape("g", {}, map));
+    draw_paper_scale(chart, shape("g", { class: "paper-scale" }, map));
+    layers = draw_ball(chart, map);
+  }
+  /** Following moves the map only when the ball comes near its edge. */
+  function leaves_view(state) {
+    const x = chart.px(state.x) / chart.width, y = chart.py(state.y) / chart.height;
+    return x < .2 || x > .8 || y < .2 || y > .8;
+  }
+  function show_ball(state) {
+    const lamp = chart.one.lamp_at(playback.now), lamp_color = lamp ? css_color(lamp) : "transparent";
+    if (view.follow && leaves_view(state)) draw();
+    draw_progress(chart, state);
+    layers.ball.setAttribute("transform", `translate(${chart.px(state.x).toFixed(2)} ${chart.py(state.y).toFixed(2)})`);
+    layers.nose.setAttribute("transform", `rotate(${state.heading.toFixed(1)})`);
+    layers.lamp.setAttribute("fill", lamp_color);
+    layers.tail.setAttribute("opacity", (chart.one.tail_at(playback.now) / 255).toFixed(3));
+    layers.halo.setAttribute("opacity", lamp ? 1 : 0);
+    for (const stop of layers.lamp_stops) stop.setAttribute("stop-color", lamp_color);
+  }
+  map.addEventListener("wheel", event => {
+    if (!event.ctrlKey && !event.metaKey) return; // a plain wheel scrolls the page
+    event.preventDefault();
+    zoom_by(event.deltaY < 0 ? 1.15 : 1 / 1.15);
+  }, { passive: false });
+  map.addEventListener("pointerdown", event => {
+    if (view.follow || event.pointerType === "touch") return;
+    map.setPointerCapture(event.pointerId);
+    const start = { x: event.clientX, y: event.clientY, view_x: view.x, view_y: view.y };
+    const drag = moved_to => {
+      view.x = start.view_x - (moved_to.clientX - start.x) / chart.scale;
+      view.y = start.view_y + (moved_to.clientY - start.y) / chart.scale;
+      redraw();
+    };
+    map.addEventListener("pointermove", drag);
+    for (const name of ["pointerup", "pointercancel"])
+      map.addEventListener(name, () => map.removeEventListener("pointermove", drag), { once: true });
+  });
+  return { load: one => { chart.one = one; }, draw, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
+}
+const all_maps = [make_map($("map")), make_map($("map-before"))]; // the run's comes first
+let maps = [];
+export function list_maps() {
+  maps = all_maps.slice(0, playback.runs.length);
+  $("map").parentElement.hidden = false;
+  $("map-before").parentElement.hidden = !playback.before;
+  if (playback.before) maps.forEach((one, i) => { one.words.firstElementChild.textContent = i ? "before" : "this run"; });
+  maps.forEach((one, i) => one.load(i ? playback.before : playback.main));
+  document.body.classList.toggle("two", maps.length > 1);
+}
+
+function draw_scale() {
+  const cm = grid_step(maps[0].scale());
+  $("scale-bar").style.width = `${(cm * maps[0].scale()).toFixed(1)}px`;
+  $("scale-words").textContent = length_words(cm);
+}
+/** Shows `state`, and of the run before where it was at that moment. */
+function show_maps(state) {
+  for (const [i, one] of maps.entries()) {
+    const there = i ? playback.before.state_at(playback.now) : state;
+    one.show_ball(there);
+    one.words.lastElementChild.textContent = `${position_words(there)}, ${speed_words(there)}`;
+  }
+}
+watch(show_maps);
+export function draw_maps() {
+  for (const one of maps) one.draw();
+  draw_scale();
+}
+export function redraw() {
+  if (!playback.main) return;
+  draw_maps();
+  show();
+}
+
+export function zoom_by(factor) {
+  view.zoom = clamp(view.zoom * factor, .2, 60);
+  redraw();
+}
+export function fit() {
+  Object.assign(view, { zoom: 1, x: 0, y: 0 });
+  redraw();
+}
+export function toggle_follow() {
+  view.follow = !view.follow;
+  if (!view.follow) {
+    const state = playback.main.state_at(playback.now);
+    view.x = state.x - area.box.middle_x;
+    view.y = state.y - area.box.middle_y;
+  }
+  $("follow").setAttribute("aria-pressed", String(view.follow));
+  redraw();
+}
+$("zoom-in").addEventListener("click", () => zoom_by(1.5));
+$("zoom-out").addEventListener("click", () => zoom_by(1 / 1.5));
+$("zoom-fit").addEventListener("click", fit);
+$("follow").addEventListener("click", toggle_follow);
+export function show_still() {
+  $("still").textContent = playback.main.pose.t.length ? "The ball stayed where it was." : "The ball did not move.";
+  $("still").hidden = area.moved || playback.live;
+}

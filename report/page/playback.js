@@ -1,0 +1,30 @@
+// What is played back, and the moment that the page shows: the state that its parts share.
+
+import { clamp } from "./dom.js";
+import { journey } from "./journey.js";
+
+export const playback = {
+  main: null, before: null, runs: [], end: 1,
+  now: 0, playing: false,
+  live: false, // it still runs: what is shown next continues what is shown
+  shown: null, file: 0, // the run whose program, variables and events are listed, and the file of it
+};
+
+export function take(run, run_before) {
+  playback.main = journey(run);
+  playback.before = run_before ? journey(run_before) : null;
+  playback.runs = playback.before ? [playback.before, playback.main] : [playback.main];
+  playback.end = Math.max(1, ...playback.runs.map(one => one.run.end.t));
+}
+
+const watchers = [];
+/** `show(state)` is called with the ball as it is whenever the moment, or what it shows, has changed. */
+export function watch(show) { watchers.push(show); }
+export function show() {
+  const state = playback.main.state_at(playback.now);
+  for (const watcher of watchers) watcher(state);
+}
+export function seek(t) {
+  playback.now = clamp(Math.round(t), 0, playback.end);
+  show();
+}

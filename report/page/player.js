@@ -1,0 +1,75 @@
+// Plays runs back on the parts of the page that are there.
+
+import { $, clamp } from "./dom.js";
+import { forget_events } from "./events.js";
+import { next_theme, show_heading } from "./heading.js";
+import { take_keys } from "./keys.js";
+import { draw_lanes, draw_track, list_lanes } from "./lanes.js";
+import { choose, list_runs } from "./lists.js";
+import { draw_maps, list_maps, show_still } from "./map.js";
+import { survey, view } from "./map_chart.js";
+import { list_signs } from "./map_marks.js";
+import { playback, seek, show, take, watch } from "./playback.js";
+import { lines_now } from "./source.js";
+import { set_playing, set_rate, slider } from "./transport.js";
+import "./paper.js";
+
+function draw_everything() {
+  draw_maps();
+  draw_lanes();
+  show();
+}
+/** Shows a run from its start; one that `goes_on` from the moment shown. */
+function load(run, run_before = null, goes_on = false) {
+  const continued = playback.live;
+  take(run, run_before);
+  playback.live = goes_on;
+  if (!continued) {
+    set_playing(false);
+    Object.assign(view, { zoom: 1, x: 0, y: 0 });
+    playback.now = 0;
+    forget_events();
+  }
+  slider.max = playback.end;
+  document.querySelector(".transport").inert = goes_on;
+  if (!goes_on || !continued) set_rate();
+  show_heading();
+  survey();
+  list_maps();
+  list_signs();
+  show_still();
+  list_runs();
+  list_lanes();
+  playback.live ||= continued; // its last piece is one more
+  choose(playback.main);
+  playback.live = goes_on;
+  draw_track();
+  playback.now = clamp(playback.now, 0, playback.end);
+  draw_everything();
+}
+/** The moment that the address asks for: `#t=3.2`, in seconds; nothing where it asks for none. */
+function asked_time() {
+  const asked = /^#t=([0-9.]+)$/.exec(location.hash);
+  return asked && playback.main ? clamp(Number(asked[1]) * 1e6, 0, playback.end) : null;
+}
+const seek_asked = () => { if (asked_time() !== null) seek(asked_time()); };
+window.addEventListener("hashchange", seek_asked);
+
+let pending = 0;
+new ResizeObserver(() => {
+  cancelAnimationFrame(pending);
+  pending = requestAnimationFrame(() => { if (playback.main) draw_everything(); });
+}).observe($("map"));
+
+/** What plays runs back: `load()` takes the data of a run, of the report's own or, again and again, of one
+ *  that still goes on. `keys`: within what its keys work; `on_moment`: is told the lines that ran last,
+ *  file by file, when the moment changes. */
+export function orb_player({ keys = document, on_moment = null } = {}) {
+  take_keys(keys);
+  if (on_moment) watch(() => on_moment(lines_now()));
+  return {
+    load, seek, seek_asked, next_theme,
+    play: () => set_playing(true), pause: () => set_playing(false),
+    end: () => playback.end,
+  };
+}
