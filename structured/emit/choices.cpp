@@ -2,6 +2,7 @@
 
 #include "structured/optimise/flow.h"
 #include "structured/optimise/jumps.h"
+#include "structured/optimise/tails.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -155,32 +156,6 @@ private:
     return line;
   }
 
-  /// Whether a statement after `then` may stop the program.
-  bool may_fault(const CodeLine& line) const {
-    if (line.kind == LineKind::SetElement || line.kind == LineKind::SetSystem ||
-        line.kind == LineKind::On || line.kind == LineKind::OnGosub)
-      return true;
-    std::uint8_t effects = 0;
-    each_root(code_, line, [&](std::uint32_t root) { effects |= code_.terms[root].effects; });
-    if ((effects & effect::faults) != 0)
-      return true;
-    if (line.kind != LineKind::Do)
-      return false;
-    const auto parameters = spec::info(line.robot).parameters();
-    for (auto n = line.parts_begin; n < line.parts_end; ++n) {
-      const auto& part = code_.parts[n];
-      const auto which = n - line.parts_begin;
-      if (part.kind != PartKind::Term || which >= parameters.size())
-        return true;
-      const auto range = code_.is_number(part.value)
-                             ? compiler::Range::only(code_.terms[part.value].value)
-                             : part.range;
-      if (range.lo < parameters[which].least || range.hi > parameters[which].greatest)
-        return true;
-    }
-    return false;
-  }
-
   bool on_one_line(std::uint32_t a, std::uint32_t b) const {
     const auto [begin, end] =
         std::minmax(program_.statements[a].span.begin, program_.statements[b].span.begin);
@@ -205,7 +180,7 @@ private:
     if ((effects & effect::faults) != 0)
       add(line.origin);
     for (const auto branch : {taken, passed})
-      if (branch != none && may_fault(code_.branches[branch]))
+      if (branch != none && may_fault(code_, code_.branches[branch]))
         add(code_.branches[branch].origin);
     if (good && origin != none)
       line.origin = origin;
@@ -354,6 +329,9 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
     if (line.kind == LineKind::Let && code.terms[line.term].kind == TermKind::Variable &&
         letters.of[code.terms[line.term].left] == letters.of[line.variable])
       line.kind = LineKind::Nothing;
+  clean_jumps(code);
+  merge_tails(code, [&](std::uint32_t variable) { return std::uint32_t{letters.of[variable]}; });
+  straighten(code);
   clean_jumps(code);
   ChoiceWriter(code, program).run();
 }

@@ -141,6 +141,15 @@ std::uint32_t Code::call(spec::Function function, std::uint32_t operand) {
   return add(term);
 }
 
+std::uint32_t Code::copy(std::uint32_t term) {
+  auto node = terms[term];
+  if (node.kind == TermKind::Binary || node.kind == TermKind::Call)
+    node.left = copy(node.left);
+  if (node.kind == TermKind::Binary)
+    node.right = copy(node.right);
+  return add(node);
+}
+
 bool can_fault(const Code& code, std::uint32_t term) {
   const auto& node = code.terms[term];
   switch (node.kind) {
@@ -154,6 +163,46 @@ bool can_fault(const Code& code, std::uint32_t term) {
   case TermKind::Call:
     return may_fault(static_cast<spec::Function>(node.what), code.terms[node.left]) ||
            can_fault(code, node.left);
+  }
+  return false;
+}
+
+bool same(const Code& code, std::uint32_t a, std::uint32_t b, const Identity& identity) {
+  const auto& x = code.terms[a];
+  const auto& y = code.terms[b];
+  if (x.kind != y.kind || x.what != y.what || x.effects != y.effects)
+    return false;
+  switch (x.kind) {
+  case TermKind::Number: return x.value == y.value;
+  case TermKind::Variable: return identity(x.left) == identity(y.left);
+  case TermKind::Element:
+  case TermKind::System: return true;
+  case TermKind::Binary:
+    return same(code, x.left, y.left, identity) && same(code, x.right, y.right, identity);
+  case TermKind::Call: return same(code, x.left, y.left, identity);
+  }
+  return false;
+}
+
+bool may_fault(const Code& code, const CodeLine& line) {
+  if (line.kind == LineKind::SetElement || line.kind == LineKind::SetSystem ||
+      line.kind == LineKind::On || line.kind == LineKind::OnGosub)
+    return true;
+  if ((effects_of(code, line) & effect::faults) != 0)
+    return true;
+  if (line.kind != LineKind::Do)
+    return false;
+  const auto parameters = spec::info(line.robot).parameters();
+  for (auto n = line.parts_begin; n < line.parts_end; ++n) {
+    const auto& part = code.parts[n];
+    const auto which = n - line.parts_begin;
+    if (part.kind != PartKind::Term || which >= parameters.size())
+      return true;
+    const auto range = code.is_number(part.value)
+                           ? compiler::Range::only(code.terms[part.value].value)
+                           : part.range;
+    if (range.lo < parameters[which].least || range.hi > parameters[which].greatest)
+      return true;
   }
   return false;
 }

@@ -10,6 +10,7 @@
 #include "structured/text/program.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace orb::structured {
@@ -158,6 +159,7 @@ struct Code {
   /// With constants folded, and written as the robot can: no negative numbers after operators.
   std::uint32_t binary(spec::Operator op, std::uint32_t left, std::uint32_t right);
   std::uint32_t call(spec::Function function, std::uint32_t operand);
+  std::uint32_t copy(std::uint32_t term);
   bool is_number(std::uint32_t term) const { return terms[term].kind == TermKind::Number; }
   bool is_leaf(std::uint32_t term) const {
     return terms[term].kind == TermKind::Number || terms[term].kind == TermKind::Variable;
@@ -175,6 +177,19 @@ constexpr bool ordered(std::uint8_t first, std::uint8_t second) {
 
 /// Whether a term stops the program for some values of what it reads, whatever is known of them.
 bool can_fault(const Code& code, std::uint32_t term);
+
+/// What two variables are compared by: themselves, or the letters that hold them.
+using Identity = std::function<std::uint32_t(std::uint32_t variable)>;
+inline std::uint32_t itself(std::uint32_t variable) {
+  return variable;
+}
+
+/// Whether two terms compute the same from the same variables, if nothing happens in between.
+bool same(const Code& code, std::uint32_t a, std::uint32_t b, const Identity& identity = itself);
+
+/// Whether a line may stop the program; jumps and calls themselves do not, nor does what they lead
+/// to count.
+bool may_fault(const Code& code, const CodeLine& line);
 
 /// The levels of a binary term over these operands.
 std::uint8_t levels_of(const Code& code, spec::Operator op, std::uint32_t left,
@@ -238,6 +253,18 @@ void each_root(C& code, L& line, Visit visit) {
   case LineKind::Switch:
   case LineKind::Choice: return;
   }
+}
+
+/// What computing the terms of a line does.
+inline std::uint8_t effects_of(const Code& code, const CodeLine& line) {
+  std::uint8_t effects = 0;
+  each_root(code, line, [&](std::uint32_t root) { effects |= code.terms[root].effects; });
+  return effects;
+}
+
+/// Whether computing something neither stops the program nor changes what is read.
+constexpr bool is_pure(std::uint8_t effects) {
+  return (effects & (effect::faults | effect::clears)) == 0;
 }
 
 /// Calls `visit` with each variable that a term reads; the index for an element.

@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -122,6 +124,7 @@ private:
   void assign(const Statement& node);
   void assign_element(const Statement& node, std::uint32_t place, std::uint32_t root);
   void add_part(PartKind kind, std::uint32_t value, Span text = {});
+  void add_text(Span text);
   std::uint32_t parts_now() const { return static_cast<std::uint32_t>(code_.parts.size()); }
   void print(const Statement& node);
   void finish(CodeLine& line, std::uint32_t begin);
@@ -170,9 +173,10 @@ private:
   const Names& names_;
   const Plan& plan_;
   Code code_;
-  std::vector<std::uint32_t> variable_of_; ///< of each symbol
-  std::vector<std::uint32_t> result_of_;   ///< of each routine
-  std::vector<std::uint32_t> called_;      ///< routines that get a place of their own
+  std::vector<std::uint32_t> variable_of_;           ///< of each symbol
+  std::vector<std::uint32_t> result_of_;             ///< of each routine
+  std::vector<std::uint32_t> called_;                ///< routines that get a place of their own
+  std::unordered_map<std::string_view, Span> texts_; ///< equal texts are one
   std::vector<std::uint32_t> pending_;
   std::vector<Frame> frames_;
   std::vector<Loop> loops_;

@@ -11,7 +11,6 @@ namespace {
 
 // Rough sizes in bytes of the robot's lines: they only choose between two right programs.
 constexpr std::uint32_t call_bytes = 10;   // `12 gosub 34`
-constexpr std::uint32_t return_bytes = 9;  // `12 return`
 constexpr std::uint32_t line_bytes = 6;    // number, blank, line end, a little word
 constexpr std::uint32_t most_bytes = 4096; // no area holds more
 
@@ -112,11 +111,9 @@ private:
     cost_[routine] = static_cast<std::uint32_t>(std::min<std::uint64_t>(cost, 1U << 20));
     if (routine == 0)
       return;
-    const auto sites = sites_[routine];
-    const std::uint64_t copies = std::uint64_t{sites} * cost_[routine];
-    const std::uint64_t calls = std::uint64_t{sites} * call_bytes + cost_[routine] + return_bytes;
     nested_[routine] = nesting(routine);
-    plan_.inlined[routine] = (sites == 1 || copies <= calls) && nested_[routine] < deepest_inline;
+    // Short ones follow when it is known how short they are.
+    plan_.inlined[routine] = sites_[routine] == 1 && nested_[routine] < deepest_inline;
   }
 
   /// How deep routines are written into each other below this one.

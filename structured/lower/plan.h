@@ -20,8 +20,8 @@ struct Plan {
   std::vector<std::uint32_t> chain; ///< routines that call each other deeper than the robot follows
 };
 
-/// Inlines what is called once, or is shorter than its calls, or stands too deep in a chain of
-/// calls; makes the innermost loops the robot's own, four deep, where nothing jumps out of them.
+/// Inlines what is called once, or stands too deep in a chain of calls; makes the innermost loops
+/// the robot's own, four deep, where nothing jumps out of them.
 Plan plan(const Program& program, const Names& names);
 
 } // namespace orb::structured

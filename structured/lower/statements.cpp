@@ -148,6 +148,10 @@ void Lowering::add_part(PartKind kind, std::uint32_t value, Span text) {
   code_.parts.push_back({kind, value, text, {}});
 }
 
+void Lowering::add_text(Span text) {
+  add_part(PartKind::Text, none, texts_.try_emplace(program_.text_of(text), text).first->second);
+}
+
 void Lowering::print(const Statement& node) {
   const auto base = pending_.size();
   for (const auto& part : program_.items_of(node))
@@ -162,7 +166,7 @@ void Lowering::print(const Statement& node) {
     else if (part.kind == ItemKind::Character)
       add_part(PartKind::Character, pending_[next++]);
     else if (part.kind == ItemKind::String)
-      add_part(PartKind::Text, none, {part.span.begin + 1, part.span.end - 1});
+      add_text({part.span.begin + 1, part.span.end - 1});
     else if (part.kind == ItemKind::Comma)
       add_part(PartKind::Blank, none);
     else if (n + 1 == size(node))

@@ -27,7 +27,7 @@ public:
   explicit Forwarder(Code& code)
       : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)) {}
 
-  void run() {
+  bool run() {
     go_back();
     count_reads();
     const auto size = static_cast<std::uint32_t>(code_.lines.size());
@@ -37,9 +37,15 @@ public:
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i))
         copy(i);
+    return changed_;
   }
 
 private:
+  void drop(CodeLine& line) {
+    line.kind = LineKind::Nothing;
+    changed_ = true;
+  }
+
   // ---- facts about lines
 
   /// Removes what nobody reads, and finds of each line the variables that it reads and nothing
@@ -53,7 +59,7 @@ private:
       for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
         auto& line = code_.lines[i];
         if (is_dead(code_, line, live))
-          line.kind = LineKind::Nothing;
+          drop(line);
         each_line_read(code_, line, [&](std::uint32_t v) {
           bool set = false;
           each_write(code_, line, [&](std::uint32_t w) { set = set || w == v; });
@@ -206,7 +212,7 @@ private:
     });
     if (!done)
       return false;
-    code_.lines[i].kind = LineKind::Nothing;
+    drop(code_.lines[i]);
     // What the term reads is now read as late as here.
     each_read(code_, term, [&](std::uint32_t v) {
       bool last = false;
@@ -297,7 +303,7 @@ private:
                 [&](std::uint32_t& root) { root = renamed(root, variable, original); });
     reads_[original] += found;
     reads_[variable] = 0;
-    code_.lines[i].kind = LineKind::Nothing;
+    drop(code_.lines[i]);
     for (auto k = i; k <= readers.back(); ++k)
       remove(last_reads_[k], original);
   }
@@ -322,22 +328,6 @@ private:
 
   // ---- what is set to the same again
 
-  bool equal(std::uint32_t a, std::uint32_t b) const {
-    const auto& x = code_.terms[a];
-    const auto& y = code_.terms[b];
-    if (x.kind != y.kind || x.what != y.what)
-      return false;
-    switch (x.kind) {
-    case TermKind::Number: return x.value == y.value;
-    case TermKind::Variable: return x.left == y.left;
-    case TermKind::Element:
-    case TermKind::System: return false;
-    case TermKind::Binary: return equal(x.left, y.left) && equal(x.right, y.right);
-    case TermKind::Call: return equal(x.left, y.left);
-    }
-    return false;
-  }
-
   void drop_repeated(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
     const auto term = code_.lines[i].term;
@@ -348,8 +338,8 @@ private:
         std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
     for (auto j = i + 1; j < last; ++j) {
       auto& line = code_.lines[j];
-      if (line.kind == LineKind::Let && line.variable == variable && equal(line.term, term)) {
-        line.kind = LineKind::Nothing;
+      if (line.kind == LineKind::Let && line.variable == variable && same(code_, line.term, term)) {
+        drop(line);
         for (auto k = i; k <= j; ++k) // the value is read on
           remove(last_reads_[k], variable);
         continue;
@@ -365,12 +355,13 @@ private:
   Liveness liveness_;
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
+  bool changed_ = false;
 };
 
 } // namespace
 
-void forward_values(Code& code) {
-  Forwarder(code).run();
+bool forward_values(Code& code) {
+  return Forwarder(code).run();
 }
 
 } // namespace orb::structured

@@ -148,6 +148,57 @@ private:
 
 } // namespace
 
+std::vector<std::uint32_t> loops_of_lines(const Code& code) {
+  std::vector<std::uint32_t> loops;
+  std::vector<std::uint32_t> open{none};
+  for (const auto& line : code.lines) {
+    loops.push_back(open.back());
+    if (line.kind == LineKind::For)
+      open.push_back(line.label);
+    else if (line.kind == LineKind::Next && open.size() > 1)
+      open.pop_back();
+  }
+  return loops;
+}
+
+bool straighten(Code& code) {
+  bool changed = false;
+  auto loops = loops_of_lines(code);
+  auto at = lines_of_labels(code);
+  auto& lines = code.lines;
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].kind != LineKind::Goto || at[lines[i].label] == none)
+      continue;
+    auto first = at[lines[i].label];
+    while (first > 0 && lines[first - 1].kind == LineKind::Label)
+      --first;
+    if (first == 0 || falls_through(lines[first - 1]))
+      continue;
+    auto last = first;
+    while (last < lines.size() && falls_through(lines[last]))
+      ++last;
+    if (last == lines.size() || (first <= i && i <= last))
+      continue;
+    // A loop stays in one piece, and what is in it stays there.
+    const bool cuts =
+        std::any_of(lines.begin() + first, lines.begin() + last, [&](const auto& line) {
+          return line.kind == LineKind::Next && loops[first] == loops[&line - lines.data()];
+        });
+    if (cuts || loops[first] != loops[last] || loops[first] != loops[i])
+      continue;
+    lines[i].kind = LineKind::Nothing;
+    const auto begin = lines.begin();
+    if (first > i)
+      std::rotate(begin + i, begin + first, begin + last + 1);
+    else
+      std::rotate(begin + first, begin + last + 1, begin + i);
+    at = lines_of_labels(code);
+    loops = loops_of_lines(code);
+    changed = true;
+  }
+  return changed;
+}
+
 std::vector<std::uint32_t> lines_of_labels(const Code& code) {
   std::vector<std::uint32_t> lines(code.labels, none);
   for (std::uint32_t i = 0; i < code.lines.size(); ++i)

@@ -11,6 +11,12 @@ namespace orb::structured {
 /// line and labels that nothing names. Keeps what the program does.
 void clean_jumps(Code& code);
 
+/// Puts lines that only jumps lead to where one of those jumps stands. True where there were any.
+bool straighten(Code& code);
+
+/// Of each line: the label of the innermost loop of the robot that it stands in, or none.
+std::vector<std::uint32_t> loops_of_lines(const Code& code);
+
 /// Of each label: its line, or none.
 std::vector<std::uint32_t> lines_of_labels(const Code& code);
 

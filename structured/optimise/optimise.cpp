@@ -1,9 +1,11 @@
 #include "structured/optimise/optimise.h"
 
 #include "structured/optimise/forward.h"
+#include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
 #include "structured/optimise/switches.h"
+#include "structured/optimise/tails.h"
 #include "structured/optimise/values.h"
 
 namespace orb::structured {
@@ -18,18 +20,6 @@ bool is_huge(const Code& code) {
          (code.lines.size() + code.routines.size()) * code.variables.size() > most_bits;
 }
 
-/// Whether a variable is read that nothing sets: it is 0 all through, which was not seen as long as
-/// something that never runs, or whose value has moved, set it.
-bool reads_unset(const Code& code) {
-  std::vector<bool> set(code.variables.size(), false);
-  for (const auto& line : code.lines)
-    each_write(code, line, [&](std::uint32_t v) { set[v] = true; });
-  bool found = false;
-  for (const auto& line : code.lines)
-    each_line_read(code, line, [&](std::uint32_t v) { found = found || !set[v]; });
-  return found;
-}
-
 } // namespace
 
 void optimise(Code& code) {
@@ -42,14 +32,17 @@ void optimise(Code& code) {
   use_values(code);
   const auto wrong_indices = code.wrong_indices; // later not every place of a statement is left
   write_switches(code);
-  clean_jumps(code);
-  forward_values(code);
-  constexpr int most_rounds = 4;
-  for (int round = 0; round < most_rounds && reads_unset(code); ++round) {
-    use_values(code);
+  constexpr int most_rounds = 12;
+  bool changed = true;
+  for (int round = 0; round < most_rounds && changed; ++round) {
     clean_jumps(code);
-    forward_values(code);
+    changed = forward_values(code);
+    changed = merge_tails(code, itself) || changed;
+    changed = inline_calls(code) || changed;
+    changed = straighten(code) || changed;
+    changed = use_values(code) || changed;
   }
+  clean_jumps(code);
   code.wrong_indices = wrong_indices;
   cut_prints(code);
 }

@@ -284,6 +284,8 @@ void Ranges::leave(std::uint32_t b, const CodeLine& line, State& state) {
     return leave_next(b, line, state);
   if (line.kind == LineKind::Switch)
     return leave_switch(line, state);
+  if (line.kind == LineKind::On)
+    return leave_on(line, state);
   if (line.kind == LineKind::Return)
     return leave_routine(line.routine, state);
   for (const auto next : flow_.successors_of(block))
@@ -307,24 +309,35 @@ void Ranges::leave_routine(std::uint32_t routine, const State& state) {
       wait(caller);
 }
 
-/// Enters a block with what is known where a relation holds; not where it cannot.
-void Ranges::enter_where(const Relation& relation, Comparison comparison, std::uint32_t b,
-                         State& state) {
+bool Ranges::narrow(const Relation& relation, Comparison comparison, State& state) const {
   const auto left = range_of(relation.left, state);
   const auto right = range_of(relation.right, state);
   const auto narrowed = where(comparison, left, right);
   const auto mirror = where(mirrored(comparison), right, left);
   if (!narrowed || !mirror)
-    return;
-  const auto narrow = [&](std::uint32_t term, Range range) {
+    return false;
+  const auto put = [&](std::uint32_t term, Range range) {
     if (code_.terms[term].kind == TermKind::Variable)
       state[code_.terms[term].left] = range;
   };
-  narrow(relation.left, *narrowed);
-  narrow(relation.right, *mirror);
+  put(relation.left, *narrowed);
+  put(relation.right, *mirror);
+  return true;
+}
+
+/// Enters a block with what is known where a relation holds; not where it cannot.
+void Ranges::enter_where(const Relation& relation, Comparison comparison, std::uint32_t b,
+                         State& state) {
+  std::pair<std::uint32_t, Range> before[2];
+  std::size_t count = 0;
+  for (const auto term : {relation.left, relation.right})
+    if (code_.terms[term].kind == TermKind::Variable)
+      before[count++] = {code_.terms[term].left, state[code_.terms[term].left]};
+  if (!narrow(relation, comparison, state))
+    return;
   enter(b, state);
-  narrow(relation.right, right);
-  narrow(relation.left, left);
+  while (count-- > 0)
+    state[before[count].first] = before[count].second;
 }
 
 void Ranges::leave_if(std::uint32_t b, const CodeLine& line, State& state) {
@@ -372,6 +385,31 @@ void Ranges::leave_switch(const CodeLine& line, State& state) {
   state[line.variable] = chosen;
   if (others > 0)
     enter(flow_.block_of_label[line.label], state);
+}
+
+/// `on` a variable, or one with a number added, tells its value at each target.
+void Ranges::leave_on(const CodeLine& line, State& state) {
+  const auto& term = code_.terms[line.term];
+  const bool sum = term.kind == TermKind::Binary && code_.is_number(term.right) &&
+                   (static_cast<Operator>(term.what) == Operator::Add ||
+                    static_cast<Operator>(term.what) == Operator::Subtract) &&
+                   code_.terms[term.left].kind == TermKind::Variable;
+  const bool plain = term.kind == TermKind::Variable;
+  const auto variable = plain ? term.left : sum ? code_.terms[term.left].left : none;
+  const auto before = variable == none ? Range{} : state[variable];
+  for (auto i = line.parts_begin; i < line.parts_end; ++i) {
+    const auto index = static_cast<std::int32_t>(i - line.parts_begin) + 1;
+    if (plain)
+      state[variable] = Range::only(index);
+    else if (sum)
+      state[variable] = compiler::apply(
+          static_cast<Operator>(term.what) == Operator::Add ? Operator::Subtract : Operator::Add,
+          Range::only(index), range_of(term.right, state));
+    if (variable == none || !before.misses(state[variable].lo, state[variable].hi))
+      enter(flow_.block_of_label[code_.parts[i].value], state);
+  }
+  if (variable != none)
+    state[variable] = before;
 }
 
 } // namespace orb::structured

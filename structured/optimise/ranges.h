@@ -26,20 +26,33 @@ public:
 
   compiler::Range range_of(std::uint32_t term, const State& state) const;
 
-  /// Calls `visit(line, state)` with each line that can run and the state before it.
-  template <typename Visit>
-  void each_state(Visit visit) {
+  /// Narrows what a relation compares to where `comparison` holds; false where it cannot.
+  bool narrow(const Relation& relation, Comparison comparison, State& state) const;
+
+  /// Whether anything comes to a block.
+  bool reaches(std::uint32_t block) const { return reached_[block]; }
+
+  /// Calls `visit(line, state)` with each line that can run and the state before it, and
+  /// `end(block, state)` with that at the end of each block that is run to its end.
+  template <typename Visit, typename End>
+  void each_state(Visit visit, End end) {
     State state(code_.variables.size());
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
       if (!reached_[b])
         continue;
       load(b, state); // what is not tracked is set before it is read
-      for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
+      bool on = true;
+      for (auto i = flow_.blocks[b].begin; on && i < flow_.blocks[b].end; ++i) {
         visit(i, state);
-        if (!step(b, code_.lines[i], state))
-          break;
+        on = step(b, code_.lines[i], state);
       }
+      if (on)
+        end(b, state);
     }
+  }
+  template <typename Visit>
+  void each_state(Visit visit) {
+    each_state(visit, [](std::uint32_t, const State&) {});
   }
 
   const Flow& flow() const { return flow_; }
@@ -73,6 +86,7 @@ private:
   void leave_if(std::uint32_t b, const CodeLine& line, State& state);
   void leave_next(std::uint32_t b, const CodeLine& line, State& state);
   void leave_switch(const CodeLine& line, State& state);
+  void leave_on(const CodeLine& line, State& state);
   void enter_where(const Relation& relation, Comparison comparison, std::uint32_t b, State& state);
 
   const Code& code_;

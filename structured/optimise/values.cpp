@@ -2,7 +2,9 @@
 
 #include "spec/limits.h"
 #include "structured/optimise/ranges.h"
+#include "structured/optimise/thread.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -27,11 +29,14 @@ class Rewriter {
 public:
   explicit Rewriter(Code& code) : code_(code), ranges_(code) {}
 
-  void run() {
+  bool run() {
     if (!ranges_.follow())
-      return;
+      return false;
     count_reads();
     rewrite();
+    changed_ = thread_tests(code_, ranges_, added_) || changed_;
+    add_lines();
+    return changed_;
   }
 
 private:
@@ -172,6 +177,7 @@ private:
       auto& line = code_.lines[i];
       if (sets_what_is_there(line, state)) {
         line.kind = LineKind::Nothing;
+        changed_ = true;
         return;
       }
       if (line.kind == LineKind::If)
@@ -180,7 +186,9 @@ private:
         // The end of a loop is computed when its variable has been set.
         if (line.kind == LineKind::For && &root == &line.end)
           state[line.variable] = ranges_.range_of(line.term, state);
-        root = replaced(root, state);
+        const auto better = replaced(root, state);
+        changed_ = changed_ || better != root;
+        root = better;
       });
       if (line.kind == LineKind::If)
         decide(line, state);
@@ -196,7 +204,6 @@ private:
       if (index)
         code_.wrong_indices.push_back({statement, *index});
     cut_unreached(reached);
-    add_lines();
   }
 
   /// Whether a variable is set to the number that it holds already. Only of variables that are set
@@ -215,6 +222,7 @@ private:
         auto& line = code_.lines[i];
         if (reached[i] || line.kind == LineKind::Label || line.kind == LineKind::Nothing)
           continue;
+        changed_ = changed_ || !cut;
         line.kind = cut ? LineKind::Nothing : LineKind::Do;
         line.robot = spec::Statement::End;
         line.parts_begin = line.parts_end = 0;
@@ -254,6 +262,7 @@ private:
       line.kind = LineKind::Goto;
     else if (never)
       line.kind = LineKind::Nothing;
+    changed_ = changed_ || line.kind != LineKind::If;
   }
 
   /// One place where the index of a statement is tested; the statement may stand in several places
@@ -285,8 +294,20 @@ private:
   }
 
   void add_lines() {
-    for (auto added = added_.rbegin(); added != added_.rend(); ++added)
-      code_.lines.insert(code_.lines.begin() + added->first, added->second);
+    if (added_.empty())
+      return;
+    std::stable_sort(added_.begin(), added_.end(),
+                     [](const AddedLine& a, const AddedLine& b) { return a.first < b.first; });
+    std::vector<CodeLine> lines;
+    lines.reserve(code_.lines.size() + added_.size());
+    auto next = added_.begin();
+    for (std::uint32_t i = 0; i <= code_.lines.size(); ++i) {
+      for (; next != added_.end() && next->first == i; ++next)
+        lines.push_back(next->second);
+      if (i < code_.lines.size())
+        lines.push_back(code_.lines[i]);
+    }
+    code_.lines = std::move(lines);
   }
 
   /// A choice among neighbouring numbers, where no other can come, is the robot's `on`.
@@ -322,13 +343,14 @@ private:
   Ranges ranges_;
   std::vector<Reads> reads_;
   std::map<std::uint32_t, std::optional<Range>> wrong_indices_; ///< of statements; none: it may fit
-  std::vector<std::pair<std::uint32_t, CodeLine>> added_; ///< lines, each to stand before another
+  std::vector<AddedLine> added_;
+  bool changed_ = false;
 };
 
 } // namespace
 
-void use_values(Code& code) {
-  Rewriter(code).run();
+bool use_values(Code& code) {
+  return Rewriter(code).run();
 }
 
 } // namespace orb::structured

@@ -40,7 +40,8 @@ bool may_remain(const Diagnostic& found) {
   for (const auto* rule : {&robot::BusyLoop, &robot::ClearedByReading, &robot::DataReplaced,
                            &robot::DataExpression, &robot::LargerThanOldRam, &robot::UnusedVariable,
                            &robot::MissingGo, &robot::ProgramTooLarge, &robot::MissingDelay,
-                           &robot::DrivesOn, &robot::LoopLeavesRange, &robot::HeadingGrows})
+                           &robot::DrivesOn, &robot::LoopLeavesRange, &robot::HeadingGrows,
+                           &robot::IndexBeforeY}) // a loop whose first index is 0, as `Y` is then
     if (found.rule == rule)
       return true;
   return found.severity == Severity::Info;

@@ -1,0 +1,241 @@
+#include "structured/optimise/tails.h"
+
+#include "structured/optimise/flow.h"
+#include "structured/optimise/jumps.h"
+
+#include <algorithm>
+#include <map>
+
+namespace orb::structured {
+namespace {
+
+class Merger {
+public:
+  Merger(Code& code, const Identity& identity) : code_(code), identity_(identity) {}
+
+  bool run() {
+    constexpr int most_rounds = 16;
+    bool changed = false;
+    for (int round = 0; round < most_rounds && once(); ++round)
+      changed = true;
+    return changed;
+  }
+
+private:
+  /// Two ways that meet: the lines of each end before these.
+  struct Tails {
+    std::uint32_t kept_end;
+    std::uint32_t kept = none;  ///< where what is the same begins
+    std::uint32_t other_end;    ///< a jump, `return` or `end`
+    std::uint32_t other = none; ///< where what is the same begins
+    std::uint32_t lines = 0;    ///< how many these are
+  };
+  /// Labels that stand for each other in two tails.
+  struct Pair {
+    std::uint32_t kept;
+    std::uint32_t other;
+    bool stands = false;     ///< within the tails
+    std::uint32_t named = 0; ///< within the other tail
+  };
+
+  bool once() {
+    named_ = tidy(code_);
+    taken_.assign(code_.lines.size() + 1, false);
+    labels_.clear();
+    loops_ = loops_of_lines(code_);
+    const auto before = code_.lines.size();
+    for (const auto& [key, ends] : find_ends())
+      for (std::size_t b = 0; b < ends.size(); ++b)
+        if (!falls_through(code_.lines[ends[b]]) && !taken_[ends[b]])
+          merge(ends, ends[b]);
+    if (labels_.empty())
+      return false;
+    std::sort(labels_.begin(), labels_.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<CodeLine> lines;
+    lines.reserve(before + labels_.size());
+    auto next = labels_.begin();
+    for (std::uint32_t i = 0; i < before; ++i) {
+      for (; next != labels_.end() && next->first == i; ++next) {
+        lines.push_back(code_.lines[i]);
+        lines.back().kind = LineKind::Label;
+        lines.back().label = next->second;
+      }
+      lines.push_back(code_.lines[i]);
+    }
+    code_.lines = std::move(lines);
+    return true;
+  }
+
+  /// Of each place where ways meet: the lines before which they end.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> find_ends() const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> ends;
+    constexpr std::uint32_t returns = none;
+    constexpr std::uint32_t stops = none - 1;
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto& line = code_.lines[i];
+      if (line.kind == LineKind::Goto)
+        ends[{line.routine, line.label}].push_back(i);
+      else if (line.kind == LineKind::Return)
+        ends[{line.routine, returns}].push_back(i);
+      else if (line.kind == LineKind::Do && line.robot == spec::Statement::End)
+        ends[{line.routine, stops}].push_back(i);
+      else if (line.kind == LineKind::Label && i > 0 && falls_through(code_.lines[i - 1]) &&
+               code_.lines[i - 1].kind != LineKind::Label)
+        ends[{line.routine, line.label}].push_back(i);
+    }
+    return ends;
+  }
+
+  /// Leads the way that ends at `other` into the one that has most in common with it.
+  void merge(const std::vector<std::uint32_t>& ends, std::uint32_t other) {
+    Tails best;
+    constexpr std::size_t most_ends = 24;
+    for (std::size_t n = 0; n < std::min(ends.size(), most_ends); ++n)
+      if (ends[n] != other && !taken_[ends[n]] && loops_[ends[n]] == loops_[other])
+        if (const auto tails = compare(ends[n], other); tails.lines > best.lines)
+          best = tails;
+    if (best.lines == 0)
+      return;
+    for (auto i = best.kept; i < best.kept_end; ++i)
+      join(code_.lines[i], code_.lines[best.other + i - best.kept]);
+    for (auto i = best.kept; i <= best.kept_end; ++i)
+      taken_[i] = true;
+    for (auto i = best.other; i < best.other_end; ++i) {
+      taken_[i] = true;
+      code_.lines[i].kind = LineKind::Nothing;
+    }
+    taken_[best.other_end] = true;
+    auto& jump = code_.lines[best.other_end];
+    jump.kind = LineKind::Goto;
+    jump.label = code_.labels++;
+    jump.parts_begin = jump.parts_end = 0;
+    labels_.push_back({best.kept, jump.label});
+  }
+
+  /// What is known of the values of a line that is now run for another, too.
+  void join(const CodeLine& kept, const CodeLine& other) {
+    if (kept.kind == LineKind::If) {
+      auto& relation = code_.conditions[kept.condition].first;
+      const auto& same = code_.conditions[other.condition].first;
+      relation.left_range = compiler::join(relation.left_range, same.left_range);
+      relation.right_range = compiler::join(relation.right_range, same.right_range);
+    } else if (kept.kind == LineKind::Print || kept.kind == LineKind::Do) {
+      for (auto i = kept.parts_begin; i < kept.parts_end; ++i)
+        code_.parts[i].range = compiler::join(
+            code_.parts[i].range, code_.parts[other.parts_begin + i - kept.parts_begin].range);
+    }
+  }
+
+  Tails compare(std::uint32_t kept_end, std::uint32_t other_end) {
+    Tails best{kept_end, none, other_end, none, 0};
+    pairs_.clear();
+    std::uint32_t lines = 0;
+    auto a = kept_end;
+    auto b = other_end;
+    while (a > 0 && b > 0) {
+      --a;
+      --b;
+      if (taken_[a] || taken_[b] || a == other_end || b == kept_end ||
+          !matches(code_.lines[a], code_.lines[b]))
+        break;
+      if (code_.lines[a].kind == LineKind::Label)
+        continue;
+      ++lines;
+      if (std::all_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+            return pair.stands && pair.named == named_[pair.other];
+          })) {
+        best.kept = a;
+        best.other = b;
+        best.lines = lines;
+      }
+    }
+    return best;
+  }
+
+  bool pair_up(std::uint32_t kept, std::uint32_t other, std::uint32_t names) {
+    for (auto& pair : pairs_)
+      if (pair.kept == kept || pair.other == other) {
+        pair.named += names;
+        pair.stands = pair.stands || names == 0;
+        return pair.kept == kept && pair.other == other;
+      }
+    pairs_.push_back({kept, other, names == 0, names});
+    return true;
+  }
+
+  bool matches(const CodeLine& a, const CodeLine& b) {
+    if (a.kind != b.kind || a.robot != b.robot || a.routine != b.routine || a.step != b.step)
+      return false;
+    if (a.origin != b.origin && (a.guard || b.guard || may_fault(code_, a) || may_fault(code_, b)))
+      return false;
+    const bool has_variable =
+        a.kind == LineKind::Let || a.kind == LineKind::For || a.kind == LineKind::Next;
+    if (has_variable ? identity_(a.variable) != identity_(b.variable) : a.variable != b.variable)
+      return false;
+    switch (a.kind) {
+    case LineKind::Label: return pair_up(a.label, b.label, 0);
+    case LineKind::Goto: return a.label == b.label || pair_up(a.label, b.label, 1);
+    case LineKind::If:
+      return same(code_.conditions[a.condition], code_.conditions[b.condition]) &&
+             (a.label == b.label || pair_up(a.label, b.label, 1));
+    case LineKind::Next: return pair_up(a.label, b.label, 1);
+    case LineKind::For:
+      return same(a.term, b.term) && same(a.end, b.end) &&
+             std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+               return pair.kept == a.label && pair.other == b.label;
+             });
+    case LineKind::Let:
+    case LineKind::SetElement:
+    case LineKind::SetSystem: return same(a.term, b.term);
+    case LineKind::Gosub: return a.label == b.label;
+    case LineKind::Print:
+    case LineKind::Do:
+      return falls_through(a) &&
+             std::equal(code_.parts.begin() + a.parts_begin, code_.parts.begin() + a.parts_end,
+                        code_.parts.begin() + b.parts_begin, code_.parts.begin() + b.parts_end,
+                        [&](const Part& x, const Part& y) { return same(x, y); });
+    case LineKind::Nothing:
+    case LineKind::Return:
+    case LineKind::Switch:
+    case LineKind::On:
+    case LineKind::OnGosub:
+    case LineKind::Choice: return false;
+    }
+    return false;
+  }
+
+  bool same(std::uint32_t a, std::uint32_t b) const {
+    return structured::same(code_, a, b, identity_);
+  }
+  bool same(const Relation& a, const Relation& b) const {
+    return a.comparison == b.comparison && same(a.left, b.left) && same(a.right, b.right);
+  }
+  bool same(const Condition& a, const Condition& b) const {
+    return a.glue == Glue::None && b.glue == Glue::None && same(a.first, b.first);
+  }
+  bool same(const Part& a, const Part& b) const {
+    if (a.kind != b.kind || !(a.text == b.text))
+      return false;
+    if (a.kind == PartKind::Term || a.kind == PartKind::Character)
+      return same(a.value, b.value);
+    return a.kind == PartKind::Variable ? identity_(a.value) == identity_(b.value)
+                                        : a.value == b.value;
+  }
+
+  Code& code_;
+  const Identity& identity_;
+  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> loops_; ///< of each line: what stays in a loop
+  std::vector<bool> taken_;          ///< of each line: it is part of a tail already
+  std::vector<Pair> pairs_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< lines and labels before them
+};
+
+} // namespace
+
+bool merge_tails(Code& code, const Identity& identity) {
+  return Merger(code, identity).run();
+}
+
+} // namespace orb::structured
