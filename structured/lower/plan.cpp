@@ -131,7 +131,8 @@ private:
     plan_.inlined[routine] = true;
     for (const auto one : callees_first_)
       nested_[one] = nesting(one);
-    if (std::ranges::all_of(nested_, [](auto deep) { return deep <= deepest_inline; }))
+    if (std::all_of(nested_.begin(), nested_.end(),
+                    [](auto deep) { return deep <= deepest_inline; }))
       return true;
     plan_.inlined[routine] = false;
     nested_ = before;
