@@ -3,12 +3,15 @@
 #include "base/time.h"
 #include "spec/ball.h"
 #include "vm/ask.h"
+#include "vm/body/battery.h"
+#include "vm/body/drivetrain.h"
+#include "vm/body/motion.h"
+#include "vm/body/motion_sensors.h"
+#include "vm/body/place.h"
+#include "vm/body/walls.h"
 
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <variant>
-#include <vector>
 
 namespace orb::vm {
 
@@ -18,124 +21,6 @@ struct Color {
   std::uint8_t blue = 0;
 
   friend constexpr bool operator==(Color, Color) = default;
-};
-
-/// The third value of a roll (Source: LL §Roll Command Parameters).
-enum class Go : std::uint8_t {
-  Brake = 0,   ///< optimal braking to a stop
-  Drive = 1,   ///< normal driving
-  FastTurn = 2 ///< turn at the fast rate at any speed
-};
-
-struct Roll {
-  int heading_deg = 0; ///< 0..359
-  int speed = 0;       ///< 0..255
-  Go go = Go::Drive;
-
-  friend constexpr bool operator==(const Roll&, const Roll&) = default;
-};
-
-/// What a motor does (Source: API §Set Raw Motor Values).
-enum class MotorMode : std::uint8_t { Off = 0, Forward = 1, Reverse = 2, Brake = 3, Ignore = 4 };
-
-struct Motor {
-  MotorMode mode = MotorMode::Off;
-  int power = 0; ///< 0..255
-};
-
-struct Motors {
-  Motor left;
-  Motor right;
-};
-
-/// The control system. `OnAndReset` also takes the present heading as the set-point.
-enum class Stabilization : std::uint8_t { Off = 0, OnAndReset = 1, On = 2 };
-
-/// Positive to the right; more than one turn is possible.
-struct Rotate {
-  int angle_deg = 0;
-  Duration time{};
-};
-
-/// Renames the present heading (Source: API §Set Heading); the locator follows its own rule.
-struct SetHeading {
-  int heading_deg = 0;
-};
-
-/// Another speed along the present heading (Source: macro 25h).
-struct SetSpeed {
-  int speed = 0; ///< 0..255
-};
-
-/// The rate of an ordinary turn.
-struct RotationRate {
-  double deg_per_s = 0;
-};
-
-/// Brakes to a stop and keeps the heading; motors that were set go off.
-struct Stop {};
-
-/// What clients, programs and macros ask of the control system.
-using Motion =
-    std::variant<Roll, Rotate, Motors, SetHeading, SetSpeed, Stabilization, RotationRate, Stop>;
-
-enum class Switch : std::uint8_t { Off, On };
-
-struct Vector3 {
-  double x = 0;
-  double y = 0;
-  double z = 0;
-};
-
-struct Quaternion {
-  double w = 1;
-  double x = 0;
-  double y = 0;
-  double z = 0;
-};
-
-/// Where the ball is: locator coordinates, heading as commanded, speed over ground.
-struct Pose {
-  double x_cm = 0;
-  double y_cm = 0;
-  double heading_deg = 0;
-  double speed_cm_s = 0;
-};
-
-/// A place in centimetres; where nothing else is said, of the world in which the ball woke up at
-/// 0,0 facing +Y.
-struct Point {
-  double x = 0;
-  double y = 0;
-
-  friend constexpr bool operator==(Point, Point) = default;
-};
-
-/// A straight wall: endless at `x=` or `y=`, or between two points.
-struct Wall {
-  enum class Axis : std::uint8_t { X, Y, None };
-  Axis axis = Axis::X;
-  double at_cm = 0; ///< of an endless one
-  Point from{};     ///< of one along no axis
-  Point to{};
-
-  static constexpr Wall between(Point from, Point to) { return {Axis::None, 0, from, to}; }
-  friend constexpr bool operator==(const Wall&, const Wall&) = default;
-};
-
-/// `x=70`, or `-30,50 to 30,50` of a wall between two points.
-std::string to_string(const Wall& wall);
-
-/// The point of a wall between two points that is nearest to `place`.
-Point nearest_point(const Wall& wall, Point place);
-
-/// A blow as the accelerometer sees it: positive y is a blow on the front, positive x one on the
-/// right (Source: LL §Collision Detection).
-struct Impact {
-  double x_power = 0; ///< compared with the thresholds of the X axis
-  double y_power = 0;
-  int speed = 0;            ///< 0..255 at the moment of the blow
-  std::optional<Wall> wall; ///< what it ran into; nothing for a push
 };
 
 class Body;
@@ -150,7 +35,8 @@ public:
 /// The ball as matter: set-points in, sensor values out. It knows no program, no packet and no
 /// client. It moves in steps of the control system (400 Hz) on a grid that starts at its power-on,
 /// and only while something moves: at rest, advancing costs nothing. docs/ball.md lists the model;
-/// every figure of it is a constant at the top of body.cpp.
+/// every figure of it is a row of spec/ball.def. Here are time and place; what moves it, what it
+/// runs into, what it feels and what feeds it are parts of their own in vm/body/.
 class Body {
 public:
   static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
@@ -167,17 +53,10 @@ public:
   /// The next step in which something moves; `never` at rest.
   Instant next_step() const;
   /// Whether it takes steps: it moves, or strives to.
-  bool moving() const {
-    return target_speed_ != 0 || forward_ != 0 || drifts() || rotate_left_deg_ != 0 ||
-           left_wheel_ != 0 || right_wheel_ != 0 || (stabilized_ && target_deg_ != yaw_deg_) ||
-           (!stabilized_ && spin_deg_s_ != 0) ||
-           (raw_ && (left_.power != 0 || right_.power != 0)) || landing_;
-  }
+  bool moving() const { return drive_.moving() || sensors_.falls(); }
   /// Whether its steps can lead to nothing until somebody asks something of it: it goes on moving,
   /// there is nothing to run into, and nobody watches. Then it may be advanced late.
-  bool rolls_freely() const {
-    return target_speed_ != 0 && walls_.empty() && segments_.empty() && observer_ == nullptr;
-  }
+  bool rolls_freely() const { return drive_.strives() && walls_.empty() && observer_ == nullptr; }
   /// The blow of the last step, once.
   std::optional<Impact> take_impact();
 
@@ -187,161 +66,95 @@ public:
   // Set-points.
   /// Refused where it has no effect: while the control system is off most have none.
   Outcome obey(const Motion& motion);
-  void set_vector_drive(Switch vector_drive);
+  void set_vector_drive(Switch vector_drive) { drive_.set_vector_drive(vector_drive); }
   /// The speed, 0 to 255, up to which vector drive turns before it moves.
-  void set_vector_drive_limit(int speed) { vector_drive_limit_ = speed; }
+  void set_vector_drive_limit(int speed) { drive_.set_vector_drive_limit(speed); }
 
   // Locator (Source: API §Configure Locator).
-  void locate(double x_cm, double y_cm);
-  void set_yaw_tare(int tare_deg);
-  void set_tare_correction(Switch correct_on_set_heading);
+  void locate(double x_cm, double y_cm) { locator_ = {x_cm, y_cm}; }
+  void set_yaw_tare(int tare_deg) { tare_deg_ = tare_deg; }
+  void set_tare_correction(Switch correct_on_set_heading) {
+    tare_correction_ = correct_on_set_heading;
+  }
 
   // The world: stimuli.
-  void add_wall(const Wall& wall);
+  void add_wall(const Wall& wall) { walls_.add(wall, world_); }
   /// A blow that sets the ball moving toward `heading_deg` of the world; strength 0..255.
   void push(int heading_deg, int strength);
-  void shake();
+  void shake() { sensors_.shake(now_); }
   /// Free fall for `time`, then a hard landing.
-  void toss(Duration time);
-  void tilt(double pitch_deg, double roll_deg);
+  void toss(Duration time) { sensors_.toss(now_, time); }
+  void tilt(double pitch_deg, double roll_deg) { sensors_.tilt(pitch_deg, roll_deg); }
   /// A hand that turns the ball; the ball yields only while stabilisation is off.
-  void spin(double deg_per_s);
-  void set_noise(Switch noise) { noise_ = noise; }
-  void set_battery(double volts);
-  void set_charger(Switch charger);
+  void spin(double deg_per_s) { drive_.spin(deg_per_s); }
+  void set_noise(Switch noise) { sensors_.set_noise(noise); }
+  void set_battery(double volts) { battery_.set(volts, now_); }
+  void set_charger(Switch charger) { battery_.set_charger(charger, now_); }
 
   // Sensors, as of the instant reached.
-  bool stabilized() const { return stabilized_; }
-  bool stopped() const;
-  int speed() const;        ///< 0..255
-  double yaw_deg() const;   ///< 0 <= yaw < 360
-  double pitch_deg() const; ///< -90..90
-  double roll_deg() const;  ///< -180..180
-  Vector3 acceleration_g() const;
-  Vector3 rotation_deg_s() const;
+  bool stabilized() const { return drive_.stabilized(); }
+  bool stopped() const { return drive_.stopped(); }
+  int speed() const;                                                  ///< 0..255
+  double yaw_deg() const { return drive_.yaw_deg(); }                 ///< 0 <= yaw < 360
+  double pitch_deg() const { return sensors_.pitch_deg(movement()); } ///< -90..90
+  double roll_deg() const { return sensors_.roll_deg(now_); }         ///< -180..180
+  Vector3 acceleration_g() const { return sensors_.acceleration_g(movement()); }
+  Vector3 rotation_deg_s() const { return sensors_.rotation_deg_s(movement()); }
   double acceleration_total_g() const;
-  Quaternion attitude() const;
+  Quaternion attitude() const { return sensors_.attitude(movement()); }
   Pose pose() const;
   /// The place of pose().
-  Point locator_cm() const { return {locator_x_, locator_y_}; }
+  Point locator_cm() const { return locator_; }
   /// The same in the world in which the ball woke up at 0,0 facing +Y, whatever the program calls
   /// its place and its heading since.
   Pose world_pose() const;
   Vector3 velocity_cm_s() const; ///< locator axes; z is 0
-  double heading_setpoint_deg() const { return target_deg_; }
-  int speed_setpoint() const { return target_speed_; }
+  double heading_setpoint_deg() const { return drive_.heading_setpoint_deg(); }
+  int speed_setpoint() const { return drive_.speed_setpoint(); }
   /// The roll that changes nothing but the speed.
-  Roll roll_at(int speed) const;
-  double left_motor_cm_s() const;
-  double right_motor_cm_s() const;
+  Roll roll_at(int speed) const { return drive_.roll_at(speed); }
+  double left_motor_cm_s() const { return drive_.left_motor_cm_s(); }
+  double right_motor_cm_s() const { return drive_.right_motor_cm_s(); }
   int left_motor_power() const;  ///< -255..255
   int right_motor_power() const; ///< -255..255
-  double battery_v() const;
+  double battery_v() const { return battery_.volts(now_); }
   /// When the voltage falls to `volts` at rest; `never` while charging or below already.
-  Instant battery_reaches(double volts) const;
+  Instant battery_reaches(double volts) const { return battery_.reaches(volts, now_); }
   /// Until when it is above that for sure, however the ball drives.
-  Instant battery_above_until(double volts) const;
+  Instant battery_above_until(double volts) const { return battery_.above_until(volts, now_); }
   /// The length of its way since it was made.
   double way_cm() const { return rolled_cm_; }
   std::uint64_t rolled_cm() const { return static_cast<std::uint64_t>(rolled_cm_); }
-  bool charging() const { return charger_ == Switch::On; }
+  bool charging() const { return battery_.charging(); }
 
 private:
-  Outcome obey_one(const Roll& roll);
-  Outcome obey_one(const Rotate& turn);
-  Outcome obey_one(const Motors& motors);
   Outcome obey_one(const SetHeading& name);
-  Outcome obey_one(const SetSpeed& change);
-  Outcome obey_one(Stabilization mode);
-  Outcome obey_one(const RotationRate& rate);
-  Outcome obey_one(const Stop&);
-  /// Where the ball goes, with what it was computed from: straight on, it is the same every step.
-  struct Course {
-    double forward = 0;
-    double heading_deg = 0; ///< of the world
-    double drift_x = 0;
-    double drift_y = 0;
-    double vx = 0; ///< cm/s, in world axes
-    double vy = 0;
-    double speed = 0;
-  };
-  const Course& course() const;
+  template <class Setpoint>
+  Outcome obey_one(const Setpoint& setpoint) {
+    return drive_.obey(setpoint);
+  }
   double speed_cm_s() const;
-  double commanded_cm_s() const;
-  bool drifts() const { return drift_x_ != 0 || drift_y_ != 0; }
-  bool fast_turn() const;
+  Movement movement() const;
   bool goes_straight_on() const;
   void go_straight_on(Duration::rep steps);
   void single_step();
-  void turn();
-  void drive();
   void travel();
-  void move_to(double x, double y, double way_cm, double speed);
-  void hit_walls(double& new_x, double& new_y, double vx, double vy);
-  void hit_segments(Point& place);
-  bool push_out(Point& place);
-  void bounce(const Wall& wall, Point normal);
-  void strike(double vx, double vy);
-  double noise(std::uint32_t channel) const;
+  void move_to(Point place, double way_cm, double speed);
+  void strike(Point velocity, double speed);
 
   Instant now_{};
-  std::uint64_t seed_;
   StepObserver* observer_ = nullptr;
+  Drivetrain drive_;
+  Walls walls_;
+  MotionSensors sensors_;
+  Battery battery_;
 
-  // Set-points.
-  bool stabilized_ = true;
-  bool raw_ = false; ///< the motors are driven by set_motors
-  Switch vector_drive_ = Switch::Off;
-  int vector_drive_limit_ = spec::ball::default_vector_drive_limit;
-  Go go_ = Go::Brake;
-  int target_speed_ = 0;
-  double target_deg_ = 0;
-  double rotation_rate_;
-  double rotate_left_deg_ = 0; ///< what is left of rotate()
-  double rotate_rate_ = 0;
-  Motor left_;
-  Motor right_;
-
-  // Motion. Speeds in cm/s; directions in degrees, clockwise from +Y.
-  double yaw_deg_ = 0;
-  double world_offset_deg_ = 0; ///< world direction = yaw + offset
-  double tare_deg_ = 0;         ///< locator direction = yaw + tare
+  double tare_deg_ = 0; ///< locator direction = yaw + tare
   Switch tare_correction_ = Switch::On;
-  double forward_ = 0;
+  Point world_;
+  Point locator_;
   double rolled_cm_ = 0;
-  double left_wheel_ = 0;
-  double right_wheel_ = 0;
-  double drift_x_ = 0; ///< what pushes and bounces add, in world axes
-  double drift_y_ = 0;
-  mutable Course course_; ///< of the last call of course()
-  double world_x_ = 0;
-  double world_y_ = 0;
-  double locator_x_ = 0;
-  double locator_y_ = 0;
-  double yaw_rate_ = 0;
-  double forward_acceleration_ = 0;
-  double tilt_pitch_deg_ = 0;
-  double tilt_roll_deg_ = 0;
-  double spin_deg_s_ = 0;
-  Switch noise_ = Switch::Off;
-  Instant shaken_until_{};
-  Instant falling_until_{};
-  bool landing_ = false;
-  Instant struck_until_{};
   std::optional<Impact> impact_;
-
-  // Battery: a voltage at an instant and its slope since; motion takes more.
-  Switch charger_ = Switch::Off;
-  Instant battery_at_{};
-  double battery_v_;
-
-  struct Obstacle {
-    Wall wall;
-    double side; ///< +1 or -1: where the ball was when the wall appeared
-  };
-  std::vector<Obstacle> walls_; ///< endless ones
-  std::vector<Wall> segments_;  ///< those between two points
-  double clear_cm_ = 0;         ///< so far it can go before it may touch one of these
 };
 
 } // namespace orb::vm

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "base/time.h"
+#include "vm/body/motion.h"
+#include "vm/body/place.h"
+
+#include <cstdint>
+
+namespace orb::vm {
+
+/// How the drive moves the ball at an instant: what accelerometer and gyro feel of it.
+struct Movement {
+  Instant at{};
+  double yaw_deg = 0;
+  double yaw_rate_deg_s = 0;
+  double forward_cm_s = 0;
+  double forward_acceleration_cm_s2 = 0;
+};
+
+/// Accelerometer and gyro, and what a hand does to them: shakes, tosses, tilts, noise.
+class MotionSensors {
+public:
+  explicit MotionSensors(std::uint64_t seed) : seed_(seed) {}
+
+  void shake(Instant now);
+  /// Free fall for `time`, then a hard landing.
+  void toss(Instant now, Duration time);
+  void tilt(double pitch_deg, double roll_deg);
+  void set_noise(Switch noise) { noise_ = noise; }
+  /// A blow at `now`.
+  void strike(Instant now);
+
+  /// Whether a landing is to come.
+  bool falls() const { return landing_; }
+  /// Lands where the fall is over.
+  void step(Instant now);
+
+  double pitch_deg(const Movement& movement) const; ///< -90..90
+  double roll_deg(Instant now) const;               ///< -180..180
+  Vector3 acceleration_g(const Movement& movement) const;
+  Vector3 rotation_deg_s(const Movement& movement) const;
+  Quaternion attitude(const Movement& movement) const;
+
+private:
+  double noise(std::uint32_t channel, Instant now) const;
+
+  std::uint64_t seed_;
+  double tilt_pitch_deg_ = 0;
+  double tilt_roll_deg_ = 0;
+  Switch noise_ = Switch::Off;
+  Instant shaken_until_{};
+  Instant falling_until_{};
+  bool landing_ = false;
+  Instant struck_until_{};
+};
+
+} // namespace orb::vm
