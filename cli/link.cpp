@@ -61,6 +61,11 @@ void add_port_options(CLI::App& command, PortOptions& options) {
       ->capture_default_str();
 }
 
+WireLog::~WireLog() {
+  if (recording_ && !recording_->empty())
+    static_cast<void>(recording_->keep_beside());
+}
+
 void WireLog::on_bytes(protocol::Direction direction, ByteView bytes, Instant) {
   const auto line = protocol::recording_line(direction, bytes);
   if (recording_)

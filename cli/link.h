@@ -38,6 +38,10 @@ class WireLog final : public protocol::WireListener {
 public:
   WireLog(int verbosity, std::optional<disk::Draft> recording)
       : verbosity_(verbosity), recording_(std::move(recording)) {}
+  WireLog(const WireLog&) = delete;
+  WireLog& operator=(const WireLog&) = delete;
+  /// A recording that nobody has taken, because the command ended in the middle, is kept.
+  ~WireLog() override;
   void on_bytes(protocol::Direction direction, ByteView bytes, Instant now) override;
   /// Nothing where nothing is recorded.
   std::optional<disk::Draft>& recording() { return recording_; }
