@@ -22,8 +22,9 @@ Sources::Sources(std::span<const run::Input> inputs, const run::Options& options
     for (const auto& macro : input.macros) {
       macro_names_[macro.image.id] = macro.name;
       for (std::size_t k = 0; k < macro.command_lines.size(); ++k)
-        commands_.push_back(
-            {macro.image.id, static_cast<int>(k) + 1, {file, macro.command_lines[k]}});
+        if (macro.command_lines[k] != 0)
+          commands_.push_back(
+              {macro.image.id, static_cast<int>(k) + 1, {file, macro.command_lines[k]}});
     }
   }
 }

@@ -58,7 +58,7 @@ const own = {
 
 function answer({ id, method, params = {} }) {
   try {
-    const result = method in own ? own[method](params) : engine.call(method, params);
+    const result = Object.hasOwn(own, method) ? own[method](params) : engine.call(method, params);
     postMessage({ id, result });
   } catch (error) {
     postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });

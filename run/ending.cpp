@@ -62,19 +62,6 @@ std::string blows(const Sight& sight) {
   return sight.bumps == sight.walls.size() ? walls : fmt::format("{} {} times", walls, sight.bumps);
 }
 
-/// How a sentence about the ending begins.
-std::string_view verb(Reason reason) {
-  switch (reason) {
-  case Reason::End:
-  case Reason::Error: return "ended";
-  case Reason::Abort: return "stopped";
-  case Reason::TimeLimit: return "stopped by the time limit";
-  case Reason::Sleep: return "fell asleep, ended";
-  case Reason::Input: return "still waiting for input, ended";
-  }
-  return "";
-}
-
 } // namespace
 
 std::string_view to_string(Reason reason) {
@@ -89,10 +76,24 @@ std::string_view to_string(Reason reason) {
   return "";
 }
 
+std::string_view manner(Reason reason) {
+  switch (reason) {
+  case Reason::End:
+  case Reason::Error: return "ended";
+  case Reason::Abort: return "stopped";
+  case Reason::TimeLimit: return "stopped by the time limit";
+  case Reason::Sleep: return "fell asleep, ended";
+  case Reason::Input: return "still waiting for input, ended";
+  }
+  return "";
+}
+
 std::string to_string(const Ending& ending) {
   const auto ms = ending.lasted / 1ms;
-  return fmt::format("{} after {}.{:03} s of robot time, {}", verb(ending.reason), ms / 1000,
-                     ms % 1000, plural(ending.lines, "line"));
+  const bool only_macros = ending.lines == 0 && ending.commands > 0;
+  return fmt::format(
+      "{} after {}.{:03} s of robot time, {}", manner(ending.reason), ms / 1000, ms % 1000,
+      only_macros ? plural(ending.commands, "command") : plural(ending.lines, "line"));
 }
 
 std::string story(const Ending& ending) {

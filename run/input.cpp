@@ -52,7 +52,9 @@ void read_macro_source(Input& input, Lint lint) {
                macro.id.has_value(),
                {}};
     for (const auto& command : macro.commands)
-      read.command_lines.push_back(input.source->position(command.span.begin).line);
+      read.command_lines.push_back(command.origin == assembler::PlacedCommand::Origin::Supplied
+                                       ? 0
+                                       : input.source->position(command.span.begin).line);
     input.macros.push_back(std::move(read));
   }
   input.findings =

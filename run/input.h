@@ -71,7 +71,8 @@ struct Macro {
   std::string name;
   protocol::MacroImage image;
   bool has_id = false;                      ///< the file gives the id
-  std::vector<std::uint32_t> command_lines; ///< of command number k + 1; empty for bytes
+  std::vector<std::uint32_t> command_lines; ///< of command number k + 1, 0 for one that is not
+                                            ///< written; empty for bytes
 };
 
 /// A file that a structured program includes.

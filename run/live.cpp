@@ -102,6 +102,7 @@ public:
   std::optional<vm::event::End::Reason> end() const { return end_; }
   const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
   std::uint64_t lines() const { return lines_; }
+  std::uint64_t commands() const { return commands_; }
   /// What there was to see, up to now.
   Sight sight() const {
     Sight seen = sight_;
@@ -182,7 +183,9 @@ private:
   }
 
   void look(const vm::Event& event) {
-    if (const auto* drive = std::get_if<vm::event::Drive>(&event))
+    if (std::holds_alternative<vm::event::Macro>(event))
+      ++commands_;
+    else if (const auto* drive = std::get_if<vm::event::Drive>(&event))
       sight_.told_to_move |= drive->roll.speed != 0;
     else if (const auto* place = std::get_if<vm::event::Position>(&event))
       sight_.turned |= place->pose.heading_deg != 0;
@@ -213,6 +216,7 @@ private:
   std::optional<vm::event::End::Reason> end_;
   std::optional<vm::event::MacroEnd> macro_end_;
   std::uint64_t lines_ = 0;
+  std::uint64_t commands_ = 0;
   std::optional<Instant> over_;
   Sight sight_;
 };
@@ -300,6 +304,7 @@ Ending ending_of(std::span<const Input> inputs, const Options& options, const Wa
   Ending ending;
   ending.reason = reason_of(ball, watcher, limit);
   ending.lines = watcher.lines() + (ball.basic_running() ? ball.machine().lines() : 0);
+  ending.commands = watcher.commands();
   ending.lasted = watcher.over().value_or(ball.idle_since().value_or(ball.now())) - watcher.start();
   ending.seen_to = options.until == Until::Rest
                        ? std::max(ending.lasted, ball.now() - watcher.start())
@@ -397,7 +402,8 @@ tl::expected<Ending, Failure> Live::State::finish() {
   const auto ending = ending_of(inputs, options, watcher, ball, limit);
   listener.on_end(ending);
   if (journey != nullptr)
-    journey->finish(ending.seen_to, std::string(to_string(ending.reason)), to_string(ending));
+    journey->finish(ending.seen_to, std::string(to_string(ending.reason)),
+                    std::string(manner(ending.reason)));
   return ending;
 }
 

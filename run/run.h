@@ -135,6 +135,7 @@ struct Ending {
   Duration lasted{};  ///< until nothing ran any more
   Duration seen_to{}; ///< the same, or longer with Until::Rest
   std::uint64_t lines = 0;
+  std::uint64_t commands = 0; ///< of macros
   std::vector<ProgramError> faults;
   std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
@@ -144,7 +145,11 @@ struct Ending {
   std::vector<vm::NativeCode::Piece> machine_code; ///< where it was, for profilers
 };
 
-/// The figures of an ending: `ended after 1.234 s of robot time, 3702 lines`.
+/// How it ended: `ended`, `stopped by the time limit`.
+std::string_view manner(Reason reason);
+
+/// The figures of an ending: `ended after 1.234 s of robot time, 3702 lines`; of a macro its
+/// commands.
 std::string to_string(const Ending& ending);
 
 /// What became of the ball: `stopped at 7,3 cm after 1.9 m, green, hit 1 wall, waits for a shake`;

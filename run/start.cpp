@@ -179,8 +179,15 @@ Failure refusal(const Load& load, const Options& options) {
 }
 
 void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey) {
+  // Programs before macros, which they may bring with them: a page opens on the first file.
+  std::vector<const Input*> ordered;
+  for (const auto& input : inputs)
+    ordered.push_back(&input);
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const Input* one) { return one->program.has_value(); });
   bool first = true; // of two programs the lines of the second are told by their number alone
-  for (const auto& input : inputs) {
+  for (const auto* one : ordered) {
+    const auto& input = *one;
     const auto& source = *input.source;
     const bool has_lines =
         std::any_of(input.macros.begin(), input.macros.end(),
@@ -198,8 +205,9 @@ void describe(std::span<const Input> inputs, const Options& options, report::Jou
     }
     for (const auto& macro : input.macros)
       for (std::size_t k = 0; k < macro.command_lines.size(); ++k)
-        journey.map_command(macro.image.id, static_cast<int>(k) + 1,
-                            {file, static_cast<int>(macro.command_lines[k])});
+        if (macro.command_lines[k] != 0)
+          journey.map_command(macro.image.id, static_cast<int>(k) + 1,
+                              {file, static_cast<int>(macro.command_lines[k])});
   }
   if (options.course != nullptr)
     journey.set_course(*options.course);

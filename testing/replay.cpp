@@ -48,7 +48,8 @@ std::string place_of(const Prepared& program, const Running& running) {
   const auto index = static_cast<std::size_t>(running.command) - 1;
   for (const auto& input : program.inputs)
     for (const auto& macro : input.macros)
-      if (macro.image.id == running.macro && index < macro.command_lines.size())
+      if (macro.image.id == running.macro && index < macro.command_lines.size() &&
+          macro.command_lines[index] != 0)
         return with_line({0, macro.command_lines[index], 1, {}}, input.source->name(),
                          input.source->line(macro.command_lines[index]));
   return {};

@@ -2,7 +2,7 @@
 
 import { $, element, button } from "./dom.js";
 
-const signs = { passed: "✓", failed: "✗", error: "!" };
+const signs = { __proto__: null, passed: "✓", failed: "✗", error: "!" };
 
 export class Verdicts {
   constructor({ machine, ball, workspace, on_place, on_passed }) {

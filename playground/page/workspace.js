@@ -4,6 +4,7 @@ export const limits = { text: 256 * 1024, files: 24, shared: 1024 * 1024, link: 
 
 /** What the ending of a name says; `start` is what a new file begins with. */
 export const kinds = {
+  __proto__: null, // so that no ending is one but these
   orb: { words: "structured program", program: true, start: "' What does it do?\n\n" },
   bas: { words: "orbBasic program", program: true, start: "10 print \"hello\"\n" },
   macro: { words: "macro", program: true, start: "rgb 0, 255, 0\ndelay 1s\n" },

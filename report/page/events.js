@@ -4,6 +4,7 @@ import { $, element, keep_in_view, last_at, seconds, shape } from "./dom.js";
 import { playback, seek, watch } from "./playback.js";
 
 const kinds = {
+  __proto__: null,
   print: { words: "prints", icon: "M1 3h12v7H6l-3 3v-3H1z" },
   error: { words: "errors", icon: "M7 1L14 13H0z" },
   marker: { words: "markers", icon: "M7 1l6 6-6 6-6-6z" },

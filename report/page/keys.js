@@ -19,6 +19,7 @@ function press(event) {
   if (target instanceof HTMLSelectElement || target instanceof HTMLInputElement && target !== slider) return;
   const by = event.shiftKey ? 1e6 : 50e3;
   const actions = {
+    __proto__: null,
     ArrowLeft: () => seek(playback.now - by), ArrowRight: () => seek(playback.now + by),
     Home: () => seek(0), End: () => seek(playback.end),
     n: () => jump(1), p: () => jump(-1),

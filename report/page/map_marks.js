@@ -7,6 +7,7 @@ import { playback } from "./playback.js";
 
 const hit_path = "M-5 -5L5 5M-5 5L5 -5";
 export const mark_art = {
+  __proto__: null,
   start: g => shape("circle", { r: 8, class: "mark-start" }, g),
   end: g => shape("rect", { x: -5, y: -5, width: 10, height: 10, class: "mark-end" }, g),
   bump: g => shape("circle", { r: 6, class: "mark-hit" }, g),

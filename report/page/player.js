@@ -19,7 +19,7 @@ function draw_everything() {
   draw_lanes();
   show();
 }
-/** Shows a run from its start; one that `goes_on` from the moment shown. */
+/** Shows a run as it ended; one that `goes_on` from the moment shown. */
 function load(run, run_before = null, goes_on = false) {
   const continued = playback.live;
   take(run, run_before);
@@ -27,7 +27,7 @@ function load(run, run_before = null, goes_on = false) {
   if (!continued) {
     set_playing(false);
     Object.assign(view, { zoom: 1, x: 0, y: 0 });
-    playback.now = 0;
+    playback.now = goes_on ? 0 : playback.end; // the whole path, and where it led
     forget_events();
   }
   slider.max = playback.end;
@@ -47,12 +47,15 @@ function load(run, run_before = null, goes_on = false) {
   playback.now = clamp(playback.now, 0, playback.end);
   draw_everything();
 }
-/** The moment that the address asks for: `#t=3.2`, in seconds; nothing where it asks for none. */
+/** The moment that the address asks for: `#t=3.2`, in seconds; null where it asks for none. */
 function asked_time() {
-  const asked = /^#t=([0-9.]+)$/.exec(location.hash);
+  const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);
   return asked && playback.main ? clamp(Number(asked[1]) * 1e6, 0, playback.end) : null;
 }
-const seek_asked = () => { if (asked_time() !== null) seek(asked_time()); };
+function seek_asked() {
+  const asked = asked_time();
+  if (asked !== null) seek(asked);
+}
 window.addEventListener("hashchange", seek_asked);
 
 let pending = 0;

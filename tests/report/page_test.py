@@ -266,6 +266,37 @@ class Report(unittest.TestCase):
         page.evaluate("(file => { file.value = 1; file.dispatchEvent(new Event('change')); })(document.getElementById('file'))")
         self.assertIn("rgb 255 160 0", page.evaluate("document.querySelector('#source .current').textContent"))
 
+    def test_a_report_opens_on_the_whole_run_and_its_program(self):
+        subprocess.run([orb, "new", "robot", "--structured"], cwd=self.folder.name, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        starter = lambda name: os.path.join(self.folder.name, "robot", name)
+        run = Run(self.folder.name, "starter", starter("robot.orb"), "--stimulus", starter("world.stimulus"))
+        page = self.open(run)
+        self.assertEqual(page.evaluate(now), page.evaluate("Number(document.getElementById('time').max)"))
+        self.assertGreater(page.evaluate("document.querySelectorAll('#map .run').length"), 4)
+        self.assertEqual(page.evaluate("document.querySelectorAll('#map [visibility=hidden]').length"), 0)
+        self.assertEqual(page.evaluate("document.getElementById('file').selectedOptions[0].textContent"), "robot.orb")
+        self.assertEqual(page.evaluate("document.querySelector('#source .current').lastChild.textContent"), "macrun wink")
+        lines = page.evaluate("document.querySelectorAll('#source tr').length")
+        self.assertEqual(page.evaluate(reading("line")), str(lines))
+        self.assertTrue(page.evaluate("""(() => {
+          const row = document.querySelector('#source .current').getBoundingClientRect(), pane = document.getElementById('source-scroll').getBoundingClientRect();
+          return row.top >= pane.top && row.bottom <= pane.bottom;
+        })()"""))
+        # Whoever plays it sees it from the start.
+        page.evaluate("document.getElementById('play').click()")
+        page.wait(f"{now} > 0 && {now} < 2000000")
+        page.evaluate("document.getElementById('play').click()")
+
+    def test_only_what_a_macro_does_counts_as_run(self):
+        run = Run(self.folder.name, "comment", self.file("comment.macro", "; not a command\nrgb 0 255 0\ndelay 200\n"))
+        page = self.open(run)
+        self.assertEqual(page.evaluate("[...document.querySelectorAll('#source .ran')].map(one => Number(one.dataset.count))"), [0, 1, 1])
+        self.assertNotIn("0 lines", page.evaluate("document.body.textContent"))
+
+    def test_what_the_totals_say_is_said_once(self):
+        page = self.open(self.dance)
+        self.assertEqual(page.evaluate("document.getElementById('outcome').textContent"), "ended")
+
     def test_a_watched_page_loads_itself_again(self):
         program = self.file("watched.bas", "10 print \"before\"\n")
         page_path = os.path.join(self.folder.name, "watched.html")
@@ -381,6 +412,17 @@ class Report(unittest.TestCase):
         for t in ("3.2", "1"):
             page.evaluate(f"location.hash = '#t={t}'")
             page.wait(f"{now} === {round(float(t) * 1e6)}")
+
+    def test_a_moment_that_is_none_is_left_alone(self):
+        page = self.open(self.dance)
+        page.evaluate(f"{seek}(1000000)")
+        for address in ("1.2.3", ".", "1e9999", "-1", "1.", ""):
+            page.evaluate(f"location.hash = '#t={address}'; new Promise(done => setTimeout(done, 30))")
+            self.assertEqual(page.evaluate(now), 1_000_000, address)
+            self.assertRegex(page.evaluate("document.getElementById('clock').textContent"), "^[0-9.]+$")
+        page.open(self.dance.page_path + "#t=1.2.3")
+        page.wait("document.getElementById('ball') !== null")
+        self.assertNotIn("NaN", page.evaluate("document.documentElement.outerHTML"))
 
     def test_titles_on_a_phone_break_between_words(self):
         program = self.file("my-first-very-long_program.of-a-pupil.bas", "10 end\n")
