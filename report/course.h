@@ -50,6 +50,8 @@ struct Course {
   std::string name; ///< of the file, without folders and ending
   std::vector<vm::Wall> walls;
   std::vector<Zone> zones;
+  /// Where the start faces in the drawing, whose y is upwards here; of length 1.
+  vm::Point ahead{0, 1};
 
   /// The zone of that id, or null.
   const Zone* zone(std::string_view id) const;

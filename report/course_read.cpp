@@ -641,6 +641,7 @@ private:
       return Point{rounded(way.x * ahead.y - way.y * ahead.x),
                    rounded(way.x * ahead.x + way.y * ahead.y)};
     };
+    out_.course.ahead = {rounded(ahead.x), rounded(ahead.y)};
     bool narrow = false;
     for (const auto& piece : pieces_) {
       const auto wall = vm::Wall::between(moved(piece.from), moved(piece.to));

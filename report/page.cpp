@@ -290,6 +290,7 @@ ordered_json course(const Course& course) {
   }
   const auto box = course.box();
   return {{"name", to_valid_utf8(course.name)},
+          {"ahead", {course.ahead.x, course.ahead.y}},
           {"low", place(box.low)},
           {"high", place(box.high)},
           {"zones", std::move(zones)}};

@@ -94,7 +94,6 @@ export function draw_lanes() {
 }
 function show_lanes(state) {
   const share = `${playback.now / playback.end * 100}%`;
-  led_playhead.style.left = share;
   for (const lane of lanes) {
     lane.playhead.style.left = share;
     lane.series.forEach((one, k) => {
@@ -105,27 +104,20 @@ function show_lanes(state) {
   }
 }
 watch(show_lanes);
-function add_thin_lane(name, id) {
+function add_axis() {
   const row = element("div", { class: "lane thin" });
   const words = element("div", { class: "lane-words" });
-  words.append(element("b", {}, name));
-  const plot = element("div", { class: "lane-plot", id, "aria-hidden": "true" });
+  words.append(element("b", {}, "Time"));
+  const plot = element("div", { class: "lane-plot", id: "axis", "aria-hidden": "true" });
   row.append(words, plot);
   $("lanes").append(row);
   plot.addEventListener("pointerdown", event => scrub(event, plot));
-  return plot;
 }
-let led_playhead;
 export function list_lanes() {
   const { run, pose, backled } = playback.main;
   lanes = [];
   $("lanes").replaceChildren();
-  add_thin_lane("Time", "axis");
-  const led_plot = add_thin_lane("LED", "led-lane");
-  const led_art = shape("svg", { preserveAspectRatio: "none" }, led_plot);
-  led_playhead = element("div", { class: "playhead" });
-  led_plot.append(led_playhead);
-  draw_colors(led_art);
+  add_axis();
   add_lane({ id: "speed", name: "Speed", unit: "cm/s", low: 0, between: state => state.speed, other: playback.before && { t: playback.before.pose.t, v: playback.before.pose.speed }, series: [{ name: "speed", t: pose.t, v: pose.speed, digits: 1 }] });
   add_lane({ id: "heading", name: "Heading", unit: "°", low: 0, high: 360, cyclic: 360, between: state => state.heading, other: playback.before && { t: playback.before.pose.t, v: playback.before.pose.heading }, series: [{ name: "heading", t: pose.t, v: pose.heading, digits: 1 }] });
   if (backled.t.length)
@@ -137,9 +129,9 @@ export function list_lanes() {
   }
 }
 
-/** The colours over time: in the slider, and above the other values. */
-function draw_colors(art) {
-  const width = 1000, { led } = playback.main;
+/** What lies under the slider: the colours over time, and where it hurt. */
+export function draw_track() {
+  const art = $("track"), width = 1000, { led, run } = playback.main;
   art.replaceChildren();
   art.setAttribute("viewBox", `0 0 ${width} 10`);
   const x = t => clamp(t / playback.end * width, 0, width);
@@ -148,12 +140,8 @@ function draw_colors(art) {
     const until = i + 1 < led.t.length ? led.t[i + 1] : playback.end;
     shape("rect", { x: x(t).toFixed(2), y: 0, width: Math.max(x(until) - x(t), .25).toFixed(2), height: 10, fill: css_color(led.rgb[i]), "shape-rendering": "crispEdges" }, art);
   });
-}
-/** What lies under the slider: the colours, and where it hurt. */
-export function draw_track() {
-  draw_colors($("track"));
-  for (const event of playback.main.run.events)
+  for (const event of run.events)
     if (event.kind === "bump" || event.kind === "error")
       for (const look of ["tick below", "tick"])
-        shape("path", { d: `M${(event.t / playback.end * 1000).toFixed(2)} 0V10`, class: look, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, $("track"));
+        shape("path", { d: `M${x(event.t).toFixed(2)} 0V10`, class: look, "data-tick": event.kind, "vector-effect": "non-scaling-stroke" }, art);
 }

@@ -1,7 +1,7 @@
 // The maps: of the run, and of the one before it.
 
 import { $, clamp, css_color, length_words, position_words, shape, speed_words } from "./dom.js";
-import { area, grid_step, make_chart, measure, view } from "./map_chart.js";
+import { area, grid_step, is_turned, look_at, make_chart, measure, survey, turned_by, view } from "./map_chart.js";
 import { draw_grid, draw_paper_scale, draw_walls, draw_zones } from "./map_ground.js";
 import { draw_marks } from "./map_marks.js";
 import { draw_ball, draw_path, draw_progress } from "./map_path.js";
@@ -16,25 +16,28 @@ function make_map(map) {
     map.setAttribute("viewBox", `0 0 ${chart.width} ${chart.height}`);
     const grid = shape("g", {}, map);
     const floor = shape("g", {}, map); // zones lie on the grid
-    draw_zones(chart, floor);
+    const words = shape("g", {}, map);
+    const kept_clear = draw_zones(chart, floor, words);
     draw_walls(chart, shape("g", {}, map));
     draw_grid(chart, grid, shape("g", {}, map));
     draw_path(chart);
-    draw_marks(chart, shape("g", {}, map));
+    map.append(words); // names of zones lie on the path
+    draw_marks(chart, shape("g", {}, map), kept_clear);
     draw_paper_scale(chart, shape("g", { class: "paper-scale" }, map));
     layers = draw_ball(chart, map);
   }
   /** Following moves the map only when the ball comes near its edge. */
   function leaves_view(state) {
-    const x = chart.px(state.x) / chart.width, y = chart.py(state.y) / chart.height;
+    const there = chart.at(state.x, state.y), x = there.x / chart.width, y = there.y / chart.height;
     return x < .2 || x > .8 || y < .2 || y > .8;
   }
   function show_ball(state) {
     const lamp = chart.one.lamp_at(playback.now), lamp_color = lamp ? css_color(lamp) : "transparent";
     if (view.follow && leaves_view(state)) draw();
     draw_progress(chart, state);
-    layers.ball.setAttribute("transform", `translate(${chart.px(state.x).toFixed(2)} ${chart.py(state.y).toFixed(2)})`);
-    layers.nose.setAttribute("transform", `rotate(${state.heading.toFixed(1)})`);
+    const there = chart.at(state.x, state.y);
+    layers.ball.setAttribute("transform", `translate(${there.x.toFixed(2)} ${there.y.toFixed(2)})`);
+    layers.nose.setAttribute("transform", `rotate(${(state.heading + turned_by()).toFixed(1)})`);
     layers.lamp.setAttribute("fill", lamp_color);
     layers.tail.setAttribute("opacity", (chart.one.tail_at(playback.now) / 255).toFixed(3));
     layers.halo.setAttribute("opacity", lamp ? 1 : 0);
@@ -63,6 +66,7 @@ function make_map(map) {
 const all_maps = [make_map($("map")), make_map($("map-before"))]; // the run's comes first
 let maps = [];
 export function list_maps() {
+  $("as-drawn").hidden = !is_turned();
   maps = all_maps.slice(0, playback.runs.length);
   $("map").parentElement.hidden = false;
   $("map-before").parentElement.hidden = !playback.before;
@@ -105,14 +109,18 @@ export function fit() {
 }
 export function toggle_follow() {
   view.follow = !view.follow;
-  if (!view.follow) {
-    const state = playback.main.state_at(playback.now);
-    view.x = state.x - area.box.middle_x;
-    view.y = state.y - area.box.middle_y;
-  }
+  if (!view.follow) look_at(playback.main.state_at(playback.now));
   $("follow").setAttribute("aria-pressed", String(view.follow));
   redraw();
 }
+/** A course stands as it was drawn, or as the ball sees it at its start. */
+function toggle_drawn() {
+  view.as_drawn = !view.as_drawn;
+  $("as-drawn").setAttribute("aria-pressed", String(view.as_drawn));
+  survey();
+  fit();
+}
+$("as-drawn").addEventListener("click", toggle_drawn);
 $("zoom-in").addEventListener("click", () => zoom_by(1.5));
 $("zoom-out").addEventListener("click", () => zoom_by(1 / 1.5));
 $("zoom-fit").addEventListener("click", fit);

@@ -2,19 +2,40 @@
 
 import { playback } from "./playback.js";
 
-export const view = { zoom: 1, x: 0, y: 0, follow: false };
+export const view = { zoom: 1, x: 0, y: 0, follow: false, as_drawn: true };
+/** What the maps hold: its corners, whether the ball moved, whether there is anything to measure by, and where
+ *  the drawing of the course puts what is ahead of the ball at its start. */
+export const area = { box: null, moved: false, mapped: false, ahead: [0, 1] };
+const upright = [0, 1];
+/** Whether the drawing of the course stands otherwise than the ball sees it. */
+export const is_turned = () => area.ahead[1] < .9999;
+const ahead = () => view.as_drawn ? area.ahead : upright;
+/** Centimetres of the robot as centimetres of the map, to the right and up. */
+function place(x, y) {
+  const [right, up] = ahead();
+  return [x * up + y * right, y * up - x * right];
+}
+/** How far the map is turned, clockwise, in degrees. */
+export const turned_by = () => Math.atan2(...ahead()) * 180 / Math.PI;
+/** What the vertical and the horizontal lines of the map are called per centimetre: signs, or null where none of
+ *  the robot's axes lies along them. */
+export function axis_signs() {
+  const [right, up] = ahead();
+  return Math.max(Math.abs(right), Math.abs(up)) > .9999 ? [Math.round(up + right), Math.round(up - right)] : null;
+}
+
 const least = list => list.reduce((a, b) => Math.min(a, b), list[0] ?? 0);
 const most = list => list.reduce((a, b) => Math.max(a, b), list[0] ?? 0);
-/** What the maps hold: its corners, whether the ball moved, and whether there is anything to measure by. */
-export const area = { box: null, moved: false, mapped: false };
 export function survey() {
-  const corners = playback.runs.flatMap(one => one.run.course ? [one.run.course.low, one.run.course.high] : []);
-  const x = playback.runs.flatMap(one => one.pose.x).concat(corners.map(corner => corner[0]));
-  const y = playback.runs.flatMap(one => one.pose.y).concat(corners.map(corner => corner[1]));
+  area.ahead = playback.main.run.course?.ahead ?? upright;
+  const corners = playback.runs.flatMap(one => one.run.course ? [one.run.course] : []).flatMap(({ low, high }) => [low, high, [low[0], high[1]], [high[0], low[1]]]);
+  const poses = playback.runs.flatMap(({ pose }) => pose.x.map((x, i) => [x, pose.y[i]]));
+  const places = [...poses, ...corners].map(([x, y]) => place(x, y));
+  const x = places.map(([right]) => right), y = places.map(([, up]) => up);
   const [left, right, low, high] = [least(x), most(x), least(y), most(y)];
   area.box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
-  const spread = axis => { const list = playback.runs.flatMap(one => one.pose[axis]); return most(list) - least(list); };
-  area.moved = spread("x") > 1 || spread("y") > 1;
+  const spread = axis => { const list = poses.map(one => one[axis]); return most(list) - least(list); };
+  area.moved = spread(0) > 1 || spread(1) > 1;
   // A map has a scale where something lies on it; else it shows the ball alone.
   area.mapped = area.moved || playback.runs.some(one => one.run.course);
 }
@@ -26,15 +47,26 @@ export function grid_step(scale) {
   return [1, 2, 5, 10].find(factor => factor * power >= wanted) * power;
 }
 
-/** How the run `one` lies on an SVG element: `px`, `py` and `point` say where, in pixels. */
+/** How the run `one` lies on an SVG element: `at` and `point` say where, in pixels. */
 export function make_chart(map) {
   const chart = {
     map, one: null, width: 0, height: 0, scale: 1, left: 0, top: 0,
-    px: x => chart.left + x * chart.scale,
-    py: y => chart.top - y * chart.scale,
-    point: ([x, y]) => `${chart.px(x).toFixed(1)} ${chart.py(y).toFixed(1)}`,
+    at(x, y) {
+      const [right, up] = place(x, y);
+      return { x: chart.left + right * chart.scale, y: chart.top - up * chart.scale };
+    },
+    point([x, y]) {
+      const there = chart.at(x, y);
+      return `${there.x.toFixed(1)} ${there.y.toFixed(1)}`;
+    },
   };
   return chart;
+}
+/** Puts the middle of the view where `state` is. */
+export function look_at(state) {
+  const [right, up] = place(state.x, state.y);
+  view.x = right - area.box.middle_x;
+  view.y = up - area.box.middle_y;
 }
 /** Fits what is looked at into the element, whatever size that has now. */
 export function measure(chart) {
@@ -43,6 +75,29 @@ export function measure(chart) {
   const wide = Math.max(area.box.right - area.box.left, 20), tall = Math.max(area.box.high - area.box.low, 20);
   const fitting = Math.min((width - 96) / wide, (height - 84) / tall);
   const scale = Math.max(fitting, .02) * view.zoom;
-  const center = view.follow ? chart.one.state_at(playback.now) : { x: area.box.middle_x + view.x, y: area.box.middle_y + view.y };
-  Object.assign(chart, { width, height, scale, left: width / 2 - center.x * scale, top: height / 2 + center.y * scale });
+  const state = chart.one.state_at(playback.now);
+  const [right, up] = view.follow ? place(state.x, state.y) : [area.box.middle_x + view.x, area.box.middle_y + view.y];
+  Object.assign(chart, { width, height, scale, left: width / 2 - right * scale, top: height / 2 + up * scale });
 }
+
+const far = 1e5; // centimetres: beyond what any map shows
+/** The walls as lines in pixels; those across all of the floor are long. */
+export const wall_lines = chart => chart.one.run.walls.map(wall => {
+  const from = wall.from ?? (wall.axis === "x" ? [wall.at, -far] : [-far, wall.at]);
+  const to = wall.to ?? (wall.axis === "x" ? [wall.at, far] : [far, wall.at]);
+  const a = chart.at(...from), b = chart.at(...to);
+  return { x1: a.x, y1: a.y, x2: b.x, y2: b.y, endless: !wall.from };
+});
+/** Whether a line meets a box of pixels. */
+export function meets({ x1, y1, x2, y2 }, { left, right, high, low }) {
+  let enter = 0, leave = 1;
+  for (const [start, way, from, to] of [[x1, x2 - x1, left, right], [y1, y2 - y1, high, low]]) {
+    if (way === 0) { if (start < from || start > to) return false; continue; }
+    const a = (from - start) / way, b = (to - start) / way;
+    enter = Math.max(enter, Math.min(a, b));
+    leave = Math.min(leave, Math.max(a, b));
+  }
+  return enter <= leave;
+}
+export const grown = ({ left, right, high, low }, by) => ({ left: left - by, right: right + by, high: high - by, low: low + by });
+export const overlap = (a, b) => a.left < b.right && a.right > b.left && a.high < b.low && a.low > b.high;

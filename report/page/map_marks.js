@@ -1,8 +1,7 @@
 // Signs and words on the map, and what they mean.
 
 import { $, element, seconds, shape } from "./dom.js";
-import { area } from "./map_chart.js";
-import { wall_pixels } from "./map_ground.js";
+import { area, grown, meets, overlap } from "./map_chart.js";
 import { playback } from "./playback.js";
 
 const hit_path = "M-5 -5L5 5M-5 5L5 -5";
@@ -16,57 +15,48 @@ export const mark_art = {
   error: g => shape("path", { d: "M0 -8L8 6H-8Z", class: "mark-error" }, g),
 };
 
-const segments = chart => chart.one.run.walls.filter(wall => wall.from).map(({ from, to }) => [chart.px(from[0]), chart.py(from[1]), chart.px(to[0]), chart.py(to[1])]);
-/** Whether a line meets a rectangle. */
-function meets([x1, y1, x2, y2], left, right, high, low) {
-  let enter = 0, leave = 1;
-  for (const [start, way, least, most] of [[x1, x2 - x1, left, right], [y1, y2 - y1, high, low]]) {
-    if (way === 0) { if (start < least || start > most) return false; continue; }
-    const a = (least - start) / way, b = (most - start) / way;
-    enter = Math.max(enter, Math.min(a, b));
-    leave = Math.min(leave, Math.max(a, b));
-  }
-  return enter <= leave;
-}
 /** Where a word beside a point meets the fewest of path, walls, marks and words. */
-function free_place(chart, x, y, words, taken) {
+function free_place(chart, x, y, words, { taken, borders }) {
   const wide = 6.4 * words.length, tall = 12;
   const places = [[18, 4], [-18 - wide, 4], [16, -12], [16, 20], [-16 - wide, -12], [-16 - wide, 20], [-wide / 2, -24], [-wide / 2, 34]];
+  const { pose } = chart.one;
   const cost = ([dx, dy]) => {
-    const left = x + dx - 3, right = left + wide + 6, low = y + dy + 4, high = low - tall - 4;
-    const inside = (a, b) => a > left && a < right && b > high && b < low;
-    let sum = left < 2 || right > chart.width - 2 || high < 2 || low > chart.height - 2 ? 1e6 : 0;
-    for (let i = 0; i < chart.one.pose.t.length; ++i) if (inside(chart.px(chart.one.pose.x[i]), chart.py(chart.one.pose.y[i]))) ++sum;
-    for (const wall of wall_pixels(chart, "x")) if (wall > left - 3 && wall < right + 3) sum += 500;
-    for (const wall of wall_pixels(chart, "y")) if (wall > high - 3 && wall < low + 3) sum += 500;
-    for (const wall of segments(chart)) if (meets(wall, left, right, high, low)) sum += 500;
-    for (const one of taken) if (one.left < right && one.right > left && one.high < low && one.low > high) sum += 1000;
+    const place = { left: x + dx - 3, right: x + dx + wide + 3, high: y + dy - tall, low: y + dy + 4 };
+    let sum = place.left < 2 || place.right > chart.width - 2 || place.high < 2 || place.low > chart.height - 2 ? 1e6 : 0;
+    for (let i = 0; i < pose.t.length; ++i) {
+      const there = chart.at(pose.x[i], pose.y[i]);
+      if (there.x > place.left && there.x < place.right && there.y > place.high && there.y < place.low) ++sum;
+    }
+    for (const line of borders) if (meets(line, grown(place, 3))) sum += 500;
+    for (const one of taken) if (overlap(one, place)) sum += 1000;
     return sum;
   };
   const best = places.map(place => [cost(place), place]).reduce((a, b) => b[0] < a[0] ? b : a)[1];
   taken.push({ left: x + best[0], right: x + best[0] + wide, high: y + best[1] - tall, low: y + best[1] + 4 });
   return best;
 }
-export function draw_marks(chart, parent) {
-  const taken = [];
+/** `floor`: what is no place for a word: boxes that are taken, and borders. */
+export function draw_marks(chart, parent, floor) {
+  const { taken } = floor;
   const pin = (x, y, kind, title) => {
-    const group = shape("g", { transform: `translate(${chart.px(x).toFixed(1)} ${chart.py(y).toFixed(1)})`, "data-mark": kind }, parent);
+    const there = chart.at(x, y);
+    const group = shape("g", { transform: `translate(${chart.point([x, y])})`, "data-mark": kind }, parent);
     if (title) shape("title", {}, group).textContent = title;
     mark_art[kind](group);
-    taken.push({ left: chart.px(x) - 8, right: chart.px(x) + 8, high: chart.py(y) - 8, low: chart.py(y) + 8 });
+    taken.push({ left: there.x - 8, right: there.x + 8, high: there.y - 8, low: there.y + 8 });
     return group;
   };
   // Marks in one place share their words.
   const labels = new Map();
   for (const event of chart.one.run.events) {
     if (event.x === undefined || !event.short) continue;
-    const place = `${chart.px(event.x).toFixed(0)} ${chart.py(event.y).toFixed(0)}`;
+    const there = chart.at(event.x, event.y), place = `${there.x.toFixed(0)} ${there.y.toFixed(0)}`;
     if (!labels.has(place)) labels.set(place, { x: event.x, y: event.y, words: [] });
     labels.get(place).words.push(event.short);
   }
   const word = (x, y, words) => {
-    const [dx, dy] = free_place(chart, chart.px(x), chart.py(y), words, taken);
-    shape("text", { x: chart.px(x) + dx, y: chart.py(y) + dy, class: "mark-word" }, parent).textContent = words;
+    const there = chart.at(x, y), [dx, dy] = free_place(chart, there.x, there.y, words, floor);
+    shape("text", { x: there.x + dx, y: there.y + dy, class: "mark-word" }, parent).textContent = words;
   };
   for (const event of chart.one.run.events) {
     if (event.x === undefined || !mark_art[event.kind]) continue;

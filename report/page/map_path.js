@@ -42,7 +42,7 @@ export function draw_progress(chart, state) {
     if (wanted === stretch.state && wanted !== "open") continue;
     const cut = wanted === "open", whole = !cut && stretch.state === "open";
     const d = cut
-      ? `${line_from(chart, stretch.from, Math.min(i, stretch.to))}L${chart.px(state.x).toFixed(1)} ${chart.py(state.y).toFixed(1)}`
+      ? `${line_from(chart, stretch.from, Math.min(i, stretch.to))}L${chart.point([state.x, state.y])}`
       : stretch.d;
     for (const layer of stretch.layers) {
       if (cut || whole) layer.setAttribute("d", d);

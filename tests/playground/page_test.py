@@ -376,6 +376,17 @@ class Playground(unittest.TestCase):
         self.assertIsNone(page.evaluate("window.hacked"))
         page.complaints.clear()
 
+    def test_a_file_ends_as_a_kind_does(self):
+        page = self.open()
+        for name, fits in (("a.constructor", False), ("a.__proto__", False), ("a.orb", True)):
+            page.evaluate(click("new-file"))
+            page.evaluate(f"document.getElementById('name').value = '{name}'")
+            page.evaluate("document.querySelector('#name-form [value=ok]').click()")
+            self.assertEqual(page.evaluate("document.getElementById('name-dialog').open"), not fits, name)
+            if not fits:
+                self.assertIn("ends in", page.evaluate("document.getElementById('name-trouble').textContent"))
+                page.evaluate("document.getElementById('name-dialog').close()")
+
     def test_damaged_addresses_are_told(self):
         bomb = zlib.compressobj(9, zlib.DEFLATED, -15)
         packed = bomb.compress(b'{"files":{"a.bas":"10 end"},"x":"' + b"x" * 50_000_000 + b'"}') + bomb.flush()

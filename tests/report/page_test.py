@@ -453,7 +453,7 @@ class Report(unittest.TestCase):
                          ["goal", "island", "puddle"])
         self.assertEqual(page.evaluate("[...document.querySelectorAll('#legend [data-sign]')].map(one => one.dataset.sign)"),
                          ["start", "end", "wall", "zone"])
-        # All of it is in view, and the goal is 5 by 9 in the drawing, turned upright.
+        # All of it is in view, and the goal is 5 by 9, as it is drawn.
         boxes = page.evaluate("""(() => {
           const box = one => { const { left, right, top, bottom } = one.getBoundingClientRect(); return { left, right, top, bottom }; };
           return { map: box(document.getElementById('map')), goal: box(document.querySelector('[data-zone=goal]')),
@@ -466,7 +466,42 @@ class Report(unittest.TestCase):
             self.assertLess(wall["right"], boxes["map"]["right"])
             self.assertLess(wall["bottom"], boxes["map"]["bottom"])
         goal = boxes["goal"]
-        self.assertAlmostEqual((goal["right"] - goal["left"]) / (goal["bottom"] - goal["top"]), 9 / 5, delta=.05)
+        ratio = lambda box: (box["right"] - box["left"]) / (box["bottom"] - box["top"])
+        self.assertAlmostEqual(ratio(goal), 5 / 9, delta=.05)
+        # One button turns all of it as the ball sees it.
+        self.assertEqual(page.evaluate("document.getElementById('as-drawn').getAttribute('aria-pressed')"), "true")
+        page.evaluate("document.getElementById('as-drawn').click()")
+        turned = page.evaluate("(() => { const { left, right, top, bottom } = document.querySelector('[data-zone=goal]').getBoundingClientRect(); return { left, right, top, bottom }; })()")
+        self.assertAlmostEqual(ratio(turned), 9 / 5, delta=.05)
+
+    def test_only_a_course_that_is_drawn_otherwise_can_be_turned(self):
+        page = self.open(self.dance)
+        self.assertTrue(page.evaluate("document.getElementById('as-drawn').hidden"))
+
+    def test_names_of_zones_keep_clear_of_borders(self):
+        for name, program in (("hall", "hall.orb"), ("parking", "parking.orb")):
+            run = Run(self.folder.name, name, example(program), "--course", example(name + ".svg"))
+            for width, mobile in ((1280, False), (390, True)):
+                page = self.open(run, width, 860, mobile)
+                crossed = page.evaluate("""(() => {
+                  const found = [];
+                  for (const word of document.querySelectorAll('#map .zone-word')) {
+                    const box = word.getBBox();
+                    for (const line of document.querySelectorAll('#map .zone, #map .wall'))
+                      for (let at = 0, long = line.getTotalLength(); at <= long; at += 1) {
+                        const p = line.getPointAtLength(at);
+                        if (p.x > box.x && p.x < box.x + box.width && p.y > box.y && p.y < box.y + box.height) { found.push(word.textContent); break; }
+                      }
+                  }
+                  return found;
+                })()""")
+                self.assertEqual(crossed, [], (name, width))
+
+    def test_the_program_is_large_and_the_colours_stand_in_one_bar(self):
+        page = self.open(self.dance)
+        self.assertGreaterEqual(page.evaluate("parseFloat(getComputedStyle(document.querySelector('#source td:last-child')).fontSize)"), 15)
+        bars = page.evaluate("[...document.querySelectorAll('svg')].filter(one => one.id !== 'map' && one.querySelector('rect[fill]')).map(one => one.id)")
+        self.assertEqual(bars, ["track"])
 
     def test_a_course_prints_in_real_centimetres(self):
         drawing = example("parking.svg")
