@@ -1,6 +1,7 @@
 #include "reference/knowledge.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
+#include "structured/text/words.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,14 @@ std::string cell(std::string_view text) {
   std::string out;
   for (const char c : text)
     (out += c == '|' ? "\\" : "") += c;
+  return out;
+}
+
+/// What structured programs have besides the robot's own statements.
+std::string structured_words() {
+  std::string out = "| write | it |\n|---|---|\n";
+  for (const auto& row : structured::keywords)
+    out += fmt::format("| `{}` | {} |\n", cell(row.usage), row.summary);
   return out;
 }
 
@@ -103,12 +112,19 @@ std::string limits() {
 } // namespace
 
 std::string print_cheatsheet() {
-  std::string out =
-      "<!-- Printed by `orb spec --cheatsheet`; a test compares them. -->\n"
-      "# orbBasic on one page\n\n"
-      "A line is a number, a space and a statement; lines run in the order of the "
-      "text. `'` begins a comment. Variables are `A` to `Y`, all 0 at the start, and "
-      "`Z`, the element of the list that `Y` names. Capitals count: `RGB`, `goto`.\n\n";
+  std::string out = "<!-- Printed by `orb spec --cheatsheet`; a test compares them. -->\n"
+                    "# orbBasic on one page\n\n"
+                    "## Structured programs (`.orb`)\n\n"
+                    "A statement a line, names of your own, blocks; `'` begins a comment, `1.5s` "
+                    "and `200ms` are times. "
+                    "`goto`, `gosub`, `on` and line numbers are not needed; all other statements "
+                    "of the second table "
+                    "are the same.\n\n";
+  out += structured_words();
+  out += "\n## Numbered programs (`.bas`), and what both have\n\n"
+         "A line is a number, a space and a statement; lines run in the order of the "
+         "text. `'` begins a comment. Variables are `A` to `Y`, all 0 at the start, and "
+         "`Z`, the element of the list that `Y` names. Capitals count: `RGB`, `goto`.\n\n";
   out += statements();
   out += fmt::format("\n**In expressions:** {}\n**Between expressions after `if`:** {}\n"
                      "**To read:** {}\n**`LEDC`:** {}\n**`basflg`:** {}\n"
