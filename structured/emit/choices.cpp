@@ -211,6 +211,7 @@ private:
 
   void fold_branches() {
     named_ = tidy(code_);
+    at_ = lines_of_labels(code_);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
       if (code_.lines[i].kind == LineKind::If)
         fold(i);
@@ -233,6 +234,22 @@ private:
         code_.lines[i + 3].kind = code_.lines[i + 4].kind = LineKind::Nothing;
       }
       return;
+    }
+    // if c goto L1; s1; [goto] L2 … and elsewhere L1: s2; goto L2
+    const auto there = at_[line.label];
+    if (falls(first) && there != none && there > 0 && there + 2 < size && named_[line.label] == 1 &&
+        !falls(code_.lines[there - 1]) && falls(code_.lines[there + 1]) &&
+        fits_branch(code_.lines[there + 1]) && code_.lines[there + 2].kind == LineKind::Goto) {
+      const auto& jump = code_.lines[there + 2];
+      const bool meets =
+          is_label_there(i + 2, jump.label) ||
+          (code_.lines[i + 2].kind == LineKind::Goto && code_.lines[i + 2].label == jump.label);
+      if (meets && choose(i, add_branch(code_.lines[there + 1]), add_branch(first))) {
+        first.kind = LineKind::Nothing;
+        for (const auto gone : {there, there + 1, there + 2})
+          code_.lines[gone].kind = LineKind::Nothing;
+        return;
+      }
     }
     // if c goto L; s; L:
     if (is_label_there(i + 2, line.label)) {
@@ -319,6 +336,7 @@ private:
 
   Code& code_;
   const Program& program_;
+  std::vector<std::uint32_t> at_;    ///< of each label: its line, while branches are folded
   std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
 };
 

@@ -1,5 +1,6 @@
 #include "structured/optimise/forward.h"
 
+#include "bytecode/arithmetic.h"
 #include "spec/limits.h"
 #include "structured/optimise/flow.h"
 
@@ -34,6 +35,7 @@ public:
     for (std::uint32_t i = 0; i < size; ++i)
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
+    reuse_elements();
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i))
         copy(i);
@@ -350,9 +352,84 @@ private:
     }
   }
 
+  // ---- elements that a variable holds
+
+  struct Held {
+    std::uint32_t index; ///< a term
+    std::uint32_t variable;
+    std::uint32_t since; ///< this line
+  };
+
+  /// What an element is known to be is read from the variable that holds it.
+  void reuse_elements() {
+    std::uint32_t index = none; // what the index was set to, while that is still so
+    held_.clear();
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      auto& line = code_.lines[i];
+      if (line.kind == LineKind::Label || line.kind == LineKind::Gosub ||
+          line.kind == LineKind::OnGosub) {
+        index = none;
+        held_.clear();
+        continue;
+      }
+      const bool loads = line.kind == LineKind::Let && index != none &&
+                         code_.terms[line.term].kind == TermKind::Element;
+      const auto at = index;
+      if (loads)
+        for (const auto& held : held_)
+          if (same(code_, held.index, index)) {
+            line.term = code_.read(held.variable);
+            ++reads_[held.variable];
+            for (auto k = held.since; k < i; ++k) // it is read on
+              remove(last_reads_[k], held.variable);
+            changed_ = true;
+            break;
+          }
+      if (sets_elements(line))
+        std::erase_if(
+            held_, [&](const Held& held) { return index == none || !differ(held.index, index); });
+      each_write(code_, line, [&](std::uint32_t v) {
+        std::erase_if(held_,
+                      [&](const Held& held) { return held.variable == v || reads(held.index, v); });
+        if (v == index_variable || (index != none && reads(index, v)))
+          index = none;
+      });
+      constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
+      if (line.kind == LineKind::Let && line.variable == index_variable &&
+          (code_.terms[line.term].effects & moving) == 0 && !reads(line.term, index_variable))
+        index = line.term;
+      else if (loads && index != none && line.variable != index_variable)
+        held_.push_back({at, line.variable, i});
+      else if (line.kind == LineKind::SetElement && index != none &&
+               code_.terms[line.term].kind == TermKind::Variable &&
+               code_.terms[line.term].left != index_variable)
+        held_.push_back({at, code_.terms[line.term].left, i});
+    }
+  }
+
+  /// Whether two indices are certainly not the same: numbers, or sums that differ in their numbers.
+  bool differ(std::uint32_t a, std::uint32_t b) const {
+    const auto split = [&](std::uint32_t term) {
+      const auto& node = code_.terms[term];
+      if (node.kind == TermKind::Number)
+        return std::pair{none, node.value};
+      const bool plus = node.what == static_cast<int>(spec::Operator::Add);
+      if (node.kind == TermKind::Binary && code_.is_number(node.right) &&
+          (plus || node.what == static_cast<int>(spec::Operator::Subtract)))
+        return std::pair{node.left, plus ? code_.terms[node.right].value
+                                         : bytecode::subtract(0, code_.terms[node.right].value)};
+      return std::pair{term, 0};
+    };
+    const auto [base, added] = split(a);
+    const auto [other, value] = split(b);
+    const bool alike = base == none || other == none ? base == other : same(code_, base, other);
+    return alike && added != value;
+  }
+
   Code& code_;
   Flow flow_;
   Liveness liveness_;
+  std::vector<Held> held_;
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
   bool changed_ = false;

@@ -58,7 +58,7 @@ Range Ranges::range_of(std::uint32_t term, const State& state) const {
   switch (node.kind) {
   case TermKind::Number: return Range::only(node.value);
   case TermKind::Variable: return state[node.left];
-  case TermKind::Element: return {};
+  case TermKind::Element: return elements_;
   case TermKind::System: {
     const auto& row = spec::variables[node.what];
     return {row.least, row.greatest};
@@ -145,6 +145,12 @@ bool Ranges::follow() {
   find_tracked();
   find_landmarks();
   find_data();
+  for (std::uint32_t b = 0; b < blocks; ++b)
+    for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i)
+      if ((effects_of(code_, code_.lines[i]) & effect::elements) != 0) {
+        element_readers_.push_back(b);
+        break;
+      }
   reached_.assign(blocks, false);
   visits_.assign(blocks, 0);
   waiting_.assign((blocks + 63) / 64, 0);
@@ -225,7 +231,23 @@ bool Ranges::step(std::uint32_t b, const CodeLine& line, State& state) {
   return true;
 }
 
+/// An element of some array gets a value of a range: those who read one look again.
+void Ranges::set_element(Range range) {
+  constexpr std::uint32_t patience = 4;
+  auto joined = compiler::join(elements_, range);
+  if (!following_ || joined == elements_)
+    return;
+  elements_ = ++growths_ > 4 * patience ? Range{}
+              : growths_ > patience     ? widen(elements_, joined)
+                                        : joined;
+  for (const auto b : element_readers_)
+    if (reached_[b])
+      wait(b);
+}
+
 void Ranges::set(const CodeLine& line, State& state) {
+  if (line.kind == LineKind::SetElement)
+    set_element(range_of(line.term, state));
   if (line.kind == LineKind::Let) {
     state[line.variable] = range_of(line.term, state);
   } else if (line.kind == LineKind::For) {
@@ -239,6 +261,8 @@ void Ranges::set(const CodeLine& line, State& state) {
     for (auto i = line.parts_begin; i < line.parts_end; ++i)
       if (code_.parts[i].kind == PartKind::Variable)
         state[code_.parts[i].value] = line.robot == spec::Statement::Read ? data_ : Range{};
+      else if (code_.parts[i].kind == PartKind::Element)
+        set_element(line.robot == spec::Statement::Read ? data_ : Range{});
   }
 }
 

@@ -76,6 +76,7 @@ private:
   void wait(std::uint32_t b);
   void visit(std::uint32_t b);
 
+  void set_element(compiler::Range range);
   bool step(std::uint32_t b, const CodeLine& line, State& state);
   void set(const CodeLine& line, State& state);
   bool call(const CodeLine& line, State& state, std::uint32_t from);
@@ -104,6 +105,9 @@ private:
   std::vector<Returned> returns_;
   std::vector<std::int32_t> landmarks_;
   compiler::Range data_;
+  compiler::Range elements_ = compiler::Range::only(0); ///< of all arrays
+  std::vector<std::uint32_t> element_readers_;          ///< blocks
+  std::uint32_t growths_ = 0;                           ///< of `elements_`
 };
 
 } // namespace orb::structured

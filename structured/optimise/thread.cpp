@@ -87,6 +87,7 @@ private:
   void look(std::uint32_t from, std::uint32_t to, std::uint32_t* label, State* state) {
     if (to == none)
       return;
+    below_ = label != nullptr ? from + 1 : none;
     const auto end = state == nullptr || !leads_on(to) ? to : follow(to, *state);
     if (end == to)
       ++undecided_[to];
@@ -108,6 +109,8 @@ private:
           b != none && std::none_of(set.begin(), set.end(),
                                     [&](std::uint32_t v) { return contains(liveness_.in[b], v); }))
         best = b;
+      if (best != none && best == below_)
+        return best; // no jump at all is better than one
       const auto& line = code_.lines[i];
       if (line.kind == LineKind::Label || line.kind == LineKind::Nothing)
         continue;
@@ -193,6 +196,7 @@ private:
   std::vector<std::uint32_t> undecided_; ///< of each block: ways to it that nothing is known of
   std::vector<Way> ways_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< of blocks: to be added
+  std::uint32_t below_ = none; ///< the block below the jump that is looked at
   int steps_ = 0;
   bool changed_ = false;
 };

@@ -120,6 +120,13 @@ private:
           result = unfolded(node, left, right);
       }
       improve(result, state);
+      const auto rest = code_.terms[result];
+      const auto limit = rest.kind == TermKind::Binary ? code_.terms[rest.right] : Term{};
+      const auto range =
+          rest.kind == TermKind::Binary ? ranges_.range_of(rest.left, state) : Range{};
+      if (rest.kind == TermKind::Binary && rest.what == static_cast<int>(Operator::Remainder) &&
+          limit.kind == TermKind::Number && range.lo >= 0 && range.hi < limit.value)
+        return rest.left;
       return result;
     }
     case TermKind::Call: {
@@ -128,6 +135,9 @@ private:
       if (operand != node.left)
         result = code_.call(static_cast<spec::Function>(node.what), operand);
       improve(result, state);
+      if (node.what == static_cast<int>(spec::Function::Abs) &&
+          ranges_.range_of(operand, state).lo >= 0)
+        return operand;
       return result;
     }
     }

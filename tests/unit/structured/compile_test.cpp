@@ -124,8 +124,9 @@ TEST(Lines, ATestThatIsSafeOnlyBehindAnotherIsNotJoinedToIt) {
 
 TEST(Lines, WhatIsComputedEarlyTakesAlongWhatStandsBeforeIt) {
   // The division must come before the element, and the first sensor before the division.
-  EXPECT_EQ(lines("array a[3]\nprint (dshake & 1) + (7 / dshake) * a[rnd(3)]\n"),
-            "1 B = dshake & 1\n2 A = 7 / dshake\n3 Y = rnd 3\n4 print B + A * Z\n");
+  EXPECT_EQ(lines("array a[3]\na[1] = speed\nprint (dshake & 1) + (7 / dshake) * a[rnd(3)]\n"),
+            "1 Y = 1\n2 Z = speed\n3 B = dshake & 1\n4 A = 7 / dshake\n5 Y = rnd 3\n"
+            "6 print B + A * Z\n");
 }
 
 TEST(Lines, AChoiceThatIsKnownIsNoChoice) {
@@ -203,10 +204,10 @@ TEST(Limits, DeepParenthesesGetTemporaries) {
 
 TEST(Limits, AConstantThatIsDeeperThanItsVariableStaysAVariable) {
   // A negative number is printed in parentheses.
-  EXPECT_EQ(lines("x = -8\nprint (abs(speed & x) - 26) * 3\n"),
-            "1 X = 0-8\n2 print ((abs (speed & X)) - 26) * 3\n");
-  EXPECT_EQ(lines("x = -8\nnull = 0\nprint (abs(speed & x + null) - 26) * 3\n"),
-            "1 X = 0-8\n2 print ((abs (speed & X)) - 26) * 3\n");
+  EXPECT_EQ(lines("x = -8\nprint (abs(xpos & x) - 26) * 3\n"),
+            "1 X = 0-8\n2 print ((abs (xpos & X)) - 26) * 3\n");
+  EXPECT_EQ(lines("x = -8\nnull = 0\nprint (abs(xpos & x + null) - 26) * 3\n"),
+            "1 X = 0-8\n2 print ((abs (xpos & X)) - 26) * 3\n");
 }
 
 TEST(Limits, AConstantWhoseFoldingIsTooDeepStandsAsItIs) {
