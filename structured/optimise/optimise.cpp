@@ -7,6 +7,7 @@
 #include "structured/optimise/switches.h"
 #include "structured/optimise/tails.h"
 #include "structured/optimise/values.h"
+#include "structured/optimise/webs.h"
 
 namespace orb::structured {
 namespace {
@@ -36,7 +37,8 @@ void optimise(Code& code) {
   bool changed = true;
   for (int round = 0; round < most_rounds && changed; ++round) {
     clean_jumps(code);
-    changed = forward_values(code);
+    changed = split_variables(code);
+    changed = forward_values(code) || changed;
     changed = merge_tails(code, itself) || changed;
     changed = inline_calls(code) || changed;
     changed = straighten(code) || changed;
