@@ -5,6 +5,7 @@
 #include "cli/target.h"
 #include "compiler/check.h"
 #include "compiler/text/image.h"
+#include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
 #include "disk/disk.h"
 #include "run/line_map.h"
@@ -101,9 +102,20 @@ void build_structured(Context& context, const Options& options, const Source& so
                     : options.native  ? run::listing(program.image, run::Listed::MachineCode)
                     : options.listing ? structured::listing(*program.compiled, program.image)
                                       : program.image.bytes;
-  if (write(context, options.out, text))
-    print_note(context, fmt::format("{} of {} bytes ({})", program.image.bytes.size(),
-                                    compiler::area_bytes(target), options.target.area));
+  if (!write(context, options.out, text))
+    return;
+  const auto room = static_cast<std::size_t>(compiler::area_bytes(target));
+  print_note(context, fmt::format("{} of {} bytes ({})", program.image.bytes.size(), room,
+                                  options.target.area));
+  if (!options.readable)
+    return;
+  // Numbers by tens are longer than those that count by one, and its packed image with them.
+  const auto packed =
+      compiler::build_image(compiler::parse(text), compiler::Packing::Packed).bytes.size();
+  if (packed > room)
+    print_note(context, fmt::format("the readable text takes {} bytes, {} more than the {} area "
+                                    "has; upload {} itself",
+                                    packed, packed - room, options.target.area, source.name()));
 }
 
 void build(Context& context, const Options& options) {

@@ -32,6 +32,8 @@ public:
                      [](const Diagnostic& one) { return one.rule == &rules::UnclosedBlock; }))
       check_recursion(); // a sub without an end holds the calls below it
     check_unused();
+    if (!any_error(program_.diagnostics))
+      check_loops();
   }
 
 private:
@@ -570,6 +572,77 @@ private:
     const auto& symbol = names_.symbols[names_.routines[callee].symbol];
     report(rules::Recursion, symbol.span, fmt::format("{}`{}`", circle, name_of(callee)),
            "use a loop");
+  }
+
+  // ---- loops
+
+  void check_loops() {
+    for (const auto i : program_.order) {
+      if (at(i).kind == Kind::Loop)
+        check_endless(i);
+      if (at(i).kind == Kind::For)
+        check_counter(i);
+    }
+  }
+
+  /// What stands after a loop that nothing leaves.
+  void check_endless(std::uint32_t i) {
+    const auto end = at(i).next;
+    std::uint32_t loops = 0;
+    for (auto n = i + 1; n < end; ++n) {
+      const auto kind = at(n).kind;
+      if (kind == Kind::Goto || (kind == Kind::Exit && loops == 0))
+        return;
+      loops += is_loop(kind) ? 1 : 0;
+      loops -= at(n).opener != none && is_loop(at(at(n).opener).kind) ? 1 : 0;
+    }
+    const auto after = end + 1;
+    if (after >= program_.statements.size() || names_.routine_of[after] != names_.routine_of[i] ||
+        at(after).depth != at(i).depth || at(after).kind == Kind::Label ||
+        declares(at(after).kind) || parts_block(at(after).kind) || closes_block(at(after).kind))
+      return;
+    report(compiler::rules::UnreachableLine, at(after).span,
+           "this never runs: nothing leaves the loop above",
+           "leave the loop with `exit`, as in `if speed = 0 then exit`");
+  }
+
+  /// A loop whose counter is an index in each turn, and not always that of an element.
+  void check_counter(std::uint32_t i) {
+    const auto& loop = at(i);
+    const auto counter = names_.of_node[item(loop, 0).value];
+    const auto first = value_of(item(loop, 1));
+    const auto last = value_of(item(loop, 2));
+    if (counter == none || !first || !last || size(loop) > 3 || first->value > last->value)
+      return;
+    for (auto n = i + 1; n < loop.next; ++n) {
+      const auto& statement = at(n);
+      if (statement.kind == Kind::Exit || statement.kind == Kind::Continue ||
+          statement.kind == Kind::Goto || statement.kind == Kind::Return)
+        return;
+      if (statement.depth != loop.depth + 1)
+        continue;
+      for (const auto& part : program_.items_of(statement)) {
+        if (part.kind != ItemKind::Expression && part.kind != ItemKind::Place &&
+            part.kind != ItemKind::Character)
+          continue;
+        for (auto node = program_.nodes[part.value].first + 1; node <= part.value; ++node) {
+          if (program_.nodes[node].kind != NodeKind::Element || names_.of_node[node] == none ||
+              program_.nodes[node - 1].kind != NodeKind::Name ||
+              names_.of_node[node - 1] != counter)
+            continue;
+          const auto& array = names_.symbols[names_.of_node[node]];
+          const bool never = last->value < 1 || first->value > array.value; // an error elsewhere
+          if (never || (first->value >= 1 && last->value <= array.value))
+            continue;
+          const auto name = program_.name(names_.symbols[counter].name);
+          report(compiler::rules::LoopLeavesRange, program_.nodes[node - 1].span,
+                 fmt::format("`{}` counts from {} to {}, and `{}` has the elements 1 to {}", name,
+                             first->value, last->value, program_.name(array.name), array.value),
+                 fmt::format("write `for {} = 1 to {}`", name, array.value));
+          return;
+        }
+      }
+    }
   }
 
   // ---- unused names

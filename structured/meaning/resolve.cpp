@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <set>
 
 namespace orb::structured {
 namespace {
@@ -392,20 +393,26 @@ private:
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, "a loop counts in a variable, not in an element");
     }
-    // A loop counts in its variable; of a sensor that clears it is the reading that counts.
+    // A loop counts in its variable; of what changes by being read it is the reading that counts.
     if (statement.kind == Kind::For || (statement.kind == Kind::Assign && clears(statement)))
       symbol.read = true;
   }
 
-  /// Whether a statement reads what reading clears.
+  /// Whether a statement does something besides giving a value, and so must stay.
   bool clears(const Statement& statement) const {
     for (const auto& item : program_.items_of(statement))
       if (item.kind == ItemKind::Expression)
         for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
-          if (program_.nodes[n].kind == NodeKind::System &&
-              spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
+          if (clears(program_.nodes[n]))
             return true;
     return false;
+  }
+  static bool clears(const Node& node) {
+    if (node.kind == NodeKind::Builtin)
+      return static_cast<spec::Function>(node.what) == spec::Function::Rnd;
+    return node.kind == NodeKind::Call || // a function may do anything
+           (node.kind == NodeKind::System &&
+            spec::variables[node.what].access == spec::Access::ReadClears);
   }
 
   void look_up_value(std::uint32_t n, std::uint32_t statement) {
@@ -493,6 +500,8 @@ private:
   void report_unknown(const Node& node, bool needs_declaration) {
     if (broken_ && !needs_declaration)
       return; // a line that does not parse may assign it
+    if (const auto name = static_cast<std::uint32_t>(node.value); !said_.insert(name).second)
+      return; // said where it stands first
     const Span span{node.span.begin,
                     node.span.begin +
                         static_cast<std::uint32_t>(
@@ -561,6 +570,7 @@ private:
 
   Program& program_;
   Names names_;
+  std::set<std::uint32_t> said_;      ///< names that have been reported
   std::vector<std::uint32_t> shared_; ///< of each name: the symbol of the whole program, or none
   std::vector<std::uint32_t> own_;    ///< of each name: the local or parameter of this routine
   std::vector<std::uint32_t> scope_;  ///< the symbols in `own_`

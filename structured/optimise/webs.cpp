@@ -56,6 +56,7 @@ private:
     auto fresh = values_;
     now_.assign(candidate_.size(), none);
     std::vector<std::uint32_t> set;
+    std::vector<std::uint32_t> counters(code_.labels, none); // of each loop's label: a value
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
       const auto& block = flow_.blocks[b];
       auto value = begins_[b];
@@ -65,10 +66,19 @@ private:
         set.clear();
         if (line.kind != LineKind::Next) // it adds to the value that it reads
           each_write(code_, line, [&](std::uint32_t v) { set.push_back(v); });
+        const bool counts = line.kind == LineKind::For || line.kind == LineKind::Next;
+        const auto counter = line.variable;
         next_ = fresh;
         visit(i);
         for (const auto v : set)
           now_[v] = fresh++;
+        if (!counts)
+          continue;
+        // The robot wants the same variable in `for` and `next`, whatever is set in between.
+        auto& tied = counters[line.label];
+        if (tied != none && candidate_[counter])
+          meet(now_[counter], tied);
+        tied = now_[counter];
       }
       for (const auto next : flow_.successors_of(block)) {
         auto other = begins_[next];

@@ -202,6 +202,12 @@ TEST(Limits, DeepParenthesesGetTemporaries) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
 }
 
+TEST(Lines, ALoopWhoseCounterIsSetInItCountsInOneVariable) {
+  const auto text = lines("y = 0\nfor y = 0 to y\n  y = y\nnext y\nprint y\n");
+  EXPECT_NE(text.find("for Y"), std::string::npos) << text;
+  EXPECT_NE(text.find("next Y"), std::string::npos) << text;
+}
+
 TEST(Limits, AConstantThatIsDeeperThanItsVariableStaysAVariable) {
   // A negative number is printed in parentheses.
   EXPECT_EQ(lines("x = -8\nprint (abs(xpos & x) - 26) * 3\n"),
