@@ -1,9 +1,11 @@
 #include "assembler/lint.h"
 
+#include "assembler/parse.h"
 #include "assembler/rules.h"
 #include "assembler/timing.h"
 #include "assembler/walk.h"
 #include "base/silence.h"
+#include "repair/repair.h"
 #include "spec/api.h"
 
 #include <algorithm>
@@ -448,6 +450,37 @@ std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
   return found;
 }
 
+namespace {
+
+std::vector<std::string_view> all_words() {
+  std::vector<std::string_view> words{".macro", ".const", ".raw", ".noend", "on", "off", "id", "flags",
+                                      "delay", "time", "speed", "heading", "angle"};
+  for (const auto& row : spec::macro_commands)
+    words.push_back(row.mnemonic);
+  return words;
+}
+
+/// The line to write, for each error; what other files define stays defined.
+void offer_lines(const Source& source, const Ids& known, const LintOptions& options,
+                 std::vector<Diagnostic>& findings) {
+  repair::Judge judge;
+  judge.language = repair::Language::Macro;
+  judge.words = all_words();
+  judge.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
+  judge.check = [&](std::string_view text) {
+    const Source changed(source.name(), std::string(text));
+    const auto assembly = assemble(changed);
+    auto found = assembly.diagnostics;
+    auto more = Linter(assembly, options, known | ids_of(assembly)).run();
+    silence(changed, more);
+    found.insert(found.end(), more.begin(), more.end());
+    return found;
+  };
+  repair::offer_lines(source.text(), judge, findings);
+}
+
+} // namespace
+
 std::vector<FileFindings> check(std::span<const Source* const> sources,
                                 const LintOptions& options) {
   std::vector<Assembly> assemblies;
@@ -465,6 +498,8 @@ std::vector<FileFindings> check(std::span<const Source* const> sources,
     silence(*sources[i], found);
     file.diagnostics.insert(file.diagnostics.end(), std::make_move_iterator(found.begin()),
                             std::make_move_iterator(found.end()));
+    if (any_error(file.diagnostics))
+      offer_lines(*sources[i], known, options, file.diagnostics);
     if (assemblies[i].has_errors())
       continue;
     std::size_t size = 0;

@@ -1,7 +1,7 @@
 # The C++ package: what `find_package(orb)` and `pkg-config orb` find after `cmake --install`
 # (docs/library.md). The rooms below the console, with their headers under include/orb/.
 
-set(library_rooms base spec protocol bytecode compiler assembler structured vm uploader report run)
+set(library_rooms base spec protocol bytecode repair compiler assembler structured vm uploader report run)
 
 # The headers that others may build on. What they include is installed beside them; nothing else is.
 set(library_headers

@@ -4,6 +4,8 @@
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
+#include "repair/repair.h"
+#include "spec/basic.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -30,6 +32,28 @@ bool is_binary(std::string_view text) {
 bool holds_program(const Program& program) {
   return std::any_of(program.lines.begin(), program.lines.end(),
                      [](const Line& line) { return line.has_number() || line.has_statement(); });
+}
+
+/// The words of the language; `roll` the sensor and `goroll` are two of them.
+std::vector<std::string_view> all_words() {
+  std::vector<std::string_view> words{"then", "else", "and", "or", "to", "step"};
+  for (const auto& row : spec::statements)
+    words.push_back(row.word);
+  for (const auto& row : spec::functions)
+    words.push_back(row.word);
+  for (const auto& row : spec::variables)
+    if (row.word.size() > 1)
+      words.push_back(row.word);
+  return words;
+}
+
+void offer_lines(const Program& program, const Target& target, std::vector<Diagnostic>& findings) {
+  repair::Judge judge;
+  judge.language = repair::Language::Basic;
+  judge.words = all_words();
+  judge.parses = [](std::string_view line) { return parse(line).faults.empty(); };
+  judge.check = [&target](std::string_view text) { return lint(parse(text), target); };
+  repair::offer_lines(program.text, judge, findings);
 }
 
 } // namespace
@@ -61,6 +85,8 @@ Checked check(std::string_view text, const Target& target) {
     return checked;
   }
   checked.diagnostics = lint(checked.program, target);
+  if (any_error(checked.diagnostics))
+    offer_lines(checked.program, target, checked.diagnostics);
   checked.image_bytes = image_size(checked.program);
   return checked;
 }

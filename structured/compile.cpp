@@ -2,6 +2,7 @@
 
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
+#include "repair/repair.h"
 #include "spec/limits.h"
 #include "structured/emit/choices.h"
 #include "structured/emit/relay.h"
@@ -10,6 +11,7 @@
 #include "structured/meaning/check.h"
 #include "structured/optimise/optimise.h"
 #include "structured/text/blocks.h"
+#include "structured/text/parse.h"
 #include "structured/text/read.h"
 #include "structured/text/rules.h"
 #include "structured/text/silence.h"
@@ -232,6 +234,60 @@ void compile(Compiled& compiled, const compiler::Target& target,
   relay_findings(compiled, target);
 }
 
+std::vector<std::string_view> all_words() {
+  std::vector<std::string_view> words(keyword_words.begin(), keyword_words.end());
+  const auto colours = colour_names();
+  words.insert(words.end(), colours.begin(), colours.end());
+  for (const auto& row : spec::statements)
+    words.push_back(row.word);
+  for (const auto& row : spec::functions)
+    words.push_back(row.word);
+  for (const auto& row : spec::variables)
+    if (row.word.size() > 1)
+      words.push_back(row.word);
+  return words;
+}
+
+/// The findings about the main file as far as names and values go, its spans counted from its begin.
+std::vector<Diagnostic> front(const std::string& name, const std::string& path,
+                              std::string_view text, const compiler::Target& target, Files& files) {
+  auto program = read(name, path, text, files);
+  const auto names = resolve(program);
+  check(program, names, target);
+  silence(program);
+  return std::move(findings_by_file(program).front());
+}
+
+bool parses(std::string_view line) {
+  Program program;
+  parse(program, {}, {}, line);
+  return std::none_of(program.diagnostics.begin(), program.diagnostics.end(), [](const auto& d) {
+    return is_error(d) && d.rule != &rules::UnclosedBlock && d.rule != &rules::BlockEnd &&
+           d.rule != &rules::MisplacedStatement;
+  });
+}
+
+/// The line to write, for each error of the main file.
+void offer_lines(Compiled& compiled, std::string_view text, const compiler::Target& target, Files& files) {
+  auto& program = compiled.program;
+  const auto main = program.files.front();
+  const auto is_main = [&](const Diagnostic& d) { return &program.file_at(d.span.begin) == &program.files.front(); };
+  std::vector<Diagnostic> own;
+  for (const auto& d : program.diagnostics)
+    if (is_main(d))
+      own.push_back(d);
+  repair::Judge judge;
+  judge.language = repair::Language::Structured;
+  judge.words = all_words();
+  judge.parses = parses;
+  judge.check = [&](std::string_view changed) { return front(main.name, main.path, changed, target, files); };
+  repair::offer_lines(text, judge, own);
+  auto next = own.begin();
+  for (auto& d : program.diagnostics)
+    if (is_main(d))
+      d = std::move(*next++);
+}
+
 } // namespace
 
 Compiled compile(std::string name, std::string path, std::string_view text,
@@ -241,6 +297,8 @@ Compiled compile(std::string name, std::string path, std::string_view text,
   compiled.program = read(std::move(name), std::move(path), text, files);
   compile(compiled, target, kept);
   silence(compiled.program);
+  if (compiled.has_errors())
+    offer_lines(compiled, text, target, files);
   return compiled;
 }
 

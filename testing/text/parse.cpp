@@ -1,6 +1,7 @@
 #include "base/duration.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "repair/repair.h"
 #include "spec/limits.h"
 #include "structured/text/words.h"
 #include "testing/text/cursor.h"
@@ -684,10 +685,43 @@ private:
   std::vector<std::string> head_lines_;
 };
 
+std::vector<std::string_view> all_words() {
+  std::vector<std::string_view> words{"at", "by", "times", "to", "points", "macro", "end"};
+  for (const auto& row : line_words)
+    words.push_back(row.word);
+  for (const auto& row : expectations)
+    words.push_back(row.word);
+  for (const auto& row : when_words)
+    words.push_back(row.word);
+  for (const auto& row : vm::stimulus_words)
+    words.push_back(row.word);
+  const auto colours = structured::colour_names();
+  words.insert(words.end(), colours.begin(), colours.end());
+  return words;
+}
+
+/// The line to write, for each error.
+void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
+  repair::Judge judge;
+  judge.language = repair::Language::Test;
+  judge.words = all_words();
+  judge.parses = [](std::string_view line) {
+    return FileReader(Source({}, "test \"x\"\n" + std::string(line))).read().diagnostics.empty() ||
+           FileReader(Source({}, std::string(line))).read().diagnostics.empty();
+  };
+  judge.check = [&](std::string_view text) {
+    return FileReader(Source(source.name(), std::string(text))).read().diagnostics;
+  };
+  repair::offer_lines(source.text(), judge, findings);
+}
+
 } // namespace
 
 TestFile parse(const Source& source) {
-  return FileReader(source).read();
+  auto file = FileReader(source).read();
+  if (any_error(file.diagnostics))
+    offer_lines(source, file.diagnostics);
+  return file;
 }
 
 std::optional<Seeds> parse_seeds(std::string_view text) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "repair/idioms.h"
+
+#include <array>
+
+namespace orb::repair {
+
+/// What the holes of a pattern hold, by their letter.
+struct Holes {
+  std::array<Tokens, 26> of;
+  std::string choice; ///< the literal that was chosen among several
+  Tokens rest;        ///< from that literal on
+
+  Tokens& operator[](char letter) { return of[static_cast<std::size_t>(letter - 'a')]; }
+  const Tokens& operator[](char letter) const { return of[static_cast<std::size_t>(letter - 'a')]; }
+};
+
+/// The line that a template makes of the holes; nothing where a value has no such form.
+std::optional<std::string> fill(std::string_view form, const Holes& holes,
+                                const Surroundings& around);
+
+} // namespace orb::repair

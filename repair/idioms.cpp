@@ -1,0 +1,356 @@
+#include "repair/idioms.h"
+
+#include "base/text.h"
+#include "repair/fill.h"
+
+#include <algorithm>
+#include <array>
+
+namespace orb::repair {
+namespace {
+
+struct Word {
+  std::string_view meaning;
+  std::string_view patterns;
+};
+constexpr auto words = std::to_array<Word>({
+#define ORB_WORD(meaning, patterns) {meaning, patterns},
+#include "repair/idioms.def"
+});
+constexpr auto idioms = std::to_array<Idiom>({
+#define ORB_IDIOM(where, patterns, basic, structured, macro, test, note)                           \
+  {Where::where, patterns, basic, structured, macro, test, note},
+#include "repair/idioms.def"
+});
+
+/// One place of a pattern.
+struct Part {
+  char hole = '\0';
+  std::vector<std::string> literals; ///< one of these, where it is no hole
+};
+
+struct Pattern {
+  std::vector<Part> parts;
+  std::uint64_t needs = ~std::uint64_t{0}; ///< a line without any of these bits cannot fit
+  const Idiom* idiom = nullptr;
+  std::string_view meaning; ///< of a word
+};
+
+std::uint64_t bit_of(std::string_view text) {
+  std::uint32_t hash = 2166136261U;
+  for (const char c : text)
+    hash = (hash ^ static_cast<unsigned char>(to_lower(c))) * 16777619U;
+  return std::uint64_t{1} << (hash >> 26);
+}
+
+std::vector<std::string_view> pieces(std::string_view text, std::string_view between) {
+  std::vector<std::string_view> all;
+  while (true) {
+    const auto end = text.find(between);
+    all.push_back(text.substr(0, end));
+    if (end == std::string_view::npos)
+      return all;
+    text.remove_prefix(end + between.size());
+  }
+}
+
+Part part_of(std::string_view text) {
+  Part part;
+  if (text.size() == 2 && text[0] == '$' && is_letter(text[1])) {
+    part.hole = text[1];
+    return part;
+  }
+  if (text.find_first_not_of('|') == std::string_view::npos)
+    part.literals.emplace_back(text);
+  else
+    for (const auto one : pieces(text, "|"))
+      part.literals.emplace_back(one);
+  return part;
+}
+
+void add_patterns(std::vector<Pattern>& all, std::string_view patterns, const Idiom* idiom,
+                  std::string_view meaning) {
+  for (const auto text : pieces(patterns, " ;; ")) {
+    Pattern pattern;
+    pattern.idiom = idiom;
+    pattern.meaning = meaning;
+    for (const auto one : pieces(text, " "))
+      if (!one.empty())
+        pattern.parts.push_back(part_of(one));
+    int fewest = 65;
+    for (const auto& part : pattern.parts) {
+      if (part.hole != '\0')
+        continue;
+      std::uint64_t bits = 0;
+      for (const auto& literal : part.literals)
+        bits |= bit_of(literal);
+      if (const int count = __builtin_popcountll(bits); count < fewest) {
+        fewest = count;
+        pattern.needs = bits;
+      }
+    }
+    all.push_back(std::move(pattern));
+  }
+}
+
+const std::vector<Pattern>& all_patterns() {
+  static const auto all = [] {
+    std::vector<Pattern> patterns;
+    for (const auto& word : words)
+      add_patterns(patterns, word.patterns, nullptr, word.meaning);
+    for (const auto& idiom : idioms)
+      add_patterns(patterns, idiom.patterns, &idiom, {});
+    return patterns;
+  }();
+  return all;
+}
+
+bool is_relation(const Token& token) {
+  for (const auto* sign : {"=", "!", "<", ">", "<=", ">=", "==", "!=", "<>", "=>", "=<"})
+    if (token.is(sign))
+      return true;
+  return false;
+}
+
+/// Words that part a line, and so are in no value.
+bool parts_line(const Token& token) {
+  for (const auto* word : {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"})
+    if (token.is_word() && equal_words(token.text, word))
+      return true;
+  return false;
+}
+
+class Matcher {
+public:
+  Matcher(const Tokens& tokens, std::size_t end, bool whole)
+      : tokens_(tokens), end_(end), whole_(whole) {}
+
+  /// Where the pattern ends that begins at `at`; 0 where it does not fit.
+  std::size_t match(const Pattern& pattern, std::size_t at) {
+    holes_ = {};
+    steps_ = 0;
+    chosen_ = false;
+    return from(pattern, 0, at);
+  }
+  Holes& holes() { return holes_; }
+
+private:
+  static constexpr int most_steps = 3000;
+
+  std::size_t from(const Pattern& pattern, std::size_t part, std::size_t at) {
+    if (++steps_ > most_steps)
+      return 0;
+    if (part == pattern.parts.size())
+      return !whole_ || at == end_ ? at : 0;
+    const auto& here = pattern.parts[part];
+    if (here.hole == '\0')
+      return literal(pattern, part, at);
+    const auto most = extent(here.hole, at);
+    const std::size_t least = here.hole == 'r' ? at : at + 1;
+    const bool last = part + 1 == pattern.parts.size();
+    if (most < least)
+      return 0;
+    for (std::size_t n = 0; n <= most - least; ++n) {
+      const auto stop = last ? most - n : least + n;
+      if (!balanced(at, stop) || !fits(here.hole, at, stop))
+        continue;
+      const auto found = from(pattern, part + 1, stop);
+      if (found == 0 && !(here.hole == 'r' && stop == 0 && last && whole_ && end_ == 0))
+        continue;
+      holes_[here.hole] = Tokens(tokens_.begin() + static_cast<std::ptrdiff_t>(at),
+                                 tokens_.begin() + static_cast<std::ptrdiff_t>(stop));
+      return found;
+    }
+    return 0;
+  }
+
+  std::size_t literal(const Pattern& pattern, std::size_t part, std::size_t at) {
+    if (at >= end_ || tokens_[at].is_text())
+      return 0;
+    const auto& literals = pattern.parts[part].literals;
+    const auto found = std::find_if(literals.begin(), literals.end(), [&](const std::string& one) {
+      return equal_words(one, tokens_[at].text);
+    });
+    if (found == literals.end())
+      return 0;
+    const auto stop = from(pattern, part + 1, at + 1);
+    if (stop != 0 && literals.size() > 1) { // the first one is found last
+      holes_.choice = tokens_[at].text;
+      std::transform(holes_.choice.begin(), holes_.choice.end(), holes_.choice.begin(), to_lower);
+      holes_.rest = Tokens(tokens_.begin() + static_cast<std::ptrdiff_t>(at),
+                           tokens_.begin() + static_cast<std::ptrdiff_t>(stop));
+    }
+    return stop;
+  }
+
+  /// How far a hole can go.
+  std::size_t extent(char hole, std::size_t at) const {
+    const auto at_most = [&](std::size_t n) { return std::min(end_, at + n); };
+    switch (hole) {
+    case 'n':
+    case 'm':
+    case 'w':
+    case 't':
+    case 'k': return at_most(1);
+    case 'q': return end_;
+    default: return end_;
+    }
+  }
+
+  bool balanced(std::size_t begin, std::size_t end) const {
+    int depth = 0;
+    for (auto i = begin; i < end; ++i) {
+      const auto& token = tokens_[i];
+      depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
+      if (depth < 0)
+        return false;
+    }
+    return depth == 0;
+  }
+
+  bool is_operand(std::size_t begin, std::size_t end) const {
+    const auto& first = tokens_[begin];
+    if (end == begin + 1)
+      return first.is_word() ? !parts_line(first) : first.is_number();
+    return (first.is("(") || (first.is_word() && !parts_line(first) && (tokens_[begin + 1].is("(") || tokens_[begin + 1].is("[")))) &&
+           (tokens_[end - 1].is(")") || tokens_[end - 1].is("]"));
+  }
+
+  /// A value: neither commas nor comparisons outside of its parentheses, no two values side by side.
+  bool is_value(std::size_t begin, std::size_t end) const {
+    int depth = 0;
+    for (auto i = begin; i < end; ++i) {
+      const auto& token = tokens_[i];
+      depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
+      if (token.is_text() || parts_line(token) || token.is(";") || token.is("{") || token.is("}") || token.is(":"))
+        return false;
+      if (depth == 0 && (token.is(",") || is_relation(token)))
+        return false;
+      const bool value = token.is_word() || token.is_number();
+      const bool before = i > begin && tokens_[i - 1].is_number();
+      if (value && before)
+        return false;
+    }
+    const auto& last = tokens_[end - 1];
+    return last.kind != Token::Kind::Sign || last.is(")") || last.is("]");
+  }
+
+  bool fits(char hole, std::size_t begin, std::size_t end) const {
+    if (hole == 'r')
+      return true;
+    const auto& first = tokens_[begin];
+    switch (hole) {
+    case 'n':
+    case 'm': return first.is_number();
+    case 'w': return first.is_word() && !parts_line(first);
+    case 't': return first.is_text();
+    case 'k': return find_colour(first).has_value();
+    case 'o':
+    case 'p': return (hole == 'p' && is_time(begin, end)) || is_operand(begin, end);
+    case 'q': return is_time(begin, end) || is_value(begin, end);
+    case 'v':
+      return first.is_word() && !parts_line(first) &&
+             (end == begin + 1 || (tokens_[begin + 1].is("[") && tokens_[end - 1].is("]")));
+    case 'c':
+    case 'd':
+      for (auto i = begin; i < end; ++i)
+        if (tokens_[i].is("then") || tokens_[i].is("else") || tokens_[i].is_text() || tokens_[i].is("goto") ||
+            tokens_[i].is("{"))
+          return false;
+      return true;
+    case 'l': return true;
+    default: return is_value(begin, end);
+    }
+  }
+
+  /// A number with a unit, or with a decimal comma.
+  bool is_time(std::size_t begin, std::size_t end) const {
+    if (!tokens_[begin].is_number())
+      return false;
+    auto at = begin + 1;
+    if (at + 1 < end && tokens_[at].is(",") && tokens_[at + 1].is_number() && !tokens_[at + 1].gap)
+      at += 2;
+    return at == end || (at + 1 == end && tokens_[at].is_word());
+  }
+
+  const Tokens& tokens_;
+  std::size_t end_;
+  bool whole_;
+  Holes holes_;
+  int steps_ = 0;
+  bool chosen_ = false;
+};
+
+std::string_view form_of(const Idiom& idiom, Language language) {
+  const auto form = language == Language::Basic        ? idiom.basic
+                    : language == Language::Structured ? idiom.structured
+                    : language == Language::Macro      ? idiom.macro
+                                                       : idiom.test;
+  return form == "=" ? idiom.basic : form;
+}
+
+/// The statements of a line: all of it, and the branches of an `if`.
+std::vector<std::pair<std::size_t, std::size_t>> statements_of(const Tokens& line) {
+  std::vector<std::pair<std::size_t, std::size_t>> all{{0, line.size()}};
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i].is_word() && (equal_words(line[i].text, "then") || (i > 0 && equal_words(line[i].text, "else")))) {
+      auto end = i + 1;
+      while (end < line.size() && !(line[end].is_word() && equal_words(line[end].text, "else")))
+        ++end;
+      if (end > i + 1)
+        all.emplace_back(i + 1, end);
+    }
+  return all;
+}
+
+std::string replaced(const Tokens& line, std::size_t begin, std::size_t end, std::string_view form) {
+  const auto before = join(Tokens(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(begin)));
+  const auto after = join(Tokens(line.begin() + static_cast<std::ptrdiff_t>(end), line.end()));
+  const auto tight = [](char c) { return c == '(' || c == '['; };
+  const bool left = !before.empty() && !tight(before.back()) && !form.empty();
+  const bool right = !after.empty() && std::string_view("),];").find(after[0]) == std::string_view::npos;
+  return before + (left ? " " : "") + std::string(form) + (right && !(before.empty() && form.empty()) ? " " : "") + after;
+}
+
+} // namespace
+
+void rewrite(const Tokens& line, const Surroundings& around,
+             const std::function<bool(const Rewritten&)>& take) {
+  std::uint64_t bits = 0;
+  for (const auto& token : line)
+    if (!token.is_text())
+      bits |= bit_of(token.text);
+  const auto here = join(line);
+  const auto statements = statements_of(line);
+  for (const auto& pattern : all_patterns()) {
+    if ((pattern.needs & bits) == 0)
+      continue;
+    const auto form = pattern.idiom == nullptr ? pattern.meaning : form_of(*pattern.idiom, around.language);
+    if (form.empty())
+      continue;
+    const auto use = [&](Matcher& matcher, std::size_t begin, std::size_t end) {
+      const auto filled = form == "-" ? std::optional(std::string()) : fill(form, matcher.holes(), around);
+      if (!filled)
+        return false;
+      auto text = replaced(line, begin, end, *filled);
+      return text != here &&
+             take({std::move(text), pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note});
+    };
+    if (pattern.idiom != nullptr && pattern.idiom->where == Where::Line) {
+      for (const auto& [begin, end] : statements) {
+        Matcher matcher(line, end, true);
+        if (matcher.match(pattern, begin) == end && end > begin && use(matcher, begin, end))
+          return;
+      }
+      continue;
+    }
+    for (std::size_t begin = 0; begin < line.size(); ++begin) {
+      Matcher matcher(line, line.size(), false);
+      const auto end = matcher.match(pattern, begin);
+      if (end > begin && use(matcher, begin, end))
+        return;
+    }
+  }
+}
+
+} // namespace orb::repair

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "repair/tokens.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// What people write who think in another language, as patterns with holes: the rows of
+// repair/idioms.def.
+//
+// A pattern is literal words and signs (case does not count; `a|b`: one of them; ` ;; ` parts whole
+// patterns) and holes: `$n $m` a number, `$q $p` a number with a unit or an operand, `$o` an operand, `$w` a word,
+// `$v` a variable or element, `$t` a text, `$k` a colour, `$c $d` a condition, `$l` a list, `$r` anything or
+// nothing, every other letter an expression. What is written instead names the holes in braces, perhaps
+// through a function: `{sec:q}` (repair/fill.cpp).
+
+namespace orb::repair {
+
+enum class Where : std::uint8_t {
+  Inside, ///< anywhere in a line
+  Line,   ///< a whole statement: the line, or a branch of an `if`
+};
+
+struct Idiom {
+  Where where;
+  std::string_view patterns;
+  std::string_view basic;
+  std::string_view structured; ///< `=`: as in `basic`; empty: no way to write it
+  std::string_view macro;
+  std::string_view test;
+  std::string_view note; ///< what is said beside the line
+};
+
+/// What a line is in, as far as a rewrite depends on it.
+struct Surroundings {
+  Language language = Language::Basic;
+  std::string line_number; ///< of an orbBasic line
+  std::string free_letter; ///< a variable that nobody uses; empty without one
+  std::string loop;        ///< the variable of the innermost `for` that is open
+  std::string closer;      ///< what ends the innermost open block
+};
+
+/// A line after one row was applied to it.
+struct Rewritten {
+  std::string text; ///< no number in front, no comment behind
+  std::string_view note;
+};
+
+/// Calls `take` with what each row that fits makes of a line, in the order of the table, until it
+/// returns true.
+void rewrite(const Tokens& line, const Surroundings& around,
+             const std::function<bool(const Rewritten&)>& take);
+
+/// A colour by its name in any of the languages, or `#RRGGBB`: 0xRRGGBB.
+std::optional<std::uint32_t> find_colour(const Token& token);
+
+} // namespace orb::repair

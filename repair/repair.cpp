@@ -1,0 +1,474 @@
+#include "repair/repair.h"
+
+#include "base/suggest.h"
+#include "base/text.h"
+#include "repair/idioms.h"
+#include "repair/search.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_set>
+
+namespace orb::repair {
+namespace {
+
+constexpr std::size_t most_bytes = 65536; // more than any area of the robot holds
+constexpr std::size_t most_lines = 24;    // with errors; nobody reads more at once
+constexpr std::size_t longest_line = 240;
+constexpr std::size_t most_tokens = 64;
+constexpr std::size_t most_states = 400; // of one line, by habits
+constexpr int most_candidates = 2000; // of one line, by search
+constexpr int most_checks = 24;      // of the whole text, for one line
+constexpr int deepest = 6;           // habits in one line
+constexpr int surely = 6;            // one letter of a word
+constexpr int clearly = 4;           // by so much the best change is cheaper than the next
+
+std::size_t errors_in(const std::vector<Diagnostic>& findings) {
+  return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
+}
+
+/// A line that was tried in its place.
+struct Accepted {
+  std::string text; ///< of the whole line
+  std::string_view note;
+  bool fewer = false;    ///< the text has fewer errors with it
+  bool quiet = false;    ///< nothing else is said about the line
+};
+
+/// What is around the lines of a text: names, open loops, free letters.
+class Scenery {
+public:
+  Scenery(const Source& source, Language language) : source_(source), language_(language) {
+    for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
+      const auto line = source.line(n);
+      if (line.size() > longest_line)
+        continue;
+      for (const auto& token : split(line, language).tokens)
+        if (token.is_word())
+          ++words_[token.text];
+    }
+  }
+
+  /// Words that stand in other lines, too, or more than once.
+  std::vector<std::string_view> names_without(const Tokens& line) const {
+    std::vector<std::string_view> names;
+    if (language_ == Language::Basic)
+      return names;
+    for (const auto& [word, count] : words_) {
+      const auto here = std::count_if(line.begin(), line.end(),
+                                      [&word = word](const Token& token) { return token.text == word; });
+      if (count > static_cast<std::size_t>(here) && word.size() > 1)
+        names.push_back(word);
+    }
+    return names;
+  }
+
+  /// A name that is written once and is near `word`: its misspelt definition.
+  std::optional<std::string> misspelt(std::string_view word, const std::vector<std::string_view>& known) const {
+    const auto uses = words_.find(std::string(word));
+    if (uses == words_.end() || uses->second < 2)
+      return std::nullopt;
+    for (const auto& [other, count] : words_)
+      if (count == 1 && other.size() > 2 && edit_distance(other, word) * 3 <= std::max(other.size(), word.size()) &&
+          std::none_of(known.begin(), known.end(), [&one = other](std::string_view k) { return equal_words(k, one); }))
+        return other;
+    return std::nullopt;
+  }
+
+  Surroundings around(std::uint32_t line, const SplitLine& parts) const {
+    Surroundings all;
+    all.language = language_;
+    for (const char c : parts.head)
+      if (is_digit(c))
+        all.line_number += c;
+    if (language_ == Language::Basic) {
+      all.free_letter = free_letter();
+      all.loop = loop_above(line);
+    } else if (language_ == Language::Structured) {
+      all.closer = closer_above(line);
+    }
+    return all;
+  }
+
+private:
+  std::string free_letter() const {
+    // A `next` below that no `for` begins names the variable.
+    std::multiset<std::string> open;
+    for (std::uint32_t n = source_.line_count(); n > 0; --n) {
+      const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+      if (tokens.size() < 2 || tokens[1].text.size() != 1)
+        continue;
+      if (equal_words(tokens[0].text, "next"))
+        open.insert(tokens[1].text);
+      else if (const auto one = open.find(tokens[1].text); equal_words(tokens[0].text, "for") && one != open.end())
+        open.erase(one);
+    }
+    if (!open.empty())
+      return *open.begin();
+    for (const char c : std::string_view("IJKNCDEFGHLMOPQRSTUVWXAB")) {
+      const std::string upper(1, c);
+      if (words_.count(upper) == 0 && words_.count(std::string(1, to_lower(c))) == 0)
+        return upper;
+    }
+    return {};
+  }
+
+  std::string loop_above(std::uint32_t line) const {
+    std::vector<std::string> open;
+    for (std::uint32_t n = 1; n < line; ++n) {
+      const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+      if (tokens.size() > 1 && equal_words(tokens[0].text, "for"))
+        open.push_back(tokens[1].text);
+      else if (!tokens.empty() && equal_words(tokens[0].text, "next") && !open.empty())
+        open.pop_back();
+    }
+    return open.empty() ? "" : open.back();
+  }
+
+  std::string closer_above(std::uint32_t line) const {
+    std::vector<std::string> open;
+    for (std::uint32_t n = 1; n < line; ++n) {
+      const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+      if (tokens.empty())
+        continue;
+      const auto& first = tokens[0].text;
+      const auto is = [&](std::string_view word) { return equal_words(first, word); };
+      if (is("while") || is("loop") || is("repeat") || is("select") || is("sub") || is("function") ||
+          is("for"))
+        open.push_back(is("for") ? "next" : "end " + first);
+      else if (is("def") || is("void"))
+        open.emplace_back("end sub");
+      else if (is("forever") || is("do"))
+        open.emplace_back("end loop");
+      else if (is("if") && (equal_words(tokens.back().text, "then") || tokens.back().is("{") ||
+                            tokens.back().is(":")))
+        open.emplace_back("end if");
+      else if (((is("end") && tokens.size() > 1) || is("next") || is("until") || is("}") ||
+                is("wend") || is("endif")) &&
+               !open.empty() && !(tokens.size() > 1 && tokens[1].is("else")))
+        open.pop_back();
+    }
+    return open.empty() ? "" : open.back();
+  }
+
+  const Source& source_;
+  Language language_;
+  std::map<std::string, std::size_t> words_;
+};
+
+/// The search for one line.
+class Repair {
+public:
+  Repair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
+         const std::vector<Diagnostic>& before)
+      : source_(source), judge_(judge), line_(source.line(line)), begin_(source.line_start(line)),
+        errors_(errors_in(before)), parts_(split(line_, judge.language)),
+        around_(scenery.around(line, parts_)), names_(scenery.names_without(parts_.tokens)) {
+    canonical();
+  }
+
+  /// The lines to write, the best first: one where it is clear, two where it is not.
+  std::vector<Accepted> find(const Diagnostic& finding) {
+    if (parts_.tokens.size() > most_tokens)
+      return {};
+    const auto start = join(parts_.tokens);
+    if (finding.rule->id == "unknown-name")
+      by_fix(finding);
+    if (!best_ && whole(start) != line_)
+      attempt(start, {});
+    if (!best_)
+      by_changes(surely);
+    if (!best_)
+      explore(start, 0, most_states);
+    if (!best_ || !best_->quiet)
+      by_fix(finding);
+    if (!best_)
+      by_changes(1000);
+    std::vector<Accepted> all;
+    if (best_)
+      all.push_back(*best_);
+    if (other_)
+      all.push_back(*other_);
+    return all;
+  }
+
+  std::uint32_t begin() const { return begin_; }
+  std::string_view line() const { return line_; }
+  /// The line as it is shown: with its comment only where that changes.
+  std::string shown(const std::string& text) const {
+    auto parts = split(text, judge_.language);
+    if (!parts.comment.empty() && !parts.tokens.empty() &&
+        line_.find(parts.comment) != std::string_view::npos)
+      parts.comment.clear();
+    return std::string(trimmed(join(parts)));
+  }
+
+private:
+  static std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_blank(text.front()))
+      text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back()))
+      text.remove_suffix(1);
+    return text;
+  }
+
+  /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
+  void canonical() {
+    for (auto& token : parts_.tokens) {
+      if (token.is_word() && judge_.language != Language::Structured &&
+          std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
+        const auto same = std::find_if(judge_.words.begin(), judge_.words.end(), [&](std::string_view one) {
+          return one.size() > 1 && equal_words(one, token.text);
+        });
+        if (same != judge_.words.end())
+          token.text = *same;
+      }
+      if (token.is_number() && judge_.language == Language::Basic && token.text.size() > 2 &&
+          to_lower(token.text[1]) == 'x')
+        if (const auto value = parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
+          token.text = std::to_string(*value);
+    }
+  }
+
+  std::string whole(const std::string& statement) const {
+    if (statement.empty() && parts_.comment.empty())
+      return {};
+    auto text = parts_.head + statement;
+    if (!parts_.comment.empty())
+      text += (statement.empty() ? "" : " ") + parts_.comment;
+    return text;
+  }
+
+  /// Tries a line in its place; true when it cannot be better.
+  bool attempt(const std::string& statement, std::string_view note) {
+    return attempt_line(whole(statement), note).has_value() && best_ && best_->quiet;
+  }
+
+  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool keep = true) {
+    if (text == line_ || checks_ >= most_checks || !judge_.parses(text))
+      return std::nullopt;
+    ++checks_;
+    std::string changed(source_.text().substr(0, begin_));
+    changed += text;
+    changed += source_.text().substr(begin_ + line_.size());
+    const auto found = judge_.check(changed);
+    bool quiet = true;
+    for (const auto& one : found)
+      if (one.span.begin >= begin_ && one.span.begin <= begin_ + text.size()) {
+        if (is_error(one))
+          return std::nullopt;
+        quiet = quiet && one.severity == Severity::Info;
+      }
+    const auto errors = errors_in(found);
+    if (errors > errors_)
+      return std::nullopt;
+    Accepted accepted{text, note, errors < errors_, quiet};
+    if (keep && (!best_ || (quiet && !best_->quiet)))
+      best_ = accepted;
+    return accepted;
+  }
+
+  /// Applies habits until the line is one: every one alone first, then two after each other, and so on.
+  void explore(const std::string& statement, int depth, std::size_t most) {
+    std::vector<std::pair<std::string, int>> open{{statement, depth}};
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const auto [text, deep] = open[next];
+      const auto tokens = tokens_of(text, judge_.language);
+      if (tokens.size() > most_tokens)
+        continue;
+      bool done = false;
+      rewrite(tokens, around_, [&, deep = deep](const Rewritten& one) {
+        if (!seen_.insert(one.text).second)
+          return false;
+        if (attempt(one.text, one.note))
+          return done = true;
+        if (deep + 1 < deepest)
+          open.emplace_back(one.text, deep + 1);
+        return seen_.size() >= most;
+      });
+      if (done || seen_.size() >= most)
+        return;
+    }
+  }
+
+  /// What the language itself offers.
+  void by_fix(const Diagnostic& finding) {
+    if (!finding.fix || finding.fix->edits.empty())
+      return;
+    std::string text(line_);
+    for (auto edit = finding.fix->edits.rbegin(); edit != finding.fix->edits.rend(); ++edit) {
+      if (edit->span.begin < begin_ || edit->span.end > begin_ + line_.size())
+        return;
+      text.replace(edit->span.begin - begin_, edit->span.size(), edit->text);
+    }
+    if (text.find('\n') == std::string::npos)
+      attempt_line(text, {});
+  }
+
+  /// The nearest line; two where it is not clear which.
+  void by_changes(int most) {
+    auto first = changes(parts_.tokens, judge_.language, judge_.words, names_);
+    std::erase_if(first, [&](const Candidate& one) { return one.cost > most; });
+    std::vector<std::pair<Candidate, Accepted>> good;
+    int tried = 0;
+    const auto consider = [&](const Candidate& one) {
+      if (!good.empty() && one.cost > good.front().first.cost + clearly)
+        return;
+      if (++tried > most_candidates || good.size() > 1 || !changed_.insert(one.text).second)
+        return;
+      if (auto accepted = attempt_line(whole(one.text), {}, false)) {
+        good.emplace_back(one, *std::move(accepted));
+        return;
+      }
+      if (one.cost >= 10 || !good.empty() || most == surely)
+        return;
+      // a misspelt habit
+      best_.reset();
+      explore(one.text, deepest - 3, seen_.size() + 40);
+      if (best_)
+        good.emplace_back(one, *best_);
+      best_.reset();
+    };
+    for (const auto& one : first)
+      consider(one);
+    if (good.empty() && most > surely)
+      for (const auto& one : first) {
+        if (one.cost > 9 || tried > most_candidates)
+          break;
+        for (auto next : changes(tokens_of(one.text, judge_.language), judge_.language, judge_.words, names_)) {
+          next.cost += one.cost;
+          if (next.cost > 18)
+            break;
+          consider(next);
+        }
+      }
+    if (!good.empty())
+      best_ = good[0].second;
+    if (good.size() > 1)
+      other_ = good[1].second;
+  }
+
+  const Source& source_;
+  const Judge& judge_;
+  std::string_view line_;
+  std::uint32_t begin_;
+  std::size_t errors_;
+  SplitLine parts_;
+  Surroundings around_;
+  std::vector<std::string_view> names_;
+  std::unordered_set<std::string> seen_;
+  std::unordered_set<std::string> changed_;
+  std::optional<Accepted> best_;
+  std::optional<Accepted> other_;
+  int checks_ = 0;
+};
+
+/// The change from one line to another, as small as it is.
+Edit difference(std::string_view from, std::string_view to, std::uint32_t begin) {
+  std::size_t left = 0;
+  while (left < from.size() && left < to.size() && from[left] == to[left])
+    ++left;
+  std::size_t right = 0;
+  while (right < from.size() - left && right < to.size() - left &&
+         from[from.size() - 1 - right] == to[to.size() - 1 - right])
+    ++right;
+  return {{begin + static_cast<std::uint32_t>(left),
+           begin + static_cast<std::uint32_t>(from.size() - right)},
+          std::string(to.substr(left, to.size() - left - right))};
+}
+
+/// A name that is nowhere defined because its definition is misspelt: the definition is mended.
+bool mend_definition(const Source& source, const Judge& judge, const Scenery& scenery,
+                     const std::vector<Diagnostic>& before, Diagnostic& finding) {
+  const auto word = source.text(finding.span);
+  const auto other = scenery.misspelt(word, judge.words);
+  if (!other)
+    return false;
+  for (std::uint32_t n = 1; n <= source.line_count(); ++n)
+    for (const auto& token : split(source.line(n), judge.language).tokens) {
+      if (!token.is_word() || token.text != *other)
+        continue;
+      const auto begin = source.line_start(n) + token.at;
+      const Edit edit{{begin, begin + static_cast<std::uint32_t>(other->size())}, std::string(word)};
+      auto text = std::string(source.text());
+      text.replace(begin, other->size(), word);
+      if (errors_in(judge.check(text)) >= errors_in(before))
+        return false;
+      auto line = std::string(source.line(n));
+      line.replace(token.at, other->size(), word);
+      finding.help = fmt::format("write `{}` in line {}", line.substr(line.find_first_not_of(" \t")), n);
+      finding.fix = Fix{fmt::format("rename `{}` to `{}`", *other, word), {edit}, Safety::Unsafe};
+      return true;
+    }
+  return false;
+}
+
+/// Whether a line goes on in the next one, or seems to: an operator or a bracket is left open.
+bool goes_on(std::string_view line) {
+  int depth = 0;
+  const auto tokens = split(line.substr(0, longest_line), Language::Structured).tokens;
+  for (const auto& token : tokens)
+    depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
+  return depth > 0 || (!tokens.empty() && tokens.back().kind == Token::Kind::Sign && !tokens.back().is(")"));
+}
+
+} // namespace
+
+void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings) {
+  if (text.size() > most_bytes || errors_in(findings) == 0)
+    return;
+  const Source source({}, std::string(text));
+  std::optional<Scenery> scenery;
+  std::set<std::uint32_t> lines;
+  const auto before = findings;
+  for (auto& finding : findings) {
+    if (!is_error(finding) || finding.span.begin > text.size())
+      continue;
+    const auto line = source.position(finding.span.begin).line;
+    if (source.line(line).empty() || source.line(line).size() > longest_line || lines.size() >= most_lines ||
+        !lines.insert(line).second)
+      continue;
+    if (!scenery)
+      scenery.emplace(source, judge.language);
+    if (finding.rule->id == "unknown-name" && mend_definition(source, judge, *scenery, before, finding))
+      continue;
+    auto at = line;
+    std::optional<Repair> tried(std::in_place, source, judge, *scenery, at, before);
+    auto found = tried->find(finding);
+    if (found.empty() && at > 1 && judge.language == Language::Structured && goes_on(source.line(at - 1)) &&
+        lines.insert(at - 1).second) {
+      tried.emplace(source, judge, *scenery, --at, before);
+      found = tried->find(finding);
+      if (!found.empty())
+        finding.span = {source.line_start(at), source.line_start(at) + static_cast<std::uint32_t>(source.line(at).size())};
+    }
+    if (found.empty())
+      continue;
+    const auto& repair = *tried;
+    const auto shown = repair.shown(found[0].text);
+    if (found.size() > 1) {
+      finding.help = fmt::format("write `{}` or `{}`", shown, repair.shown(found[1].text));
+      finding.fix.reset();
+      continue;
+    }
+    finding.help = shown.empty() ? "leave the line out" : fmt::format("write `{}`", shown);
+    if (!found[0].note.empty())
+      finding.help += fmt::format("; {}", found[0].note);
+    if (shown.empty() && repair.line().find_first_not_of(" \t") != std::string_view::npos) {
+      finding.fix = Fix{"remove the line",
+                        {{{source.line_start(at), source.line_start(at + 1)}, {}}},
+                        found[0].fewer ? Safety::Safe : Safety::Unsafe};
+      continue;
+    }
+    finding.fix = Fix{shown.empty() ? "empty the line" : fmt::format("write `{}`", shown),
+                      {difference(repair.line(), found[0].text, repair.begin())},
+                      found[0].fewer && found[0].quiet ? Safety::Safe : Safety::Unsafe};
+  }
+}
+
+} // namespace orb::repair

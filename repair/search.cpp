@@ -1,0 +1,218 @@
+#include "repair/search.h"
+
+#include "base/suggest.h"
+#include "base/text.h"
+
+#include <algorithm>
+
+namespace orb::repair {
+namespace {
+
+class Changes {
+public:
+  Changes(const Tokens& line, Language language, std::span<const std::string_view> words,
+          std::span<const std::string_view> names)
+      : line_(line), language_(language), words_(words), names_(names) {}
+
+  std::vector<Candidate> all() {
+    for (std::size_t i = 0; i < line_.size(); ++i) {
+      near_words(i);
+      split(i);
+      left_out(i);
+      other_sign(i);
+      if (i + 1 < line_.size()) {
+        joined(i);
+        swapped(i);
+      }
+    }
+    for (std::size_t i = 1; i <= line_.size(); ++i)
+      inserted(i);
+    closed();
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    return std::move(found_);
+  }
+
+private:
+  void add(const Tokens& tokens, int cost) { found_.push_back({join(tokens), cost}); }
+
+  bool is_known(std::string_view word) const {
+    const auto same = [&](std::string_view one) {
+      return language_ == Language::Basic ? one == word : equal_words(one, word);
+    };
+    return std::any_of(words_.begin(), words_.end(), same) ||
+           std::any_of(names_.begin(), names_.end(), same);
+  }
+
+  void near_words(std::size_t i) {
+    const auto& word = line_[i];
+    if (!word.is_word() || word.text.size() < 2 || word.text.size() > 31 || is_known(word.text))
+      return;
+    for (const auto& list : {words_, names_})
+      for (const auto other : list) {
+        if (other.size() < 2 || other.size() > word.text.size() + 2 ||
+            word.text.size() > other.size() + 2)
+          continue;
+        const auto distance = edit_distance(word.text, other);
+        const auto size = std::max(word.text.size(), other.size());
+        if (distance > 2 || distance * 3 > size + (size == 2 ? 1 : 0))
+          continue;
+        const bool initial = to_lower(word.text[0]) == to_lower(other[0]);
+        auto changed = line_;
+        changed[i].text = other;
+        add(changed, static_cast<int>(distance == 0 ? 1 : distance * 6 + (initial ? 0 : 3)));
+      }
+  }
+
+  void split(std::size_t i) {
+    const auto& word = line_[i];
+    if (!word.is_word() || is_known(word.text))
+      return;
+    for (std::size_t n = 2; n < word.text.size(); ++n) {
+      const auto left = std::string_view(word.text).substr(0, n);
+      const auto right = std::string_view(word.text).substr(n);
+      const bool value = std::all_of(right.begin(), right.end(), is_digit) ||
+                         (right.size() == 1 && language_ == Language::Basic) || is_known(right);
+      if (!value || std::none_of(words_.begin(), words_.end(),
+                                 [&](std::string_view one) { return equal_words(one, left); }))
+        continue;
+      auto changed = line_;
+      changed[i].text = left;
+      Token rest;
+      rest.kind = is_digit(right[0]) ? Token::Kind::Number : Token::Kind::Word;
+      rest.text = right;
+      rest.gap = true;
+      changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
+      add(changed, 4);
+    }
+  }
+
+  void joined(std::size_t i) {
+    const auto& a = line_[i];
+    const auto& b = line_[i + 1];
+    if (!a.is_word() || !(b.is_word() || b.is("_") || b.is("-")))
+      return;
+    for (const auto* between : {"", "_"}) {
+      auto changed = line_;
+      changed[i].text = a.text + between + b.text;
+      const auto known = std::find_if(words_.begin(), words_.end(), [&](std::string_view one) {
+        return equal_words(one, changed[i].text);
+      });
+      if (known == words_.end())
+        continue;
+      changed[i].text = *known;
+      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      add(changed, 3);
+    }
+  }
+
+  void left_out(std::size_t i) {
+    const auto& token = line_[i];
+    if (token.is_number() || token.is_text() || token.kind == Token::Kind::Colour)
+      return;
+    const bool twice = i > 0 && line_[i - 1].text == token.text;
+    if (token.is_word() && !twice)
+      return;
+    if (!twice && (token.is("-") || token.is("+") || token.is("*") || token.is("/") || token.is("%") ||
+                   token.is("!") || token.is("<") || token.is(">")))
+      return; // it would compute something else
+    auto changed = line_;
+    changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i));
+    if (i < changed.size() && i > 0)
+      changed[i].gap = changed[i].gap || token.gap;
+    add(changed, twice ? 4 : token.is("(") || token.is(")") ? 11 : 9);
+  }
+
+  void other_sign(std::size_t i) {
+    const auto& token = line_[i];
+    const auto become = [&](std::string_view other, int cost) {
+      auto changed = line_;
+      changed[i].text = other;
+      add(changed, cost);
+    };
+    if (token.is(";") || token.is(".") || token.is(":") || token.is("/"))
+      become(",", 8);
+    else if (token.is("[") || token.is("{"))
+      become("(", 8);
+    else if (token.is("]") || token.is("}"))
+      become(")", 8);
+    else if (token.is("-") || token.is(":"))
+      become("=", 14);
+  }
+
+  void swapped(std::size_t i) {
+    if (line_[i].is_number() && line_[i + 1].is_number())
+      return;
+    if (!(line_[i].kind == Token::Kind::Sign) == !(line_[i + 1].kind == Token::Kind::Sign) &&
+        line_[i].kind != Token::Kind::Sign)
+      return;
+    auto changed = line_;
+    std::swap(changed[i], changed[i + 1]);
+    std::swap(changed[i].gap, changed[i + 1].gap);
+    add(changed, 13);
+  }
+
+  void insert(std::size_t at, std::string_view text, int cost, Token::Kind kind) {
+    auto changed = line_;
+    Token token;
+    token.kind = kind;
+    token.text = text;
+    token.gap = kind == Token::Kind::Word || text == "=";
+    if (at < changed.size() && (token.gap || text == ","))
+      changed[at].gap = true;
+    changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(at), token);
+    add(changed, cost);
+  }
+
+  void inserted(std::size_t at) {
+    const auto& before = line_[at - 1];
+    const bool value_before = before.is_number() || before.is(")") || before.is_word();
+    if (at < line_.size()) {
+      const auto& after = line_[at];
+      const bool value_after = after.is_number() || after.is_word() || after.is("(");
+      if (value_before && value_after) {
+        insert(at, ",", 9, Token::Kind::Sign);
+        insert(at, "=", 14, Token::Kind::Sign);
+        insert(at, "to", 14, Token::Kind::Word);
+      }
+      if ((value_before) && after.is_word() && line_[0].is("if"))
+        insert(at, "then", 8, Token::Kind::Word);
+      if (value_after || after.is("-"))
+        insert(at, "(", 12, Token::Kind::Sign);
+    }
+    if (value_before)
+      insert(at, ")", at == line_.size() ? 8 : 11, Token::Kind::Sign);
+  }
+
+  /// `print hello"`: the quote that opens is missing.
+  void closed() {
+    if (line_.empty() || !line_.back().is_text() || line_.back().closed || !line_.back().text.empty())
+      return;
+    for (std::size_t i = 1; i + 1 < line_.size(); ++i) {
+      Tokens changed(line_.begin(), line_.begin() + static_cast<std::ptrdiff_t>(i));
+      Tokens inner(line_.begin() + static_cast<std::ptrdiff_t>(i), line_.end() - 1);
+      Token token;
+      token.kind = Token::Kind::Text;
+      token.text = join(inner);
+      token.gap = true;
+      changed.push_back(token);
+      return add(changed, 5);
+    }
+  }
+
+  const Tokens& line_;
+  Language language_;
+  std::span<const std::string_view> words_;
+  std::span<const std::string_view> names_;
+  std::vector<Candidate> found_;
+};
+
+} // namespace
+
+std::vector<Candidate> changes(const Tokens& line, Language language,
+                               std::span<const std::string_view> words,
+                               std::span<const std::string_view> names) {
+  return Changes(line, language, words, names).all();
+}
+
+} // namespace orb::repair

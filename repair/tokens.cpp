@@ -1,0 +1,287 @@
+#include "repair/tokens.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <array>
+
+namespace orb::repair {
+namespace {
+
+bool is_part(char c) {
+  return is_letter(c) || is_digit(c) || c == '_' || static_cast<unsigned char>(c) >= 0xC3;
+}
+bool is_tail(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
+struct Written {
+  std::string_view text;
+  std::string_view means;
+};
+
+/// Signs of several bytes that stand for one of a keyboard.
+constexpr auto drawn = std::to_array<Written>({{"×", "*"},
+                                               {"÷", "/"},
+                                               {"≤", "<="},
+                                               {"≥", ">="},
+                                               {"≠", "!="},
+                                               {"–", "-"},
+                                               {"−", "-"},
+                                               {"·", "*"},
+                                               {"←", "="},
+                                               {"→", "->"},
+                                               {"…", ".."},
+                                               {"°", "deg"}});
+constexpr auto quotes = std::to_array<std::string_view>(
+    {"“", "”", "„", "‟", "«", "»", "‘", "’", "‚", "''", "``", "´", "`", "'", "\""});
+constexpr auto long_signs = std::to_array<std::string_view>(
+    {"===", "!==", "...", "+-", "==", "!=", "<>", "<=", ">=", "=<", "=>", "+=", "-=", "*=", "/=", "%=",
+     "=+", "=-", "++", "--", "&&", "||", ":=", "<-", "**", "//", "->", "<<", ">>", "..", "~="});
+
+class Splitter {
+public:
+  Splitter(std::string_view text, Language language) : text_(text), language_(language) {}
+
+  SplitLine whole() {
+    SplitLine line;
+    blanks();
+    if (language_ == Language::Basic) {
+      const auto digits = at_;
+      while (at_ < text_.size() && is_digit(text_[at_]))
+        ++at_;
+      if (at_ > digits)
+        blanks();
+    }
+    line.head = text_.substr(0, at_);
+    line.tokens = rest();
+    line.comment = std::move(comment_);
+    if (line.tokens.empty() && !line.comment.empty() && language_ == Language::Basic &&
+        line.head.find_first_not_of(" \t") != std::string::npos)
+      line.head.clear(); // a remark needs no number
+    return line;
+  }
+
+  Tokens rest() {
+    Tokens tokens;
+    while (true) {
+      const auto before = at_;
+      blanks();
+      gap_ = at_ > before;
+      if (at_ == text_.size() || comment(tokens))
+        return tokens;
+      start_ = at_;
+      if (!text(tokens) && !number(tokens) && !word(tokens))
+        sign(tokens);
+    }
+  }
+
+private:
+  void blanks() {
+    while (at_ < text_.size() && (is_blank(text_[at_]) || text_.substr(at_).starts_with("\xC2\xA0")))
+      at_ += text_[at_] == '\xC2' ? 2 : 1;
+  }
+  bool sees(std::string_view what) const { return text_.substr(at_).starts_with(what); }
+
+  void add(Tokens& tokens, Token::Kind kind, std::string text) const {
+    Token token;
+    token.kind = kind;
+    token.text = std::move(text);
+    token.gap = gap_;
+    token.at = static_cast<std::uint32_t>(start_);
+    tokens.push_back(std::move(token));
+  }
+
+  bool comment(const Tokens& tokens) {
+    std::size_t sign = 0;
+    if (sees("//") && (tokens.empty() || gap_) && !divides(tokens))
+      sign = 2;
+    else if (sees("/*"))
+      sign = 2;
+    else if (sees("--") && tokens.empty() && at_ + 2 < text_.size() && is_blank(text_[at_ + 2]))
+      sign = 2;
+    else if (sees("#") && !colour_here() && !(tokens.empty() && sees("#include")))
+      sign = 1;
+    else if (sees(";") && language_ == Language::Macro && (tokens.empty() || gap_))
+      sign = 1;
+    else if (sees("'") && !quoted_here(tokens))
+      sign = 1;
+    else if (tokens.empty() && text_.size() >= at_ + 3 &&
+             equal_words(text_.substr(at_, 3), "rem") &&
+             (at_ + 3 == text_.size() || !is_part(text_[at_ + 3])))
+      sign = 3;
+    if (sign == 0)
+      return false;
+    auto said = text_.substr(at_ + sign);
+    if (said.ends_with("*/"))
+      said.remove_suffix(2);
+    while (!said.empty() && is_blank(said.front()))
+      said.remove_prefix(1);
+    while (!said.empty() && is_blank(said.back()))
+      said.remove_suffix(1);
+    const bool hash = language_ == Language::Macro || language_ == Language::Test;
+    comment_ = (hash ? "# " : "' ") + std::string(said);
+    if (said.empty())
+      comment_.pop_back();
+    at_ = text_.size();
+    return true;
+  }
+
+  /// `A // 2`: a division, not a remark.
+  bool divides(const Tokens& tokens) const {
+    const auto next = text_.find_first_not_of(" \t", at_ + 2);
+    if (tokens.size() < 3 || next == std::string_view::npos)
+      return false;
+    const auto end = text_.find_first_of(" \t)", next);
+    const auto word = text_.substr(next, end == std::string_view::npos ? end : end - next);
+    return std::all_of(word.begin(), word.end(), is_digit) ||
+           (word.size() == 1 && end == std::string_view::npos);
+  }
+
+  bool colour_here() const {
+    std::size_t digits = 0;
+    while (at_ + 1 + digits < text_.size() &&
+           std::string_view("0123456789abcdefABCDEF").find(text_[at_ + 1 + digits]) !=
+               std::string_view::npos)
+      ++digits;
+    return (digits == 6 || digits == 3) &&
+           (at_ + 1 + digits == text_.size() || !is_part(text_[at_ + 1 + digits]));
+  }
+
+  /// A `'` that begins a text: another one closes it and what stands before wants a value.
+  bool quoted_here(const Tokens& tokens) const {
+    const auto close = text_.find('\'', at_ + 1);
+    if (close == std::string_view::npos || tokens.empty())
+      return false;
+    const auto& last = tokens.back();
+    return last.is("(") || last.is(",") || last.is("+") || last.is("=") || last.is("==") ||
+           text_[at_ + 1] == '\'' || (last.is_word() && tokens.size() <= 3);
+  }
+
+  bool text(Tokens& tokens) {
+    const auto quote = std::find_if(quotes.begin(), quotes.end(),
+                                    [&](std::string_view one) { return sees(one); });
+    if (quote == quotes.end())
+      return false;
+    at_ += quote->size();
+    const bool straight = *quote == "\"" || *quote == "'";
+    std::size_t end = std::string_view::npos;
+    std::size_t width = 1;
+    for (auto at = at_; at < text_.size() && end == std::string_view::npos; ++at)
+      for (const auto one : quotes)
+        if (text_.substr(at).starts_with(one) && (straight ? one == *quote : one != "'")) {
+          end = at;
+          width = one.size();
+          break;
+        }
+    add(tokens, Token::Kind::Text, std::string(text_.substr(at_, end == std::string_view::npos
+                                                                     ? end
+                                                                     : end - at_)));
+    auto& token = tokens.back();
+    token.closed = end != std::string_view::npos;
+    token.plain = *quote == "\"";
+    at_ = token.closed ? end + width : text_.size();
+    if (!token.closed)
+      while (!token.text.empty() && is_blank(token.text.back()))
+        token.text.pop_back();
+    return true;
+  }
+
+  bool number(Tokens& tokens) {
+    if (!is_digit(text_[at_]) &&
+        !(text_[at_] == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]) &&
+          (tokens.empty() || !tokens.back().is_number())))
+      return false;
+    const auto begin = at_;
+    if (sees("0x") || sees("0X")) {
+      at_ += 2;
+      while (at_ < text_.size() && is_part(text_[at_]))
+        ++at_;
+    } else {
+      bool point = false;
+      while (at_ < text_.size() &&
+             (is_digit(text_[at_]) || (!point && text_[at_] == '.' && at_ + 1 < text_.size() &&
+                                       is_digit(text_[at_ + 1]) && !sees("..")))) {
+        point |= text_[at_] == '.';
+        ++at_;
+      }
+    }
+    add(tokens, Token::Kind::Number, std::string(text_.substr(begin, at_ - begin)));
+    return true;
+  }
+
+  bool word(Tokens& tokens) {
+    if (!is_part(text_[at_]) && !(text_[at_] == '.' && language_ == Language::Macro && tokens.empty()))
+      return false;
+    for (const auto& one : drawn)
+      if (sees(one.text))
+        return false;
+    const auto begin = at_++;
+    while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])))
+      ++at_;
+    add(tokens, Token::Kind::Word, std::string(text_.substr(begin, at_ - begin)));
+    return true;
+  }
+
+  void sign(Tokens& tokens) {
+    if (sees("#") && colour_here()) {
+      const auto begin = at_++;
+      while (at_ < text_.size() && is_part(text_[at_]))
+        ++at_;
+      return add(tokens, Token::Kind::Colour, std::string(text_.substr(begin, at_ - begin)));
+    }
+    for (const auto& one : drawn)
+      if (sees(one.text)) {
+        at_ += one.text.size();
+        return add(tokens, is_letter(one.means[0]) ? Token::Kind::Word : Token::Kind::Sign,
+                   std::string(one.means));
+      }
+    for (const auto one : long_signs)
+      if (sees(one)) {
+        at_ += one.size();
+        return add(tokens, Token::Kind::Sign, std::string(one));
+      }
+    add(tokens, Token::Kind::Sign, std::string(text_.substr(at_, 1)));
+    ++at_;
+  }
+
+  std::string_view text_;
+  Language language_;
+  std::size_t at_ = 0;
+  std::size_t start_ = 0;
+  bool gap_ = false;
+  std::string comment_;
+};
+
+} // namespace
+
+SplitLine split(std::string_view line, Language language) {
+  return Splitter(line, language).whole();
+}
+
+Tokens tokens_of(std::string_view text, Language language) {
+  return Splitter(text, language).rest();
+}
+
+std::string join(const Tokens& tokens) {
+  std::string line;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const auto& token = tokens[i];
+    const bool letters = i > 0 && !line.empty() && is_part(line.back()) && !token.is_text() &&
+                         is_part(token.text.empty() ? ' ' : token.text[0]) &&
+                         !tokens[i - 1].is_number();
+    if (i > 0 && (token.gap || letters))
+      line += ' ';
+    line += token.is_text() ? '"' + token.text + '"' : token.text;
+  }
+  return line;
+}
+
+std::string join(const SplitLine& line) {
+  auto text = line.head + join(line.tokens);
+  if (!line.comment.empty())
+    text += (line.tokens.empty() ? "" : " ") + line.comment;
+  return text;
+}
+
+} // namespace orb::repair

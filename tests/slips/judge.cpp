@@ -1,0 +1,183 @@
+#include "slips/judge.h"
+
+#include "assembler/lint.h"
+#include "compiler/check.h"
+#include "compiler/text/image.h"
+#include "structured/compile.h"
+#include "testing/text/test_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace slips {
+namespace {
+
+using orb::Diagnostic;
+
+std::vector<Diagnostic> findings(Language language, const std::string& text) {
+  const orb::Source source("mistake", text);
+  orb::structured::NoFiles files;
+  std::vector<Diagnostic> found;
+  switch (language) {
+  case Language::Basic: found = orb::compiler::check(text, {}).diagnostics; break;
+  case Language::Structured:
+    found = orb::structured::findings_by_file(
+                orb::structured::compile("mistake", "mistake", text, {}, files).program)
+                .front();
+    break;
+  case Language::Macro: found = orb::assembler::check(source); break;
+  case Language::Test: found = orb::testing::parse(source).diagnostics; break;
+  }
+  orb::sort_by_place(found);
+  return found;
+}
+
+std::string without_blanks(const std::string& text) {
+  std::string out;
+  bool quoted = false;
+  for (const char c : text) {
+    quoted = quoted != (c == '"');
+    if (quoted || (c != ' ' && c != '\t'))
+      out += c;
+  }
+  return out;
+}
+
+/// The line between "write `" and "`", the `n`th of them.
+std::vector<std::string> offered(const Diagnostic& finding) {
+  std::vector<std::string> lines;
+  const auto& help = finding.help;
+  auto at = help.find("write `");
+  while (at != std::string::npos) {
+    const auto begin = help.find('`', at) + 1;
+    const auto end = help.find('`', begin);
+    if (end == std::string::npos)
+      break;
+    lines.push_back(help.substr(begin, end - begin));
+    at = help.compare(end, 5, "` or ") == 0 ? end + 4 : std::string::npos;
+  }
+  return lines;
+}
+
+std::string apply(const std::string& text, const orb::Fix& fix) {
+  auto out = text;
+  for (auto edit = fix.edits.rbegin(); edit != fix.edits.rend(); ++edit)
+    out.replace(edit->span.begin, edit->span.size(), edit->text);
+  return out;
+}
+
+Lines split(const std::string& text) {
+  Lines lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// A line as it is offered, in the place of the mistaken one.
+Lines placed(const Lines& program, std::size_t at, std::string line) {
+  auto changed = program;
+  if (!line.empty() && !std::isdigit(static_cast<unsigned char>(line[0]))) {
+    const auto& old = program[at];
+    const auto head = old.find_first_not_of(" \t0123456789");
+    const bool numbered = !old.empty() && std::isdigit(static_cast<unsigned char>(old[0]));
+    line.insert(0, numbered && head != std::string::npos ? old.substr(0, head) : "");
+  }
+  changed[at] = line;
+  return changed;
+}
+
+} // namespace
+
+std::string join(const Lines& lines) {
+  std::string text;
+  for (const auto& line : lines)
+    text += line + '\n';
+  return text;
+}
+
+std::string meaning(Language language, const Lines& program) {
+  const auto text = join(program);
+  if (orb::any_error(findings(language, text)))
+    return {};
+  switch (language) {
+  case Language::Basic: {
+    const auto parsed = orb::compiler::check(text, {});
+    auto bytes = orb::compiler::build_image(parsed.program, orb::compiler::Packing::Packed).bytes;
+    bool quoted = false;
+    for (std::size_t i = 0; i < bytes.size(); ++i) { // `a` is `A`
+      quoted = bytes[i] != '\n' && quoted != (bytes[i] == '"');
+      const auto letter = [&](std::size_t at) {
+        return at < bytes.size() && std::isalpha(static_cast<unsigned char>(bytes[at])) != 0;
+      };
+      if (!quoted && letter(i) && !letter(i + 1) && (i == 0 || !letter(i - 1)))
+        bytes[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(bytes[i])));
+    }
+    return bytes;
+  }
+  case Language::Structured: {
+    orb::structured::NoFiles files;
+    return orb::structured::compile("mistake", "mistake", text, {}, files).robot.text;
+  }
+  case Language::Macro: {
+    const auto assembly = orb::assembler::assemble(orb::Source("mistake", text));
+    std::string bytes;
+    for (const auto& macro : assembly.macros)
+      bytes += std::string(macro.body.begin(), macro.body.end());
+    return bytes;
+  }
+  case Language::Test: {
+    std::string all;
+    for (const auto& line : program)
+      all += without_blanks(line.substr(0, line.find('#') == 0 ? 0 : std::string::npos)) + '\n';
+    return all;
+  }
+  }
+  return {};
+}
+
+Judged judge(Language language, const Lines& program, std::size_t at,
+             const std::vector<Lines>& meant) {
+  const auto text = join(program);
+  std::vector<std::string> meanings;
+  for (const auto& one : meant)
+    if (auto m = meaning(language, one); !m.empty())
+      meanings.push_back(std::move(m));
+  const auto is_meant = [&](const Lines& lines) {
+    const auto m = meaning(language, lines);
+    return !m.empty() && std::find(meanings.begin(), meanings.end(), m) != meanings.end();
+  };
+  const auto found = findings(language, text);
+  const orb::Source source("mistake", text);
+  const Diagnostic* finding = nullptr;
+  for (const auto& one : found)
+    if (source.position(one.span.begin).line == at + 1 &&
+        (finding == nullptr || (!is_error(*finding) && is_error(one))))
+      finding = &one;
+  for (const auto& one : found) // where a name is used that was misspelt here
+    if (finding == nullptr && one.fix && is_meant(split(apply(text, *one.fix))))
+      return {Verdict::Good, one.help};
+  if (finding == nullptr)
+    return {!meanings.empty() && is_meant(program) ? Verdict::Good
+            : orb::any_error(found)                ? Verdict::Wrong
+                                                   : Verdict::Silent,
+            found.empty() ? "" : "elsewhere: " + found[0].message};
+  const auto said = fmt::format("{}; {}", finding->message, finding->help);
+  if (meant.empty())
+    return {finding->help.empty() ? Verdict::Named : Verdict::Good, said};
+  const auto lines = offered(*finding);
+  if (finding->fix && is_meant(split(apply(text, *finding->fix))))
+    return {Verdict::Good, said};
+  for (const auto& line : lines)
+    if (is_meant(placed(program, at, line)))
+      return {Verdict::Good, said};
+  if (is_meant(program))
+    return {Verdict::Good, said};
+  const bool runs = !lines.empty() && !meaning(language, placed(program, at, lines[0])).empty();
+  const bool fixed = finding->fix && !meaning(language, split(apply(text, *finding->fix))).empty();
+  return {runs || fixed ? Verdict::Wrong : Verdict::Named, said};
+}
+
+} // namespace slips
