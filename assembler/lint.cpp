@@ -453,8 +453,8 @@ std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
 namespace {
 
 std::vector<std::string_view> all_words() {
-  std::vector<std::string_view> words{".macro", ".const", ".raw", ".noend", "on", "off", "id", "flags",
-                                      "delay", "time", "speed", "heading", "angle"};
+  std::vector<std::string_view> words{".macro", ".const", ".raw", ".noend", "on",      "off",  "id",
+                                      "flags",  "delay",  "time", "speed",  "heading", "angle"};
   for (const auto& row : spec::macro_commands)
     words.push_back(row.mnemonic);
   return words;

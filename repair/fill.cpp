@@ -53,9 +53,8 @@ bool holds(std::string_view words, std::string_view word) {
 const Colour* named_colour(const Token& token) {
   if (!token.is_word() && !token.is_text())
     return nullptr;
-  const auto found = std::find_if(colours.begin(), colours.end(), [&](const Colour& one) {
-    return holds(one.words, token.text);
-  });
+  const auto found = std::find_if(colours.begin(), colours.end(),
+                                  [&](const Colour& one) { return holds(one.words, token.text); });
   return found == colours.end() ? nullptr : &*found;
 }
 
@@ -156,9 +155,8 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
       return std::nullopt;
     return Time{*value * unit->ms / second_ms, unit->ms > 1};
   }
-  const bool seconds =
-      assume == Assume::Seconds || fraction ||
-      (assume == Assume::Either && *value <= most_seconds * second_ms);
+  const bool seconds = assume == Assume::Seconds || fraction ||
+                       (assume == Assume::Either && *value <= most_seconds * second_ms);
   return Time{seconds ? *value : *value / second_ms, seconds};
 }
 
@@ -173,7 +171,8 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
     return fmt::format("{}ms", time->ms);
   }
   for (const auto& token : tokens)
-    if (token.is_text() || token.is(",") || (token.is_number() && token.text.find('.') != std::string::npos))
+    if (token.is_text() || token.is(",") ||
+        (token.is_number() && token.text.find('.') != std::string::npos))
       return std::nullopt;
   return assume == Assume::Seconds ? fmt::format("{} * 1000", as_factor(tokens)) : join(tokens);
 }
@@ -226,7 +225,9 @@ Text opposite(Tokens tokens, Language language) {
   const auto left = join(Tokens(tokens.begin(), tokens.begin() + static_cast<std::ptrdiff_t>(at)));
   const Tokens right(tokens.begin() + static_cast<std::ptrdiff_t>(at) + 1, tokens.end());
   const auto& sign = tokens[at].text;
-  const auto with = [&](std::string_view other) { return fmt::format("{} {} {}", left, other, join(right)); };
+  const auto with = [&](std::string_view other) {
+    return fmt::format("{} {} {}", left, other, join(right));
+  };
   if (sign == "=" || sign == "==")
     return with("!");
   if (sign == "!" || sign == "!=" || sign == "<>")
@@ -240,7 +241,8 @@ Text opposite(Tokens tokens, Language language) {
     return sign == "<" ? fmt::format("{0} > {1} or {0} = {1}", left, join(right))
                        : fmt::format("{0} < {1} or {0} = {1}", left, join(right));
   const auto limit = plus(right, sign == "<" ? -1 : 1);
-  return limit ? Text(fmt::format("{} {} {}", left, sign == "<" ? '>' : '<', *limit)) : std::nullopt;
+  return limit ? Text(fmt::format("{} {} {}", left, sign == "<" ? '>' : '<', *limit))
+               : std::nullopt;
 }
 
 /// Text with `{name}` in it, as items of `print`.
@@ -314,13 +316,15 @@ Text items(const Tokens& tokens) {
   int depth = 0;
   bool apart = true;
   const auto beside_text = [&](std::size_t i) {
-    return (i > 0 && tokens[i - 1].is_text()) || (i + 1 < tokens.size() && tokens[i + 1].is_text()) ||
+    return (i > 0 && tokens[i - 1].is_text()) ||
+           (i + 1 < tokens.size() && tokens[i + 1].is_text()) ||
            (i + 1 < tokens.size() && (tokens[i + 1].is("str") || tokens[i + 1].is("String"))) ||
            (i > 0 && tokens[i - 1].is(")") && out.ends_with("\x01"));
   };
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const auto& token = tokens[i];
-    const bool converts = token.is("str") || token.is("String") || token.is("STR") || token.is("string");
+    const bool converts =
+        token.is("str") || token.is("String") || token.is("STR") || token.is("string");
     if (converts && i + 1 < tokens.size() && tokens[i + 1].is("(")) {
       Tokens inner;
       int open = 0;
@@ -328,14 +332,15 @@ Text items(const Tokens& tokens) {
         open += tokens[i].is("(") ? 1 : tokens[i].is(")") ? -1 : 0;
         if (open == 0)
           break;
-        if (!(open == 1 && inner.empty() && tokens[i].is("(") ))
+        if (!(open == 1 && inner.empty() && tokens[i].is("(")))
           inner.push_back(tokens[i]);
       }
       out += (apart ? "" : " ") + join(inner) + "\x01";
       apart = false;
       continue;
     }
-    const bool joins = token.is("+") || token.is("&") || token.is("<<") || token.is(".") || token.is("..");
+    const bool joins =
+        token.is("+") || token.is("&") || token.is("<<") || token.is(".") || token.is("..");
     if (depth == 0 && (token.is(";") || (joins && beside_text(i)))) {
       if (token.is(";") && i + 1 == tokens.size())
         out += ";";
@@ -354,7 +359,9 @@ Text items(const Tokens& tokens) {
       continue;
     }
     depth += token.is("(") ? 1 : token.is(")") ? -1 : 0;
-    const bool wants_gap = !apart && !token.is(",") && (token.gap || i == 0 || token.is_text() || tokens[i - 1].is_text() || out.ends_with("\x01") || tokens[i-1].is("+"));
+    const bool wants_gap = !apart && !token.is(",") &&
+                           (token.gap || i == 0 || token.is_text() || tokens[i - 1].is_text() ||
+                            out.ends_with("\x01") || tokens[i - 1].is("+"));
     out += (wants_gap ? " " : "") + (token.is_text() ? '"' + token.text + '"' : token.text);
     apart = false;
   }
@@ -492,8 +499,9 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
       return std::to_string(*value);
     if (digits.size() != 6)
       return std::nullopt;
-    return language == Language::Structured ? Text("#" + digits)
-                                            : Text(fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF));
+    return language == Language::Structured
+               ? Text("#" + digits)
+               : Text(fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF));
   }
   if (function == "bare") {
     Tokens inner = a;
@@ -524,7 +532,9 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
 }
 
 Text name_of(std::string_view name, const Holes& holes, const Surroundings& around) {
-  const auto known = [](const std::string& text) { return text.empty() ? std::nullopt : Text(text); };
+  const auto known = [](const std::string& text) {
+    return text.empty() ? std::nullopt : Text(text);
+  };
   if (name == "here")
     return known(around.line_number);
   if (name == "free")
@@ -538,7 +548,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
   if (name == "*")
     return join(holes.rest);
   if (name == "still")
-    return holes.choice == "turn" || holes.choice == "rotate" || holes.choice == "spin" ? "0" : "100";
+    return holes.choice == "turn" || holes.choice == "rotate" || holes.choice == "spin" ? "0"
+                                                                                        : "100";
   return join(holes[name[0]]);
 }
 

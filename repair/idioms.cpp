@@ -31,7 +31,8 @@ struct Part {
 
 struct Pattern {
   std::vector<Part> parts;
-  std::uint64_t needs = ~std::uint64_t{0}; ///< a line without any of these bits cannot fit
+  std::vector<std::uint64_t> needs; ///< a line without a bit of each of these cannot fit
+  std::uint64_t first = 0;          ///< the bits of what it begins with; 0 for a hole
   const Idiom* idiom = nullptr;
   std::string_view meaning; ///< of a word
 };
@@ -77,32 +78,41 @@ void add_patterns(std::vector<Pattern>& all, std::string_view patterns, const Id
     for (const auto one : pieces(text, " "))
       if (!one.empty())
         pattern.parts.push_back(part_of(one));
-    int fewest = 65;
-    for (const auto& part : pattern.parts) {
-      if (part.hole != '\0')
-        continue;
+    for (std::size_t i = 0; i < pattern.parts.size(); ++i) {
       std::uint64_t bits = 0;
-      for (const auto& literal : part.literals)
+      for (const auto& literal : pattern.parts[i].literals)
         bits |= bit_of(literal);
-      if (const int count = __builtin_popcountll(bits); count < fewest) {
-        fewest = count;
-        pattern.needs = bits;
-      }
+      if (bits != 0)
+        pattern.needs.push_back(bits);
+      if (i == 0)
+        pattern.first = bits;
     }
     all.push_back(std::move(pattern));
   }
 }
 
-const std::vector<Pattern>& all_patterns() {
+std::string_view form_of(const Idiom& idiom, Language language) {
+  const auto form = language == Language::Basic        ? idiom.basic
+                    : language == Language::Structured ? idiom.structured
+                    : language == Language::Macro      ? idiom.macro
+                                                       : idiom.test;
+  return form == "=" ? idiom.basic : form;
+}
+
+/// The patterns that a language has an answer to.
+const std::vector<Pattern>& patterns_of(Language language) {
   static const auto all = [] {
-    std::vector<Pattern> patterns;
-    for (const auto& word : words)
-      add_patterns(patterns, word.patterns, nullptr, word.meaning);
-    for (const auto& idiom : idioms)
-      add_patterns(patterns, idiom.patterns, &idiom, {});
-    return patterns;
+    std::array<std::vector<Pattern>, 4> each;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      for (const auto& word : words)
+        add_patterns(each[i], word.patterns, nullptr, word.meaning);
+      for (const auto& idiom : idioms)
+        if (!form_of(idiom, static_cast<Language>(i)).empty())
+          add_patterns(each[i], idiom.patterns, &idiom, {});
+    }
+    return each;
   }();
-  return all;
+  return all[static_cast<std::size_t>(language)];
 }
 
 bool is_relation(const Token& token) {
@@ -127,15 +137,38 @@ public:
 
   /// Where the pattern ends that begins at `at`; 0 where it does not fit.
   std::size_t match(const Pattern& pattern, std::size_t at) {
-    holes_ = {};
+    spans_.clear();
+    choice_ = {};
     steps_ = 0;
-    chosen_ = false;
     return from(pattern, 0, at);
   }
-  Holes& holes() { return holes_; }
+
+  /// What the holes of the last match hold.
+  Holes holes() const {
+    Holes holes;
+    for (const auto& [hole, begin, end] : spans_)
+      holes[hole] = part(begin, end);
+    if (choice_.end > 0) {
+      holes.choice = tokens_[choice_.begin].text;
+      std::transform(holes.choice.begin(), holes.choice.end(), holes.choice.begin(), to_lower);
+      holes.rest = part(choice_.begin, choice_.end);
+    }
+    return holes;
+  }
 
 private:
-  static constexpr int most_steps = 3000;
+  static constexpr int most_steps = 1000;
+
+  struct Held {
+    char hole = '\0';
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+
+  Tokens part(std::size_t begin, std::size_t end) const {
+    return {tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
+            tokens_.begin() + static_cast<std::ptrdiff_t>(end)};
+  }
 
   std::size_t from(const Pattern& pattern, std::size_t part, std::size_t at) {
     if (++steps_ > most_steps)
@@ -157,8 +190,7 @@ private:
       const auto found = from(pattern, part + 1, stop);
       if (found == 0 && !(here.hole == 'r' && stop == 0 && last && whole_ && end_ == 0))
         continue;
-      holes_[here.hole] = Tokens(tokens_.begin() + static_cast<std::ptrdiff_t>(at),
-                                 tokens_.begin() + static_cast<std::ptrdiff_t>(stop));
+      spans_.push_back({here.hole, at, stop});
       return found;
     }
     return 0;
@@ -174,12 +206,8 @@ private:
     if (found == literals.end())
       return 0;
     const auto stop = from(pattern, part + 1, at + 1);
-    if (stop != 0 && literals.size() > 1) { // the first one is found last
-      holes_.choice = tokens_[at].text;
-      std::transform(holes_.choice.begin(), holes_.choice.end(), holes_.choice.begin(), to_lower);
-      holes_.rest = Tokens(tokens_.begin() + static_cast<std::ptrdiff_t>(at),
-                           tokens_.begin() + static_cast<std::ptrdiff_t>(stop));
-    }
+    if (stop != 0 && literals.size() > 1) // the first one is found last
+      choice_ = {'\0', at, stop};
     return stop;
   }
 
@@ -212,17 +240,20 @@ private:
     const auto& first = tokens_[begin];
     if (end == begin + 1)
       return first.is_word() ? !parts_line(first) : first.is_number();
-    return (first.is("(") || (first.is_word() && !parts_line(first) && (tokens_[begin + 1].is("(") || tokens_[begin + 1].is("[")))) &&
+    return (first.is("(") || (first.is_word() && !parts_line(first) &&
+                              (tokens_[begin + 1].is("(") || tokens_[begin + 1].is("[")))) &&
            (tokens_[end - 1].is(")") || tokens_[end - 1].is("]"));
   }
 
-  /// A value: neither commas nor comparisons outside of its parentheses, no two values side by side.
+  /// A value: neither commas nor comparisons outside of its parentheses, no two values side by
+  /// side.
   bool is_value(std::size_t begin, std::size_t end) const {
     int depth = 0;
     for (auto i = begin; i < end; ++i) {
       const auto& token = tokens_[i];
       depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-      if (token.is_text() || parts_line(token) || token.is(";") || token.is("{") || token.is("}") || token.is(":"))
+      if (token.is_text() || parts_line(token) || token.is(";") || token.is("{") || token.is("}") ||
+          token.is(":"))
         return false;
       if (depth == 0 && (token.is(",") || is_relation(token)))
         return false;
@@ -254,8 +285,8 @@ private:
     case 'c':
     case 'd':
       for (auto i = begin; i < end; ++i)
-        if (tokens_[i].is("then") || tokens_[i].is("else") || tokens_[i].is_text() || tokens_[i].is("goto") ||
-            tokens_[i].is("{"))
+        if (tokens_[i].is("then") || tokens_[i].is("else") || tokens_[i].is_text() ||
+            tokens_[i].is("goto") || tokens_[i].is("{"))
           return false;
       return true;
     case 'l': return true;
@@ -276,24 +307,17 @@ private:
   const Tokens& tokens_;
   std::size_t end_;
   bool whole_;
-  Holes holes_;
+  std::vector<Held> spans_;
+  Held choice_;
   int steps_ = 0;
-  bool chosen_ = false;
 };
-
-std::string_view form_of(const Idiom& idiom, Language language) {
-  const auto form = language == Language::Basic        ? idiom.basic
-                    : language == Language::Structured ? idiom.structured
-                    : language == Language::Macro      ? idiom.macro
-                                                       : idiom.test;
-  return form == "=" ? idiom.basic : form;
-}
 
 /// The statements of a line: all of it, and the branches of an `if`.
 std::vector<std::pair<std::size_t, std::size_t>> statements_of(const Tokens& line) {
   std::vector<std::pair<std::size_t, std::size_t>> all{{0, line.size()}};
   for (std::size_t i = 0; i < line.size(); ++i)
-    if (line[i].is_word() && (equal_words(line[i].text, "then") || (i > 0 && equal_words(line[i].text, "else")))) {
+    if (line[i].is_word() &&
+        (equal_words(line[i].text, "then") || (i > 0 && equal_words(line[i].text, "else")))) {
       auto end = i + 1;
       while (end < line.size() && !(line[end].is_word() && equal_words(line[end].text, "else")))
         ++end;
@@ -303,13 +327,16 @@ std::vector<std::pair<std::size_t, std::size_t>> statements_of(const Tokens& lin
   return all;
 }
 
-std::string replaced(const Tokens& line, std::size_t begin, std::size_t end, std::string_view form) {
+std::string replaced(const Tokens& line, std::size_t begin, std::size_t end,
+                     std::string_view form) {
   const auto before = join(Tokens(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(begin)));
   const auto after = join(Tokens(line.begin() + static_cast<std::ptrdiff_t>(end), line.end()));
   const auto tight = [](char c) { return c == '(' || c == '['; };
   const bool left = !before.empty() && !tight(before.back()) && !form.empty();
-  const bool right = !after.empty() && std::string_view("),];").find(after[0]) == std::string_view::npos;
-  return before + (left ? " " : "") + std::string(form) + (right && !(before.empty() && form.empty()) ? " " : "") + after;
+  const bool right =
+      !after.empty() && std::string_view("),];").find(after[0]) == std::string_view::npos;
+  return before + (left ? " " : "") + std::string(form) +
+         (right && !(before.empty() && form.empty()) ? " " : "") + after;
 }
 
 } // namespace
@@ -317,36 +344,44 @@ std::string replaced(const Tokens& line, std::size_t begin, std::size_t end, std
 void rewrite(const Tokens& line, const Surroundings& around,
              const std::function<bool(const Rewritten&)>& take) {
   std::uint64_t bits = 0;
-  for (const auto& token : line)
-    if (!token.is_text())
-      bits |= bit_of(token.text);
+  std::vector<std::uint64_t> bit(line.size());
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    bit[i] = line[i].is_text() ? 0 : bit_of(line[i].text);
+    bits |= bit[i];
+  }
   const auto here = join(line);
   const auto statements = statements_of(line);
-  for (const auto& pattern : all_patterns()) {
-    if ((pattern.needs & bits) == 0)
+  for (const auto& pattern : patterns_of(around.language)) {
+    if (std::any_of(pattern.needs.begin(), pattern.needs.end(),
+                    [bits](std::uint64_t one) { return (one & bits) == 0; }))
       continue;
-    const auto form = pattern.idiom == nullptr ? pattern.meaning : form_of(*pattern.idiom, around.language);
-    if (form.empty())
-      continue;
-    const auto use = [&](Matcher& matcher, std::size_t begin, std::size_t end) {
-      const auto filled = form == "-" ? std::optional(std::string()) : fill(form, matcher.holes(), around);
+    const auto form =
+        pattern.idiom == nullptr ? pattern.meaning : form_of(*pattern.idiom, around.language);
+    const auto use = [&](const Matcher& matcher, std::size_t begin, std::size_t end) {
+      const auto filled =
+          form == "-" ? std::optional(std::string()) : fill(form, matcher.holes(), around);
       if (!filled)
         return false;
       auto text = replaced(line, begin, end, *filled);
       return text != here &&
-             take({std::move(text), pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note});
+             take({std::move(text),
+                   pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note});
+    };
+    const auto begins = [&](std::size_t i) {
+      return pattern.first == 0 || (pattern.first & bit[i]) != 0;
     };
     if (pattern.idiom != nullptr && pattern.idiom->where == Where::Line) {
       for (const auto& [begin, end] : statements) {
         Matcher matcher(line, end, true);
-        if (matcher.match(pattern, begin) == end && end > begin && use(matcher, begin, end))
+        if (end > begin && begins(begin) && matcher.match(pattern, begin) == end &&
+            use(matcher, begin, end))
           return;
       }
       continue;
     }
+    Matcher matcher(line, line.size(), false);
     for (std::size_t begin = 0; begin < line.size(); ++begin) {
-      Matcher matcher(line, line.size(), false);
-      const auto end = matcher.match(pattern, begin);
+      const auto end = begins(begin) ? matcher.match(pattern, begin) : 0;
       if (end > begin && use(matcher, begin, end))
         return;
     }

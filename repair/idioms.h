@@ -14,10 +14,11 @@
 // repair/idioms.def.
 //
 // A pattern is literal words and signs (case does not count; `a|b`: one of them; ` ;; ` parts whole
-// patterns) and holes: `$n $m` a number, `$q $p` a number with a unit or an operand, `$o` an operand, `$w` a word,
-// `$v` a variable or element, `$t` a text, `$k` a colour, `$c $d` a condition, `$l` a list, `$r` anything or
-// nothing, every other letter an expression. What is written instead names the holes in braces, perhaps
-// through a function: `{sec:q}` (repair/fill.cpp).
+// patterns) and holes: `$n $m` a number, `$q $p` a number with a unit or an operand, `$o` an
+// operand, `$w` a word,
+// `$v` a variable or element, `$t` a text, `$k` a colour, `$c $d` a condition, `$l` a list, `$r`
+// anything or nothing, every other letter an expression. What is written instead names the holes in
+// braces, perhaps through a function: `{sec:q}` (repair/fill.cpp).
 
 namespace orb::repair {
 

@@ -21,12 +21,12 @@ constexpr std::size_t most_bytes = 65536; // more than any area of the robot hol
 constexpr std::size_t most_lines = 24;    // with errors; nobody reads more at once
 constexpr std::size_t longest_line = 240;
 constexpr std::size_t most_tokens = 64;
-constexpr std::size_t most_states = 400; // of one line, by habits
-constexpr int most_candidates = 2000; // of one line, by search
-constexpr int most_checks = 24;      // of the whole text, for one line
-constexpr int deepest = 6;           // habits in one line
-constexpr int surely = 6;            // one letter of a word
-constexpr int clearly = 4;           // by so much the best change is cheaper than the next
+constexpr std::size_t most_states = 150; // of one line, by habits
+constexpr int most_candidates = 2000;    // of one line, by search
+constexpr int most_checks = 24;          // of the whole text, for one line
+constexpr int deepest = 6;               // habits in one line
+constexpr int surely = 6;                // one letter of a word
+constexpr int clearly = 4;               // by so much the best change is cheaper than the next
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
@@ -36,8 +36,8 @@ std::size_t errors_in(const std::vector<Diagnostic>& findings) {
 struct Accepted {
   std::string text; ///< of the whole line
   std::string_view note;
-  bool fewer = false;    ///< the text has fewer errors with it
-  bool quiet = false;    ///< nothing else is said about the line
+  bool fewer = false; ///< the text has fewer errors with it
+  bool quiet = false; ///< nothing else is said about the line
 };
 
 /// What is around the lines of a text: names, open loops, free letters.
@@ -60,8 +60,9 @@ public:
     if (language_ == Language::Basic)
       return names;
     for (const auto& [word, count] : words_) {
-      const auto here = std::count_if(line.begin(), line.end(),
-                                      [&word = word](const Token& token) { return token.text == word; });
+      const auto here = std::count_if(line.begin(), line.end(), [&word = word](const Token& token) {
+        return token.text == word;
+      });
       if (count > static_cast<std::size_t>(here) && word.size() > 1)
         names.push_back(word);
     }
@@ -69,13 +70,16 @@ public:
   }
 
   /// A name that is written once and is near `word`: its misspelt definition.
-  std::optional<std::string> misspelt(std::string_view word, const std::vector<std::string_view>& known) const {
+  std::optional<std::string> misspelt(std::string_view word,
+                                      const std::vector<std::string_view>& known) const {
     const auto uses = words_.find(std::string(word));
     if (uses == words_.end() || uses->second < 2)
       return std::nullopt;
     for (const auto& [other, count] : words_)
-      if (count == 1 && other.size() > 2 && edit_distance(other, word) * 3 <= std::max(other.size(), word.size()) &&
-          std::none_of(known.begin(), known.end(), [&one = other](std::string_view k) { return equal_words(k, one); }))
+      if (count == 1 && other.size() > 2 &&
+          edit_distance(other, word) * 3 <= std::max(other.size(), word.size()) &&
+          std::none_of(known.begin(), known.end(),
+                       [&one = other](std::string_view k) { return equal_words(k, one); }))
         return other;
     return std::nullopt;
   }
@@ -105,7 +109,8 @@ private:
         continue;
       if (equal_words(tokens[0].text, "next"))
         open.insert(tokens[1].text);
-      else if (const auto one = open.find(tokens[1].text); equal_words(tokens[0].text, "for") && one != open.end())
+      else if (const auto one = open.find(tokens[1].text);
+               equal_words(tokens[0].text, "for") && one != open.end())
         open.erase(one);
     }
     if (!open.empty())
@@ -138,8 +143,8 @@ private:
         continue;
       const auto& first = tokens[0].text;
       const auto is = [&](std::string_view word) { return equal_words(first, word); };
-      if (is("while") || is("loop") || is("repeat") || is("select") || is("sub") || is("function") ||
-          is("for"))
+      if (is("while") || is("loop") || is("repeat") || is("select") || is("sub") ||
+          is("function") || is("for"))
         open.push_back(is("for") ? "next" : "end " + first);
       else if (is("def") || is("void"))
         open.emplace_back("end sub");
@@ -222,15 +227,17 @@ private:
     for (auto& token : parts_.tokens) {
       if (token.is_word() && judge_.language != Language::Structured &&
           std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
-        const auto same = std::find_if(judge_.words.begin(), judge_.words.end(), [&](std::string_view one) {
-          return one.size() > 1 && equal_words(one, token.text);
-        });
+        const auto same =
+            std::find_if(judge_.words.begin(), judge_.words.end(), [&](std::string_view one) {
+              return one.size() > 1 && equal_words(one, token.text);
+            });
         if (same != judge_.words.end())
           token.text = *same;
       }
       if (token.is_number() && judge_.language == Language::Basic && token.text.size() > 2 &&
           to_lower(token.text[1]) == 'x')
-        if (const auto value = parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
+        if (const auto value =
+                parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
           token.text = std::to_string(*value);
     }
   }
@@ -249,7 +256,8 @@ private:
     return attempt_line(whole(statement), note).has_value() && best_ && best_->quiet;
   }
 
-  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool keep = true) {
+  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note,
+                                       bool keep = true) {
     if (text == line_ || checks_ >= most_checks || !judge_.parses(text))
       return std::nullopt;
     ++checks_;
@@ -273,7 +281,8 @@ private:
     return accepted;
   }
 
-  /// Applies habits until the line is one: every one alone first, then two after each other, and so on.
+  /// Applies habits until the line is one: every one alone first, then two after each other, and so
+  /// on.
   void explore(const std::string& statement, int depth, std::size_t most) {
     std::vector<std::pair<std::string, int>> open{{statement, depth}};
     for (std::size_t next = 0; next < open.size(); ++next) {
@@ -329,7 +338,7 @@ private:
         return;
       // a misspelt habit
       best_.reset();
-      explore(one.text, deepest - 3, seen_.size() + 40);
+      explore(one.text, deepest - 3, seen_.size() + 20);
       if (best_)
         good.emplace_back(one, *best_);
       best_.reset();
@@ -340,7 +349,8 @@ private:
       for (const auto& one : first) {
         if (one.cost > 9 || tried > most_candidates)
           break;
-        for (auto next : changes(tokens_of(one.text, judge_.language), judge_.language, judge_.words, names_)) {
+        for (auto next :
+             changes(tokens_of(one.text, judge_.language), judge_.language, judge_.words, names_)) {
           next.cost += one.cost;
           if (next.cost > 18)
             break;
@@ -394,14 +404,16 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
       if (!token.is_word() || token.text != *other)
         continue;
       const auto begin = source.line_start(n) + token.at;
-      const Edit edit{{begin, begin + static_cast<std::uint32_t>(other->size())}, std::string(word)};
+      const Edit edit{{begin, begin + static_cast<std::uint32_t>(other->size())},
+                      std::string(word)};
       auto text = std::string(source.text());
       text.replace(begin, other->size(), word);
       if (errors_in(judge.check(text)) >= errors_in(before))
         return false;
       auto line = std::string(source.line(n));
       line.replace(token.at, other->size(), word);
-      finding.help = fmt::format("write `{}` in line {}", line.substr(line.find_first_not_of(" \t")), n);
+      finding.help =
+          fmt::format("write `{}` in line {}", line.substr(line.find_first_not_of(" \t")), n);
       finding.fix = Fix{fmt::format("rename `{}` to `{}`", *other, word), {edit}, Safety::Unsafe};
       return true;
     }
@@ -414,7 +426,8 @@ bool goes_on(std::string_view line) {
   const auto tokens = split(line.substr(0, longest_line), Language::Structured).tokens;
   for (const auto& token : tokens)
     depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-  return depth > 0 || (!tokens.empty() && tokens.back().kind == Token::Kind::Sign && !tokens.back().is(")"));
+  return depth > 0 ||
+         (!tokens.empty() && tokens.back().kind == Token::Kind::Sign && !tokens.back().is(")"));
 }
 
 } // namespace
@@ -430,22 +443,24 @@ void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnost
     if (!is_error(finding) || finding.span.begin > text.size())
       continue;
     const auto line = source.position(finding.span.begin).line;
-    if (source.line(line).empty() || source.line(line).size() > longest_line || lines.size() >= most_lines ||
-        !lines.insert(line).second)
+    if (source.line(line).empty() || source.line(line).size() > longest_line ||
+        lines.size() >= most_lines || !lines.insert(line).second)
       continue;
     if (!scenery)
       scenery.emplace(source, judge.language);
-    if (finding.rule->id == "unknown-name" && mend_definition(source, judge, *scenery, before, finding))
+    if (finding.rule->id == "unknown-name" &&
+        mend_definition(source, judge, *scenery, before, finding))
       continue;
     auto at = line;
     std::optional<Repair> tried(std::in_place, source, judge, *scenery, at, before);
     auto found = tried->find(finding);
-    if (found.empty() && at > 1 && judge.language == Language::Structured && goes_on(source.line(at - 1)) &&
-        lines.insert(at - 1).second) {
+    if (found.empty() && at > 1 && judge.language == Language::Structured &&
+        goes_on(source.line(at - 1)) && lines.insert(at - 1).second) {
       tried.emplace(source, judge, *scenery, --at, before);
       found = tried->find(finding);
       if (!found.empty())
-        finding.span = {source.line_start(at), source.line_start(at) + static_cast<std::uint32_t>(source.line(at).size())};
+        finding.span = {source.line_start(at),
+                        source.line_start(at) + static_cast<std::uint32_t>(source.line(at).size())};
     }
     if (found.empty())
       continue;

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-// The line to write: what a line with an error was meant to be. Known habits first (repair/idioms.def),
-// then the nearest line by a bounded search over small changes. Every offer was tried: the whole text
-// was checked with it.
+// The line to write: what a line with an error was meant to be. Known habits first
+// (repair/idioms.def), then the nearest line by a bounded search over small changes. Every offer
+// was tried: the whole text was checked with it.
 
 namespace orb::repair {
 

@@ -113,8 +113,8 @@ private:
     const bool twice = i > 0 && line_[i - 1].text == token.text;
     if (token.is_word() && !twice)
       return;
-    if (!twice && (token.is("-") || token.is("+") || token.is("*") || token.is("/") || token.is("%") ||
-                   token.is("!") || token.is("<") || token.is(">")))
+    if (!twice && (token.is("-") || token.is("+") || token.is("*") || token.is("/") ||
+                   token.is("%") || token.is("!") || token.is("<") || token.is(">")))
       return; // it would compute something else
     auto changed = line_;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i));
@@ -186,7 +186,8 @@ private:
 
   /// `print hello"`: the quote that opens is missing.
   void closed() {
-    if (line_.empty() || !line_.back().is_text() || line_.back().closed || !line_.back().text.empty())
+    if (line_.empty() || !line_.back().is_text() || line_.back().closed ||
+        !line_.back().text.empty())
       return;
     for (std::size_t i = 1; i + 1 < line_.size(); ++i) {
       Tokens changed(line_.begin(), line_.begin() + static_cast<std::ptrdiff_t>(i));

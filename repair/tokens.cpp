@@ -36,8 +36,9 @@ constexpr auto drawn = std::to_array<Written>({{"×", "*"},
 constexpr auto quotes = std::to_array<std::string_view>(
     {"“", "”", "„", "‟", "«", "»", "‘", "’", "‚", "''", "``", "´", "`", "'", "\""});
 constexpr auto long_signs = std::to_array<std::string_view>(
-    {"===", "!==", "...", "+-", "==", "!=", "<>", "<=", ">=", "=<", "=>", "+=", "-=", "*=", "/=", "%=",
-     "=+", "=-", "++", "--", "&&", "||", ":=", "<-", "**", "//", "->", "<<", ">>", "..", "~="});
+    {"===", "!==", "...", "+-", "==", "!=", "<>", "<=", ">=", "=<", "=>",
+     "+=",  "-=",  "*=",  "/=", "%=", "=+", "=-", "++", "--", "&&", "||",
+     ":=",  "<-",  "**",  "//", "->", "<<", ">>", "..", "~="});
 
 class Splitter {
 public:
@@ -78,7 +79,8 @@ public:
 
 private:
   void blanks() {
-    while (at_ < text_.size() && (is_blank(text_[at_]) || text_.substr(at_).starts_with("\xC2\xA0")))
+    while (at_ < text_.size() &&
+           (is_blank(text_[at_]) || text_.substr(at_).starts_with("\xC2\xA0")))
       at_ += text_[at_] == '\xC2' ? 2 : 1;
   }
   bool sees(std::string_view what) const { return text_.substr(at_).starts_with(what); }
@@ -159,8 +161,8 @@ private:
   }
 
   bool text(Tokens& tokens) {
-    const auto quote = std::find_if(quotes.begin(), quotes.end(),
-                                    [&](std::string_view one) { return sees(one); });
+    const auto quote =
+        std::find_if(quotes.begin(), quotes.end(), [&](std::string_view one) { return sees(one); });
     if (quote == quotes.end())
       return false;
     at_ += quote->size();
@@ -174,9 +176,8 @@ private:
           width = one.size();
           break;
         }
-    add(tokens, Token::Kind::Text, std::string(text_.substr(at_, end == std::string_view::npos
-                                                                     ? end
-                                                                     : end - at_)));
+    add(tokens, Token::Kind::Text,
+        std::string(text_.substr(at_, end == std::string_view::npos ? end : end - at_)));
     auto& token = tokens.back();
     token.closed = end != std::string_view::npos;
     token.plain = *quote == "\"";
@@ -211,7 +212,8 @@ private:
   }
 
   bool word(Tokens& tokens) {
-    if (!is_part(text_[at_]) && !(text_[at_] == '.' && language_ == Language::Macro && tokens.empty()))
+    if (!is_part(text_[at_]) &&
+        !(text_[at_] == '.' && language_ == Language::Macro && tokens.empty()))
       return false;
     for (const auto& one : drawn)
       if (sees(one.text))

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-// A line of any of the languages, split the way a person reads it: whatever was written, and without
-// knowing which words there are.
+// A line of any of the languages, split the way a person reads it: whatever was written, and
+// without knowing which words there are.
 
 namespace orb::repair {
 
@@ -22,9 +22,9 @@ struct Token {
   };
   Kind kind = Kind::Sign;
   std::string text;
-  bool gap = false;    ///< a blank stands before it
-  bool closed = true;  ///< of a Text: its closing quote is there
-  bool plain = true;   ///< of a Text: quoted with `"`
+  bool gap = false;     ///< a blank stands before it
+  bool closed = true;   ///< of a Text: its closing quote is there
+  bool plain = true;    ///< of a Text: quoted with `"`
   std::uint32_t at = 0; ///< where it begins in the line
 
   bool is(std::string_view sign) const { return kind != Kind::Text && text == sign; }
@@ -37,13 +37,13 @@ using Tokens = std::vector<Token>;
 
 /// A line in its parts.
 struct SplitLine {
-  std::string head;    ///< blanks, the line number and the blanks after it
+  std::string head; ///< blanks, the line number and the blanks after it
   Tokens tokens;
   std::string comment; ///< with its sign, as the language writes it; empty without one
 };
 
-/// Splits a line (without its end). Comments of other languages (`//`, `#`, `REM`, `--`, `/* */`) are
-/// comments; so is text in any quotes a text.
+/// Splits a line (without its end). Comments of other languages (`//`, `#`, `REM`, `--`, `/* */`)
+/// are comments; so is text in any quotes a text.
 SplitLine split(std::string_view line, Language language);
 
 /// Tokens of a part of a line: no number in front, no comment behind.

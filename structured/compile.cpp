@@ -248,7 +248,8 @@ std::vector<std::string_view> all_words() {
   return words;
 }
 
-/// The findings about the main file as far as names and values go, its spans counted from its begin.
+/// The findings about the main file as far as names and values go, its spans counted from its
+/// begin.
 std::vector<Diagnostic> front(const std::string& name, const std::string& path,
                               std::string_view text, const compiler::Target& target, Files& files) {
   auto program = read(name, path, text, files);
@@ -268,10 +269,13 @@ bool parses(std::string_view line) {
 }
 
 /// The line to write, for each error of the main file.
-void offer_lines(Compiled& compiled, std::string_view text, const compiler::Target& target, Files& files) {
+void offer_lines(Compiled& compiled, std::string_view text, const compiler::Target& target,
+                 Files& files) {
   auto& program = compiled.program;
   const auto main = program.files.front();
-  const auto is_main = [&](const Diagnostic& d) { return &program.file_at(d.span.begin) == &program.files.front(); };
+  const auto is_main = [&](const Diagnostic& d) {
+    return &program.file_at(d.span.begin) == &program.files.front();
+  };
   std::vector<Diagnostic> own;
   for (const auto& d : program.diagnostics)
     if (is_main(d))
@@ -280,7 +284,9 @@ void offer_lines(Compiled& compiled, std::string_view text, const compiler::Targ
   judge.language = repair::Language::Structured;
   judge.words = all_words();
   judge.parses = parses;
-  judge.check = [&](std::string_view changed) { return front(main.name, main.path, changed, target, files); };
+  judge.check = [&](std::string_view changed) {
+    return front(main.name, main.path, changed, target, files);
+  };
   repair::offer_lines(text, judge, own);
   auto next = own.begin();
   for (auto& d : program.diagnostics)

@@ -27,9 +27,10 @@ struct Judged {
   std::string said; ///< the finding, for people
 };
 
-/// Judges a program with a mistake on line `at` (from 0); `meant` are programs as they may have been
-/// meant. None of them: nobody can know, and a finding on the line is good.
-Judged judge(Language language, const Lines& program, std::size_t at, const std::vector<Lines>& meant);
+/// Judges a program with a mistake on line `at` (from 0); `meant` are programs as they may have
+/// been meant. None of them: nobody can know, and a finding on the line is good.
+Judged judge(Language language, const Lines& program, std::size_t at,
+             const std::vector<Lines>& meant);
 
 /// What a program does, as text that can be compared; empty where it has errors.
 std::string meaning(Language language, const Lines& program);

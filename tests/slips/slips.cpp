@@ -1,6 +1,6 @@
-// slips ROOT [--update | --show [LANGUAGE]]: judges every mistake of tests/slips/mistakes.txt, and slips
-// planted at random places of real programs. Prints docs/slips.md; fails when that page says something
-// else, or when too few are answered with the line to write, or too many wrongly.
+// slips ROOT [--update | --show [LANGUAGE]]: judges every mistake of tests/slips/mistakes.txt, and
+// slips planted at random places of real programs. Prints docs/slips.md; fails when that page says
+// something else, or when too few are answered with the line to write, or too many wrongly.
 
 #include "slips/judge.h"
 
@@ -58,11 +58,13 @@ Frame frame_of(Language language, const std::string& line) {
   switch (language) {
   case Language::Basic:
     return {{"10 A = 1", "20 B = 2", "30 H = 90", "40 print A B H"},
-            {"60 delay 100", "70 gosub 200", "80 goroll 0,0,0", "90 end", "200 delay 10", "210 return"}};
+            {"60 delay 100", "70 gosub 200", "80 goroll 0,0,0", "90 end", "200 delay 10",
+             "210 return"}};
   case Language::Structured:
     return {{"a = 1", "b = 2", "c = 3", "i = 0", "sub blink", "  LEDC 1", "  delay 100", "end sub"},
             {"print a, b, c, i", "blink"}};
-  case Language::Macro: return {{".macro other id=40", "  delay 5", ".macro m id=41"}, {"  delay 100"}};
+  case Language::Macro:
+    return {{".macro other id=40", "  delay 5", ".macro m id=41"}, {"  delay 100"}};
   case Language::Test: break;
   }
   for (const auto* head : {"for", "seeds", "program", "course"})
@@ -131,7 +133,8 @@ slips::Judged judge(const Mistake& one) {
 
 /// Changes a line in one place; empty where it cannot.
 std::string mistyped(const std::string& line, std::mt19937& random) {
-  for (const auto* of_files : {"program ", "with ", "course ", "reach ", "inside ", "stay ", "print /"})
+  for (const auto* of_files :
+       {"program ", "with ", "course ", "reach ", "inside ", "stay ", "print /"})
     if (line.find(of_files) != std::string::npos)
       return {}; // whether a name is right is not in the text
   const auto hash = line.find_first_of("'#;");
@@ -180,7 +183,8 @@ std::string mistyped(const std::string& line, std::mt19937& random) {
       return {};
     changed = trim(code);
     const auto cut = blank - (code.size() - code.substr(code.find_first_not_of(' ')).size());
-    changed = code.substr(0, blank - cut) + changed.substr(0, cut) + "(" + changed.substr(cut + 1) + ")";
+    changed =
+        code.substr(0, blank - cut) + changed.substr(0, cut) + "(" + changed.substr(cut + 1) + ")";
     break;
   }
   default: // a sign at its end
@@ -189,7 +193,8 @@ std::string mistyped(const std::string& line, std::mt19937& random) {
       changed.pop_back();
     changed += pick(2) == 0 ? ";" : ":";
   }
-  return changed == code ? std::string() : changed + (hash == std::string::npos ? "" : " " + line.substr(hash));
+  return changed == code ? std::string()
+                         : changed + (hash == std::string::npos ? "" : " " + line.substr(hash));
 }
 
 std::array<Counts, 4> mistype_all(const fs::path& root, bool show) {
@@ -203,8 +208,9 @@ std::array<Counts, 4> mistype_all(const fs::path& root, bool show) {
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   for (const auto& path : paths) {
     const auto ending = path.extension().string();
-    const auto* const known = std::find_if(std::begin(slips::endings), std::end(slips::endings),
-                                    [&](std::string_view e) { return ending == "." + std::string(e); });
+    const auto* const known =
+        std::find_if(std::begin(slips::endings), std::end(slips::endings),
+                     [&](std::string_view e) { return ending == "." + std::string(e); });
     if (known == std::end(slips::endings))
       continue;
     const auto language = static_cast<Language>(known - std::begin(slips::endings));
@@ -219,7 +225,8 @@ std::array<Counts, 4> mistype_all(const fs::path& root, bool show) {
       const auto at = static_cast<std::size_t>(random() % lines.size());
       auto changed = lines;
       changed[at] = mistyped(lines[at], random);
-      if (changed[at].empty() || slips::meaning(language, changed) == slips::meaning(language, lines))
+      if (changed[at].empty() ||
+          slips::meaning(language, changed) == slips::meaning(language, lines))
         continue;
       const auto judged = slips::judge(language, changed, at, {lines});
       ++counts[static_cast<std::size_t>(language)][static_cast<std::size_t>(judged.verdict)];
@@ -251,7 +258,8 @@ std::string row(const std::string& name, const Counts& counts) {
 }
 
 std::string table(const std::array<Counts, 4>& counts) {
-  std::string text = "| language | mistakes | fully good | named | silent | wrong |\n|---|--:|--:|--:|--:|--:|\n";
+  std::string text =
+      "| language | mistakes | fully good | named | silent | wrong |\n|---|--:|--:|--:|--:|--:|\n";
   Counts all{};
   for (std::size_t i = 0; i < counts.size(); ++i) {
     text += row(fmt::format("`.{}`", slips::endings[i]), counts[i]);
@@ -286,26 +294,35 @@ int main(int argc, char** argv) {
     auto& counts = held ? held_out : seen;
     ++counts[static_cast<std::size_t>(one.language)][static_cast<std::size_t>(judged.verdict)];
     const auto ending = slips::endings[static_cast<std::size_t>(one.language)];
-    if (option == "--show" && !held && judged.verdict != Verdict::Good && (only.empty() || only == ending))
-      std::cerr << fmt::format("{} {} `{}` for `{}`: {}\n", "GNSW"[static_cast<int>(judged.verdict)],
-                               ending, one.wrong, one.right.empty() ? "?" : one.right[0], judged.said);
+    if (option == "--show" && !held && judged.verdict != Verdict::Good &&
+        (only.empty() || only == ending))
+      std::cerr << fmt::format("{} {} `{}` for `{}`: {}\n",
+                               "GNSW"[static_cast<int>(judged.verdict)], ending, one.wrong,
+                               one.right.empty() ? "?" : one.right[0], judged.said);
   }
   const auto typed = mistype_all(root, option == "--show-typed");
   const auto text = fmt::format(
       "# Slips\n\n"
-      "How `orb check` answers first mistakes. *Fully good*: the finding on the line offers a line to "
-      "write, and\nwith it the program is, byte for byte, the one that was meant. *Named*: a finding on "
-      "the line, without that\nline. *Silent*: nothing is said, though the program does something else. "
+      "How `orb check` answers first mistakes. *Fully good*: the finding on the line offers a line "
+      "to "
+      "write, and\nwith it the program is, byte for byte, the one that was meant. *Named*: a "
+      "finding on "
+      "the line, without that\nline. *Silent*: nothing is said, though the program does something "
+      "else. "
       "*Wrong*: the line that is offered\nmeans something else. The page is printed by a test "
       "(`build/dev/bin/slips . --update`).\n\n"
       "## Habits\n\n"
-      "Lines that beginners write who come from Scratch, MakeCode, Python, JavaScript, Arduino, QBasic or "
+      "Lines that beginners write who come from Scratch, MakeCode, Python, JavaScript, Arduino, "
+      "QBasic or "
       "Sphero Edu, or\nwho think in German, Spanish, French, Italian or Portuguese\n"
-      "([tests/slips/mistakes.txt](../tests/slips/mistakes.txt)), each with the line a teacher would write. "
-      "They were\nwritten before the table that answers them, and every other one is held out: no row was "
+      "([tests/slips/mistakes.txt](../tests/slips/mistakes.txt)), each with the line a teacher "
+      "would write. "
+      "They were\nwritten before the table that answers them, and every other one is held out: no "
+      "row was "
       "made for it.\n\nHeld out:\n\n{}\nThe others:\n\n{}\n"
       "## Slips of the hand\n\n"
-      "Letters swapped, left out and doubled, commas left out, values in parentheses, signs at the end, at "
+      "Letters swapped, left out and doubled, commas left out, values in parentheses, signs at the "
+      "end, at "
       "random places\nof all examples and lessons.\n\n{}",
       table(held_out), table(seen), table(typed));
   std::cout << text;
@@ -314,7 +331,8 @@ int main(int argc, char** argv) {
     std::ofstream(target, std::ios::binary) << text;
   const bool current = read(target) == text;
   if (!current)
-    std::cerr << "docs/slips.md is not what this prints; run with --update and read the difference\n";
+    std::cerr
+        << "docs/slips.md is not what this prints; run with --update and read the difference\n";
   const auto held = sum(held_out);
   const auto of = [&](Verdict v) { return held[static_cast<std::size_t>(v)] * 100; };
   constexpr std::size_t least_good = 75;
