@@ -1,7 +1,9 @@
 #include "base/fixes.h"
 
+#include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace orb {
 namespace {
@@ -42,16 +44,114 @@ private:
   std::map<std::uint32_t, const Edit*> taken_;
 };
 
+bool is_safe(const Diagnostic& diagnostic) {
+  return diagnostic.fix && diagnostic.fix->safety == Safety::Safe;
+}
+
+std::ptrdiff_t errors_in(const std::vector<Diagnostic>& findings) {
+  return std::count_if(findings.begin(), findings.end(), is_error);
+}
+
+/// What two texts do not have in common, in the second.
+Span changed(std::string_view from, std::string_view to) {
+  const auto most = std::min(from.size(), to.size());
+  std::size_t left = 0;
+  while (left < most && from[left] == to[left])
+    ++left;
+  std::size_t right = 0;
+  while (right < most - left && from[from.size() - 1 - right] == to[to.size() - 1 - right])
+    ++right;
+  while (left > 0 && to[left - 1] != '\n' && to[left - 1] != '\r')
+    --left;
+  auto end = to.size() - right;
+  while (end < to.size() && to[end] != '\n' && to[end] != '\r')
+    ++end;
+  return {static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(end)};
+}
+
+/// How many more errors of each kind there are, those that come to light in `shown` left out: a
+/// mistake hid them.
+std::map<const Rule*, int> more_errors(const std::vector<Diagnostic>& before,
+                                       const std::vector<Diagnostic>& after, Span shown) {
+  std::map<const Rule*, int> more;
+  for (const auto& d : before)
+    more[d.rule] -= is_error(d) ? 1 : 0;
+  for (const auto& d : after)
+    more[d.rule] +=
+        is_error(d) && !is_safe(d) && (d.span.begin < shown.begin || d.span.begin > shown.end) ? 1
+                                                                                               : 0;
+  return more;
+}
+
+/// Whether a text is better off: nowhere more errors of a kind, and fewer errors in all, or less to
+/// say, or less of the kind `mended`.
+bool is_better(const std::vector<Diagnostic>& before, const std::vector<Diagnostic>& after,
+               Span shown, const Rule* mended) {
+  const auto more = more_errors(before, after, shown);
+  if (std::any_of(more.begin(), more.end(), [](const auto& one) { return one.second > 0; }))
+    return false;
+  const auto of_kind = [&](const std::vector<Diagnostic>& all) {
+    return std::count_if(all.begin(), all.end(),
+                         [&](const Diagnostic& d) { return d.rule == mended; });
+  };
+  return errors_in(after) <= errors_in(before) || of_kind(after) < of_kind(before);
+}
+
+/// The same fix in two rounds.
+std::string key_of(std::string_view text, const Diagnostic& diagnostic) {
+  std::string key(diagnostic.rule == nullptr ? "" : diagnostic.rule->id);
+  for (const auto& edit : diagnostic.fix->edits)
+    key += '\n' + std::string(text.substr(edit.span.begin, edit.span.size())) + '\n' + edit.text;
+  return key;
+}
+
 } // namespace
 
 Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics) {
   Edits edits;
   Fixed fixed;
   for (const auto& diagnostic : diagnostics)
-    if (diagnostic.fix && diagnostic.fix->safety == Safety::Safe && edits.take(*diagnostic.fix))
+    if (is_safe(diagnostic) && edits.take(*diagnostic.fix))
       ++fixed.count;
   fixed.text = edits.apply(text);
   return fixed;
+}
+
+Fixed fix_all(std::string text, const Check& check) {
+  // One mistake can hide the next one on its line, so a few rounds are normal; the bound only keeps
+  // a fix that would undo another from running forever.
+  constexpr int most_rounds = 64;
+  Fixed all{std::move(text), 0};
+  auto findings = check(all.text);
+  std::set<std::string> refused;
+  const auto take = [&](Fixed made, Span shown, const Rule* mended) {
+    auto after = check(made.text);
+    if (!is_better(findings, after, shown, mended))
+      return false;
+    all.text = std::move(made.text);
+    all.count += made.count;
+    findings = std::move(after);
+    refused.clear();
+    return true;
+  };
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<Diagnostic> open;
+    for (const auto& d : findings)
+      if (is_safe(d) && refused.count(key_of(all.text, d)) == 0)
+        open.push_back(d);
+    if (open.empty())
+      break;
+    if (open.size() > 1 && take(apply_fixes(all.text, open), {}, nullptr))
+      continue;
+    for (const auto& d : open) {
+      auto made = apply_fixes(all.text, {d});
+      const auto shown = changed(all.text, made.text);
+      if (take(std::move(made), shown, d.rule))
+        break;
+      refused.insert(key_of(all.text, d));
+    }
+  }
+  return all;
 }
 
 } // namespace orb

@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,16 @@ struct Fixed {
   std::size_t count = 0; ///< fixes made
 };
 
-/// Makes the safe fixes among `diagnostics` that do not touch each other; of two that do, the first
-/// in the list wins.
+/// The text with these fixes made; of two that touch each other the first wins.
 Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics);
+
+/// All findings about a text.
+using Check = std::function<std::vector<Diagnostic>(std::string_view text)>;
+
+/// Makes the safe fixes, again and again until none is left: fixing the result changes nothing
+/// more. Each fix is tried first, and withheld where an error of another kind would come to be
+/// elsewhere, or nothing would be gained. All fixes of a round are tried together, and one by one,
+/// on what the ones before it left, where they get in each other's way.
+Fixed fix_all(std::string text, const Check& check);
 
 } // namespace orb

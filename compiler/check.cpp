@@ -92,18 +92,9 @@ Checked check(std::string_view text, const Target& target) {
 }
 
 Fixed fix(std::string text, const Target& target) {
-  // One mistake can hide the next one on its line, so a few rounds are normal; the bound only keeps
-  // a fix that would undo another from running forever.
-  constexpr int most_rounds = 64;
-  Fixed all{std::move(text), 0};
-  for (int round = 0; round < most_rounds; ++round) {
-    auto next = apply_fixes(all.text, check(all.text, target).diagnostics);
-    if (next.count == 0)
-      break;
-    all.text = std::move(next.text);
-    all.count += next.count;
-  }
-  return all;
+  return fix_all(std::move(text), [&target](std::string_view changed) {
+    return check(changed, target).diagnostics;
+  });
 }
 
 } // namespace orb::compiler

@@ -373,15 +373,15 @@ Text items(const Tokens& tokens) {
 
 /// Words without their quotes, as a text.
 Text quoted(const Tokens& tokens) {
-  if (tokens.empty())
-    return std::nullopt;
   std::string text;
+  constexpr std::string_view plain = ".!?:,";
   for (const auto& token : tokens) {
-    if (token.is_text() || token.is("(") || token.is("="))
+    if (!token.is_word() &&
+        (text.empty() || !(token.is_number() || plain.find(token.text) != std::string_view::npos)))
       return std::nullopt;
     text += (token.gap && !text.empty() ? " " : "") + token.text;
   }
-  return fmt::format("\"{}\"", text);
+  return text.size() < 3 ? std::nullopt : Text(fmt::format("\"{}\"", text));
 }
 
 /// `a` to `b` by the robot's `rnd`, which gives 1 to its value.
@@ -480,6 +480,11 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return items(a);
   if (function == "quoted")
     return quoted(a);
+  if (function == "known")
+    return a.size() == 1 && std::find(around.names.begin(), around.names.end(), a[0].text) !=
+                                around.names.end()
+               ? Text(a[0].text)
+               : std::nullopt;
   if (function == "dice")
     return dice(a, b, language);
   if (function == "zero")
@@ -595,6 +600,8 @@ std::optional<std::string> fill(std::string_view form, const Holes& holes,
     out += *value;
     i = end;
   }
+  while (!out.empty() && out.back() == ' ')
+    out.pop_back();
   return out;
 }
 

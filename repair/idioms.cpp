@@ -339,6 +339,17 @@ std::string replaced(const Tokens& line, std::size_t begin, std::size_t end,
          (right && !(before.empty() && form.empty()) ? " " : "") + after;
 }
 
+/// Whether a form is more than a guess: a short wait may have been meant in seconds.
+bool is_sure(std::string_view form, const Holes& holes) {
+  const auto& time = holes['q'];
+  if (form.find("{wait:") != std::string_view::npos && time.size() == 1 && time[0].text.size() < 3)
+    return false;
+  for (const auto* guess : {"{known:", "{still}", "{free}", "yaw", "100"})
+    if (form.find(guess) != std::string_view::npos)
+      return false;
+  return true;
+}
+
 } // namespace
 
 void rewrite(const Tokens& line, const Surroundings& around,
@@ -358,14 +369,15 @@ void rewrite(const Tokens& line, const Surroundings& around,
     const auto form =
         pattern.idiom == nullptr ? pattern.meaning : form_of(*pattern.idiom, around.language);
     const auto use = [&](const Matcher& matcher, std::size_t begin, std::size_t end) {
-      const auto filled =
-          form == "-" ? std::optional(std::string()) : fill(form, matcher.holes(), around);
+      const auto holes = matcher.holes();
+      const auto filled = form == "-" ? std::optional(std::string()) : fill(form, holes, around);
       if (!filled)
         return false;
       auto text = replaced(line, begin, end, *filled);
       return text != here &&
              take({std::move(text),
-                   pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note});
+                   pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note,
+                   is_sure(form, holes)});
     };
     const auto begins = [&](std::size_t i) {
       return pattern.first == 0 || (pattern.first & bit[i]) != 0;

@@ -40,16 +40,18 @@ struct Idiom {
 /// What a line is in, as far as a rewrite depends on it.
 struct Surroundings {
   Language language = Language::Basic;
-  std::string line_number; ///< of an orbBasic line
-  std::string free_letter; ///< a variable that nobody uses; empty without one
-  std::string loop;        ///< the variable of the innermost `for` that is open
-  std::string closer;      ///< what ends the innermost open block
+  std::string line_number;             ///< of an orbBasic line
+  std::string free_letter;             ///< a variable that nobody uses; empty without one
+  std::string loop;                    ///< the variable of the innermost `for` that is open
+  std::string closer;                  ///< what ends the innermost open block
+  std::vector<std::string_view> names; ///< that other lines use, too
 };
 
 /// A line after one row was applied to it.
 struct Rewritten {
   std::string text; ///< no number in front, no comment behind
   std::string_view note;
+  bool sure = true; ///< nothing else can have been meant
 };
 
 /// Calls `take` with what each row that fits makes of a line, in the order of the table, until it

@@ -18,12 +18,12 @@ namespace orb::repair {
 namespace {
 
 constexpr std::size_t most_bytes = 65536; // more than any area of the robot holds
-constexpr std::size_t most_lines = 24;    // with errors; nobody reads more at once
+constexpr std::size_t most_lines = 12;    // with errors; nobody reads more at once
 constexpr std::size_t longest_line = 240;
 constexpr std::size_t most_tokens = 64;
 constexpr std::size_t most_states = 150; // of one line, by habits
-constexpr int most_candidates = 2000;    // of one line, by search
-constexpr int most_checks = 24;          // of the whole text, for one line
+constexpr int most_candidates = 1000;    // of one line, by search
+constexpr int most_checks = 16;          // of the whole text, for one line
 constexpr int deepest = 6;               // habits in one line
 constexpr int surely = 6;                // one letter of a word
 constexpr int clearly = 4;               // by so much the best change is cheaper than the next
@@ -38,6 +38,7 @@ struct Accepted {
   std::string_view note;
   bool fewer = false; ///< the text has fewer errors with it
   bool quiet = false; ///< nothing else is said about the line
+  bool sure = true;   ///< nothing else can have been meant
 };
 
 /// What is around the lines of a text: names, open loops, free letters.
@@ -174,6 +175,10 @@ public:
       : source_(source), judge_(judge), line_(source.line(line)), begin_(source.line_start(line)),
         errors_(errors_in(before)), parts_(split(line_, judge.language)),
         around_(scenery.around(line, parts_)), names_(scenery.names_without(parts_.tokens)) {
+    for (const auto name : names_)
+      if (std::none_of(judge.words.begin(), judge.words.end(),
+                       [&](std::string_view word) { return equal_words(word, name); }))
+        around_.names.push_back(name);
     canonical();
   }
 
@@ -182,10 +187,10 @@ public:
     if (parts_.tokens.size() > most_tokens)
       return {};
     const auto start = join(parts_.tokens);
-    if (finding.rule->id == "unknown-name")
-      by_fix(finding);
+    if (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word")
+      by_fix(finding); // it knows the names and the blocks
     if (!best_ && whole(start) != line_)
-      attempt(start, {});
+      attempt(start, {}, true);
     if (!best_)
       by_changes(surely);
     if (!best_)
@@ -252,11 +257,11 @@ private:
   }
 
   /// Tries a line in its place; true when it cannot be better.
-  bool attempt(const std::string& statement, std::string_view note) {
-    return attempt_line(whole(statement), note).has_value() && best_ && best_->quiet;
+  bool attempt(const std::string& statement, std::string_view note, bool sure) {
+    return attempt_line(whole(statement), note, sure).has_value() && best_ && best_->quiet;
   }
 
-  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note,
+  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true) {
     if (text == line_ || checks_ >= most_checks || !judge_.parses(text))
       return std::nullopt;
@@ -268,14 +273,14 @@ private:
     bool quiet = true;
     for (const auto& one : found)
       if (one.span.begin >= begin_ && one.span.begin <= begin_ + text.size()) {
-        if (is_error(one))
+        if (is_error(one) && one.rule->id != "unclosed-block")
           return std::nullopt;
         quiet = quiet && one.severity == Severity::Info;
       }
     const auto errors = errors_in(found);
-    if (errors > errors_)
+    if (errors > errors_ || (!keep && errors == errors_))
       return std::nullopt;
-    Accepted accepted{text, note, errors < errors_, quiet};
+    Accepted accepted{text, note, errors < errors_, quiet, sure};
     if (keep && (!best_ || (quiet && !best_->quiet)))
       best_ = accepted;
     return accepted;
@@ -294,7 +299,7 @@ private:
       rewrite(tokens, around_, [&, deep = deep](const Rewritten& one) {
         if (!seen_.insert(one.text).second)
           return false;
-        if (attempt(one.text, one.note))
+        if (attempt(one.text, one.note, one.sure))
           return done = true;
         if (deep + 1 < deepest)
           open.emplace_back(one.text, deep + 1);
@@ -316,7 +321,7 @@ private:
       text.replace(edit->span.begin - begin_, edit->span.size(), edit->text);
     }
     if (text.find('\n') == std::string::npos)
-      attempt_line(text, {});
+      attempt_line(text, {}, finding.fix->safety == Safety::Safe);
   }
 
   /// The nearest line; two where it is not clear which.
@@ -330,7 +335,7 @@ private:
         return;
       if (++tried > most_candidates || good.size() > 1 || !changed_.insert(one.text).second)
         return;
-      if (auto accepted = attempt_line(whole(one.text), {}, false)) {
+      if (auto accepted = attempt_line(whole(one.text), {}, one.cost <= 9, false)) {
         good.emplace_back(one, *std::move(accepted));
         return;
       }
@@ -420,6 +425,27 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
   return false;
 }
 
+/// Whether a finding is about how its line is written: a line that parses is only looked at where a
+/// word in it means nothing, and a fix of several lines knows better.
+bool is_about_writing(const Diagnostic& finding, const Source& source, const Judge& judge,
+                      std::uint32_t line) {
+  const auto text = source.line(line);
+  const Span span{source.line_start(line),
+                  source.line_start(line) + static_cast<std::uint32_t>(text.size())};
+  if (finding.fix && finding.fix->safety == Safety::Safe)
+    for (const auto& edit : finding.fix->edits)
+      if (edit.span.begin < span.begin || edit.span.end > span.end ||
+          edit.text.find('\n') != std::string::npos)
+        return false;
+  if ((judge.language != Language::Basic && judge.language != Language::Structured) ||
+      !judge.parses(text))
+    return true;
+  constexpr auto unknown = std::to_array<std::string_view>(
+      {"unknown-name", "wrong-use", "argument-count", "foreign-word", "reserved-name",
+       "condition-as-value", "bad-number"});
+  return std::find(unknown.begin(), unknown.end(), finding.rule->id) != unknown.end();
+}
+
 /// Whether a line goes on in the next one, or seems to: an operator or a bracket is left open.
 bool goes_on(std::string_view line) {
   int depth = 0;
@@ -443,8 +469,12 @@ void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnost
     if (!is_error(finding) || finding.span.begin > text.size())
       continue;
     const auto line = source.position(finding.span.begin).line;
-    if (source.line(line).empty() || source.line(line).size() > longest_line ||
-        lines.size() >= most_lines || !lines.insert(line).second)
+    const bool continued =
+        judge.language == Language::Structured && line > 1 && goes_on(source.line(line - 1));
+    const bool here = is_about_writing(finding, source, judge, line);
+    if (source.line(line).empty() || (!here && !continued) ||
+        source.line(line).size() > longest_line || lines.size() >= most_lines ||
+        !lines.insert(line).second)
       continue;
     if (!scenery)
       scenery.emplace(source, judge.language);
@@ -453,9 +483,8 @@ void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnost
       continue;
     auto at = line;
     std::optional<Repair> tried(std::in_place, source, judge, *scenery, at, before);
-    auto found = tried->find(finding);
-    if (found.empty() && at > 1 && judge.language == Language::Structured &&
-        goes_on(source.line(at - 1)) && lines.insert(at - 1).second) {
+    auto found = here ? tried->find(finding) : std::vector<Accepted>();
+    if (found.empty() && continued && lines.insert(at - 1).second) {
       tried.emplace(source, judge, *scenery, --at, before);
       found = tried->find(finding);
       if (!found.empty())
@@ -474,15 +503,17 @@ void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnost
     finding.help = shown.empty() ? "leave the line out" : fmt::format("write `{}`", shown);
     if (!found[0].note.empty())
       finding.help += fmt::format("; {}", found[0].note);
+    if (finding.fix && finding.fix->safety == Safety::Safe)
+      continue; // its own fix goes as far as it must
     if (shown.empty() && repair.line().find_first_not_of(" \t") != std::string_view::npos) {
       finding.fix = Fix{"remove the line",
                         {{{source.line_start(at), source.line_start(at + 1)}, {}}},
-                        found[0].fewer ? Safety::Safe : Safety::Unsafe};
+                        found[0].fewer && found[0].sure ? Safety::Safe : Safety::Unsafe};
       continue;
     }
     finding.fix = Fix{shown.empty() ? "empty the line" : fmt::format("write `{}`", shown),
                       {difference(repair.line(), found[0].text, repair.begin())},
-                      found[0].fewer && found[0].quiet ? Safety::Safe : Safety::Unsafe};
+                      found[0].fewer && found[0].sure ? Safety::Safe : Safety::Unsafe};
   }
 }
 

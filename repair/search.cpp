@@ -83,7 +83,7 @@ private:
       rest.text = right;
       rest.gap = true;
       changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
-      add(changed, 4);
+      add(changed, 1);
     }
   }
 
@@ -108,14 +108,12 @@ private:
 
   void left_out(std::size_t i) {
     const auto& token = line_[i];
-    if (token.is_number() || token.is_text() || token.kind == Token::Kind::Colour)
+    const bool twice = i > 0 && !token.is_number() && line_[i - 1].text == token.text;
+    constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs that compute nothing
+    const bool is_idle = token.kind == Token::Kind::Sign && token.text.size() == 1 &&
+                         idle.find(token.text[0]) != std::string_view::npos;
+    if (token.is_text() || (!twice && !is_idle))
       return;
-    const bool twice = i > 0 && line_[i - 1].text == token.text;
-    if (token.is_word() && !twice)
-      return;
-    if (!twice && (token.is("-") || token.is("+") || token.is("*") || token.is("/") ||
-                   token.is("%") || token.is("!") || token.is("<") || token.is(">")))
-      return; // it would compute something else
     auto changed = line_;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i));
     if (i < changed.size() && i > 0)

@@ -57,9 +57,6 @@ public:
     line.head = text_.substr(0, at_);
     line.tokens = rest();
     line.comment = std::move(comment_);
-    if (line.tokens.empty() && !line.comment.empty() && language_ == Language::Basic &&
-        line.head.find_first_not_of(" \t") != std::string::npos)
-      line.head.clear(); // a remark needs no number
     return line;
   }
 

@@ -97,16 +97,13 @@ Findings check_files(std::span<const SourceFile> sources, const compiler::Target
 
 std::size_t fix(SourceFile& file,
                 const std::function<std::vector<Diagnostic>(const SourceFile&)>& findings) {
-  constexpr int most_rounds = 64; // one mistake hides the next on its line; no fix undoes another
-  std::size_t made = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    auto fixed = apply_fixes(file.source.text(), findings(file));
-    if (fixed.count == 0)
-      break;
-    made += fixed.count;
-    file.source = Source(file.source.name(), std::move(fixed.text));
-  }
-  return made;
+  auto fixed = fix_all(std::string(file.source.text()), [&](std::string_view text) {
+    auto changed = file;
+    changed.source = Source(file.source.name(), std::string(text));
+    return findings(changed);
+  });
+  file.source = Source(file.source.name(), std::move(fixed.text));
+  return fixed.count;
 }
 
 } // namespace orb::testing

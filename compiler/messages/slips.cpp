@@ -118,7 +118,9 @@ private:
     if (line_.comment.size() > 0 || skip_blanks(end()) != code_end() ||
         (!edits.empty() && below == program_.lines.end()))
       return;
-    const auto next = std::min<std::size_t>(text_.find('\n', line_.span.end), text_.size() - 1) + 1;
+    auto next = std::min<std::size_t>(line_.span.end, text_.size());
+    if (next < text_.size()) // CR, LF or both
+      next += text_.substr(next).starts_with("\r\n") ? 2 : 1;
     edits.push_back({{line_.span.begin, static_cast<std::uint32_t>(next)}, ""});
     std::sort(edits.begin(), edits.end(),
               [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });

@@ -568,19 +568,12 @@ std::optional<std::string> format(const Source& source) {
 }
 
 std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& options) {
-  constexpr int most_rounds = 64; // one mistake hides the next on its line
-  auto fixed = source;
-  std::size_t made = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    auto next = apply_fixes(fixed.text(), check(fixed, options));
-    if (next.count == 0)
-      break;
-    made += next.count;
-    fixed = Source(source.name(), std::move(next.text));
-  }
-  if (made == 0)
+  auto fixed = fix_all(std::string(source.text()), [&](std::string_view text) {
+    return check(Source(source.name(), std::string(text)), options);
+  });
+  if (fixed.count == 0)
     return {};
-  return {{"apply all safe fixes", "source.fixAll", std::string(fixed.text())}};
+  return {{"apply all safe fixes", "source.fixAll", std::move(fixed.text)}};
 }
 
 // ---- hints

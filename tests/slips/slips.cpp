@@ -335,8 +335,8 @@ int main(int argc, char** argv) {
         << "docs/slips.md is not what this prints; run with --update and read the difference\n";
   const auto held = sum(held_out);
   const auto of = [&](Verdict v) { return held[static_cast<std::size_t>(v)] * 100; };
-  constexpr std::size_t least_good = 75;
-  constexpr std::size_t most_wrong = 6;
+  constexpr std::size_t least_good = 85;
+  constexpr std::size_t most_wrong = 4;
   const bool enough = of(Verdict::Good) >= least_good * total(held) &&
                       of(Verdict::Wrong) <= most_wrong * total(held);
   return current && enough ? 0 : 1;
