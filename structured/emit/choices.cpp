@@ -44,6 +44,7 @@ public:
   void run() {
     while (join_tests())
       ;
+    turn_branches();
     fold_branches();
     finish_tests();
     end_at_once();
@@ -207,6 +208,37 @@ private:
     line.term = taken;
     line.end = passed;
     return true;
+  }
+
+  /// Of two ways that meet again, the one whose test the robot has comes first.
+  void turn_branches() {
+    named_ = tidy(code_);
+    auto& lines = code_.lines;
+    const auto at = lines_of_labels(code_);
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].kind != LineKind::If)
+        continue;
+      auto& condition = code_.conditions[lines[i].condition];
+      const auto other = at[lines[i].label];
+      if (condition.glue != Glue::None || !is_missing(condition.first.comparison) ||
+          other == none || other < i + 3 || named_[lines[i].label] != 1 ||
+          lines[other - 1].kind != LineKind::Goto)
+        continue;
+      const auto end = at[lines[other - 1].label];
+      if (end == none || end < other + 2 || !falls(lines[end - 1]))
+        continue;
+      const bool plain = std::none_of(lines.begin() + i + 1, lines.begin() + end, [&](auto& line) {
+        return (line.kind == LineKind::Label && line.label != lines[other].label) ||
+               line.kind == LineKind::If || line.kind == LineKind::Next;
+      });
+      if (!plain)
+        continue;
+      condition = opposite_of(condition);
+      std::rotate(lines.begin() + i + 1, lines.begin() + other + 1, lines.begin() + end);
+      const auto moved = i + 1 + (end - other - 1);
+      std::rotate(lines.begin() + moved, lines.begin() + moved + (other - 1 - (i + 1)),
+                  lines.begin() + end);
+    }
   }
 
   void fold_branches() {

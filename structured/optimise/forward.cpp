@@ -36,6 +36,7 @@ public:
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
     reuse_elements();
+    copy_everywhere();
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i))
         copy(i);
@@ -350,6 +351,51 @@ private:
           disturbs(line, term))
         return;
     }
+  }
+
+  /// Reads the original all through the program where a copy, once made, is never another value
+  /// while it is needed.
+  void copy_everywhere() {
+    std::vector<std::uint32_t> writes(code_.variables.size(), 0);
+    for (const auto& line : code_.lines)
+      each_write(code_, line, [&](std::uint32_t v) { ++writes[v]; });
+    const auto first = liveness_.in[0];
+    for (auto& line : code_.lines) {
+      if (line.kind != LineKind::Let || code_.terms[line.term].kind != TermKind::Variable)
+        continue;
+      const auto copied = line.variable;
+      const auto original = code_.terms[line.term].left;
+      if (copied == index_variable || original == index_variable || copied == original ||
+          code_.variables[copied].kept || writes[copied] != 1 || contains(first, copied) ||
+          meet(copied, original))
+        continue;
+      drop(line);
+      for (auto& other : code_.lines)
+        each_root(code_, other,
+                  [&](std::uint32_t& root) { root = renamed(root, copied, original); });
+      return; // what lives where has changed
+    }
+  }
+
+  /// Whether a variable is set while another one is needed, or that one is what a loop counts in.
+  bool meet(std::uint32_t needed, std::uint32_t set) const {
+    std::vector<std::uint64_t> live;
+    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
+      const auto out = liveness_.out[b];
+      live.assign(out.begin(), out.end());
+      for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
+        const auto& line = code_.lines[i];
+        bool writes = false;
+        each_write(code_, line, [&](std::uint32_t v) { writes = writes || v == set; });
+        if (writes && (contains(live, needed) || contains(liveness_.across[line.routine], needed) ||
+                       line.kind == LineKind::For || line.kind == LineKind::Next))
+          return true;
+        if (line.kind == LineKind::Next && line.variable == needed)
+          return true;
+        step_back(code_, flow_, liveness_, line, live);
+      }
+    }
+    return false;
   }
 
   // ---- elements that a variable holds

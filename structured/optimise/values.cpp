@@ -190,8 +190,10 @@ private:
         changed_ = true;
         return;
       }
-      if (line.kind == LineKind::If)
+      if (line.kind == LineKind::If) {
+        simplify(code_.conditions[line.condition].first);
         learn(line, state);
+      }
       each_root(code_, line, [&](std::uint32_t& root) {
         // The end of a loop is computed when its variable has been set.
         if (line.kind == LineKind::For && &root == &line.end)
@@ -249,6 +251,19 @@ private:
       return;
     condition.second.left_range = ranges_.range_of(condition.second.left, state);
     condition.second.right_range = ranges_.range_of(condition.second.right, state);
+  }
+
+  /// `7 - x = 3` is `x = 4`, whatever wraps around.
+  void simplify(Relation& relation) {
+    const bool equality =
+        relation.comparison == Comparison::Equal || relation.comparison == Comparison::NotEqual;
+    const auto left = code_.terms[relation.left];
+    if (!equality || left.kind != TermKind::Binary || !code_.is_number(relation.right) ||
+        !code_.is_number(left.left) || left.what != static_cast<int>(Operator::Subtract))
+      return;
+    relation.right = code_.binary(Operator::Subtract, left.left, relation.right);
+    relation.left = left.right;
+    changed_ = true;
   }
 
   void decide(CodeLine& line, const State& state) {
