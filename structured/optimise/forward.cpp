@@ -38,8 +38,8 @@ public:
     reuse_elements();
     copy_everywhere();
     for (auto i = size; i-- > 0;)
-      if (code_.lines[i].kind == LineKind::Let && !move(i))
-        copy(i);
+      if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
+        repeat(i);
     return changed_;
   }
 
@@ -269,15 +269,15 @@ private:
   // ---- copies
 
   /// Reads the original in place of a copy, where that does away with the copy.
-  void copy(std::uint32_t i) {
+  bool copy(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
     const auto source = code_.lines[i].term;
     if (variable == index_variable || code_.variables[variable].kept ||
         code_.terms[source].kind != TermKind::Variable)
-      return;
+      return false;
     const auto original = code_.terms[source].left;
     if (original == index_variable || original == variable)
-      return;
+      return false;
     std::uint32_t found = 0;
     std::vector<std::uint32_t> readers;
     const auto last =
@@ -300,7 +300,7 @@ private:
         break;
     }
     if (found == 0 || found != reads_[variable])
-      return;
+      return false;
     for (const auto j : readers)
       each_root(code_, code_.lines[j],
                 [&](std::uint32_t& root) { root = renamed(root, variable, original); });
@@ -309,6 +309,50 @@ private:
     drop(code_.lines[i]);
     for (auto k = i; k <= readers.back(); ++k)
       remove(last_reads_[k], original);
+    return true;
+  }
+
+  /// Computes a sum of two leaves again where it is read, which is shorter than a line for it.
+  void repeat(std::uint32_t i) {
+    const auto variable = code_.lines[i].variable;
+    const auto term = code_.lines[i].term;
+    constexpr std::uint32_t most_reads = 2;
+    if (variable == index_variable || code_.variables[variable].kept ||
+        reads_[variable] > most_reads || code_.terms[term].kind != TermKind::Binary ||
+        code_.terms[term].size != 3 || code_.terms[term].effects != 0 || reads(term, variable))
+      return;
+    std::vector<std::pair<std::uint32_t*, std::uint32_t>> better; // roots
+    std::uint32_t found = 0;
+    auto last = i + 1;
+    for (auto j = i + 1; j < code_.lines.size() && j < i + reach && found < reads_[variable]; ++j) {
+      auto& line = code_.lines[j];
+      if (line.kind == LineKind::Label || line.kind == LineKind::For)
+        return;
+      bool deep = false;
+      each_root(code_, line, [&](std::uint32_t& root) {
+        each_read(code_, root, [&](std::uint32_t v) { found += v == variable ? 1 : 0; });
+        std::uint8_t before = 0;
+        const auto result = replaced(root, variable, term, before);
+        deep = deep || !result;
+        if (result && *result != root)
+          better.push_back({&root, *result});
+      });
+      last = j;
+      if (deep || (found < reads_[variable] &&
+                   (writes(line, variable) || disturbs(line, term) || ends_text(line))))
+        return;
+    }
+    if (found == 0 || found != reads_[variable])
+      return;
+    for (const auto& [root, result] : better)
+      *root = result;
+    each_read(code_, term, [&](std::uint32_t v) {
+      reads_[v] += found;
+      for (auto k = i; k <= last; ++k)
+        remove(last_reads_[k], v);
+    });
+    reads_[variable] = 0;
+    drop(code_.lines[i]);
   }
 
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
