@@ -36,7 +36,8 @@ public:
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
     reuse_elements();
-    copy_everywhere();
+    if (!changed_ && copy_everywhere())
+      return true; // what lives where is another matter now
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
         repeat(i);
@@ -399,7 +400,7 @@ private:
 
   /// Reads the original all through the program where a copy, once made, is never another value
   /// while it is needed.
-  void copy_everywhere() {
+  bool copy_everywhere() {
     std::vector<std::uint32_t> writes(code_.variables.size(), 0);
     for (const auto& line : code_.lines)
       each_write(code_, line, [&](std::uint32_t v) { ++writes[v]; });
@@ -417,8 +418,9 @@ private:
       for (auto& other : code_.lines)
         each_root(code_, other,
                   [&](std::uint32_t& root) { root = renamed(root, copied, original); });
-      return; // what lives where has changed
+      return true;
     }
+    return false;
   }
 
   /// Whether a variable is set while another one is needed, or that one is what a loop counts in.
