@@ -29,6 +29,11 @@ public:
       : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)) {}
 
   bool run() {
+    constexpr int most_copies = 8;
+    for (int n = 0; n < most_copies && copy_everywhere(); ++n) {
+      flow_ = read_flow(code_);
+      liveness_ = read_liveness(code_, flow_);
+    }
     go_back();
     count_reads();
     const auto size = static_cast<std::uint32_t>(code_.lines.size());
@@ -36,8 +41,6 @@ public:
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
     reuse_elements();
-    if (!changed_ && copy_everywhere())
-      return true; // what lives where is another matter now
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
         repeat(i);
@@ -329,7 +332,8 @@ private:
       auto& line = code_.lines[j];
       if (line.kind == LineKind::Label || line.kind == LineKind::For)
         return;
-      bool deep = false;
+      // What a statement is given keeps the name that a fault speaks of.
+      bool deep = code_.variables[variable].symbol != none && line.kind != LineKind::Let;
       each_root(code_, line, [&](std::uint32_t& root) {
         each_read(code_, root, [&](std::uint32_t v) { found += v == variable ? 1 : 0; });
         std::uint8_t before = 0;

@@ -39,12 +39,10 @@ void optimise(Code& code) {
     clean_jumps(code);
     changed = split_variables(code);
     changed = forward_values(code) || changed;
-    if (round == 0 || !changed)
-      changed = merge_tails(code, itself) || changed;
+    changed = merge_tails(code, itself) || changed;
     changed = inline_calls(code) || changed;
     changed = straighten(code) || changed;
-    if (round == 0 || changed)
-      changed = use_values(code) || changed;
+    changed = use_values(code) || changed;
   }
   clean_jumps(code);
   code.wrong_indices = wrong_indices;
