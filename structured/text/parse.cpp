@@ -963,6 +963,13 @@ private:
     const auto target = peek_name(in);
     if (target.empty() || find_word(target).kind != WordKind::Name)
       throw Stop{Reason::NotAStatement, name.data()};
+    const auto* after = target.data() + target.size();
+    while (after != end_ && is_blank(*after))
+      ++after;
+    for (const auto* const again :
+         {"var", "let", "call", "dim"}) // one after another is no statement
+      if (equal_words(target, again) && after != end_ && begins_name(*after))
+        throw Stop{Reason::NotAStatement, name.data()};
     if (!equal_words(name, "dim")) {
       builder_.report(habit(program_, {word.begin, span(target).begin}, " "));
       statement(in, position);
