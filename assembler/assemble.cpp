@@ -622,12 +622,24 @@ private:
         fmt::format("it is {}", range_of(operand)));
   }
 
+  /// The lines that wait as long; empty for what would be a page of them.
+  static std::string waits_for(std::int64_t ms) {
+    constexpr std::int64_t most_lines = 9;
+    const auto& delay = spec::info(MacroCommand::Delay);
+    const std::int64_t most = delay.operand[0].maximum;
+    const auto lines = (ms + most - 1) / most;
+    if (ms < 0 || lines > most_lines)
+      return {};
+    return lines < 2 ? fmt::format("put `{} {}` on the next line", delay.mnemonic, ms)
+                     : fmt::format("put `{} {}` on each of the next {} lines", delay.mnemonic,
+                                   ms / lines, lines);
+  }
+
   void out_of_range(std::int64_t value, Span span, const MacroOperand& operand,
                     std::string_view command) {
     std::string help;
     if (operand.kind == MacroOperandKind::Delay)
-      help = fmt::format("put `{} {}` on the next line", spec::info(MacroCommand::Delay).mnemonic,
-                         value);
+      help = waits_for(value);
     else if (operand.unit == MacroUnit::Degrees && !operand.is_signed)
       help = fmt::format("{} deg is the same way", same_way(value, operand.maximum + 1));
     else if (operand.word_count > 0)
