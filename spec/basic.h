@@ -182,6 +182,19 @@ inline constexpr auto variables = std::to_array<VariableInfo>({
 #include "spec/basic.def"
 });
 
+/// A unit that is small beside what people say in its place: milliseconds and seconds.
+struct SmallUnit {
+  std::string_view unit;
+  std::int32_t in_whole; ///< how many are one of `whole`
+  std::string_view whole;
+  std::int32_t least_meant; ///< a smaller number, written alone, counts in `whole`
+};
+
+inline constexpr auto small_units = std::to_array<SmallUnit>({
+#define ORB_UNIT(unit, in_whole, whole, least_meant) {unit, in_whole, whole, least_meant},
+#include "spec/basic.def"
+});
+
 enum class Operator : std::uint8_t {
 #define ORB_OPERATOR(name, ...) name,
 #include "spec/basic.def"
@@ -292,6 +305,14 @@ constexpr const RelationInfo& info(Relation relation) {
 }
 constexpr const BasicErrorInfo& info(BasicError error) {
   return basic_errors[static_cast<std::size_t>(error) - 1]; // numbered from 1
+}
+
+/// The row of a unit; null for one in which people speak.
+constexpr const SmallUnit* find_small_unit(std::string_view unit) {
+  for (const auto& row : small_units)
+    if (row.unit == unit)
+      return &row;
+  return nullptr;
 }
 
 /// The row of that very word, or nothing. Case counts: `rgb` is not a statement.

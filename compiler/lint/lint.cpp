@@ -121,14 +121,16 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
     else
       unnumbered.push_back(&fault);
   lint_missing_numbers(program, unnumbered, findings);
-  lint_text(program, flow, target, findings);
-  lint_values(program, flow, target, findings);
   const bool jumps_known =
       std::none_of(program.faults.begin(), program.faults.end(),
                    [&](const Fault& fault) { return may_steer(program, fault); });
+  lint_text(program, flow, target, findings);
+  lint_values(program, flow, target, jumps_known ? Jumps::Known : Jumps::Unknown, findings);
   if (jumps_known) {
     lint_flow(program, flow, findings);
     lint_intent(program, flow, findings);
+    lint_units(program, flow, findings);
+    lint_waits(program, flow, findings);
   }
   check_size(program, flow, target, findings);
   drop_doubles(findings.all());

@@ -129,6 +129,7 @@ private:
         spread(i, inside_, Calls::StepOver);
       }
     check_returns();
+    check_comes_back();
     if (!calls_nest())
       return;
     check_depths();
@@ -185,6 +186,67 @@ private:
                           fmt::format("line {} belongs to a subroutine and leads to its `return`",
                                       number_of(jump.to)),
                           "call it with `gosub`");
+  }
+
+  /// Calls of lines from which no way leads to a `return`.
+  void check_comes_back() {
+    const auto back = lines_that_return();
+    for (std::uint32_t i = 0; i < size_; ++i)
+      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+        if (jump.call && jump.to != none && reached_[i] != 0 && back[jump.to] == 0)
+          add_never_returns(i, jump);
+  }
+
+  /// The lines from which some way leads to a `return`, or to what may be one once corrected.
+  std::vector<std::uint8_t> lines_that_return() {
+    std::vector<std::uint32_t> begins(size_ + 1, 0); // of the lines that lead to a line
+    const auto each_next = [&](std::uint32_t i, auto visit) {
+      const auto& code = flow_.code[i];
+      for (const auto& jump : flow_.jumps_of(code))
+        if (!jump.call && jump.to != none)
+          visit(jump.to);
+      if (code.falls && i + 1 < size_)
+        visit(i + 1);
+    };
+    for (std::uint32_t i = 0; i < size_; ++i)
+      each_next(i, [&](std::uint32_t next) { ++begins[next]; });
+    for (std::uint32_t i = 1; i <= size_; ++i)
+      begins[i] += begins[i - 1];
+    std::vector<std::uint32_t> leads(begins[size_]);
+    for (std::uint32_t i = 0; i < size_; ++i)
+      each_next(i, [&](std::uint32_t next) { leads[--begins[next]] = i; });
+    std::vector<std::uint8_t> back(size_, 0);
+    open_ = returns_;
+    for (std::uint32_t i = 0; i < size_; ++i)
+      if (std::any_of(whole(i).begin(), whole(i).end(),
+                      [](const StatementNode& node) { return node.error.has_value(); }))
+        open_.push_back(i);
+    while (!open_.empty()) {
+      const auto at = open_.back();
+      open_.pop_back();
+      if (back[at] != 0)
+        continue;
+      back[at] = 1;
+      open_.insert(open_.end(), leads.begin() + begins[at], leads.begin() + begins[at + 1]);
+    }
+    return back;
+  }
+
+  void add_never_returns(std::uint32_t from, const Flow::Jump& jump) {
+    auto last = jump.to;
+    while (last + 1 < size_ && flow_.code[last].falls && !flow_.code[last + 1].called)
+      ++last;
+    const auto& end = statement(last);
+    const bool ends = flow_.code[last].ends;
+    if (ends && whole(from).size() > 1)
+      return; // ends the program on purpose, where something has gone wrong
+    const auto number = number_of(last);
+    findings_.add(rules::NeverReturns, program_.items[jump.item].span,
+                  fmt::format("line {} never comes back: no way from it leads to a `return`",
+                              number_of(jump.to)),
+                  flow_.code[last].falls ? fmt::format("below line {} write `return`", number)
+                                         : fmt::format("in place of `{}` in line {} write `return`",
+                                                       program_.text_of(end.span), number));
   }
 
   static bool is_return(const StatementNode& node) {

@@ -1,5 +1,6 @@
 #include "compiler/lint/lint_passes.h"
 
+#include "compiler/lint/reading.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 
@@ -15,16 +16,52 @@ using spec::Statement;
 constexpr auto letters = spec::letter_count;
 
 /// What a statement shows until the next one of its kind.
-enum class Shows : std::uint8_t { Nothing, Colour, Roll };
+enum class Shows : std::uint8_t { Nothing, Colour, BackLed, Roll };
 
 Shows shows(Statement kind) {
   if (kind == Statement::Rgb || kind == Statement::Ledc)
     return Shows::Colour;
+  if (kind == Statement::BackLed)
+    return Shows::BackLed;
   return kind == Statement::Goroll ? Shows::Roll : Shows::Nothing;
 }
 
 std::string_view name_of(Shows what) {
-  return what == Shows::Colour ? "colour" : "roll";
+  switch (what) {
+  case Shows::Colour: return "colour";
+  case Shows::BackLed: return "light";
+  case Shows::Roll: return "roll";
+  case Shows::Nothing: break;
+  }
+  return "";
+}
+
+/// What else drives or colours the ball, or stops it.
+bool is_foreign_hand(Statement kind) {
+  return kind == Statement::Raw || kind == Statement::Macrun || kind == Statement::Mackill;
+}
+
+/// Whether the ball moves at a place, whatever way led there.
+struct Motion {
+  enum class Kind : std::uint8_t {
+    Unreached,
+    Rests,
+    Drives, ///< since `roll`
+    Coasts, ///< `roll` told it speed 0 while it drove, without braking
+    Unknown,
+  };
+  Kind kind = Kind::Unreached;
+  std::uint32_t roll = none; ///< a line of code
+
+  friend bool operator==(Motion, Motion) = default;
+};
+
+Motion join(Motion a, Motion b) {
+  if (a.kind == Motion::Kind::Unreached || a == b)
+    return b;
+  if (b.kind == Motion::Kind::Unreached || a.kind == b.kind)
+    return a;
+  return {Motion::Kind::Unknown};
 }
 
 /// Programs that run through and are still not what was meant: colours and rolls that nobody can
@@ -36,126 +73,302 @@ public:
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
-    bool falls = true;
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto& code = flow_.code[i];
-      if (code.target || !falls)
-        forget();
-      falls = code.falls;
-      const auto& statement = program_.statements[code.statement];
-      if (statement.then_branch != none)
-        check_branches(statement);
-      else
-        check(statement, i);
-    }
-    if (falls && driving_ != nullptr)
-      add_driving(program_.statements[flow_.code.back().statement].span);
-    if (!headings_.empty() && grows_)
+    for (std::uint32_t i = 0; i < size_; ++i)
+      look(i);
+    if (rolls_)
+      check_motion();
+    if (!letters_given_.empty() && grows_)
       check_growth();
   }
 
 private:
-  void forget() {
-    forget_shown();
-    driving_ = nullptr;
-  }
-  void forget_shown() {
-    colour_ = nullptr;
-    roll_ = nullptr;
+  const StatementNode& statement_of(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
   }
 
-  void check(const StatementNode& statement, std::uint32_t code) {
-    if (statement.error) {
-      forget();
+  void look(std::uint32_t code) {
+    const auto& statement = statement_of(code);
+    if (statement.error || statement.then_branch != none)
       return;
-    }
-    const auto after = spec::info(statement.kind).after;
     if (shows(statement.kind) != Shows::Nothing)
       check_shown(statement, code);
-    else if (statement.kind == Statement::For)
-      check_loop(code);
-    else if (statement.kind == Statement::Next || after == spec::After::Waits)
-      forget_shown();
-    else if (statement.kind == Statement::End && driving_ != nullptr)
-      add_driving(statement.span);
     else if (statement.kind == Statement::Let)
       grows_ = grows_ || is_sum(statement);
-    else if (after != spec::After::Falls || is_foreign_hand(statement.kind))
-      forget();
+    if (spec::info(statement.kind).form == spec::Form::Arguments)
+      note_letters(statement, code);
   }
 
-  /// What else drives or colours the ball, or stops it.
-  static bool is_foreign_hand(Statement kind) {
-    return kind == Statement::Raw || kind == Statement::Macrun || kind == Statement::Mackill;
+  // ---- what is never seen
+
+  /// What becomes of something shown.
+  struct Fate {
+    enum class Kind : std::uint8_t { Seen, Replaced, Ends } kind = Kind::Seen;
+    std::uint32_t at = none; ///< the line of code that replaces it
+    bool round = false;      ///< past the `next` of a loop
+  };
+
+  /// A walk along the only way there is, until something waits.
+  struct Walk {
+    Shows what;
+    std::uint32_t from;
+    std::vector<std::uint32_t> calls = {}; ///< that it is inside of
+    std::uint32_t steps = 0;
+    bool round = false;
+  };
+
+  Fate follow(Walk& walk, std::uint32_t at) const {
+    constexpr std::uint32_t most_steps = 64;
+    for (; walk.steps < most_steps; ++walk.steps) {
+      if (at == none)
+        return {};
+      if (at == size_)
+        return {Fate::Kind::Ends};
+      const auto& statement = statement_of(at);
+      if (statement.error)
+        return {};
+      if (shows(statement.kind) == walk.what)
+        return {Fate::Kind::Replaced, at, walk.round};
+      if (is_foreign_hand(statement.kind))
+        return {};
+      const auto& row = spec::info(statement.kind);
+      const auto jumps = flow_.jumps_of(flow_.code[at]);
+      if (row.after == spec::After::Falls || statement.kind == Statement::For) {
+        ++at;
+      } else if (statement.kind == Statement::Goto) {
+        at = jumps.front().to;
+      } else if (statement.kind == Statement::Gosub) {
+        walk.calls.push_back(at);
+        at = jumps.front().to;
+      } else if (statement.kind == Statement::Return) {
+        if (walk.calls.empty())
+          return follow_callers(walk, at);
+        at = walk.calls.back() + 1;
+        walk.calls.pop_back();
+      } else if (statement.kind == Statement::Next && !walk.round) {
+        walk.round = true;
+        at = body_of(at);
+      } else {
+        return {statement.kind == Statement::End ? Fate::Kind::Ends : Fate::Kind::Seen};
+      }
+    }
+    return {};
+  }
+
+  /// What a subroutine shows at its end is what its callers go on with.
+  Fate follow_callers(const Walk& walk, std::uint32_t last) const {
+    const auto callers = callers_of(last);
+    Fate fate;
+    for (const auto caller : callers) {
+      auto on = walk;
+      on.steps += 8;
+      fate = follow(on, caller + 1);
+      if (fate.kind != Fate::Kind::Replaced)
+        return {};
+    }
+    return fate;
+  }
+
+  /// The lines that call the straight run of lines that `last` ends; none where there are many.
+  std::vector<std::uint32_t> callers_of(std::uint32_t last) const {
+    constexpr std::size_t many = 4;
+    constexpr std::uint32_t longest = 64;
+    auto entry = last;
+    while (entry > 0 && last - entry < longest && !flow_.code[entry].called &&
+           flow_.code[entry - 1].falls)
+      --entry;
+    std::vector<std::uint32_t> callers;
+    if (!flow_.code[entry].called)
+      return callers;
+    for (std::uint32_t i = 0; i < size_; ++i)
+      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+        if (jump.call && jump.to == entry) {
+          if (callers.size() == many || statement_of(i).kind != Statement::Gosub)
+            return {};
+          callers.push_back(i);
+        }
+    return callers;
+  }
+
+  /// The first line of the body of the loop that a `next` steps, as they stand in the text.
+  std::uint32_t body_of(std::uint32_t next) const {
+    const auto& variable = program_.as<NextView>(statement_of(next)).variable;
+    for (auto i = next; i > 0; --i) {
+      const auto& statement = statement_of(i - 1);
+      if (!statement.error && statement.kind == Statement::For &&
+          program_.as<ForView>(statement).variable.value == variable.value)
+        return i;
+    }
+    return none;
   }
 
   void check_shown(const StatementNode& statement, std::uint32_t code) {
     const auto what = shows(statement.kind);
-    auto& last = what == Shows::Colour ? colour_ : roll_;
-    if (last != nullptr) {
-      auto& d = findings_.add(
-          rules::MissingDelay, last->span,
-          fmt::format("this {0} is never seen: another {0} follows at once", name_of(what)),
-          "put a `delay 500` between them");
-      add_note(d, statement.span, fmt::format("the next {}", name_of(what)));
-    }
-    last = &statement;
-    if (what != Shows::Roll)
+    rolls_ = rolls_ || what == Shows::Roll;
+    if (!flow_.code[code].falls)
       return;
-    driving_ = drives(statement) ? &statement : nullptr;
-    const auto& heading = program_.nodes[program_.items_of(statement)[0].value];
-    if (heading.kind == NodeKind::Letter)
-      headings_.push_back({heading.what, code});
+    Walk walk{what, code};
+    const auto fate = follow(walk, code + 1);
+    if (fate.kind == Fate::Kind::Ends && what == Shows::Colour && is_light(statement) &&
+        is_only_colour(statement))
+      findings_.add(rules::MissingDelay, statement.span,
+                    "this colour is never seen: the program ends, and its colour with it",
+                    "put a `delay 1000` below it");
+    if (fate.kind != Fate::Kind::Replaced || (fate.at == code && !fate.round))
+      return;
+    const auto& next = statement_of(fate.at);
+    if (fate.at == code) {
+      if (what != Shows::BackLed)
+        findings_.add(
+            rules::MissingDelay, statement.span,
+            fmt::format("only the last {} of the loop is seen: nothing waits in it", name_of(what)),
+            "put a `delay 50` below this line");
+      return;
+    }
+    if (what == Shows::Roll && (fate.round || fate.at < code))
+      return; // rolls that steer replace each other, and turns come before them
+    auto& d = findings_.add(rules::MissingDelay, statement.span,
+                            fmt::format("this {0} is never seen: another {0} follows at once{1}",
+                                        name_of(what),
+                                        fate.round || fate.at < code ? ", in the next round" : ""),
+                            fate.at < code || fate.round ? "put a `delay 500` below it"
+                                                         : "put a `delay 500` between them");
+    add_note(d, next.span, fmt::format("the next {}", name_of(what)));
   }
 
-  bool drives(const StatementNode& roll) const {
+  /// One more colour at the end is a farewell; where it is the only one of a program that takes
+  /// some time, it shows none.
+  bool is_only_colour(const StatementNode& colour) const {
+    return std::any_of(flow_.code.begin(), flow_.code.end(),
+                       [](const Flow::Code& code) { return code.waits; }) &&
+           std::all_of(program_.statements.begin(), program_.statements.end(),
+                       [&](const StatementNode& other) {
+                         return other.error || &other == &colour ||
+                                shows(other.kind) != Shows::Colour;
+                       });
+  }
+
+  /// Whether a colour is given as numbers and is not black.
+  bool is_light(const StatementNode& colour) const {
+    const auto items = program_.items_of(colour);
+    const auto is = [&](const Item& item) { return number_in(program_, item).has_value(); };
+    const auto lights = [&](const Item& item) { return number_in(program_, item) != 0; };
+    if (!std::all_of(items.begin(), items.end(), is) ||
+        !std::any_of(items.begin(), items.end(), lights))
+      return false;
+    return colour.kind == Statement::Rgb ||
+           number_in(program_, items[0]) != spec::led_colours.back().code;
+  }
+
+  // ---- what drives on
+
+  /// Carries along every way whether the ball drives.
+  void check_motion() {
+    motion_.assign(size_, {});
+    reach(0, {Motion::Kind::Rests});
+    while (!waiting_.empty()) {
+      const auto at = waiting_.back();
+      waiting_.pop_back();
+      go_on(at);
+    }
+    for (std::uint32_t i = 0; i < size_; ++i)
+      judge(i);
+    if (size_ > 0 && end_.kind != Motion::Kind::Unreached)
+      judge_end(end_, statement_of(size_ - 1).span);
+  }
+
+  void reach(std::uint32_t code, Motion motion) {
+    if (code == none)
+      return;
+    auto& known = code == size_ ? end_ : motion_[code];
+    const auto joined = join(known, motion);
+    if (joined == known)
+      return;
+    known = joined;
+    if (code < size_)
+      waiting_.push_back(code);
+  }
+
+  void go_on(std::uint32_t at) {
+    const auto& code = flow_.code[at];
+    const auto before = motion_[at];
+    const auto& statement = statement_of(at);
+    auto after = step(statement, before, at);
+    bool calls = false;
+    for (const auto& jump : flow_.jumps_of(code)) {
+      reach(jump.to, after);
+      calls = calls || jump.call;
+    }
+    if (statement.kind == Statement::Next)
+      reach(body_of(at), after);
+    for (const auto& branch : program_.whole(statement).subspan(1))
+      after = join(after, step(branch, before, at));
+    if (code.falls)
+      reach(at + 1, calls ? Motion{Motion::Kind::Unknown} : after);
+  }
+
+  static Motion unknown() { return {Motion::Kind::Unknown}; }
+
+  Motion step(const StatementNode& statement, Motion before, std::uint32_t at) const {
+    if (statement.error || is_foreign_hand(statement.kind))
+      return unknown();
+    if (statement.kind == Statement::Let)
+      return program_.as<LetView>(statement).variable.kind == ItemKind::System &&
+                     program_.as<LetView>(statement).variable.value ==
+                         static_cast<std::uint32_t>(spec::Variable::Ctrl)
+                 ? unknown()
+                 : before;
+    if (statement.kind != Statement::Goroll)
+      return before;
+    const auto items = program_.items_of(statement);
+    const auto speed = number_in(program_, items[1]);
+    const auto go = items.size() < 3 ? speed : number_in(program_, items[2]);
+    if (speed && go && *speed > 0 && *go > 0)
+      return {Motion::Kind::Drives, at};
+    if (go == 0 ||
+        (speed == 0 && before.kind != Motion::Kind::Drives && before.kind != Motion::Kind::Coasts))
+      return go == 0 ? Motion{Motion::Kind::Rests} : before;
+    return speed == 0 && go ? Motion{Motion::Kind::Coasts, at} : unknown();
+  }
+
+  void judge(std::uint32_t at) {
+    const auto before = motion_[at];
+    for (const auto& statement : program_.whole(statement_of(at))) {
+      if (statement.error || before.kind == Motion::Kind::Unreached)
+        return;
+      if (statement.kind == Statement::End)
+        judge_end(before, statement.span);
+      if (statement.kind == Statement::Goroll && before.kind == Motion::Kind::Rests)
+        judge_start(statement);
+    }
+  }
+
+  void judge_end(Motion motion, Span where) {
+    if (motion.kind == Motion::Kind::Drives) {
+      auto& d = findings_.add(rules::DrivesOn, where, "the program ends while the ball drives",
+                              "stop it first: `goroll 0,0,0`");
+      add_note(d, statement_of(motion.roll).span, "it has been driving since here");
+    }
+    if (motion.kind == Motion::Kind::Coasts)
+      add_go(rules::WeakBrake, statement_of(motion.roll),
+             "speed 0 with a go value above 0 lets the ball roll out", '0');
+  }
+
+  void judge_start(const StatementNode& roll) {
     const auto items = program_.items_of(roll);
-    const auto is_on = [&](const Item& item) {
-      const auto& root = program_.nodes[item.value];
-      return root.kind == NodeKind::Number && root.value > 0;
-    };
-    return is_on(items[1]) && (items.size() < 3 || is_on(items[2]));
+    const auto speed = number_in(program_, items[1]);
+    if (items.size() == 3 && speed.value_or(0) > 0 && number_in(program_, items[2]) == 0)
+      add_go(rules::GoZero, roll,
+             fmt::format("go 0 brakes, whatever the speed: {} is not driven", *speed), '1');
   }
 
-  /// A branch may or may not run: what it touches is unknown after it, and a jump shows what was
-  /// set before to whatever it leads to.
-  void check_branches(const StatementNode& statement) {
-    for (const auto& branch : program_.whole(statement).subspan(1)) {
-      if (branch.error || spec::info(branch.kind).after != spec::After::Falls ||
-          shows(branch.kind) != Shows::Nothing || is_foreign_hand(branch.kind))
-        forget_shown();
-      if (branch.error || shows(branch.kind) == Shows::Roll || is_foreign_hand(branch.kind) ||
-          branch.kind == Statement::Gosub || branch.spelling == Spelling::OnGosub)
-        driving_ = nullptr;
-    }
+  void add_go(const Rule& rule, const StatementNode& roll, std::string message, char go) {
+    const auto& item = program_.items_of(roll).back();
+    const auto line = std::string(program_.text_of({roll.span.begin, item.span.begin})) + go;
+    auto& d = findings_.add(rule, item.span, std::move(message), fmt::format("write `{}`", line));
+    d.fix = single_fix(d.help, item.span, std::string(1, go), Safety::Unsafe);
   }
 
-  /// A loop that shows something in each round and waits in none.
-  void check_loop(std::uint32_t begin) {
-    forget();
-    const StatementNode* shown = nullptr;
-    for (auto i = begin + 1; i < size_; ++i) {
-      const auto& code = flow_.code[i];
-      const auto& statement = program_.statements[code.statement];
-      if (statement.error || code.target || statement.then_branch != none)
-        return;
-      if (statement.kind == Statement::Next)
-        break;
-      if (spec::info(statement.kind).after != spec::After::Falls || is_foreign_hand(statement.kind))
-        return;
-      if (shown == nullptr && shows(statement.kind) != Shows::Nothing)
-        shown = &statement;
-      if (i + 1 == size_)
-        return;
-    }
-    if (shown != nullptr)
-      findings_.add(rules::MissingDelay, shown->span,
-                    fmt::format("only the last {} of the loop is seen: nothing waits in it",
-                                name_of(shows(shown->kind))),
-                    "put a `delay 50` below this line");
-  }
-
-  // ---- headings that grow
+  // ---- what grows
 
   bool is_sum(const StatementNode& let) const {
     const auto& root = program_.nodes[program_.as<LetView>(let).expression.value];
@@ -169,12 +382,23 @@ private:
     std::vector<std::uint32_t> resets; ///< lines that set it to a number
     bool bounded = false;              ///< it is looked at, or set in another way
   };
-  struct Heading {
+  /// A letter that stands alone as an argument.
+  struct Given {
     std::uint32_t letter;
     std::uint32_t code;
+    const spec::StatementInfo* row;
+    const spec::Parameter* parameter;
   };
 
-  /// Looks for endless loops that add to a heading and never look at it.
+  void note_letters(const StatementNode& statement, std::uint32_t code) {
+    const auto& row = spec::info(statement.kind);
+    const auto items = program_.items_of(statement);
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (const auto letter = letter_in(program_, items[i]))
+        letters_given_.push_back({*letter, code, &row, &row.parameter_slots[i]});
+  }
+
+  /// Looks for endless loops that add to what a statement takes and never look at it.
   void check_growth() {
     std::array<Growth, letters> growth;
     for (std::uint32_t i = 0; i < size_; ++i) {
@@ -189,12 +413,12 @@ private:
         continue;
       const auto to = flow_.jumps[flow_.code[i].jumps_begin].to;
       const auto within = [&](std::uint32_t code) { return to <= code && code <= i; };
-      for (const auto& heading : headings_) {
-        auto& grown = growth[heading.letter];
-        if (!within(heading.code) || !within(grown.code) || grown.bounded ||
+      for (const auto& given : letters_given_) {
+        auto& grown = growth[given.letter];
+        if (!within(given.code) || !within(grown.code) || grown.bounded ||
             std::any_of(grown.resets.begin(), grown.resets.end(), within))
           continue;
-        add_growth(*grown.sum, heading.letter);
+        add_growth(*grown.sum, given);
         grown.bounded = true; // said once
       }
     }
@@ -236,35 +460,35 @@ private:
     }
   }
 
-  void add_growth(const Item& sum, std::uint32_t letter) {
+  void add_growth(const Item& sum, const Given& given) {
     const auto text = program_.text_of(sum.span);
-    const auto turn = spec::info(Statement::Goroll).parameters()[0].greatest + 1;
-    auto& d = findings_.add(rules::HeadingGrows, sum.span,
-                            fmt::format("`{}` is a heading and grows forever; headings end at {}",
-                                        spec::letter_name(letter), turn - 1),
-                            fmt::format("write `({}) % {}`", text, turn));
+    const auto letter = spec::letter_name(given.letter);
+    const auto turn = given.parameter->greatest + 1;
+    const bool heading = given.parameter->unit == "deg";
+    const auto bounded = fmt::format("({}) % {}", text, turn);
+    auto& d = findings_.add(
+        heading ? rules::HeadingGrows : rules::ValueGrows, sum.span,
+        heading ? fmt::format("`{}` is a heading and grows forever; headings end at {}", letter,
+                              turn - 1)
+                : fmt::format("`{}` grows forever; the {} of `{}` ends at {}", letter,
+                              given.parameter->name, given.row->word, turn - 1),
+        fmt::format("write `{}`", bounded));
     d.fix = Fix{d.help,
                 {{{sum.span.begin, sum.span.begin}, "("},
                  {{sum.span.end, sum.span.end}, fmt::format(") % {}", turn)}},
-                Safety::Safe};
-  }
-
-  void add_driving(Span span) {
-    auto& d = findings_.add(rules::DrivesOn, span, "the program ends while the ball drives",
-                            "stop it first: `goroll 0,0,0`");
-    add_note(d, driving_->span, "it has been driving since here");
-    driving_ = nullptr;
+                heading ? Safety::Safe : Safety::Unsafe};
   }
 
   const Program& program_;
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::vector<Heading> headings_;          ///< rolls whose heading is a letter
-  bool grows_ = false;                     ///< something is set to a sum
-  const StatementNode* colour_ = nullptr;  ///< set on this straight run, and not shown yet
-  const StatementNode* roll_ = nullptr;    ///< the same of a roll
-  const StatementNode* driving_ = nullptr; ///< the roll with which the ball drives for certain
+  std::vector<Given> letters_given_;
+  bool grows_ = false; ///< something is set to a sum
+  bool rolls_ = false;
+  std::vector<Motion> motion_; ///< by line of code, before it runs
+  Motion end_;                 ///< below the last line
+  std::vector<std::uint32_t> waiting_;
 };
 
 } // namespace

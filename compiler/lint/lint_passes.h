@@ -47,8 +47,11 @@ void lint_missing_numbers(const Program& program, std::span<const Fault* const> 
 /// targets, how expressions are written.
 void lint_text(const Program& program, const Flow& flow, const Target& target, Findings& findings);
 
+/// Whether all jumps of a program could be read; otherwise values hold to the next line at most.
+enum class Jumps : std::uint8_t { Known, Unknown };
+
 /// What follows from the values that letters, parameters and data can have.
-void lint_values(const Program& program, const Flow& flow, const Target& target,
+void lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
                  Findings& findings);
 
 /// The rules about loops: how `for` and `next` meet on every way. Part of `lint_flow`.
@@ -60,5 +63,11 @@ void lint_flow(const Program& program, const Flow& flow, Findings& findings);
 /// What runs through and is still not meant: colours and rolls that nobody sees, a ball left
 /// driving.
 void lint_intent(const Program& program, const Flow& flow, Findings& findings);
+
+/// Numbers in another unit than the one that counts there, comparisons with but one answer.
+void lint_units(const Program& program, const Flow& flow, Findings& findings);
+
+/// Loops that wait for what cannot come, and loops that are meant as a wait.
+void lint_waits(const Program& program, const Flow& flow, Findings& findings);
 
 } // namespace orb::compiler

@@ -2,6 +2,7 @@
 
 #include "spec/limits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -134,6 +135,57 @@ Range apply(spec::Function function, const Range& operand) {
 
 Range negate(const Range& operand) {
   return apply(spec::Operator::Subtract, Range::only(0), operand);
+}
+
+std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Range right) {
+  std::int64_t lo = left.lo;
+  std::int64_t hi = left.hi;
+  const bool yes = holds == Holds::Yes;
+  switch (relation) {
+  case spec::Relation::Less:
+    yes ? hi = std::min(hi, std::int64_t{right.hi} - 1) : lo = std::max<std::int64_t>(lo, right.lo);
+    break;
+  case spec::Relation::Greater:
+    yes ? lo = std::max(lo, std::int64_t{right.lo} + 1) : hi = std::min<std::int64_t>(hi, right.hi);
+    break;
+  case spec::Relation::Equal:
+  case spec::Relation::NotEqual:
+    if (yes == (relation == spec::Relation::Equal)) {
+      lo = std::max<std::int64_t>(lo, right.lo);
+      hi = std::min<std::int64_t>(hi, right.hi);
+    } else if (right.constant()) {
+      lo += lo == right.lo ? 1 : 0;
+      hi -= hi == right.lo ? 1 : 0;
+    }
+    break;
+  }
+  return lo > hi ? std::nullopt : std::optional(narrow(lo, hi));
+}
+
+Range widen(std::span<const std::int32_t> landmarks, Range before, Range now) {
+  if (now.lo < before.lo)
+    now.lo = *std::prev(std::upper_bound(landmarks.begin(), landmarks.end(), now.lo));
+  if (now.hi > before.hi)
+    now.hi = *std::lower_bound(landmarks.begin(), landmarks.end(), now.hi);
+  return now;
+}
+
+std::vector<std::int32_t> landmarks_of(std::vector<std::int32_t> named) {
+  constexpr auto least = std::numeric_limits<std::int32_t>::min();
+  constexpr auto greatest = std::numeric_limits<std::int32_t>::max();
+  std::sort(named.begin(), named.end());
+  std::vector<std::int32_t> landmarks{least};
+  const auto add = [&](std::int64_t value) {
+    if (value > landmarks.back() && value <= greatest)
+      landmarks.push_back(static_cast<std::int32_t>(value));
+  };
+  for (const std::int64_t value : named) {
+    add(value - 1);
+    add(value);
+    add(value + 1);
+  }
+  add(greatest);
+  return landmarks;
 }
 
 Digits printed(Range range) {

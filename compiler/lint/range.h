@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace orb::compiler {
 
@@ -39,6 +42,18 @@ Range apply(spec::Function function, const Range& operand);
 
 /// `0 - operand`.
 Range negate(const Range& operand);
+
+/// What the left side of a comparison can be where it holds, or where it does not; nothing: that
+/// cannot be.
+enum class Holds : std::uint8_t { Yes, No };
+std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Range right);
+
+/// `now`, which grows: on to the next of these ascending landmarks, so that it grows a few times
+/// only. They begin and end with the least and the greatest number.
+Range widen(std::span<const std::int32_t> landmarks, Range before, Range now);
+
+/// The landmarks of a program that names these numbers: each of them and its neighbours.
+std::vector<std::int32_t> landmarks_of(std::vector<std::int32_t> named);
 
 /// How many characters the numbers of a range take when printed: the least and the most.
 struct Digits {

@@ -17,10 +17,14 @@ namespace robot = compiler::rules;
 /// The rules whose findings say something about the source, in words that fit it.
 bool is_told(const Rule* rule) {
   for (const auto* told :
-       {&robot::ValueOutOfRange, &robot::DivisionByZero, &robot::UnknownFlags, &robot::MissingGo,
-        &robot::ReadPastData, &robot::ClearedByReading, &robot::DataReplaced, &robot::BusyLoop,
-        &robot::IndexRange, &robot::NonprintingByte, &robot::MissingDelay, &robot::DrivesOn,
-        &robot::LoopLeavesRange, &robot::HeadingGrows})
+       {&robot::ValueOutOfRange, &robot::DivisionByZero, &robot::UnknownFlags,
+        &robot::MissingGo,       &robot::ReadPastData,   &robot::ClearedByReading,
+        &robot::DataReplaced,    &robot::BusyLoop,       &robot::IndexRange,
+        &robot::NonprintingByte, &robot::MissingDelay,   &robot::DrivesOn,
+        &robot::LoopLeavesRange, &robot::HeadingGrows,   &robot::MayLeaveRange,
+        &robot::WrongUnit,       &robot::TinyValue,      &robot::GoZero,
+        &robot::WeakBrake,       &robot::StaleSensor,    &robot::InvertedWait,
+        &robot::LoopVariableSet, &robot::EmptyLoop,      &robot::AlwaysOne})
     if (rule == told)
       return true;
   return false;
@@ -35,12 +39,17 @@ public:
     const auto image = compiler::build_image(plain_, compiler::Packing::Packed);
     compiled_.image_bytes = image.bytes.size();
     for (const auto& found : compiler::lint(plain_, target_))
-      if (is_told(found.rule))
+      if (is_told(found.rule) && !is_of_array(found))
         tell(found);
     check_size(image);
   }
 
 private:
+  /// Where an index leads is said of the source's own array.
+  bool is_of_array(const Diagnostic& found) const {
+    return found.rule == &robot::MayLeaveRange && plain_.text_of(found.span) == "Z";
+  }
+
   std::size_t line_at(std::uint32_t offset) const {
     const auto& lines = compiled_.robot.lines;
     const auto next =
@@ -75,7 +84,8 @@ private:
     const bool said = std::any_of(
         program.diagnostics.begin(), program.diagnostics.end(), [&](const Diagnostic& other) {
           return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
-                 (other.rule == found.rule || other.severity == Severity::Error);
+                 (other.rule == found.rule || other.severity == Severity::Error ||
+                  found.rule == &robot::WrongUnit);
         });
     if (said)
       return;
@@ -99,15 +109,34 @@ private:
       told.message = "the index lies outside of the array";
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
       tell_of_heading(statement, told);
-    if (found.rule == &robot::LoopLeavesRange) {
+    if (found.rule == &robot::StaleSensor)
+      told.help = "read it in the loop";
+    if (found.rule == &robot::InvertedWait)
+      told.help = "turn the comparison round";
+    if (found.fix && found.fix->edits.size() == 1)
+      put_fix_into_source(*found.fix, statement, told);
+    if (found.rule == &robot::LoopLeavesRange || found.rule == &robot::MayLeaveRange) {
       const auto letters = plain_.text_of(found.span);
       const auto names = std::string(program.text_of(told.span));
       const bool single = letters.size() == 1 && names.find_first_of(" +-*/%&|{}") != names.npos;
       replace(told.message, fmt::format("`{}`", letters), fmt::format("`{}`", names));
       replace(told.help, fmt::format("`({})", letters), fmt::format("`({})", names));
+      replace(told.help, fmt::format("`({} ", letters), fmt::format("`({} ", names));
       replace(told.help, fmt::format("`{} ", letters),
               single ? fmt::format("`({}) ", names) : fmt::format("`{} ", names));
     }
+  }
+
+  /// The line to write is the source's own, with the one value replaced.
+  void put_fix_into_source(const Fix& fix, const Statement& statement, Diagnostic& told) const {
+    const auto& program = compiled_.program;
+    const auto& edit = fix.edits.front();
+    const auto* argument = argument_of(edit.span, statement);
+    if (argument == nullptr)
+      return;
+    told.help =
+        fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, argument->span.begin}),
+                    edit.text, program.text_of({argument->span.end, statement.span.end}));
   }
 
   static void replace(std::string& text, std::string_view from, std::string_view to) {

@@ -1,5 +1,6 @@
 #include "structured/meaning/check.h"
 
+#include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 #include "structured/text/blocks.h"
@@ -19,6 +20,8 @@ public:
       : program_(program), names_(names), target_(target) {}
 
   void run() {
+    for (const auto& statement : program_.statements)
+      note_timer(statement);
     for (const auto i : program_.order) {
       const auto& statement = program_.statements[i];
       check_expressions(statement);
@@ -50,6 +53,15 @@ private:
   }
   std::optional<Constant> value_of(const Item& part) const {
     return evaluate(program_, names_, part.value);
+  }
+
+  void note_timer(const Statement& statement) {
+    if (statement.kind != Kind::Assign || size(statement) < 2)
+      return;
+    const auto& place = program_.nodes[item(statement, 0).value];
+    const auto value = value_of(item(statement, 1));
+    if (place.kind == NodeKind::System && (!value || value->value != 0))
+      timers_.set_above_0(static_cast<spec::Variable>(place.what));
   }
 
   // ---- expressions
@@ -96,6 +108,10 @@ private:
                     spec::variables[node.what].old_word == program_.text_of(node.span));
     if (node.kind == NodeKind::Element)
       check_index(n);
+    if (node.kind == NodeKind::Relation)
+      check_sensor(n);
+    if (node.kind == NodeKind::Binary)
+      check_quotient(n);
     const bool takes_conditions =
         node.kind == NodeKind::Not || node.kind == NodeKind::And || node.kind == NodeKind::Or;
     if (takes_conditions || node.first == n)
@@ -106,6 +122,79 @@ private:
       if (program_.nodes[operand].first == node.first || program_.nodes[operand].first == 0)
         break;
     }
+  }
+
+  /// A sensor that is compared with a number, whichever side it stands on.
+  void check_sensor(std::uint32_t n) {
+    const auto& nodes = program_.nodes;
+    const auto right = n - 1;
+    const auto left = program_.before(right);
+    const bool sensor_right = nodes[right].kind == NodeKind::System;
+    if (sensor_right == (nodes[left].kind == NodeKind::System))
+      return;
+    const auto number = evaluate(program_, names_, sensor_right ? left : right);
+    if (!number)
+      return;
+    const auto comparison = static_cast<Comparison>(nodes[n].what);
+    const auto sensor = static_cast<spec::Variable>(nodes[sensor_right ? right : left].what);
+    auto question =
+        question_of(sensor_right ? mirrored(comparison) : comparison, sensor, number->value);
+    if (!question)
+      return;
+    if (number->duration)
+      question->written = 0; // it says its unit
+    const auto answer = compiler::judge(*question, program_.text_of(nodes[n].span), timers_);
+    if (answer)
+      report(*answer->rule, nodes[n].span, answer->message, answer->help);
+  }
+
+  static Comparison mirrored(Comparison comparison) {
+    switch (comparison) {
+    case Comparison::Less: return Comparison::Greater;
+    case Comparison::Greater: return Comparison::Less;
+    case Comparison::LessEqual: return Comparison::GreaterEqual;
+    case Comparison::GreaterEqual: return Comparison::LessEqual;
+    case Comparison::Equal:
+    case Comparison::NotEqual: break;
+    }
+    return comparison;
+  }
+
+  /// The same question as the robot asks it, which has no `<=` and `>=`.
+  static std::optional<compiler::SensorQuestion>
+  question_of(Comparison comparison, spec::Variable sensor, std::int32_t number) {
+    using spec::Relation;
+    const auto ask = [&](Relation relation, std::int64_t asked,
+                         std::string symbol) -> std::optional<compiler::SensorQuestion> {
+      if (asked < std::numeric_limits<std::int32_t>::min() ||
+          asked > std::numeric_limits<std::int32_t>::max())
+        return std::nullopt;
+      return compiler::SensorQuestion{sensor, relation, static_cast<std::int32_t>(asked),
+                                      std::move(symbol), number};
+    };
+    switch (comparison) {
+    case Comparison::Equal: return ask(Relation::Equal, number, "=");
+    case Comparison::NotEqual: return ask(Relation::NotEqual, number, "!");
+    case Comparison::Less: return ask(Relation::Less, number, "<");
+    case Comparison::Greater: return ask(Relation::Greater, number, ">");
+    case Comparison::LessEqual: return ask(Relation::Less, std::int64_t{number} + 1, "<=");
+    case Comparison::GreaterEqual: return ask(Relation::Greater, std::int64_t{number} - 1, ">=");
+    }
+    return std::nullopt;
+  }
+
+  /// `1 / 2` is 0.
+  void check_quotient(std::uint32_t n) {
+    const auto& nodes = program_.nodes;
+    const auto& right = nodes[n - 1];
+    const auto& left = nodes[program_.before(n - 1)];
+    if (static_cast<spec::Operator>(nodes[n].what) != spec::Operator::Divide ||
+        left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0 ||
+        left.value >= right.value)
+      return;
+    report(compiler::rules::ZeroQuotient, nodes[n].span,
+           fmt::format("`{} / {}` is 0: values are whole numbers", left.value, right.value),
+           fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
   }
 
   /// `x = 1 or 6`: the number was meant to be compared like the one before it.
@@ -420,9 +509,10 @@ private:
     const auto& loop = at(statement.opener);
     if (loop.kind != Kind::For)
       return;
-    const auto name = program_.nodes[item(statement, 0).value].value;
+    const auto& named = program_.nodes[item(statement, 0).value];
     const auto& counter = program_.nodes[item(loop, 0).value];
-    if (counter.kind == NodeKind::Name && counter.value != name)
+    if (counter.kind == NodeKind::Name &&
+        (named.kind != NodeKind::Name || counter.value != named.value))
       report(rules::LoopVariable, item(statement, 0).span,
              fmt::format("the innermost loop counts in `{}`", program_.text_of(counter.span)),
              fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
@@ -661,6 +751,7 @@ private:
     return program_.name(names_.symbols[names_.routines[routine].symbol].name);
   }
 
+  compiler::Timers timers_;
   Program& program_;
   const Names& names_;
   const compiler::Target& target_;

@@ -27,30 +27,19 @@ void each_number(const Code& code, std::uint32_t term, Visit visit) {
 
 } // namespace
 
-/// What the values of a comparison's left side can be where it holds; nothing: it cannot hold.
 std::optional<compiler::Range> where(Comparison comparison, compiler::Range left,
                                      compiler::Range right) {
-  std::int64_t lo = left.lo;
-  std::int64_t hi = left.hi;
+  using compiler::Holds;
+  using spec::Relation;
   switch (comparison) {
-  case Comparison::Equal:
-    lo = std::max<std::int64_t>(lo, right.lo);
-    hi = std::min<std::int64_t>(hi, right.hi);
-    break;
-  case Comparison::NotEqual:
-    if (right.constant() && lo == right.lo)
-      ++lo;
-    if (right.constant() && hi == right.lo)
-      --hi;
-    break;
-  case Comparison::Less: hi = std::min(hi, std::int64_t{right.hi} - 1); break;
-  case Comparison::LessEqual: hi = std::min<std::int64_t>(hi, right.hi); break;
-  case Comparison::Greater: lo = std::max(lo, std::int64_t{right.lo} + 1); break;
-  case Comparison::GreaterEqual: lo = std::max<std::int64_t>(lo, right.lo); break;
+  case Comparison::Equal: return compiler::where(Relation::Equal, Holds::Yes, left, right);
+  case Comparison::NotEqual: return compiler::where(Relation::Equal, Holds::No, left, right);
+  case Comparison::Less: return compiler::where(Relation::Less, Holds::Yes, left, right);
+  case Comparison::LessEqual: return compiler::where(Relation::Greater, Holds::No, left, right);
+  case Comparison::Greater: return compiler::where(Relation::Greater, Holds::Yes, left, right);
+  case Comparison::GreaterEqual: return compiler::where(Relation::Less, Holds::No, left, right);
   }
-  if (lo > hi)
-    return std::nullopt;
-  return Range{static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi)};
+  return left;
 }
 
 Range Ranges::range_of(std::uint32_t term, const State& state) const {
@@ -95,32 +84,13 @@ void Ranges::find_tracked() {
 /// Numbers at which growing ranges stop first: those that tests, loops and
 /// assignments name, and their neighbours.
 void Ranges::find_landmarks() {
-  std::vector<std::int64_t> named;
+  std::vector<std::int32_t> named;
   for (const auto& line : code_.lines)
     if (line.kind == LineKind::If || line.kind == LineKind::For || line.kind == LineKind::Let)
       each_root(code_, line, [&](std::uint32_t root) {
         each_number(code_, root, [&](std::int32_t value) { named.push_back(value); });
       });
-  std::sort(named.begin(), named.end());
-  landmarks_.push_back(least_value);
-  const auto add = [&](std::int64_t value) {
-    if (value > landmarks_.back() && value <= greatest_value)
-      landmarks_.push_back(static_cast<std::int32_t>(value));
-  };
-  for (const auto value : named) {
-    add(value - 1);
-    add(value);
-    add(value + 1);
-  }
-  add(greatest_value);
-}
-
-Range Ranges::widen(Range before, Range now) const {
-  if (now.lo < before.lo)
-    now.lo = *std::prev(std::upper_bound(landmarks_.begin(), landmarks_.end(), now.lo));
-  if (now.hi > before.hi)
-    now.hi = *std::lower_bound(landmarks_.begin(), landmarks_.end(), now.hi);
-  return now;
+  landmarks_ = compiler::landmarks_of(std::move(named));
 }
 
 void Ranges::find_data() {
@@ -202,7 +172,7 @@ void Ranges::enter(std::uint32_t b, const State& state) {
     if (visits_[b] > limit)
       joined = {};
     else if (visits_[b] > patience)
-      joined = widen(known_[i], joined);
+      joined = compiler::widen(landmarks_, known_[i], joined);
     known_[i] = joined;
     changed = true;
   }
@@ -238,7 +208,7 @@ void Ranges::set_element(Range range) {
   if (!following_ || joined == elements_)
     return;
   elements_ = ++growths_ > 4 * patience ? Range{}
-              : growths_ > patience     ? widen(elements_, joined)
+              : growths_ > patience     ? compiler::widen(landmarks_, elements_, joined)
                                         : joined;
   for (const auto b : element_readers_)
     if (reached_[b])

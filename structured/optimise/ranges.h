@@ -69,7 +69,6 @@ private:
   void find_tracked();
   void find_landmarks();
   void find_data();
-  compiler::Range widen(compiler::Range before, compiler::Range now) const;
 
   void load(std::uint32_t b, State& state) const;
   void enter(std::uint32_t b, const State& state);

@@ -1,0 +1,249 @@
+#include "compiler/lint/letters.h"
+
+#include <algorithm>
+
+namespace orb::compiler {
+namespace {
+
+constexpr std::uint32_t most_lines = 2048; ///< no area of the robot holds as many
+constexpr std::size_t most_routines = 64;
+
+constexpr std::uint32_t bit(std::size_t letter) {
+  return std::uint32_t{1} << letter;
+}
+
+/// Whether a bit of one of two joined letters is one of the result.
+std::uint32_t joined_bit(std::uint32_t a, std::uint32_t b, const Range& left, const Range& right,
+                         const Range& joined, std::uint32_t mask) {
+  const bool from_left = (a & mask) != 0;
+  const bool from_right = (b & mask) != 0;
+  if ((from_left && from_right) || (from_left && left == joined) || (from_right && right == joined))
+    return mask;
+  return 0;
+}
+
+/// Joins one letter; whether its range changed.
+bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
+  const auto old = into.ranges[letter];
+  const auto& other = from.ranges[letter];
+  const auto mask = bit(letter);
+  if (old == other && (into.exact & mask) == (from.exact & mask) &&
+      (into.dense & mask) == (from.dense & mask))
+    return false;
+  const auto joined = join(old, other);
+  const auto exact = joined_bit(into.exact, from.exact, old, other, joined, mask);
+  // Between two ranges there may be a gap.
+  const auto dense = old == joined || other == joined
+                         ? joined_bit(into.dense, from.dense, old, other, joined, mask)
+                         : 0;
+  into.ranges[letter] = joined;
+  into.exact = (into.exact & ~mask) | exact;
+  into.dense = (into.dense & ~mask) | (dense & exact);
+  return !(joined == old);
+}
+
+} // namespace
+
+bool join_into(Letters& into, const Letters& from) {
+  bool changed = false;
+  for (std::size_t letter = 0; letter < spec::letter_count; ++letter)
+    changed = join_letter(into, from, letter) || changed;
+  return changed;
+}
+
+void LetterFlow::keep(std::uint32_t code) {
+  if (block_of_[code] != none)
+    return;
+  block_of_[code] = static_cast<std::uint32_t>(blocks_.size());
+  blocks_.emplace_back().code = code;
+}
+
+bool LetterFlow::prepare() {
+  const auto size = static_cast<std::uint32_t>(flow_.code.size());
+  block_of_.assign(size, none);
+  if (size == 0 || size > most_lines)
+    return false;
+  keep(0);
+  for (std::uint32_t i = 1; i < size; ++i) {
+    const auto& above = program_.statements[flow_.code[i - 1].statement];
+    if (flow_.code[i].target || !flow_.code[i - 1].falls || above.error ||
+        above.kind == spec::Statement::For)
+      keep(i);
+  }
+  for (const auto& statement : program_.statements) {
+    if (statement.error || statement.kind != spec::Statement::Sleep)
+      continue;
+    const auto& line = program_.nodes[program_.as<SleepView>(statement).line.value];
+    if (line.kind != NodeKind::Number || line.value > 0)
+      return false; // it wakes up at any line
+  }
+  find_routines();
+  if (routines_.size() > most_routines)
+    return false;
+  find_landmarks();
+  return true;
+}
+
+void LetterFlow::find_routines() {
+  for (std::uint32_t i = 0; i < flow_.code.size(); ++i)
+    if (flow_.code[i].called)
+      routines_.emplace_back().entry = i;
+  if (routines_.size() > most_routines)
+    return;
+  for (auto& routine : routines_)
+    read_routine(routine);
+  const auto written_by_routine = [&](std::uint32_t entry) {
+    for (const auto& routine : routines_)
+      if (routine.entry == entry)
+        return routine.written;
+    return std::uint32_t{0};
+  };
+  for (bool changed = true; changed;) { // what they write together with those that they call
+    changed = false;
+    for (auto& routine : routines_)
+      for (const auto callee : routine.callees) {
+        const auto all = routine.written | written_by_routine(callee);
+        changed = changed || all != routine.written;
+        routine.written = all;
+      }
+  }
+}
+
+void LetterFlow::read_routine(Routine& routine) {
+  const auto size = static_cast<std::uint32_t>(flow_.code.size());
+  routine.lines.assign(size, 0);
+  std::vector<std::uint32_t> open{routine.entry};
+  while (!open.empty()) {
+    auto at = open.back();
+    open.pop_back();
+    for (; at < size && routine.lines[at] == 0; ++at) {
+      routine.lines[at] = 1;
+      const auto& code = flow_.code[at];
+      routine.written |= written_by(at);
+      for (const auto& jump : flow_.jumps_of(code))
+        if (jump.to != none)
+          (jump.call ? routine.callees : open).push_back(jump.to);
+      if (!code.falls)
+        break;
+    }
+  }
+}
+
+std::uint32_t LetterFlow::written_by(std::uint32_t code) const {
+  std::uint32_t written = 0;
+  for (const auto& statement : program_.whole(program_.statements[flow_.code[code].statement])) {
+    if (statement.error)
+      return ~std::uint32_t{0};
+    for (const auto& item : program_.items_of(statement))
+      if (item.kind == ItemKind::Letter)
+        written |= bit(item.value);
+  }
+  return written;
+}
+
+void LetterFlow::find_landmarks() {
+  std::vector<std::int32_t> named;
+  for (const auto& statement : program_.statements)
+    if (!statement.error &&
+        (statement.kind == spec::Statement::If || statement.kind == spec::Statement::For ||
+         statement.kind == spec::Statement::Let))
+      for (const auto& item : program_.items_of(statement))
+        if (item.kind == ItemKind::Expression)
+          for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
+            if (program_.nodes[n].kind == NodeKind::Number)
+              named.push_back(program_.nodes[n].value);
+  landmarks_ = landmarks_of(std::move(named));
+}
+
+const Letters* LetterFlow::before(std::uint32_t code) const {
+  const auto& block = blocks_[block_of_[code]];
+  return block.reached ? &block.letters : nullptr;
+}
+
+void LetterFlow::wait(std::uint32_t block) {
+  blocks_[block].waiting = true;
+  first_waiting_ = std::min(first_waiting_, block);
+}
+
+void LetterFlow::enter(std::uint32_t code, const Letters& letters) {
+  if (code >= block_of_.size() || block_of_[code] == none)
+    return; // no line, or one that the one above leads to
+  constexpr std::uint32_t patience = 2;
+  constexpr std::uint32_t limit = 24;
+  auto& block = blocks_[block_of_[code]];
+  if (!block.reached) {
+    block.reached = true;
+    block.letters = letters;
+    wait(block_of_[code]);
+    return;
+  }
+  const auto before = block.letters;
+  const auto bits = std::pair{before.exact, before.dense};
+  if (!join_into(block.letters, letters)) {
+    if (bits != std::pair{block.letters.exact, block.letters.dense})
+      wait(block_of_[code]);
+    return;
+  }
+  if (block.visits > patience)
+    for (std::size_t i = 0; i < spec::letter_count; ++i) {
+      auto& range = block.letters.ranges[i];
+      if (range == before.ranges[i])
+        continue;
+      range = block.visits > limit ? Range{} : widen(landmarks_, before.ranges[i], range);
+      block.letters.exact &= ~bit(i);
+      block.letters.dense &= ~bit(i);
+    }
+  wait(block_of_[code]);
+}
+
+bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters) {
+  const auto routine = std::find_if(routines_.begin(), routines_.end(),
+                                    [&](const Routine& one) { return one.entry == entry; });
+  if (routine == routines_.end())
+    return false;
+  enter(entry, letters);
+  const auto block = block_of_[from];
+  if (std::find(routine->callers.begin(), routine->callers.end(), block) == routine->callers.end())
+    routine->callers.push_back(block);
+  if (!routine->returned)
+    return false;
+  for (std::size_t i = 0; i < spec::letter_count; ++i)
+    if ((routine->written & bit(i)) != 0)
+      letters.ranges[i] = routine->letters.ranges[i];
+  letters.exact = (letters.exact & ~routine->written) | (routine->letters.exact & routine->written);
+  letters.dense = (letters.dense & ~routine->written) | (routine->letters.dense & routine->written);
+  return true;
+}
+
+void LetterFlow::leave(std::uint32_t code, const Letters& letters) {
+  for (auto& routine : routines_) {
+    if (routine.lines[code] == 0)
+      continue;
+    const auto bits = std::pair{routine.letters.exact, routine.letters.dense};
+    bool changed = !routine.returned;
+    if (routine.returned) {
+      changed = join_into(routine.letters, letters);
+      changed = changed || bits != std::pair{routine.letters.exact, routine.letters.dense};
+    } else {
+      routine.letters = letters;
+    }
+    routine.returned = true;
+    if (changed)
+      for (const auto caller : routine.callers)
+        wait(caller);
+  }
+}
+
+std::uint32_t LetterFlow::take() {
+  for (; first_waiting_ < blocks_.size(); ++first_waiting_) {
+    auto& block = blocks_[first_waiting_];
+    if (!block.waiting)
+      continue;
+    block.waiting = false;
+    ++block.visits;
+    return block.code;
+  }
+  return none;
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "compiler/lint/flow.h"
+#include "compiler/lint/range.h"
+#include "spec/limits.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace orb::compiler {
+
+/// What is known of A to Y at a place of a program.
+struct Letters {
+  std::array<Range, spec::letter_count> ranges{};
+  // Bits by letter:
+  std::uint32_t exact = 0; ///< both ends of the range are values that it takes
+  std::uint32_t dense = 0; ///< and so are those between, as of a sensor
+
+  static Letters zero() {
+    Letters letters;
+    letters.ranges.fill(Range::only(0));
+    letters.exact = (1U << spec::letter_count) - 1;
+    return letters;
+  }
+};
+
+/// Joins `from` into `into`; whether that changed something.
+bool join_into(Letters& into, const Letters& from);
+
+/// The lines of a program at which what is known of its letters is kept, and what is known there
+/// after all ways have been followed. The one who follows says what lines do.
+class LetterFlow {
+public:
+  LetterFlow(const Program& program, const Flow& flow) : program_(program), flow_(flow) {}
+
+  /// Finds the places. False for programs that are too large for any robot: nothing is known of
+  /// them.
+  bool prepare();
+
+  bool is_kept(std::uint32_t code) const { return block_of_[code] != none; }
+  /// What is known before a kept line; null where no way leads to it.
+  const Letters* before(std::uint32_t code) const;
+
+  /// A way leads to the line with this known.
+  void enter(std::uint32_t code, const Letters& letters);
+  /// A call of the lines at `entry`, made in the lines that begin at `from`: turns `letters` into
+  /// what is known after it, false where nothing comes back yet.
+  bool call(std::uint32_t entry, std::uint32_t from, Letters& letters);
+  /// The `return` at `code` is reached.
+  void leave(std::uint32_t code, const Letters& letters);
+
+  /// The next kept line from which to go on; `none` when all ways have been followed.
+  std::uint32_t take();
+
+private:
+  struct Block {
+    std::uint32_t code = 0;
+    std::uint32_t visits = 0;
+    bool reached = false;
+    bool waiting = false;
+    Letters letters;
+  };
+  struct Routine {
+    std::uint32_t entry = 0;
+    std::uint32_t written = 0; ///< letters, as bits
+    bool returned = false;
+    Letters letters;                    ///< at its returns
+    std::vector<std::uint32_t> callers; ///< blocks
+    std::vector<std::uint8_t> lines;    ///< that run in it
+    std::vector<std::uint32_t> callees; ///< entries
+  };
+
+  void keep(std::uint32_t code);
+  void find_routines();
+  void read_routine(Routine& routine);
+  std::uint32_t written_by(std::uint32_t code) const;
+  void find_landmarks();
+  void wait(std::uint32_t block);
+
+  const Program& program_;
+  const Flow& flow_;
+  std::vector<std::uint32_t> block_of_; ///< by line of code, or none
+  std::vector<Block> blocks_;
+  std::vector<Routine> routines_;
+  std::vector<std::int32_t> landmarks_; ///< numbers at which growing ranges stop first, ascending
+  std::uint32_t first_waiting_ = 0;
+};
+
+} // namespace orb::compiler

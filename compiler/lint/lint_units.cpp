@@ -1,0 +1,281 @@
+#include "base/text.h"
+#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/reading.h"
+#include "compiler/lint/sensor_tests.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::compiler {
+namespace {
+
+using spec::Statement;
+
+/// A roll that lasts no longer moves nothing that anybody could see.
+constexpr std::int32_t unseen_roll_ms = 31;
+constexpr std::int32_t unseen_colour_ms = 10;
+/// Colours that are drawn anew each time are party lights, which may be fast.
+constexpr std::int32_t unseen_party_ms = 6;
+
+/// Numbers that are fine for the robot and cannot be what was meant: seconds for milliseconds, a
+/// light of 1.
+class UnitsPass {
+public:
+  UnitsPass(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings) {}
+
+  void run() {
+    for (const auto& statement : program_.statements)
+      note_timer(statement);
+    for (std::uint32_t i = 0; i < flow_.code.size(); ++i)
+      for (const auto& statement : program_.whole(statement_of(i)))
+        if (!statement.error)
+          check(statement, i);
+  }
+
+private:
+  const StatementNode& statement_of(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+  std::optional<std::int32_t> number(const Item& item) const { return number_in(program_, item); }
+
+  void note_timer(const StatementNode& statement) {
+    if (statement.error || statement.kind != Statement::Let)
+      return;
+    const auto let = program_.as<LetView>(statement);
+    if (let.variable.kind == ItemKind::System && number(let.expression) != 0)
+      timers_.set_above_0(static_cast<spec::Variable>(let.variable.value));
+  }
+
+  void check(const StatementNode& statement, std::uint32_t code) {
+    const auto kind = statement.kind;
+    if (kind == Statement::Let)
+      check_timer(statement, code);
+    else if (kind == Statement::If)
+      check_comparisons(program_.as<IfView>(statement));
+    else if (kind == Statement::Delay)
+      check_delay(statement, code);
+    else if (kind == Statement::Rgb)
+      check_colour(statement);
+    else if (kind == Statement::Goroll)
+      check_speed(statement);
+    else if (kind == Statement::BackLed)
+      check_back_led(statement);
+    else if (kind == Statement::Input)
+      check_input(statement, code);
+    else if (kind == Statement::Sleep)
+      check_sleep(statement);
+  }
+
+  // ---- time
+
+  /// The statement of the line above, if nothing else leads here.
+  const StatementNode* above(std::uint32_t code) const {
+    if (code == 0 || flow_.code[code].target || !flow_.code[code - 1].falls)
+      return nullptr;
+    const auto& statement = statement_of(code - 1);
+    return statement.error || statement.then_branch != none ? nullptr : &statement;
+  }
+  const StatementNode* below(std::uint32_t code) const {
+    if (code + 1 == flow_.code.size() || flow_.code[code + 1].target)
+      return nullptr;
+    const auto& statement = statement_of(code + 1);
+    return statement.error || statement.then_branch != none ? nullptr : &statement;
+  }
+
+  template <NodeKind kind>
+  bool uses(const StatementNode& statement) const {
+    return std::any_of(program_.items_of(statement).begin(), program_.items_of(statement).end(),
+                       [&](const Item& item) {
+                         const auto nodes = nodes_of(program_, item);
+                         return std::any_of(nodes.begin(), nodes.end(),
+                                            [](const Node& node) { return node.kind == kind; });
+                       });
+  }
+  bool is_fixed(const StatementNode& statement) const {
+    return !uses<NodeKind::Letter>(statement) && !uses<NodeKind::Indexed>(statement) &&
+           !uses<NodeKind::System>(statement);
+  }
+
+  void check_delay(const StatementNode& statement, std::uint32_t code) {
+    const auto& time = program_.items_of(statement)[0];
+    const auto ms = number(time);
+    const auto* shown = above(code);
+    if (!ms || *ms < 1 || *ms >= unseen_roll_ms || shown == nullptr || !is_fixed(*shown))
+      return;
+    const bool colour = shown->kind == Statement::Rgb || shown->kind == Statement::Ledc ||
+                        shown->kind == Statement::BackLed;
+    const auto limit = uses<NodeKind::Call>(*shown) ? unseen_party_ms : unseen_colour_ms;
+    if ((colour && *ms < limit) || (shown->kind == Statement::Goroll && ends_roll(code)))
+      add_time(time, *ms, fmt::format("`delay {}` waits {}", *ms, milliseconds_of(*ms)),
+               fmt::format("delay {}", *ms * in_second));
+  }
+
+  /// Whether another roll or the end of the program follows a delay at once.
+  bool ends_roll(std::uint32_t code) const {
+    const auto* next = below(code);
+    return next != nullptr && (next->kind == Statement::Goroll || next->kind == Statement::End);
+  }
+
+  /// Whoever asks for a number by print wants a person to answer; a client can be faster.
+  void check_input(const StatementNode& statement, std::uint32_t code) {
+    const auto input = program_.as<InputView>(statement);
+    const auto* asked = above(code);
+    if (input.milliseconds == nullptr || asked == nullptr || asked->kind != Statement::Print)
+      return;
+    const auto ms = number(*input.milliseconds);
+    if (ms && *ms > 0 && *ms < least_meant)
+      add_time(*input.milliseconds, *ms, fmt::format("`input` waits {}", milliseconds_of(*ms)),
+               fmt::format("{}{}{}", text(statement, *input.milliseconds, Part::Before),
+                           *ms * in_second, text(statement, *input.milliseconds, Part::After)));
+  }
+
+  void check_timer(const StatementNode& statement, std::uint32_t code) {
+    const auto let = program_.as<LetView>(statement);
+    if (let.variable.kind != ItemKind::System ||
+        !is_timer(static_cast<spec::Variable>(let.variable.value)))
+      return;
+    const auto ms = number(let.expression);
+    if (!ms || *ms < 1 || *ms >= least_meant || in_loop(code))
+      return;
+    const auto& row = spec::variables[let.variable.value];
+    add_time(let.expression, *ms,
+             fmt::format("`{}` is at 0 after {}", row.word, milliseconds_of(*ms)),
+             fmt::format("{} = {}", row.word, *ms * in_second));
+  }
+
+  /// Whether a jump leads from below a line to above it, or to it.
+  bool in_loop(std::uint32_t code) const {
+    constexpr std::uint32_t longest_loop = 512; // lines
+    for (auto i = code; i < flow_.code.size() && i - code < longest_loop; ++i) {
+      if (program_.statements[flow_.code[i].statement].kind == Statement::Next)
+        return true;
+      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+        if (!jump.call && jump.to <= code)
+          return true;
+    }
+    return false;
+  }
+
+  void add_time(const Item& time, std::int32_t ms, std::string message, const std::string& line) {
+    auto& d = findings_.add(rules::WrongUnit, time.span, std::move(message),
+                            fmt::format("for {} write `{}`", plural_seconds(ms), line));
+    d.fix = single_fix(d.help, time.span, fmt::format("{}", ms * in_second), Safety::Unsafe);
+  }
+
+  static std::string plural_seconds(std::int32_t seconds) {
+    return plural(static_cast<std::size_t>(seconds), "second");
+  }
+  static std::string milliseconds_of(std::int32_t ms) {
+    return plural(static_cast<std::size_t>(ms), "millisecond");
+  }
+
+  void check_sleep(const StatementNode& statement) {
+    const auto& time = program_.as<SleepView>(statement).seconds;
+    const auto seconds = number(time);
+    if (!seconds || *seconds == 0 || *seconds % in_second != 0)
+      return;
+    const auto meant = *seconds / in_second;
+    auto& d = findings_.add(
+        rules::WrongUnit, time.span,
+        fmt::format("`sleep` counts in seconds: {} are {} minutes", *seconds, *seconds / 60),
+        fmt::format("for {} write `{}{}{}`", plural_seconds(meant),
+                    text(statement, time, Part::Before), meant,
+                    text(statement, time, Part::After)));
+    d.fix = single_fix(d.help, time.span, fmt::format("{}", meant), Safety::Unsafe);
+  }
+
+  // ---- speeds and lights
+
+  void check_speed(const StatementNode& statement) {
+    const auto items = program_.items_of(statement);
+    const auto& speed = items[1];
+    const auto value = number(speed);
+    constexpr std::int32_t crawls = 5; // 4 cm/s and less: nothing starts to roll
+    if (!value || *value < 1 || *value >= crawls || (items.size() > 2 && number(items[2]) == 0))
+      return;
+    add_tiny(statement, speed, fmt::format("speed {} of 255 hardly moves the ball", *value), 100);
+  }
+
+  void check_back_led(const StatementNode& statement) {
+    const auto& value = program_.items_of(statement)[0];
+    if (number(value) == 1)
+      add_tiny(statement, value, "brightness 1 of 255 is dark", 255);
+  }
+
+  void add_tiny(const StatementNode& statement, const Item& value, std::string message,
+                std::int32_t meant) {
+    auto& d = findings_.add(rules::TinyValue, value.span, std::move(message),
+                            fmt::format("write `{}{}{}`", text(statement, value, Part::Before),
+                                        meant, text(statement, value, Part::After)));
+    d.fix = single_fix(d.help, value.span, fmt::format("{}", meant), Safety::Unsafe);
+  }
+
+  void check_colour(const StatementNode& statement) {
+    std::string line;
+    std::int32_t sum = 0;
+    for (const auto& item : program_.items_of(statement)) {
+      const auto value = number(item);
+      if (!value || *value < 0 || *value > 1)
+        return;
+      sum += *value;
+      line += fmt::format("{}{}", line.empty() ? "RGB " : ",", *value * 255);
+    }
+    if (sum == 0)
+      return;
+    auto& d = findings_.add(rules::TinyValue, statement.span, "brightness 1 of 255 is dark",
+                            fmt::format("write `{}`", line));
+    d.fix = single_fix(d.help, statement.span, line, Safety::Unsafe);
+  }
+
+  // ---- comparisons
+
+  void check_comparisons(const IfView& condition) {
+    check_comparison(condition.first);
+    if (condition.second)
+      check_comparison(*condition.second);
+  }
+
+  void check_comparison(const Comparison& comparison) {
+    const auto test = sensor_test(program_, comparison);
+    if (!test)
+      return;
+    const Span all{comparison.left.span.begin, comparison.right.span.end};
+    const SensorQuestion question{test->sensor, test->relation, test->number,
+                                  std::string(1, spec::info(test->relation).symbol), test->number};
+    const auto answer = judge(question, program_.text_of(all), timers_);
+    if (!answer)
+      return;
+    auto& d = findings_.add(*answer->rule, all, answer->message, answer->help);
+    if (!answer->line.empty())
+      d.fix = single_fix(d.help, all, answer->line, Safety::Unsafe);
+  }
+
+  // ---- words
+
+  enum class Part : std::uint8_t { Before, After };
+  std::string text(const StatementNode& statement, const Item& item, Part part) const {
+    return std::string(part == Part::Before
+                           ? program_.text_of({statement.span.begin, item.span.begin})
+                           : program_.text_of({item.span.end, statement.span.end}));
+  }
+
+  static constexpr const spec::SmallUnit& milliseconds = *spec::find_small_unit("ms");
+  static constexpr std::int32_t in_second = milliseconds.in_whole;
+  static constexpr std::int32_t least_meant = milliseconds.least_meant;
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  Timers timers_;
+};
+
+} // namespace
+
+void lint_units(const Program& program, const Flow& flow, Findings& findings) {
+  UnitsPass(program, flow, findings).run();
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,341 @@
+#include "base/text.h"
+#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/reading.h"
+#include "compiler/lint/sensor_tests.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace orb::compiler {
+namespace {
+
+using spec::Relation;
+using spec::Statement;
+
+/// Beyond these no area of the robot holds a loop, and a linter must not take minutes over one.
+constexpr std::uint32_t longest_loop = 512;
+
+/// Loops that wait for what cannot come, and loops that are meant as a wait.
+class WaitsPass {
+public:
+  WaitsPass(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings),
+        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+
+  void run() {
+    read_settings();
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const auto& statement = statement_of(i);
+      if (statement.error)
+        continue;
+      if (statement.kind == Statement::For)
+        check_loop(statement, i);
+      if (statement.kind == Statement::On)
+        continue; // may have thousands of targets, and no single condition
+      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+        if (!jump.call && jump.to <= i && i - jump.to < longest_loop)
+          check_back(statement, jump, i);
+    }
+  }
+
+private:
+  const StatementNode& statement_of(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+  std::optional<std::int32_t> number(const Item& item) const { return number_in(program_, item); }
+  bool is_plain(std::uint32_t code) const {
+    const auto& statement = statement_of(code);
+    return !statement.error && statement.then_branch == none;
+  }
+
+  // ---- loops that count
+
+  void check_loop(const StatementNode& statement, std::uint32_t begin) {
+    const auto loop = program_.as<ForView>(statement);
+    const auto first = number(loop.start);
+    const auto last = number(loop.end);
+    const auto step = loop.step == nullptr ? std::optional(1) : step_of(*loop.step);
+    if (loop.variable.kind != ItemKind::Letter || !first || !last || !step || *step == 0)
+      return;
+    const auto rounds = (std::int64_t{*last} - *first) / *step + 1;
+    std::int64_t reads = 0;
+    for (auto i = begin + 1; i < size_ && i - begin < longest_loop; ++i) {
+      if (!is_plain(i) || flow_.code[i].target)
+        return;
+      const auto& inside = statement_of(i);
+      if (inside.kind == Statement::Next) {
+        if (i == begin + 1)
+          check_empty(statement, loop, rounds);
+        if (reads > 0 && rounds > 0)
+          check_data(begin, i, read_above(begin) + rounds * reads);
+        return;
+      }
+      if (inside.kind == Statement::Read)
+        reads += static_cast<std::int64_t>(program_.items_of(inside).size());
+      if (inside.kind == Statement::Let)
+        check_reset(inside, statement, *last, *step);
+      if (spec::info(inside.kind).after != spec::After::Falls &&
+          spec::info(inside.kind).after != spec::After::Waits)
+        return;
+    }
+  }
+
+  std::optional<std::int32_t> step_of(const Item& step) const {
+    const auto& node = bare(program_, step);
+    if (node.kind == NodeKind::Negate)
+      if (const auto& operand = (&node)[-1]; operand.kind == NodeKind::Number)
+        return -operand.value;
+    return number(step);
+  }
+
+  void check_empty(const StatementNode& statement, const ForView& loop, std::int64_t rounds) {
+    constexpr std::int64_t least_rounds = 100; // fewer are over before anybody could notice
+    const auto ms = rounds * 1000 / spec::value_of(spec::Limit::LinesPerSecond);
+    const auto most = spec::info(Statement::Delay).parameters()[0].greatest;
+    if (rounds < least_rounds || ms > most)
+      return;
+    findings_.add(rules::EmptyLoop, Span{statement.span.begin, loop.last().span.end},
+                  fmt::format("the loop does nothing for about {} milliseconds", ms),
+                  fmt::format("in place of the loop write `delay {}`", ms));
+  }
+
+  // ---- values that are read in loops
+
+  /// The only `data` of the program, where no `rstr` begins it again; null where it is not so
+  /// simple.
+  const StatementNode* only_data() const {
+    const StatementNode* found = nullptr;
+    for (const auto& statement : program_.statements) {
+      if (statement.error || statement.kind == Statement::Rstr)
+        return nullptr;
+      if (statement.kind != Statement::Data)
+        continue;
+      if (found != nullptr)
+        return nullptr;
+      found = &statement;
+    }
+    return found;
+  }
+
+  /// How many values the lines above read for certain, before the loop that begins here.
+  std::int64_t read_above(std::uint32_t begin) const {
+    std::int64_t reads = 0;
+    for (auto i = begin; i > 0 && begin - i < longest_loop; --i) {
+      if (flow_.code[i].target || !is_plain(i - 1) || !flow_.code[i - 1].falls)
+        return reads;
+      if (statement_of(i - 1).kind == Statement::Data)
+        return reads;
+      if (statement_of(i - 1).kind == Statement::Read)
+        reads += static_cast<std::int64_t>(program_.items_of(statement_of(i - 1)).size());
+    }
+    return reads;
+  }
+
+  /// A loop whose rounds read more than there is; `reads` of nothing are without end.
+  void check_data(std::uint32_t first, std::uint32_t last, std::optional<std::int64_t> reads) {
+    const auto* data = only_data();
+    if (data == nullptr || (&statement_of(first) <= data && data <= &statement_of(last)))
+      return;
+    const auto values = static_cast<std::int64_t>(program_.items_of(*data).size());
+    if (reads.value_or(values + 1) <= values)
+      return;
+    const StatementNode* read = nullptr;
+    for (auto i = first; i <= last && read == nullptr; ++i)
+      read = statement_of(i).kind == Statement::Read ? &statement_of(i) : nullptr;
+    auto& d = findings_.add(
+        rules::ReadPastData, read->span,
+        reads ? fmt::format("{} values are read by the end of the loop, and `data` has {}", *reads,
+                            values)
+              : fmt::format("the loop reads on forever, and `data` has {}",
+                            plural(static_cast<std::size_t>(values), "value")),
+        reads ? fmt::format("add {} to `{}`, or let the loop end earlier",
+                            plural(static_cast<std::size_t>(*reads - values), "value"),
+                            program_.text_of(data->span))
+              : "write `rstr` where the values are to begin again");
+    d.severity = Severity::Warning;
+    add_note(d, data->span, "the values");
+  }
+
+  /// A loop without an end and without a question: each round reads.
+  void check_endless_read(std::uint32_t first, std::uint32_t last) {
+    bool reads = false;
+    for (auto i = first; i <= last; ++i) {
+      if (!is_plain(i) || flow_.code[i].ends || flow_.code[i].loops)
+        return;
+      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+        if (i != last || jump.call)
+          return;
+      reads = reads || statement_of(i).kind == Statement::Read;
+    }
+    if (reads)
+      check_data(first, last, std::nullopt);
+  }
+
+  void check_reset(const StatementNode& inside, const StatementNode& statement, std::int32_t last,
+                   std::int32_t step) {
+    const auto let = program_.as<LetView>(inside);
+    const auto loop = program_.as<ForView>(statement);
+    const auto value = number(let.expression);
+    if (let.variable.kind != ItemKind::Letter || let.variable.value != loop.variable.value ||
+        !value)
+      return;
+    const auto next = std::int64_t{*value} + step;
+    if (step > 0 ? next > last : next < last)
+      return; // the loop ends after this round
+    auto& d = findings_.add(
+        rules::LoopVariableSet, inside.span,
+        fmt::format("the loop never ends: each round sets its variable to {} again", *value),
+        "use another variable");
+    add_note(d, statement.span, "the loop");
+  }
+
+  // ---- loops that wait
+
+  struct Setting {
+    std::uint32_t count = 0;
+    std::uint32_t code = none; ///< the last that sets the letter
+  };
+
+  void read_settings() {
+    for (std::uint32_t i = 0; i < size_; ++i)
+      for (const auto& statement : program_.whole(statement_of(i)))
+        if (!statement.error && statement.kind != Statement::Next)
+          for (const auto& item : program_.items_of(statement))
+            if (item.kind == ItemKind::Letter) {
+              ++settings_[item.value].count;
+              settings_[item.value].code = i;
+            }
+  }
+
+  void check_back(const StatementNode& statement, const Flow::Jump& jump, std::uint32_t code) {
+    if (jump.to == code && statement.kind == Statement::If && statement.else_branch == none)
+      check_inverted(statement, code);
+    if (statement.kind == Statement::Goto)
+      check_endless_read(jump.to, code);
+    check_stale(jump.to, code);
+  }
+
+  /// A line that jumps to itself while something holds that is over at once.
+  void check_inverted(const StatementNode& statement, std::uint32_t code) {
+    const auto condition = program_.as<IfView>(statement);
+    const auto test = sensor_test(program_, condition.first);
+    if (!test || condition.second)
+      return;
+    const auto& row = spec::info(test->sensor);
+    if (row.access == spec::Access::ReadClears && holds(*test, row.greatest) &&
+        !holds(*test, row.least))
+      return add_inverted(statement, condition.first, row,
+                          fmt::format("`{}` is {} for one reading only: this goes on at once",
+                                      row.word, row.greatest),
+                          fmt::format("{} = {}", row.word, row.least));
+    const auto set = is_timer(test->sensor) ? set_above(test->sensor, code) : std::nullopt;
+    if (!set || holds(*test, *set))
+      return;
+    const bool down = *set > 0;
+    add_inverted(statement, condition.first, row,
+                 fmt::format("`{}` begins at {}: this goes on at once", row.word, *set),
+                 fmt::format("{} {} {}", row.word, down ? ">" : "<",
+                             down ? test->number : std::max(test->number, 0)));
+  }
+
+  static bool holds(const SensorTest& test, std::int32_t value) {
+    switch (test.relation) {
+    case Relation::Equal: return value == test.number;
+    case Relation::NotEqual: return value != test.number;
+    case Relation::Less: return value < test.number;
+    case Relation::Greater: return value > test.number;
+    }
+    return false;
+  }
+
+  /// What a timer was set to on the lines right above.
+  std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code) const {
+    constexpr std::uint32_t far = 8;
+    for (auto i = code; i > 0 && code - i < far; --i) {
+      if ((i < code && flow_.code[i].target) || !flow_.code[i - 1].falls || !is_plain(i - 1))
+        return std::nullopt;
+      const auto& statement = statement_of(i - 1);
+      const auto after = spec::info(statement.kind).after;
+      if (after != spec::After::Falls)
+        return std::nullopt; // time passes, or another way comes in
+      if (statement.kind != Statement::Let)
+        continue;
+      const auto let = program_.as<LetView>(statement);
+      if (let.variable.kind == ItemKind::System &&
+          let.variable.value == static_cast<std::uint32_t>(timer))
+        return number(let.expression);
+    }
+    return std::nullopt;
+  }
+
+  void add_inverted(const StatementNode& statement, const Comparison& comparison,
+                    const spec::VariableInfo& row, std::string message, const std::string& until) {
+    const Span test{comparison.left.span.begin, comparison.right.span.end};
+    const auto rest =
+        program_.text_of({test.end, program_.statements[statement.then_branch].span.end});
+    auto& d = findings_.add(rules::InvertedWait, test, std::move(message),
+                            fmt::format("to wait for `{}` write `if {}{}`", row.word, until, rest));
+    d.fix = single_fix(d.help, test, until, Safety::Unsafe);
+  }
+
+  /// A loop whose only way out asks a letter that nothing in it sets.
+  void check_stale(std::uint32_t first, std::uint32_t last) {
+    const StatementNode* test = nullptr;
+    for (auto i = first; i <= last; ++i) {
+      const auto& statement = statement_of(i);
+      const auto& code = flow_.code[i];
+      if (statement.error || statement.kind == Statement::On ||
+          (code.ends && statement.kind != Statement::If))
+        return;
+      for (const auto& jump : flow_.jumps_of(code))
+        if (jump.call || (statement.kind != Statement::If && (jump.to < first || jump.to > last)))
+          return;
+      if (statement.kind != Statement::If)
+        continue;
+      if (test != nullptr)
+        return;
+      test = &statement;
+    }
+    if (test == nullptr || test->else_branch != none)
+      return;
+    const auto condition = program_.as<IfView>(*test);
+    const auto letter = letter_in(program_, condition.first.left);
+    if (condition.second || !letter || !number(condition.first.right))
+      return;
+    const auto& setting = settings_[*letter];
+    if (setting.count != 1 || (first <= setting.code && setting.code <= last))
+      return;
+    const auto& copy = statement_of(setting.code);
+    if (copy.kind != Statement::Let)
+      return;
+    const auto& value = program_.as<LetView>(copy).expression;
+    const auto sensor = sensor_in(program_, value);
+    if (!sensor || flow_.code[first].target == false)
+      return;
+    auto& d = findings_.add(
+        rules::StaleSensor, copy.span,
+        fmt::format("`{}` is read once, before the loop that waits for it",
+                    spec::info(*sensor).word),
+        fmt::format("in the loop write `if {}{}`", program_.text_of(value.span),
+                    program_.text_of({condition.first.left.span.end,
+                                      program_.statements[test->then_branch].span.end})));
+    add_note(d, test->span, "the loop asks the copy here");
+  }
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  std::uint32_t size_;
+  std::array<Setting, spec::letter_count> settings_{};
+};
+
+} // namespace
+
+void lint_waits(const Program& program, const Flow& flow, Findings& findings) {
+  WaitsPass(program, flow, findings).run();
+}
+
+} // namespace orb::compiler

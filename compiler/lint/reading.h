@@ -1,0 +1,70 @@
+#pragma once
+
+#include "compiler/text/program.h"
+
+#include <optional>
+#include <span>
+
+namespace orb::compiler {
+
+// What an expression is, where it is one thing alone; parentheses do not count.
+
+inline const Node& bare(const Program& program, const Item& item) {
+  auto n = item.value;
+  while (program.nodes[n].kind == NodeKind::Group)
+    --n;
+  return program.nodes[n];
+}
+
+/// The number that is written there.
+inline std::optional<std::int32_t> number_in(const Program& program, const Item& item) {
+  const auto& node = bare(program, item);
+  return node.kind == NodeKind::Number && !node.overflow ? std::optional(node.value) : std::nullopt;
+}
+
+inline std::optional<spec::Variable> sensor_in(const Program& program, const Item& item) {
+  const auto& node = bare(program, item);
+  return node.kind == NodeKind::System ? std::optional(static_cast<spec::Variable>(node.what))
+                                       : std::nullopt;
+}
+
+/// The letter that is read there, 0 for A.
+inline std::optional<std::uint8_t> letter_in(const Program& program, const Item& item) {
+  const auto& node = bare(program, item);
+  return node.kind == NodeKind::Letter ? std::optional(node.what) : std::nullopt;
+}
+
+/// All nodes of an expression; none of any other item.
+inline std::span<const Node> nodes_of(const Program& program, const Item& item) {
+  if (item.kind != ItemKind::Expression && item.kind != ItemKind::Character)
+    return {};
+  const auto first = program.nodes[item.value].first;
+  return {program.nodes.data() + first, item.value - first + 1};
+}
+
+constexpr spec::Relation mirrored(spec::Relation relation) {
+  if (relation == spec::Relation::Less)
+    return spec::Relation::Greater;
+  return relation == spec::Relation::Greater ? spec::Relation::Less : relation;
+}
+
+/// `sensor relation number`, whichever side either is written on.
+struct SensorTest {
+  spec::Variable sensor;
+  spec::Relation relation;
+  std::int32_t number;
+  const Item* at; ///< where the number is written
+};
+
+inline std::optional<SensorTest> sensor_test(const Program& program, const Comparison& comparison) {
+  const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+  const auto left = sensor_in(program, comparison.left);
+  const auto right = sensor_in(program, comparison.right);
+  if (const auto number = number_in(program, comparison.right); left && number)
+    return SensorTest{*left, relation, *number, &comparison.right};
+  if (const auto number = number_in(program, comparison.left); right && number)
+    return SensorTest{*right, mirrored(relation), *number, &comparison.left};
+  return std::nullopt;
+}
+
+} // namespace orb::compiler
