@@ -14,6 +14,7 @@
 #include "report/svg.h"
 #include "run/trace.h"
 #include "run/want.h"
+#include "run/why.h"
 #include "spec/firmware.h"
 #include "structured/text/words.h"
 
@@ -234,10 +235,13 @@ std::string where_to_look(const RunOptions& options, const run::Sight& sight) {
   return fmt::format("; {} shows it", options.report.empty() ? "--open" : options.report);
 }
 
-void tell(const Context& context, const RunOptions& options, const run::Ending& ending) {
+void tell(const Context& context, const RunOptions& options, const run::Ending& ending,
+          const std::string& why) {
   const auto story = run::story(ending);
   if (!story.empty())
     print_note(context, story + where_to_look(options, ending.sight));
+  if (!why.empty())
+    print_note(context, "why: " + why);
   print_note(context, run::to_string(ending));
 }
 
@@ -336,7 +340,7 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     written = write_pictures(given, *journey, *before);
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
-  tell(context, given, *ending);
+  tell(context, given, *ending, run::why(*inputs, *options, *ending));
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
     print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
   write_perf_map(context, ending->machine_code);

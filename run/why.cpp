@@ -1,0 +1,147 @@
+#include "run/why.h"
+
+#include "compiler/check.h"
+#include "compiler/lint/reading.h"
+#include "compiler/lint/sensor_tests.h"
+#include "compiler/text/rules.h"
+#include "run/start.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+#include <vector>
+
+namespace orb::run {
+namespace {
+
+namespace rules = compiler::rules;
+using compiler::ItemKind;
+using spec::Statement;
+
+/// A ball that was told to roll and came no further did not do what was meant.
+constexpr std::uint64_t hardly_cm = 5;
+
+/// The rules that can explain an ending, the likeliest first.
+std::vector<const Rule*> suspects(const Ending& ending) {
+  const auto& sight = ending.sight;
+  if (ending.reason == Reason::TimeLimit)
+    return {&rules::StaleSensor, &rules::ExactTime, &rules::ConstantComparison, &rules::WrongUnit,
+            &rules::LoopVariableSet};
+  if (ending.reason != Reason::End)
+    return {};
+  if (sight.told_to_move && sight.way_cm < hardly_cm)
+    return {&rules::WrongUnit, &rules::TinyValue, &rules::GoZero, &rules::MissingDelay,
+            &rules::InvertedWait};
+  return {&rules::WrongUnit, &rules::MissingDelay, &rules::InvertedWait,
+          &rules::TinyValue, &rules::DrivesOn,     &rules::WeakBrake};
+}
+
+std::string sentence(const std::string& where, const std::string& seen, const std::string& help) {
+  return fmt::format("{}: {}{}{}", where, seen, help.empty() ? "" : "; ", help);
+}
+
+/// The first of these findings that one of the rules makes; null where none does.
+const Diagnostic* find(std::span<const Diagnostic> findings, std::span<const Rule* const> wanted) {
+  for (const auto* rule : wanted) {
+    const auto found = std::find_if(findings.begin(), findings.end(), [&](const Diagnostic& one) {
+      // Of colours only those that another one replaces: the last
+      // one is what the run shows at its end.
+      return one.rule == rule && (rule != &rules::MissingDelay || !one.notes.empty());
+    });
+    if (found != findings.end())
+      return &*found;
+  }
+  return nullptr;
+}
+
+std::string from_linter(const Input& input, const Options& options, const Ending& ending) {
+  const auto wanted = suspects(ending);
+  if (wanted.empty())
+    return {};
+  const bool numbered = input.program->compiled == nullptr;
+  const auto checked =
+      numbered ? compiler::check(input.source->text(), options.target).diagnostics : input.findings;
+  const auto* found = find(checked, wanted);
+  if (found == nullptr)
+    return {};
+  const auto place = input.source->position(found->span.begin);
+  const auto where = found->basic_line
+                         ? fmt::format("line {}", *found->basic_line)
+                         : fmt::format("{}:{}:{}", input.source->name(), place.line, place.column);
+  return sentence(where, found->message, found->help);
+}
+
+/// A macro that the program starts by its number and that nobody has brought.
+std::string missing_macro(const Program& program, const Load& load) {
+  const auto& parsed = program.parsed;
+  for (const auto& line : parsed.lines) {
+    if (!line.has_statement())
+      continue;
+    for (const auto& statement : parsed.whole(parsed.statements[line.statement])) {
+      if (statement.error || statement.kind != Statement::Macrun)
+        continue;
+      const auto id = compiler::number_in(parsed, parsed.items_of(statement)[0]);
+      const bool there = !id || std::any_of(load.macros.begin(), load.macros.end(),
+                                            [&](const Macro* one) { return one->image.id == *id; });
+      if (!there)
+        return sentence(program.where(line.number),
+                        fmt::format("there is no macro {} on the ball", *id),
+                        fmt::format("add the file that has it: `.macro NAME id={}`", *id));
+    }
+  }
+  return {};
+}
+
+bool sets(const compiler::Program& parsed, spec::Variable timer) {
+  return std::any_of(parsed.statements.begin(), parsed.statements.end(), [&](const auto& one) {
+    if (one.error || one.kind != Statement::Let)
+      return false;
+    const auto& variable = parsed.as<compiler::LetView>(one).variable;
+    return variable.kind == ItemKind::System && variable.value == static_cast<std::uint32_t>(timer);
+  });
+}
+
+/// Whether a line jumps to itself as long as its comparison holds.
+bool waits(const compiler::Program& parsed, const compiler::Line& line) {
+  const auto& statement = parsed.statements[line.statement];
+  if (statement.error || statement.kind != Statement::If)
+    return false;
+  const auto& branch = parsed.statements[statement.then_branch];
+  return !branch.error && branch.kind == Statement::Goto &&
+         parsed.items_of(branch)[0].value == line.number;
+}
+
+/// A line that waits for a timer which nothing sets.
+std::string unset_timer(const Program& program) {
+  const auto& parsed = program.parsed;
+  for (const auto& line : parsed.lines) {
+    if (!line.has_statement() || !waits(parsed, line))
+      continue;
+    const auto condition = parsed.as<compiler::IfView>(parsed.statements[line.statement]);
+    const auto test = compiler::sensor_test(parsed, condition.first);
+    if (!test || !compiler::is_timer(test->sensor) || sets(parsed, test->sensor))
+      continue;
+    const auto word = spec::info(test->sensor).word;
+    return sentence(program.where(line.number),
+                    fmt::format("it waits for `{}`, which nothing sets, so it counts up", word),
+                    fmt::format("above it write `{} = 1000`", word));
+  }
+  return {};
+}
+
+} // namespace
+
+std::string why(std::span<const Input> inputs, const Options& options, const Ending& ending) {
+  const auto* input = first_with_program(inputs);
+  if (input == nullptr)
+    return {};
+  if (ending.reason == Reason::TimeLimit)
+    if (auto timer = unset_timer(*input->program); !timer.empty())
+      return timer;
+  if (ending.reason == Reason::End)
+    if (auto macro = missing_macro(*input->program, load_of(inputs)); !macro.empty())
+      return macro;
+  return from_linter(*input, options, ending);
+}
+
+} // namespace orb::run
