@@ -44,7 +44,10 @@ bool may_remain(const Diagnostic& found) {
                            &robot::IndexBeforeY}) // a loop whose first index is 0, as `Y` is then
     if (found.rule == rule)
       return true;
-  return found.severity == Severity::Info;
+  // What says that a program does something else than was meant; random ones mean nothing.
+  return found.severity == Severity::Info || found.rule == &robot::MayLeaveRange ||
+         found.rule == &robot::ValueGrows ||
+         (found.severity == Severity::Warning && found.rule->robot_error == 0);
 }
 
 /// Runs the robot's lines until they end, or for very long.
