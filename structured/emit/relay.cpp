@@ -45,9 +45,25 @@ public:
   }
 
 private:
-  /// Where an index leads is said of the source's own array.
+  /// Where an index may lead is said of the source's own array.
   bool is_of_array(const Diagnostic& found) const {
     return found.rule == &robot::MayLeaveRange && plain_.text_of(found.span) == "Z";
+  }
+
+  /// Whether a statement was written to several places that use an element: an index that is wrong
+  /// in one of them is right somewhere.
+  bool has_copies(std::uint32_t statement) const {
+    return std::count_if(compiled_.robot.lines.begin(), compiled_.robot.lines.end(),
+                         [&](const RobotLine& line) {
+                           return line.statement == statement && uses_element(line.number);
+                         }) > 1;
+  }
+
+  bool uses_element(std::uint32_t number) const {
+    const auto line = std::find_if(plain_.lines.begin(), plain_.lines.end(),
+                                   [&](const auto& one) { return one.number == number; });
+    return line != plain_.lines.end() &&
+           plain_.text_of(line->span).find('Z') != std::string_view::npos;
   }
 
   std::size_t line_at(std::uint32_t offset) const {
@@ -92,6 +108,9 @@ private:
     Diagnostic told = finding(*found.rule, argument != nullptr ? argument->span : statement.span,
                               found.message, found.help);
     told.severity = found.severity;
+    if (found.rule == &robot::IndexRange &&
+        has_copies(compiled_.robot.lines[line_at(found.span.begin)].statement))
+      told.severity = Severity::Warning;
     for (const auto& note : found.notes)
       if (const auto& there = statement_at(note.span.begin); &there != &statement)
         told.notes.push_back({there.span, note.message});

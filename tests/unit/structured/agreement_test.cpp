@@ -45,8 +45,9 @@ bool may_remain(const Diagnostic& found) {
     if (found.rule == rule)
       return true;
   // What says that a program does something else than was meant; random ones mean nothing.
-  return found.severity == Severity::Info || found.rule == &robot::MayLeaveRange ||
-         found.rule == &robot::ValueGrows ||
+  // An index that is wrong in one copy of a statement stops the program there, as it should.
+  return found.severity == Severity::Info || found.rule == &robot::IndexRange ||
+         found.rule == &robot::MayLeaveRange || found.rule == &robot::ValueGrows ||
          (found.severity == Severity::Warning && found.rule->robot_error == 0);
 }
 
