@@ -118,19 +118,25 @@ Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnost
 }
 
 Fixed fix_all(std::string text, const Check& check) {
+  return fix_all(std::move(text), check, check);
+}
+
+Fixed fix_all(std::string text, const Check& check, const Check& judge) {
   // One mistake can hide the next one on its line, so a few rounds are normal; the bound only keeps
   // a fix that would undo another from running forever.
   constexpr int most_rounds = 64;
   Fixed all{std::move(text), 0};
   auto findings = check(all.text);
+  auto judged = judge(all.text);
   std::set<std::string> refused;
   const auto take = [&](Fixed made, Span shown, const Rule* mended) {
-    auto after = check(made.text);
-    if (!is_better(findings, after, shown, mended))
+    auto after = judge(made.text);
+    if (!is_better(judged, after, shown, mended))
       return false;
     all.text = std::move(made.text);
     all.count += made.count;
-    findings = std::move(after);
+    judged = std::move(after);
+    findings = check(all.text);
     refused.clear();
     return true;
   };

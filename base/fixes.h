@@ -28,4 +28,7 @@ using Check = std::function<std::vector<Diagnostic>(std::string_view text)>;
 /// on what the ones before it left, where they get in each other's way.
 Fixed fix_all(std::string text, const Check& check);
 
+/// The same where a quicker check is enough to judge what a fix has led to.
+Fixed fix_all(std::string text, const Check& check, const Check& judge);
+
 } // namespace orb

@@ -3,6 +3,7 @@
 #include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
+#include "spec/ball.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -196,13 +197,17 @@ private:
     constexpr std::int32_t crawls = 5; // 4 cm/s and less: nothing starts to roll
     if (!value || *value < 1 || *value >= crawls || (items.size() > 2 && number(items[2]) == 0))
       return;
-    add_tiny(statement, speed, fmt::format("speed {} of 255 hardly moves the ball", *value), 100);
+    constexpr std::int32_t brisk = 100; // for a first try
+    add_tiny(statement, speed,
+             fmt::format("speed {} of {} hardly moves the ball", *value, spec::ball::greatest),
+             brisk);
   }
 
   void check_back_led(const StatementNode& statement) {
     const auto& value = program_.items_of(statement)[0];
     if (number(value) == 1)
-      add_tiny(statement, value, "brightness 1 of 255 is dark", 255);
+      add_tiny(statement, value, fmt::format("brightness 1 of {} is dark", spec::ball::greatest),
+               spec::ball::greatest);
   }
 
   void add_tiny(const StatementNode& statement, const Item& value, std::string message,
@@ -221,7 +226,7 @@ private:
       if (!value || *value < 0 || *value > 1)
         return;
       sum += *value;
-      line += fmt::format("{}{}", line.empty() ? "RGB " : ",", *value * 255);
+      line += fmt::format("{}{}", line.empty() ? "RGB " : ",", *value * spec::ball::greatest);
     }
     if (sum == 0)
       return;

@@ -1022,7 +1022,7 @@ private:
   /// Directions, switches and what clients send take all their values; a ball is never as fast as
   /// its sensors could tell.
   static bool reaches_ends(const spec::VariableInfo& row) {
-    constexpr std::int32_t byte = 255;
+    constexpr std::int32_t byte = 255; // the greatest value of what a client sends
     return row.unit == "deg" ||
            (row.unit.empty() && row.greatest <= byte && row.variable != spec::Variable::Speed);
   }

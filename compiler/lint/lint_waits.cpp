@@ -92,8 +92,9 @@ private:
   }
 
   void check_empty(const StatementNode& statement, const ForView& loop, std::int64_t rounds) {
-    constexpr std::int64_t least_rounds = 100; // fewer are over before anybody could notice
-    const auto ms = rounds * 1000 / spec::value_of(spec::Limit::LinesPerSecond);
+    constexpr std::int64_t least_rounds = 100;    // fewer are over before anybody could notice
+    constexpr std::int64_t ms_of_a_second = 1000; // not a fact about the robot
+    const auto ms = rounds * ms_of_a_second / spec::value_of(spec::Limit::LinesPerSecond);
     const auto most = spec::info(Statement::Delay).parameters()[0].greatest;
     if (rounds < least_rounds || ms > most)
       return;

@@ -315,7 +315,7 @@ int main(int argc, char** argv) {
       "Lines that beginners write who come from Scratch, MakeCode, Python, JavaScript, Arduino, "
       "QBasic or "
       "Sphero Edu, or\nwho think in German, Spanish, French, Italian or Portuguese\n"
-      "([tests/slips/mistakes.txt](../tests/slips/mistakes.txt)), each with the line a teacher "
+      "(`tests/slips/mistakes.txt`), each with the line a teacher "
       "would write. "
       "They were\nwritten before the table that answers them, and every other one is held out: no "
       "row was "

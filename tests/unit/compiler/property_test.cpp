@@ -303,15 +303,17 @@ TEST(Property, AnyBytesAreSurvived) {
     for (std::uint64_t i = 0; i < size; ++i)
       text += random.chance(0.95) ? usual[random.below(usual.size())]
                                   : static_cast<char>(random.below(256));
+    const auto formatted = format(parse(text));
+    ASSERT_EQ(formatted, format(parse(formatted))) << text;
+    static_cast<void>(load(text));
+    if (n % 20 != 0)
+      continue; // nearly each line is wrong, and what would mend it is looked for
     const auto checked = check(text, {});
     for (const auto& d : checked.diagnostics) {
       ASSERT_LE(d.span.begin, d.span.end);
       ASSERT_LE(d.span.end, text.size());
     }
-    const auto formatted = format(parse(text));
-    ASSERT_EQ(formatted, format(parse(formatted))) << text;
     static_cast<void>(fix(text, {}));
-    static_cast<void>(load(text));
   }
 }
 
