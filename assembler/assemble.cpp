@@ -602,7 +602,7 @@ private:
     const auto value = millionths / (whole * whole);
     if (value >= operand.minimum && value <= operand.maximum)
       return static_cast<std::int32_t>(value);
-    out_of_range(value, span, operand, command);
+    out_of_range(value, number, span, operand, command);
     return std::nullopt;
   }
 
@@ -635,19 +635,21 @@ private:
                                    ms / lines, lines);
   }
 
-  void out_of_range(std::int64_t value, Span span, const MacroOperand& operand,
+  /// `span` is where the number is used: it, or the name of a constant that holds it.
+  void out_of_range(std::int64_t value, const Value& number, Span span, const MacroOperand& operand,
                     std::string_view command) {
+    const bool is_exact = std::abs(number.thousandths) < largest_number * whole;
     std::string help;
     if (operand.kind == MacroOperandKind::Delay)
       help = waits_for(value);
-    else if (operand.unit == MacroUnit::Degrees && !operand.is_signed)
+    else if (is_exact && operand.unit == MacroUnit::Degrees && !operand.is_signed)
       help = fmt::format("{} deg is the same way", same_way(value, operand.maximum + 1));
     else if (operand.word_count > 0)
       for (std::size_t i = 0; i < operand.word_count; ++i)
         help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
     report(rules::OutOfRange, span,
            fmt::format("`{}` of `{}` is {}, found {}", operand.name, command, range_of(operand),
-                       value),
+                       is_exact ? std::to_string(value) : fmt::format("`{}`", text(span))),
            help);
   }
 

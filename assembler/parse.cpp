@@ -17,8 +17,6 @@ namespace {
 namespace g = grammar;
 
 constexpr std::size_t most_diagnostics = 1000; // nobody reads more
-/// Beyond every operand, and far from where 64 bits end.
-constexpr std::int64_t largest_number = 1'000'000'000;
 
 struct Directive {
   std::string_view word;

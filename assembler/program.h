@@ -14,6 +14,8 @@ enum class Unit : std::uint8_t { None, Milliseconds, Seconds, Degrees, Unknown }
 /// Numbers count in thousandths: 1.5 is 1500.
 inline constexpr std::int64_t whole = 1000;
 inline constexpr std::int64_t second_ms = 1000; ///< a second in milliseconds
+/// What longer numbers are taken for: beyond every operand, and far from where 64 bits end.
+inline constexpr std::int64_t largest_number = 1'000'000'000;
 
 /// An operand as it is written.
 struct Value {
@@ -22,7 +24,7 @@ struct Value {
   Unit unit = Unit::None;
   Span span;
   Span name;                    ///< before the `=`; empty where the operand has none
-  std::int64_t thousandths = 0; ///< of a number, clamped to what no operand takes
+  std::int64_t thousandths = 0; ///< of a number, at most `largest_number`
 };
 
 /// A line that says something.

@@ -2,8 +2,10 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "reference/foreign.h"
 #include "reference/knowledge.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -25,6 +27,19 @@ std::string explain(const std::vector<Section>& sections, Style style, const std
   return found;
 }
 
+/// Whether a statement can begin with the word: sensors and stimuli are also called what other
+/// languages call their statements (`roll`, `spin`).
+bool begins_statements(const std::vector<Section>& sections, const std::string& word) {
+  const auto is_it = [&](const std::string& name) { return equal_words(name, word); };
+  for (const auto& section : sections)
+    for (const auto& entry : section.entries)
+      if ((is_it(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_it)) &&
+          section.id != "variables" && section.id != "stimuli" && section.id != "macro-commands" &&
+          section.id != "other-languages")
+        return true;
+  return false;
+}
+
 std::vector<std::string> all_names(const std::vector<Section>& sections) {
   std::vector<std::string> names;
   for (const auto& section : sections)
@@ -39,7 +54,13 @@ void run(Context& context, const reference::CommandLine& line, const std::string
   auto sections = reference::knowledge();
   for (auto& section : reference::commands_knowledge(line))
     sections.push_back(std::move(section));
-  const auto text = explain(sections, context.out_style(), word);
+  auto text = explain(sections, context.out_style(), word);
+  if (const auto foreign = reference::foreign_knowledge(word);
+      foreign && !begins_statements(sections, word)) {
+    if (!text.empty())
+      text += '\n';
+    text += reference::print_entry(*foreign, foreign->entries.front(), context.out_style());
+  }
   if (!text.empty()) {
     print_out(text);
     return;
@@ -63,8 +84,10 @@ void add_explain(CLI::App& app, Context& context) {
       "orb explain goroll\norb explain 08h\norb explain unknown-statement\norb explain -- --open");
   auto word = std::make_shared<std::string>();
   command
-      ->add_option("WORD", *word,
-                   "a statement, variable, colour, error, limit, rule, command or option")
+      ->add_option(
+          "WORD", *word,
+          "a statement, variable, colour, error, limit, rule, command or option; or a line of "
+          "another language")
       ->required();
   command->callback([&app, &context, word] { run(context, command_line(app), *word); });
 }

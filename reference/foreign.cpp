@@ -1,0 +1,81 @@
+#include "reference/foreign.h"
+
+#include "base/text.h"
+#include "repair/idioms.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::reference {
+namespace {
+
+using repair::Language;
+
+struct Way {
+  Language language;
+  std::string_view name;
+};
+constexpr Way ways[] = {{Language::Structured, "structured"},
+                        {Language::Basic, "numbered"},
+                        {Language::Macro, "macro"}};
+
+/// The arguments that people give such a word, the likeliest first.
+constexpr std::string_view calls[] = {"{}(90)", "{}(0, 80, 2)", "{}(255, 0, 0)", "{}(\"hello\")",
+                                      "{}(90, 2)"};
+
+/// Whether a rewrite says something else, not the same word or its parentheses left over.
+bool is_answer(const repair::Tokens& line, const repair::Rewritten& one, Language language) {
+  const auto tokens = repair::tokens_of(one.text, language);
+  return std::none_of(tokens.begin(), tokens.end(), [&](const repair::Token& token) {
+    return token.is("(") || equal_words(token.text, line.front().text);
+  });
+}
+
+/// What the first pattern that knows `line` makes of it.
+std::optional<repair::Rewritten> here(std::string_view line, Language language) {
+  const auto tokens = repair::tokens_of(line, language);
+  if (tokens.empty() || !tokens.front().is_word())
+    return std::nullopt;
+  repair::Surroundings around;
+  around.language = language;
+  std::optional<repair::Rewritten> found;
+  repair::rewrite(tokens, around, [&](const repair::Rewritten& one) {
+    if (!is_answer(tokens, one, language))
+      return false;
+    found = one;
+    return true;
+  });
+  return found;
+}
+
+std::optional<Entry> explain_line(std::string_view line) {
+  Entry entry;
+  entry.name = line;
+  entry.summary = "is written differently here";
+  for (const auto& way : ways)
+    if (const auto found = here(line, way.language)) {
+      entry.facts.emplace_back(way.name, found->text);
+      if (!found->note.empty())
+        entry.summary = found->note;
+    }
+  if (entry.facts.empty())
+    return std::nullopt;
+  return entry;
+}
+
+} // namespace
+
+std::optional<Section> foreign_knowledge(std::string_view text) {
+  const bool is_word = text.find('(') == std::string_view::npos;
+  std::optional<Entry> entry;
+  for (const auto call : calls)
+    if (is_word && !entry)
+      entry = explain_line(fmt::format(fmt::runtime(call), text));
+  if (!entry)
+    entry = explain_line(text);
+  if (!entry)
+    return std::nullopt;
+  return Section{"foreign", "Other languages", "another language", {std::move(*entry)}, {}};
+}
+
+} // namespace orb::reference
