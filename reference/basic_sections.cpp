@@ -1,7 +1,6 @@
 // What the orbBasic tables know.
 
 #include "base/text.h"
-#include "compiler/messages/foreign.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
@@ -153,17 +152,6 @@ Section colours_section() {
     entry.facts.emplace_back("LEDC", fmt::format("{}", row.code));
     entry.facts.emplace_back("RGB", fmt::format("{},{},{}", row.red, row.green, row.blue));
     entry.swatches.push_back(swatch(row));
-    section.entries.push_back(std::move(entry));
-  }
-  return section;
-}
-
-Section foreign_section() {
-  Section section{"other-languages", "Words of other languages", "word of other languages", {}};
-  for (const auto& row : compiler::foreign_words()) {
-    Entry entry;
-    entry.name = row.spelling;
-    entry.summary = row.help;
     section.entries.push_back(std::move(entry));
   }
   return section;

@@ -48,6 +48,13 @@ std::optional<repair::Rewritten> here(std::string_view line, Language language) 
   return found;
 }
 
+std::string advise(std::string_view line, Language language) {
+  repair::Surroundings around;
+  around.language = language;
+  around.line_number = "100";
+  return repair::advise(repair::tokens_of(line, language), around);
+}
+
 std::optional<Entry> explain_line(std::string_view line) {
   Entry entry;
   entry.name = line;
@@ -57,6 +64,8 @@ std::optional<Entry> explain_line(std::string_view line) {
       entry.facts.emplace_back(way.name, found->text);
       if (!found->note.empty())
         entry.summary = found->note;
+    } else if (auto advice = advise(line, way.language); !advice.empty()) {
+      entry.facts.emplace_back(way.name, std::move(advice));
     }
   if (entry.facts.empty())
     return std::nullopt;

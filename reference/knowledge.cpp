@@ -31,7 +31,6 @@ std::vector<Section> knowledge() {
           variables_section(),
           operators_section(),
           colours_section(),
-          foreign_section(),
           basic_errors_section(),
           limits_section(),
           basic_flags_section(),

@@ -57,7 +57,7 @@ public:
   Links(const std::vector<Section>& sections, const Section& here) {
     // These pages' words have another meaning wherever a text names them.
     const auto is_alone = [](const Section& section) {
-      return section.id == "other-languages" || section.id == "colours";
+      return section.id == "colours";
     };
     // A word of several languages leads to the one that the page is about. Only pages about
     // structured programs, and about tests, lead to their words: elsewhere `sub` and `end` are

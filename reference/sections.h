@@ -12,7 +12,6 @@ Section words_section();
 Section functions_section();
 Section letters_section();
 Section colours_section();
-Section foreign_section();
 Section variables_section();
 Section operators_section();
 Section basic_errors_section();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace orb::repair {
 namespace {
@@ -20,6 +21,11 @@ constexpr auto words = std::to_array<Word>({
 constexpr auto idioms = std::to_array<Idiom>({
 #define ORB_IDIOM(where, patterns, basic, structured, macro, test, note)                           \
   {Where::where, patterns, basic, structured, macro, test, note},
+#include "repair/idioms.def"
+});
+
+constexpr auto hints = std::to_array<Hint>({
+#define ORB_HINT(patterns, basic, structured) {patterns, basic, structured},
 #include "repair/idioms.def"
 });
 
@@ -115,6 +121,28 @@ const std::vector<Pattern>& patterns_of(Language language) {
   return all[static_cast<std::size_t>(language)];
 }
 
+/// The patterns of hints that a language has, each with its text as the meaning.
+const std::vector<Pattern>& hints_of(Language language) {
+  static const auto all = [] {
+    std::array<std::vector<Pattern>, 2> each;
+    for (const auto& hint : hints) {
+      if (!hint.basic.empty())
+        add_patterns(each[0], hint.patterns, nullptr, hint.basic);
+      if (!hint.structured.empty())
+        add_patterns(each[1], hint.patterns, nullptr, hint.structured);
+    }
+    return each;
+  }();
+  static const std::vector<Pattern> none;
+  return language == Language::Basic ? all[0] : language == Language::Structured ? all[1] : none;
+}
+
+std::string lower(std::string_view word) {
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(), to_lower);
+  return small;
+}
+
 bool is_relation(const Token& token) {
   for (const auto* sign : {"=", "!", "<", ">", "<=", ">=", "==", "!=", "<>", "=>", "=<"})
     if (token.is(sign))
@@ -149,8 +177,7 @@ public:
     for (const auto& [hole, begin, end] : spans_)
       holes[hole] = part(begin, end);
     if (choice_.end > 0) {
-      holes.choice = tokens_[choice_.begin].text;
-      std::transform(holes.choice.begin(), holes.choice.end(), holes.choice.begin(), to_lower);
+      holes.choice = lower(tokens_[choice_.begin].text);
       holes.rest = part(choice_.begin, choice_.end);
     }
     return holes;
@@ -398,6 +425,30 @@ void rewrite(const Tokens& line, const Surroundings& around,
         return;
     }
   }
+}
+
+bool is_known_word(std::string_view word, Where where) {
+  static const auto all = [] {
+    std::array<std::set<std::string>, 2> each;
+    for (const auto& pattern : patterns_of(Language::Structured))
+      if (pattern.idiom != nullptr)
+        for (const auto& one : pattern.parts.front().literals)
+          if (is_letter(one[0]))
+            each[static_cast<std::size_t>(pattern.idiom->where)].insert(lower(one));
+    return each;
+  }();
+  return all[static_cast<std::size_t>(where)].contains(lower(word));
+}
+
+std::string advise(const Tokens& line, const Surroundings& around) {
+  for (const auto& pattern : hints_of(around.language)) {
+    Matcher matcher(line, line.size(), true);
+    if (line.empty() || matcher.match(pattern, 0) != line.size())
+      continue;
+    if (auto text = fill(pattern.meaning, matcher.holes(), around))
+      return *std::move(text);
+  }
+  return {};
 }
 
 } // namespace orb::repair

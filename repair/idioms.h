@@ -47,6 +47,13 @@ struct Surroundings {
   std::vector<std::string_view> names; ///< that other lines use, too
 };
 
+/// What to do where no one line does it.
+struct Hint {
+  std::string_view patterns;
+  std::string_view basic;
+  std::string_view structured; ///< empty: no row for it, as in `basic`
+};
+
 /// A line after one row was applied to it.
 struct Rewritten {
   std::string text; ///< no number in front, no comment behind
@@ -58,6 +65,12 @@ struct Rewritten {
 /// returns true.
 void rewrite(const Tokens& line, const Surroundings& around,
              const std::function<bool(const Rewritten&)>& take);
+
+/// Whether patterns of that kind begin with the word, in any case: people write it elsewhere.
+bool is_known_word(std::string_view word, Where where);
+
+/// What to do instead of a line that no one line replaces; empty where no row knows it.
+std::string advise(const Tokens& line, const Surroundings& around);
 
 /// A colour by its name in any of the languages, or `#RRGGBB`: 0xRRGGBB.
 std::optional<std::uint32_t> find_colour(const Token& token);

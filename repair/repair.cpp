@@ -32,6 +32,14 @@ std::size_t errors_in(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
 }
 
+/// Errors that no fix mends by itself.
+std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), [](const Diagnostic& one) {
+        return is_error(one) && !(one.fix && one.fix->safety == Safety::Safe);
+      }));
+}
+
 /// A line that was tried in its place.
 struct Accepted {
   std::string text; ///< of the whole line
@@ -40,6 +48,12 @@ struct Accepted {
   bool quiet = false; ///< nothing else is said about the line
   bool sure = true;   ///< nothing else can have been meant
 };
+
+std::string digits_of(std::string_view head) {
+  std::string digits;
+  std::copy_if(head.begin(), head.end(), std::back_inserter(digits), is_digit);
+  return digits;
+}
 
 /// What is around the lines of a text: names, open loops, free letters.
 class Scenery {
@@ -85,12 +99,24 @@ public:
     return std::nullopt;
   }
 
+  /// The number of the line that begins with `name:`, as a label or in a comment; empty without.
+  std::string number_of(std::string_view name) const {
+    for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+      const auto line = source_.line(n).substr(0, longest_line);
+      const auto parts = split(line, language_);
+      auto rest = line.substr(parts.head.size());
+      rest.remove_prefix(std::min(rest.find_first_not_of("' \t"), rest.size()));
+      if (rest.size() > name.size() && equal_words(rest.substr(0, name.size()), name) &&
+          rest[name.size()] == ':')
+        return digits_of(parts.head);
+    }
+    return {};
+  }
+
   Surroundings around(std::uint32_t line, const SplitLine& parts) const {
     Surroundings all;
     all.language = language_;
-    for (const char c : parts.head)
-      if (is_digit(c))
-        all.line_number += c;
+    all.line_number = digits_of(parts.head);
     if (language_ == Language::Basic) {
       all.free_letter = free_letter();
       all.loop = loop_above(line);
@@ -173,13 +199,16 @@ public:
   Repair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
          const std::vector<Diagnostic>& before)
       : source_(source), judge_(judge), line_(source.line(line)), begin_(source.line_start(line)),
-        errors_(errors_in(before)), parts_(split(line_, judge.language)),
-        around_(scenery.around(line, parts_)), names_(scenery.names_without(parts_.tokens)) {
+        errors_(errors_in(before)), lasting_(lasting_errors(before)),
+        parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
+        names_(scenery.names_without(parts_.tokens)) {
     for (const auto name : names_)
       if (std::none_of(judge.words.begin(), judge.words.end(),
                        [&](std::string_view word) { return equal_words(word, name); }))
         around_.names.push_back(name);
     canonical();
+    if (judge.language == Language::Basic)
+      resolve_labels(scenery);
   }
 
   /// The lines to write, the best first: one where it is clear, two where it is not.
@@ -193,7 +222,7 @@ public:
       attempt(start, {}, true);
     if (!best_)
       by_changes(surely);
-    if (!best_)
+    if (!best_ || !best_->quiet)
       explore(start, 0, most_states);
     if (!best_ || !best_->quiet)
       by_fix(finding);
@@ -206,6 +235,9 @@ public:
       all.push_back(*other_);
     return all;
   }
+
+  /// What to do where there is no line to write.
+  std::string advice() const { return advise(parts_.tokens, around_); }
 
   std::uint32_t begin() const { return begin_; }
   std::string_view line() const { return line_; }
@@ -247,6 +279,19 @@ private:
     }
   }
 
+  /// Jumps to labels, as other languages have them, become jumps to their lines.
+  void resolve_labels(const Scenery& scenery) {
+    auto& tokens = parts_.tokens;
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+      const bool jumps =
+          equal_words(tokens[i].text, "goto") || equal_words(tokens[i].text, "gosub");
+      if (!jumps || !tokens[i + 1].is_word())
+        continue;
+      if (const auto number = scenery.number_of(tokens[i + 1].text); !number.empty())
+        tokens[i + 1].text = number;
+    }
+  }
+
   std::string whole(const std::string& statement) const {
     if (statement.empty() && parts_.comment.empty())
       return {};
@@ -280,7 +325,8 @@ private:
     const auto errors = errors_in(found);
     if (errors > errors_ || (!keep && errors == errors_))
       return std::nullopt;
-    Accepted accepted{text, note, errors < errors_, quiet, sure};
+    Accepted accepted{text, note, errors < errors_ || lasting_errors(found) < lasting_, quiet,
+                      sure};
     if (keep && (!best_ || (quiet && !best_->quiet)))
       best_ = accepted;
     return accepted;
@@ -373,6 +419,7 @@ private:
   std::string_view line_;
   std::uint32_t begin_;
   std::size_t errors_;
+  std::size_t lasting_;
   SplitLine parts_;
   Surroundings around_;
   std::vector<std::string_view> names_;
@@ -446,6 +493,13 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
   return std::find(unknown.begin(), unknown.end(), finding.rule->id) != unknown.end();
 }
 
+/// Whether a finding only says that the line does not parse.
+bool says_little(const Diagnostic& finding) {
+  constexpr auto rules = std::to_array<std::string_view>(
+      {"syntax-error", "unknown-statement", "unknown-name", "foreign-word", "malformed-line"});
+  return !finding.fix && std::find(rules.begin(), rules.end(), finding.rule->id) != rules.end();
+}
+
 /// Whether a line goes on in the next one, or seems to: an operator or a bracket is left open.
 bool goes_on(std::string_view line) {
   int depth = 0;
@@ -478,7 +532,7 @@ void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnost
       continue;
     if (!scenery)
       scenery.emplace(source, judge.language);
-    if (finding.rule->id == "unknown-name" &&
+    if ((finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word") &&
         mend_definition(source, judge, *scenery, before, finding))
       continue;
     auto at = line;
@@ -491,9 +545,13 @@ void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnost
         finding.span = {source.line_start(at),
                         source.line_start(at) + static_cast<std::uint32_t>(source.line(at).size())};
     }
-    if (found.empty())
-      continue;
     const auto& repair = *tried;
+    if (found.empty()) {
+      if (auto advice = here && says_little(finding) ? repair.advice() : std::string();
+          !advice.empty())
+        finding.help = std::move(advice);
+      continue;
+    }
     const auto shown = repair.shown(found[0].text);
     if (found.size() > 1) {
       finding.help = fmt::format("write `{}` or `{}`", shown, repair.shown(found[1].text));

@@ -34,8 +34,7 @@ bool begins_statements(const std::vector<Section>& sections, const std::string& 
   for (const auto& section : sections)
     for (const auto& entry : section.entries)
       if ((is_it(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_it)) &&
-          section.id != "variables" && section.id != "stimuli" && section.id != "macro-commands" &&
-          section.id != "other-languages")
+          section.id != "variables" && section.id != "stimuli" && section.id != "macro-commands")
         return true;
   return false;
 }

@@ -3,7 +3,7 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "compiler/messages/fault_text.h"
-#include "compiler/messages/slips.h"
+#include "compiler/messages/names.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/words.h"
 #include "spec/limits.h"
@@ -77,10 +77,13 @@ public:
     case Reason::ExpectedGotoOrGosub: return expected("`goto` or `gosub`");
     case Reason::Trailing: return trailing();
     case Reason::NestedIf:
+      return make(rules::NestedIf, "an `if` cannot stand inside another `if`",
+                  "join two comparisons with `and`, or write the second on a line of its own");
     case Reason::ExpectedQuote:
-    case Reason::MissingNumber: break; // explained before
+      return make(rules::SyntaxError, "unterminated string", "add `\"` at its end");
+    case Reason::MissingNumber: break; // of all lines at once: lint/lint_numbers.cpp
     }
-    return make(rules::SyntaxError, "the line cannot be read");
+    return make(rules::SyntaxError, "malformed line");
   }
 
 private:
@@ -114,17 +117,16 @@ private:
 
   Diagnostic unknown_word() const {
     const auto name = token();
+    if (equal_words(name, "rem"))
+      return make(rules::Rem, fmt::format("`{}` is not a statement", name), "write `'`");
     if (after(fault_.span.end) == '=')
       return unknown_variable(name);
     const auto words = statement_words();
     const auto best = closest(name, words);
-    if (best && equal_words(*best, name)) {
-      auto d = make(rules::UnknownStatement,
-                    fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
-                    fmt::format("write `{}`", *best));
-      set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Safe);
-      return d;
-    }
+    if (best && equal_words(*best, name))
+      return make(rules::UnknownStatement,
+                  fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
+                  fmt::format("write `{}`", *best));
     for (const auto prefix : words)
       if (name.starts_with(prefix) &&
           find_word(name.substr(prefix.size())).kind != WordKind::Unknown) {
@@ -224,8 +226,8 @@ private:
       const bool same = equal_words(*best, name);
       d.help = same ? fmt::format("write `{}`; orbBasic is case-sensitive", *best)
                     : fmt::format("did you mean `{}`?", *best);
-      set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best,
-              same ? Safety::Safe : Safety::Unsafe);
+      if (!same)
+        set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Unsafe);
     }
     return d;
   }
@@ -295,7 +297,9 @@ private:
   Diagnostic non_literal() const {
     return make(rules::NonLiteralTarget,
                 fmt::format("`{}` takes a plain line number, found {}", word(), found()),
-                "to choose between lines use `on A goto 100,200`");
+                is_letter(token()[0]) && token().size() > 1
+                    ? "jump to a line by its number: `goto 100`"
+                    : "to choose between lines use `on A goto 100,200`");
   }
 
   Diagnostic expected_then() const {
@@ -326,9 +330,11 @@ private:
   }
 
   Diagnostic expected_parenthesis() const {
-    if (!token().empty() && is_relation(token()[0])) {
-      return make(rules::SyntaxError, "comparisons are only allowed in `if`");
-    }
+    if (!token().empty() && is_relation(token()[0]))
+      return fault_.statement == spec::Statement::If
+                 ? make(rules::ParenthesizedRelation, "a comparison cannot stand in parentheses",
+                        "leave the parentheses out: `if A > 1 and B < 2 then`")
+                 : make(rules::SyntaxError, "comparisons are only allowed in `if`");
     if (token() == ".")
       return unsupported_number();
     return expected("`)`");
@@ -392,8 +398,8 @@ private:
 } // namespace
 
 std::optional<Diagnostic> explain(const Program& program, const Fault& fault) {
-  if (auto slip = explain_slip(program, fault))
-    return slip;
+  if (auto named = explain_name(program, fault))
+    return named;
   if (fault.reason == Reason::MissingNumber)
     return std::nullopt;
   return Explainer(program, fault).explain();

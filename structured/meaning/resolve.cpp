@@ -506,7 +506,7 @@ private:
                     node.span.begin +
                         static_cast<std::uint32_t>(
                             program_.name(static_cast<std::uint32_t>(node.value)).size())};
-    if (report_foreign(span, compiler::Foreign::Place::Value))
+    if (report_foreign(span, repair::Where::Inside))
       return;
     if (find_colour(program_.text_of(span))) {
       report(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
@@ -533,7 +533,7 @@ private:
   }
 
   void report_unknown_word(Span span) {
-    if (report_foreign(span, compiler::Foreign::Place::Statement))
+    if (report_foreign(span, repair::Where::Line))
       return;
     std::vector<std::string_view> candidates;
     for (const auto& symbol : names_.symbols)
@@ -547,8 +547,8 @@ private:
   }
 
   /// Says what a word of another language is here; false where it is none.
-  bool report_foreign(Span span, compiler::Foreign::Place place) {
-    auto known = foreign(program_, span, place);
+  bool report_foreign(Span span, repair::Where where) {
+    auto known = foreign(program_, span, where);
     if (known && !incomplete_)
       program_.diagnostics.push_back(*std::move(known));
     return known.has_value();

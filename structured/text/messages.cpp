@@ -58,37 +58,47 @@ std::optional<std::uint32_t> brace_above(std::string_view text, std::uint32_t at
   return at < begin && at > 0 && text[at - 1] == '{' ? std::optional(at - 1) : std::nullopt;
 }
 
-using Where = compiler::Foreign::Place;
+using repair::Where;
+
+/// A word of another language, in small letters, and what helps.
+struct Habit {
+  std::string_view word;
+  Where where;
+  std::string_view instead; ///< empty where a person has to write the line
+  std::string_view help;
+};
 
 constexpr auto no_braces = "blocks need no braces; they end with `next`, `end if`, `end while` …";
 
 /// Where structured programs say it in another way than numbered ones.
-constexpr auto structured_words = std::to_array<compiler::Foreign>({
-    {"set", Where::Statement, "", "leave it out: `x = 5`"},
-    {"int", Where::Statement, "", "leave it out: `x = 5`"},
-    {"clear", Where::Statement, "", "variables are 0 when a program starts; or write `x = 0`"},
-    {"begin", Where::Statement, "", "blocks need no `begin`; leave the line out"},
-    {"def", Where::Statement, "", "write `sub name` … `end sub`"},
-    {"func", Where::Statement, "", "write `function name()` … `end function`"},
-    {"proc", Where::Statement, "", "write `sub name` … `end sub`"},
-    {"procedure", Where::Statement, "", "write `sub name` … `end sub`"},
-    {"void", Where::Statement, "", "write `sub name` … `end sub`"},
-    {"switch", Where::Statement, "", "write `select e`, `case 1` … `end select`"},
-    {"foreach", Where::Statement, "", "write `for n = 1 to 4` … `next n`"},
-    {"forever", Where::Statement, "", "write `loop` … `end loop`"},
-    {"rand", Where::Value, "rnd", "write `rnd(6)` for 1 to 6"},
-    {"random", Where::Value, "rnd", "write `rnd(6)` for 1 to 6"},
-    {"randint", Where::Value, "rnd", "write `rnd(6)` for 1 to 6"},
-    {"sqr", Where::Value, "sqrt", "write `sqrt(x)`"},
-    {"is", Where::Value, "",
+constexpr auto structured_words = std::to_array<Habit>({
+    {"set", Where::Line, "", "leave it out: `x = 5`"},
+    {"int", Where::Line, "", "leave it out: `x = 5`"},
+    {"clear", Where::Line, "", "variables are 0 when a program starts; or write `x = 0`"},
+    {"begin", Where::Line, "", "blocks need no `begin`; leave the line out"},
+    {"def", Where::Line, "", "write `sub name` … `end sub`"},
+    {"func", Where::Line, "", "write `function name()` … `end function`"},
+    {"proc", Where::Line, "", "write `sub name` … `end sub`"},
+    {"procedure", Where::Line, "", "write `sub name` … `end sub`"},
+    {"void", Where::Line, "", "write `sub name` … `end sub`"},
+    {"switch", Where::Line, "", "write `select e`, `case 1` … `end select`"},
+    {"foreach", Where::Line, "", "write `for n = 1 to 4` … `next n`"},
+    {"forever", Where::Line, "", "write `loop` … `end loop`"},
+    {"rand", Where::Inside, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"random", Where::Inside, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"randint", Where::Inside, "rnd", "write `rnd(6)` for 1 to 6"},
+    {"sqr", Where::Inside, "sqrt", "write `sqrt(x)`"},
+    {"is", Where::Inside, "",
      "`case` names values: `case 6 to 100`; for other questions write `if`"},
-    {"mod", Where::Value, "%", "write `a % b`"},
-    {"!", Where::Value, "", "write `not`"},
-    {"^", Where::Value, "", "there are no powers: write `a * a`"},
-    {"{", Where::Value, "", no_braces},
-    {"}", Where::Value, "", no_braces},
-    {"do", Where::Value, "", "leave it out"},
-    {"times", Where::Value, "", "leave it out: `repeat 5`"},
+    {"heading", Where::Inside, "yaw",
+     "`heading` sets the heading; the direction of the ball is `yaw`"},
+    {"mod", Where::Inside, "%", "write `a % b`"},
+    {"!", Where::Inside, "", "write `not`"},
+    {"^", Where::Inside, "", "there are no powers: write `a * a`"},
+    {"{", Where::Inside, "", no_braces},
+    {"}", Where::Inside, "", no_braces},
+    {"do", Where::Inside, "", "leave it out"},
+    {"times", Where::Inside, "", "leave it out: `repeat 5`"},
 });
 
 /// The word that begins the line of a place.
@@ -149,7 +159,7 @@ Diagnostic missing_value(const Program& program, Span found) {
 /// Values after a name without parentheses: a statement that is misspelt, or a call.
 Diagnostic naked_arguments(const Program& program, Span found) {
   const auto called = word_before(program.text, found.begin);
-  if (auto known = foreign(program, called, Where::Statement))
+  if (auto known = foreign(program, called, Where::Line))
     return *std::move(known);
   const auto word = std::string(program.text_of(called));
   if (program.text[found.begin] == '$')
@@ -291,7 +301,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                      "it stands alone after `RGB`: `RGB #FF8000`");
   const bool other_expected = reason <= Reason::ExpectedParenthesis;
   if (other_expected || reason == Reason::NotAStatement)
-    if (auto known = foreign(program, found, Where::Value))
+    if (auto known = foreign(program, found, Where::Inside))
       return *std::move(known);
   if (const auto word = word_for_name(program, reason, found))
     return reserved(program, *word);
@@ -401,22 +411,21 @@ Diagnostic single_quotes(const Program& program, Span text) {
   return d;
 }
 
-std::optional<Diagnostic> foreign(const Program& program, Span word, Where place) {
+std::optional<Diagnostic> foreign(const Program& program, Span word, Where where) {
   const auto text = program.text_of(word);
-  const auto row = std::find_if(structured_words.begin(), structured_words.end(),
-                                [&](const compiler::Foreign& one) {
-                                  return one.place == place && equal_words(one.spelling, text);
-                                });
-  const auto* const known =
-      row != structured_words.end() ? &*row : compiler::find_foreign(text, place);
-  if (known == nullptr)
+  const auto row =
+      std::find_if(structured_words.begin(), structured_words.end(), [&](const Habit& one) {
+        return one.where == where && equal_words(one.word, text);
+      });
+  const bool listed = row != structured_words.end();
+  if (!listed && (find_word(text).kind == WordKind::Keyword || !repair::is_known_word(text, where)))
     return std::nullopt;
-  auto d = habit(program, word, {}, known->help);
+  auto d = habit(program, word, {}, listed ? row->help : std::string_view());
   if (find_word(text).kind == WordKind::Statement)
     d.message = fmt::format("`{}` is a statement, not a value", text);
-  if (!known->instead.empty() && !known->instead.starts_with('-'))
-    d.fix = Fix{fmt::format("write `{}`", known->instead),
-                {Edit{word, std::string(known->instead)}},
+  if (listed && !row->instead.empty())
+    d.fix = Fix{fmt::format("write `{}`", row->instead),
+                {Edit{word, std::string(row->instead)}},
                 Safety::Unsafe};
   return d;
 }

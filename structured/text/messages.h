@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
-#include "compiler/messages/foreign.h"
+#include "repair/idioms.h"
 #include "structured/text/program.h"
 
 #include <optional>
@@ -55,9 +55,7 @@ Diagnostic habit(const Program& program, Span found, std::string_view instead,
 /// `print 'hello'`: a text in single quotes, which is a comment.
 Diagnostic single_quotes(const Program& program, Span text);
 
-/// What to write instead of a word or sign of another language, or nothing where it is none that is
-/// known.
-std::optional<Diagnostic> foreign(const Program& program, Span word,
-                                  compiler::Foreign::Place place);
+/// The finding about a word or sign of another language, or nothing where it is none that is known.
+std::optional<Diagnostic> foreign(const Program& program, Span word, repair::Where where);
 
 } // namespace orb::structured
