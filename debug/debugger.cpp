@@ -51,7 +51,7 @@ auto is_a(structured::SymbolKind kind) {
 
 Debugger::Debugger(std::span<const run::Input> inputs, const run::Options& options,
                    Console& console)
-    : options_(options), console_(console), sources_(inputs, options) {}
+    : inputs_(inputs), options_(options), console_(console), sources_(inputs, options) {}
 
 Debugger::~Debugger() = default;
 
@@ -62,6 +62,7 @@ Debugger::start(std::span<const run::Input> inputs, const run::Options& options,
   if (!timeline)
     return tl::unexpected(timeline.error());
   debugger->timeline_ = *std::move(timeline);
+  debugger->stand_outermost();
   return debugger;
 }
 
@@ -79,7 +80,6 @@ tl::expected<Expression, std::string> Debugger::expression(std::string_view text
   return parsed;
 }
 
-/// What an expression may name, here or elsewhere in the run.
 std::vector<std::string_view> Debugger::names() const {
   std::vector<std::string_view> all{time_word};
   const auto* input = sources_.input(timeline_->ball().basic_area());
@@ -100,6 +100,8 @@ std::vector<std::string_view> Debugger::names() const {
 
 Breakpoint& Debugger::add(Breakpoint breakpoint) {
   breakpoint.id = next_id_++;
+  breakpoint.by_name =
+      breakpoint.kind == Breakpoint::Kind::Sub && sources_.has_sub(breakpoint.text);
   return breakpoints_.emplace_back(std::move(breakpoint));
 }
 
@@ -122,6 +124,10 @@ void Debugger::on_event(Duration, const vm::Event& event) {
 
 void Debugger::begin() {
   found_ = {};
+  const auto& machine = timeline_->ball().machine();
+  const bool known = timeline_->next() == Timeline::Next::Line || machine.waits();
+  before_ = known ? program_line() : nullptr;
+  calls_before_ = calls(Thread::Program);
   for (const auto& one : breakpoints_)
     if (one.expression) {
       values_.erase(one.id);
@@ -137,24 +143,77 @@ bool Debugger::wants_lines() const {
 bool Debugger::line() {
   const auto* here = program_line();
   found_ = {};
+  found_at_ = innermost();
   bool stop = hit_values();
-  if (here == nullptr)
-    return stop || move_ == Move::In;
-  stop = (here->begins && hit_place(here->spot)) || stop;
-  return steps_here(Thread::Program, here->begins) || stop;
+  if (here != nullptr) {
+    const auto new_from = first_new(*here);
+    const auto innermost_level = here->levels.size() - 1;
+    const auto first = std::min(new_from == 0 ? 0 : new_from - 1, innermost_level);
+    const bool forward = direction_ == Direction::Forward;
+    found_at_ = {first, first};
+    if (first < new_from && first < innermost_level && goes_on(*here, first))
+      ++found_at_.first; // the call has begun with a line before
+    for (auto n = first; n <= innermost_level && (!stop || n == first); ++n) {
+      const auto level = forward ? n : innermost_level + first - n;
+      if (!stops_at(*here, level, new_from))
+        continue;
+      found_at_.at = level;
+      stop = true;
+    }
+  } else {
+    stop = stop || move_ == Move::In;
+  }
+  before_ = here;
+  calls_before_ = calls(Thread::Program);
+  return stop;
+}
+
+/// The outermost level that begins with this line, now that another one has run before it; their
+/// number where none does.
+std::size_t Debugger::first_new(const Sources::Line& line) const {
+  if (before_ == nullptr)
+    return line.shared;
+  if (calls(Thread::Program) > calls_before_)
+    return 0;
+  return std::max(line.shared, Sources::shared(*before_, line));
+}
+
+/// Whether the line before stood at the same place of that level.
+bool Debugger::goes_on(const Sources::Line& line, std::size_t level) const {
+  return before_ != nullptr && Sources::shared(*before_, line) > level &&
+         before_->levels[level].spot == line.levels[level].spot;
+}
+
+/// Whether the line before is for the same line of the source, and this is not its next round.
+bool Debugger::runs_on(const Sources::Line& line) const {
+  return goes_on(line, line.levels.size() - 1) && before_->number < line.number &&
+         before_->levels.size() == line.levels.size();
+}
+
+/// Whether the run stops at one level of a line that is about to run.
+bool Debugger::stops_at(const Sources::Line& line, std::size_t level, std::size_t new_from) {
+  const auto& here = line.levels[level];
+  const bool is_new = level >= new_from;
+  const bool own = level + 1 == line.levels.size();
+  const bool begins = is_new || (own ? line.begins && !runs_on(line) : !goes_on(line, level));
+  bool stop = begins && hit_place(here.spot);
+  stop = (is_new && hit_sub(here.sub)) || stop;
+  return steps_here(Thread::Program, {calls(Thread::Program), level}, begins) || stop;
 }
 
 bool Debugger::command() {
   const auto place = timeline_->ball().macros().places().front();
   found_ = {};
+  found_at_ = innermost();
   bool stop = hit_values();
   if (const auto spot = sources_.spot(place.id, place.command))
     stop = hit_place(*spot) || stop;
-  return steps_here(Thread::Macro, true) || stop;
+  return steps_here(Thread::Macro, depth(Thread::Macro), true) || stop;
 }
 
 bool Debugger::motion(Duration t) {
   moving_at_ = t;
+  found_at_ = innermost();
   const bool stop = hit_values();
   moving_at_.reset();
   return stop;
@@ -170,27 +229,38 @@ bool Debugger::event(const vm::Event& event) {
   if (!stop_at_faults_)
     return false;
   found_ = {Stop::Reason::Fault, {}, fault_text(*fault_)};
+  found_at_ = innermost();
   return true;
 }
 
 /// Whether the step that is being made ends before this line or command.
-bool Debugger::steps_here(Thread thread, bool begins) {
-  if (move_ == Move::Continue || thread != thread_)
+bool Debugger::steps_here(Thread thread, Depth here, bool begins) {
+  if (thread != thread_)
     return false;
-  const auto here = depth(thread);
   switch (move_) {
   case Move::Continue: return false;
   case Move::In: return begins;
   case Move::Over: return begins && here <= from_depth_;
-  case Move::Out: return here < from_depth_ || (here == from_depth_ && sub() != from_sub_);
+  case Move::Out: return here < from_depth_;
   }
   return false;
 }
 
 bool Debugger::hit_place(Spot spot) {
   bool stop = false;
+  for (auto& one : breakpoints_) {
+    if (!one.by_name && std::find(one.spots.begin(), one.spots.end(), spot) != one.spots.end() &&
+        counts(one))
+      stop = true;
+  }
+  return stop;
+}
+
+/// A sub begins.
+bool Debugger::hit_sub(std::string_view name) {
+  bool stop = false;
   for (auto& one : breakpoints_)
-    if (std::find(one.spots.begin(), one.spots.end(), spot) != one.spots.end() && counts(one))
+    if (one.by_name && equal_words(one.text, name) && counts(one))
       stop = true;
   return stop;
 }
@@ -230,7 +300,7 @@ bool Debugger::counts(Breakpoint& one) {
       found_.text = fmt::format("`{}`: {}", one.only_if->text(), holds.error());
   }
   const bool forward = direction_ == Direction::Forward;
-  if (forward && ++one.hits < one.from_hit)
+  if (forward && !one.which.holds(++one.hits))
     return false;
   if (!one.log.empty()) {
     if (forward)
@@ -265,10 +335,31 @@ Stop Debugger::go(Move move, Direction direction, Thread thread, const GiveUp& g
   direction_ = direction;
   thread_ = thread;
   from_depth_ = depth(thread);
-  from_sub_ = sub();
   until_ = Duration::max();
   how_ = Timeline::How::Begins;
+  if (stops_within_line())
+    return found_;
   return run(give_up);
+}
+
+/// Whether the way that is being gone stops at another level of the line that is about to run.
+bool Debugger::stops_within_line() {
+  const auto* here = program_line();
+  if (here == nullptr || timeline_->next() != Timeline::Next::Line)
+    return false;
+  const auto from = stands();
+  const bool forward = direction_ == Direction::Forward;
+  const auto count = forward ? here->levels.size() - 1 - from.at : from.at - from.first;
+  found_ = {};
+  before_ = nullptr;
+  for (std::size_t n = 1; n <= count; ++n) {
+    const auto level = forward ? from.at + n : from.at - n;
+    if (!stops_at(*here, level, from.first + 1))
+      continue;
+    stand({from.first, level});
+    return true;
+  }
+  return false;
 }
 
 Stop Debugger::go_until(Duration time, const GiveUp& give_up) {
@@ -276,6 +367,8 @@ Stop Debugger::go_until(Duration time, const GiveUp& give_up) {
   direction_ = Direction::Forward;
   until_ = time;
   how_ = Timeline::How::Begins;
+  if (stops_within_line())
+    return found_;
   return run(give_up);
 }
 
@@ -294,14 +387,19 @@ Stop Debugger::run(const GiveUp& give_up) {
 }
 
 Stop Debugger::stop_of(Halt halt) {
+  stand(innermost());
   switch (halt) {
-  case Halt::Found: return direction_ == Direction::Forward ? found_ : noted_;
+  case Halt::Found:
+    stand(direction_ == Direction::Forward ? found_at_ : noted_at_);
+    return direction_ == Direction::Forward ? found_ : noted_;
   case Halt::Time: return {Stop::Reason::Time, {}, {}};
   case Halt::GivenUp: return {Stop::Reason::GivenUp, {}, {}};
   case Halt::Over: break;
   }
-  if (direction_ == Direction::Back)
+  if (direction_ == Direction::Back) {
+    stand_outermost();
     return {Stop::Reason::Begin, {}, {}};
+  }
   if (timeline_->waits_for_number())
     return {Stop::Reason::Input, {}, {}};
   return {Stop::Reason::End, {}, fault_ ? fault_text(*fault_) : std::string()};
@@ -310,15 +408,58 @@ Stop Debugger::stop_of(Halt halt) {
 void Debugger::restart() {
   timeline_->begin_again();
   fault_.reset();
+  is_helped_ = false;
   for (auto& one : breakpoints_)
     one.hits = 0;
+  stand_outermost();
+}
+
+/// At the beginning of the run: before the calls that the first line is for.
+void Debugger::stand_outermost() {
+  const bool is_line = program_line() != nullptr && timeline_->next() == Timeline::Next::Line;
+  stand(is_line ? Levels{0, 0} : innermost());
+}
+
+void Debugger::stand(Levels levels) {
+  stands_ = levels;
+  stands_when_ = timeline_->now();
+}
+
+Debugger::Levels Debugger::stands() const {
+  return timeline_->now() == stands_when_ ? stands_ : innermost();
+}
+
+Debugger::Levels Debugger::innermost() const {
+  const auto* here = program_line();
+  const auto last = here == nullptr ? 0 : here->levels.size() - 1;
+  return {last, last};
 }
 
 bool Debugger::jump(Spot spot) {
   for (const auto line : sources_.robot_lines(spot))
-    if (timeline_->change(GoToLine{line}))
+    if (timeline_->change(GoToLine{line})) {
+      const auto* here = program_line();
+      auto level = innermost().at;
+      while (level > 0 && here->levels[level].spot != spot)
+        --level;
+      stand({level, level});
       return true;
+    }
   return false;
+}
+
+bool Debugger::give_number(std::int32_t value) {
+  is_helped_ = true;
+  return timeline_->change(GiveNumber{value});
+}
+
+bool Debugger::happen(const vm::Stimulus& stimulus) {
+  is_helped_ = true;
+  return timeline_->change(stimulus);
+}
+
+std::optional<run::Want> Debugger::want() const {
+  return is_helped_ ? std::nullopt : run::want(inputs_, options_);
 }
 
 // --- looking ------------------------------------------------------------------------------------
@@ -332,15 +473,14 @@ int Debugger::robot_line() const {
   return fault_ && !machine.running() ? static_cast<int>(fault_->robot_line) : machine.line();
 }
 
-std::string Debugger::sub() const {
-  const auto* line = program_line();
-  return line == nullptr ? std::string() : line->sub;
-}
-
-std::size_t Debugger::depth(Thread thread) const {
+std::size_t Debugger::calls(Thread thread) const {
   const auto& ball = timeline_->ball();
   return thread == Thread::Program ? ball.machine().core().frames.call_depth
                                    : ball.macros().places().size();
+}
+
+Debugger::Depth Debugger::depth(Thread thread) const {
+  return {calls(thread), thread == Thread::Program ? stands().at : 0};
 }
 
 bool Debugger::runs(Thread thread) const {
@@ -369,16 +509,18 @@ std::vector<Frame> Debugger::frames(Thread thread) const {
     return all;
   }
   const auto& core = ball.machine().core();
-  const auto add = [&](int number, bool main) {
+  const auto add = [&](int number, std::size_t hidden, bool main) {
     const auto* line = sources_.line(ball.basic_area(), number);
-    const bool named = line != nullptr && !line->sub.empty();
-    all.push_back({named  ? line->sub
-                   : main ? "main"
-                          : "gosub",
-                   line != nullptr ? std::optional(line->spot) : std::nullopt, number});
+    if (line == nullptr)
+      return all.push_back({main ? "main" : "gosub", std::nullopt, number});
+    for (auto level = line->levels.size() - hidden; level-- > 0;) {
+      const auto& one = line->levels[level];
+      all.push_back({!one.sub.empty() ? one.sub : main ? "main" : "gosub", one.spot, number});
+    }
   };
   const auto depth = core.frames.call_depth;
-  add(robot_line(), depth == 0);
+  const auto* here = program_line();
+  add(robot_line(), here == nullptr ? 0 : here->levels.size() - 1 - stands().at, depth == 0);
   for (auto i = depth; i-- > 0;) {
     // The call stands in the line before the one that it returns to.
     const auto back = core.frames.calls[i];
@@ -386,7 +528,7 @@ std::vector<Frame> Debugger::frames(Thread thread) const {
     const auto after = std::lower_bound(
         lines.begin(), lines.end(), back,
         [](const bytecode::Line& line, std::uint32_t place) { return line.begin < place; });
-    add(after == lines.begin() ? 0 : std::prev(after)->number, i == 0);
+    add(after == lines.begin() ? 0 : std::prev(after)->number, 0, i == 0);
   }
   return all;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "debug/expression.h"
+#include "debug/hit_condition.h"
 #include "debug/sources.h"
 #include "debug/timeline.h"
+
+#include "run/want.h"
 
 #include <cstdint>
 #include <map>
@@ -43,9 +46,10 @@ struct Breakpoint {
   std::vector<Spot> spots;              ///< Line, Sub; none: it can never be reached
   std::optional<Expression> expression; ///< Change, Condition
   std::optional<Expression> only_if;
-  std::uint64_t from_hit = 1; ///< the first hit that counts; forward only
-  std::string log;            ///< said in place of stopping, with `{expression}` filled in
-  std::string text;           ///< as it was asked for
+  HitCondition which;   ///< of its hits count; forward only
+  std::string log;      ///< said in place of stopping, with `{expression}` filled in
+  std::string text;     ///< as it was asked for
+  bool by_name = false; ///< Sub: waits until that name begins; else for `spots`
   std::uint64_t hits = 0;
 };
 
@@ -127,6 +131,10 @@ public:
   /// The line that is about to run, or waits; the one where it failed.
   std::optional<Spot> spot() const;
   tl::expected<std::int32_t, std::string> evaluate(std::string_view text) const;
+  /// What an expression may name, here or elsewhere in the run.
+  std::vector<std::string_view> names() const;
+  /// What the program looks for and nobody brings about, the user included.
+  std::optional<run::Want> want() const;
   std::vector<Variable> variables() const;
   std::vector<std::string> arrays() const;
   std::vector<Variable> elements(std::string_view array) const;
@@ -138,8 +146,8 @@ public:
 
   // Changing. False, or a sentence, where it cannot be.
   tl::expected<std::int32_t, std::string> set(std::string_view name, std::string_view value);
-  bool give_number(std::int32_t value) { return timeline_->change(GiveNumber{value}); }
-  bool happen(const vm::Stimulus& stimulus) { return timeline_->change(stimulus); }
+  bool give_number(std::int32_t value);
+  bool happen(const vm::Stimulus& stimulus);
 
 private:
   Debugger(std::span<const run::Input> inputs, const run::Options& options, Console& console);
@@ -152,7 +160,10 @@ private:
   bool line() override;
   bool command() override;
   bool event(const vm::Event& event) override;
-  void noted() override { noted_ = found_; }
+  void noted() override {
+    noted_ = found_;
+    noted_at_ = found_at_;
+  }
   bool motion(Duration t) override;
   // Meaning
   std::optional<std::int32_t> variable(std::string_view name) const override;
@@ -162,25 +173,49 @@ private:
 
   Stop run(const GiveUp& give_up);
   Stop stop_of(Halt halt);
-  std::vector<std::string_view> names() const;
+  /// How deep in calls something is: those of the robot, then those of the source within the last.
+  struct Depth {
+    std::size_t calls = 0;
+    std::size_t level = 0;
+    friend auto operator<=>(const Depth&, const Depth&) = default;
+  };
+  /// Where a line of the robot that begins subs of the source can be stood before: at the call of
+  /// each, and at last at the line itself.
+  struct Levels {
+    std::size_t first = 0; ///< the outermost at which it can
+    std::size_t at = 0;    ///< at which it does
+  };
+
   const Sources::Line* program_line() const;
-  std::size_t depth(Thread thread) const;
+  Levels innermost() const;
+  std::size_t calls(Thread thread) const;
+  Depth depth(Thread thread) const;
   int robot_line() const; ///< that is about to run, waits, or has failed
-  std::string sub() const;
+  std::size_t first_new(const Sources::Line& line) const;
+  bool stops_at(const Sources::Line& line, std::size_t level, std::size_t first_new);
+  bool goes_on(const Sources::Line& line, std::size_t level) const;
+  bool runs_on(const Sources::Line& line) const;
+  bool stops_within_line();
+  void stand(Levels levels);
+  void stand_outermost();
+  Levels stands() const;
   bool hit_place(Spot spot);
+  bool hit_sub(std::string_view name);
   bool hit_values();
-  bool steps_here(Thread thread, bool begins);
+  bool steps_here(Thread thread, Depth here, bool begins);
   bool counts(Breakpoint& one);
   std::string filled(std::string_view text) const;
   std::optional<std::size_t> register_of(std::string_view name) const;
   std::optional<std::size_t> element_register(std::string_view name, std::int32_t index) const;
 
+  std::span<const run::Input> inputs_;
   run::Options options_;
   Console& console_;
   Sources sources_;
   std::vector<Breakpoint> breakpoints_;
   int next_id_ = 1;
   bool stop_at_faults_ = true;
+  bool is_helped_ = false; ///< the user has made something happen
   std::unique_ptr<Timeline> timeline_;
   std::optional<run::ProgramError> fault_;
 
@@ -188,14 +223,19 @@ private:
   Move move_ = Move::Continue;
   Direction direction_ = Direction::Forward;
   Thread thread_ = Thread::Program;
-  std::size_t from_depth_ = 0;
-  std::string from_sub_;
+  Depth from_depth_;
   Duration until_ = Duration::max();
   Timeline::How how_ = Timeline::How::Begins;
   std::optional<Duration> moving_at_;  ///< the time of the motion that is being looked at
   std::map<int, std::int64_t> values_; ///< of Change and Condition, by id
   Stop found_;
-  Stop noted_; ///< the same, going back
+  Stop noted_;      ///< the same, going back
+  Levels found_at_; ///< of found_
+  Levels noted_at_; ///< of noted_
+  Levels stands_;   ///< at `stands_when_`; later the innermost
+  Moment stands_when_;
+  const Sources::Line* before_ = nullptr; ///< the line that ran before; null: not known
+  std::size_t calls_before_ = 0;          ///< open calls of the robot then
 };
 
 } // namespace orb::debug

@@ -148,9 +148,11 @@ tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
                       !program->items_of(program->statements.front()).empty();
   if (!is_one)
     return tl::unexpected(fmt::format("`{}` is not an expression", text));
-  const auto& item = program->items_of(program->statements.front()).front();
-  const auto span = item.span;
-  if (item.kind != structured::ItemKind::Expression || program->text_of(span).size() != text.size())
+  const auto items = program->items_of(program->statements.front());
+  const auto& item = items.front();
+  const bool is_whole = items.size() == 1 && !text.ends_with(',') && !text.ends_with(';') &&
+                        text.find('\'') == std::string_view::npos;
+  if (item.kind != structured::ItemKind::Expression || !is_whole)
     return tl::unexpected(fmt::format("`{}` is not one expression", text));
   expression.root_ = item.value;
   expression.program_ = std::move(program);

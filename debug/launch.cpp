@@ -13,24 +13,24 @@ tl::unexpected<Failure> failed(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
 }
 
-/// The first error among findings, with its place; nothing where there is none.
-std::optional<std::string> first_error(const Source& source, const std::vector<Diagnostic>& found) {
+/// The errors among findings with their places, a line each.
+std::string errors_of(const Source& source, const std::vector<Diagnostic>& found) {
+  std::string all;
   for (const auto& one : found)
     if (is_error(one)) {
       const auto place = source.position(one.span.begin);
-      return fmt::format("{}:{}:{}: {}{}{}", source.name(), place.line, place.column, one.message,
-                         one.help.empty() ? "" : "; ", one.help);
+      all += fmt::format("{}{}:{}:{}: {}{}{}", all.empty() ? "" : "\n", source.name(), place.line,
+                         place.column, one.message, one.help.empty() ? "" : "; ", one.help);
     }
-  return std::nullopt;
+  return all;
 }
 
-std::optional<std::string> first_error(const run::Input& input) {
-  if (auto found = first_error(*input.source, input.findings))
-    return found;
+std::string errors_of(const run::Input& input) {
+  auto all = errors_of(*input.source, input.findings);
   for (const auto& file : input.included)
-    if (auto found = first_error(*file.source, file.findings))
-      return found;
-  return std::nullopt;
+    if (const auto more = errors_of(*file.source, file.findings); !more.empty())
+      all += (all.empty() ? "" : "\n") + more;
+  return all;
 }
 
 tl::expected<std::string, Failure> text_of(const std::string& path, structured::Files& files) {
@@ -47,11 +47,12 @@ tl::expected<void, Failure> read_files(const Launch& launch, structured::Files& 
     if (!text)
       return tl::unexpected(text.error());
     auto input = run::read_input(path, *std::move(text), launch.language, made.options.target,
-                                 run::Lint::Off, files);
+                                 run::Lint::Off, files, {},
+                                 launch.shape.value_or(structured::Shape::Steppable));
     if (!input)
       return tl::unexpected(input.error());
-    if (auto wrong = first_error(*input))
-      return failed(ExitCode::BadInput, *std::move(wrong));
+    if (auto wrong = errors_of(*input); !wrong.empty())
+      return failed(ExitCode::BadInput, std::move(wrong));
     run::add_input(made.own, *std::move(input));
   }
   made.inputs = made.own;
@@ -68,8 +69,8 @@ tl::expected<void, Failure> read_stimuli(const Launch& launch, structured::Files
       return tl::unexpected(text.error());
     const Source source(is_line ? "stimulus" : one, *std::move(text));
     const auto script = vm::parse_stimulus(source);
-    if (auto wrong = first_error(source, script.diagnostics))
-      return failed(ExitCode::BadInput, *std::move(wrong));
+    if (auto wrong = errors_of(source, script.diagnostics); !wrong.empty())
+      return failed(ExitCode::BadInput, std::move(wrong));
     events.insert(events.end(), script.events.begin(), script.events.end());
   }
   vm::sort_by_time(events);
@@ -85,8 +86,8 @@ tl::expected<void, Failure> read_course(const Launch& launch, structured::Files&
     return tl::unexpected(text.error());
   const Source drawing(launch.course, *std::move(text));
   auto reading = report::read_course(drawing);
-  if (auto wrong = first_error(drawing, reading.findings))
-    return failed(ExitCode::BadInput, *std::move(wrong));
+  if (auto wrong = errors_of(drawing, reading.findings); !wrong.empty())
+    return failed(ExitCode::BadInput, std::move(wrong));
   made.course = std::make_unique<report::Course>(std::move(reading.course));
   made.options.course = made.course.get();
   return {};
@@ -99,6 +100,7 @@ tl::expected<void, Failure> read_test(const Launch& launch, structured::Files& f
     return tl::unexpected(text.error());
   testing::SuiteOptions options;
   options.only = launch.test_name;
+  options.shape = launch.shape.value_or(structured::Shape::Shortest);
   if (!launch.files.empty())
     options.programs = {launch.files.front()};
   auto suite = testing::make_suite({{launch.test, *std::move(text)}}, options, files);
@@ -106,8 +108,8 @@ tl::expected<void, Failure> read_test(const Launch& launch, structured::Files& f
     return tl::unexpected(suite.error());
   made.suite = std::make_unique<testing::Suite>(*std::move(suite));
   for (const auto& file : made.suite->files)
-    if (auto wrong = first_error(*file.source, file.file.diagnostics))
-      return failed(ExitCode::BadInput, *std::move(wrong));
+    if (auto wrong = errors_of(*file.source, file.file.diagnostics); !wrong.empty())
+      return failed(ExitCode::BadInput, std::move(wrong));
   if (made.suite->groups.empty())
     return failed(ExitCode::BadInput, fmt::format("{} holds no test", launch.test));
   const auto& group = made.suite->groups.front();

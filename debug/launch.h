@@ -27,6 +27,9 @@ struct Launch {
   std::optional<std::uint64_t> seed;
   std::vector<std::int32_t> numbers; ///< for `input`
   run::Client client = run::Client::Connected;
+  /// Of structured programs; where nothing is wanted, a test has those that it was judged with and
+  /// everything else is steppable.
+  std::optional<structured::Shape> shape;
 };
 
 /// The same, read: nothing of it changes while it runs.
@@ -38,7 +41,8 @@ struct Launched {
   run::Options options;
 };
 
-/// Reads it all through `files`. Fails with the first mistake, where a source has one.
+/// Reads it all through `files`. Fails with the errors of the first source that has some, a
+/// line each.
 tl::expected<std::unique_ptr<Launched>, Failure> read(const Launch& launch,
                                                       structured::Files& files);
 

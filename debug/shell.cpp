@@ -71,14 +71,14 @@ std::span<const Shell::Row> Shell::rows() {
       {"watch",        "w",   "watch EXPR",      "stops when a value changes, or a condition becomes true", &Shell::add_watch},
       {"log",          "",    "log LINE TEXT",   "says a text in place of stopping; `{EXPR}` in it is filled in", &Shell::add_log},
       {"delete",       "d",   "d [NUMBER]",      "takes a breakpoint away, or all", &Shell::drop},
-      {"continue",     "c",   "c",               "goes on to the next breakpoint", &Shell::go<Move::Continue, Direction::Forward>},
-      {"step",         "s",   "s",               "goes to the next line, also into a sub", &Shell::go<Move::In, Direction::Forward>},
-      {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::go<Move::Over, Direction::Forward>},
-      {"finish",       "fin", "fin",             "goes on until this sub has returned", &Shell::go<Move::Out, Direction::Forward>},
+      {"continue",     "c",   "c",               "goes on to the next breakpoint", &Shell::go_on, Repeats::Yes},
+      {"step",         "s",   "s",               "goes to the next line, also into a sub", &Shell::go<Move::In, Direction::Forward>, Repeats::Yes},
+      {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::go<Move::Over, Direction::Forward>, Repeats::Yes},
+      {"finish",       "fin", "fin",             "goes on until this sub has returned", &Shell::go<Move::Out, Direction::Forward>, Repeats::Yes},
       {"until",        "u",   "until TIME",      "goes on to a time of the run: `until 3.5s`", &Shell::until},
-      {"reverse-continue", "rc", "rc",           "goes back to the breakpoint before", &Shell::go<Move::Continue, Direction::Back>},
-      {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::go<Move::In, Direction::Back>},
-      {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::go<Move::Over, Direction::Back>},
+      {"reverse-continue", "rc", "rc",           "goes back to the breakpoint before", &Shell::go<Move::Continue, Direction::Back>, Repeats::Yes},
+      {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::go<Move::In, Direction::Back>, Repeats::Yes},
+      {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::go<Move::Over, Direction::Back>, Repeats::Yes},
       {"goto",         "g",   "goto LINE",       "the program goes on at another line", &Shell::jump},
       {"restart",      "r",   "r",               "goes back to the beginning and forgets what was changed", &Shell::again},
       {"print",        "p",   "p EXPR",          "prints a value: `p turns * 2`, `p xpos`, `p time`", &Shell::print},
@@ -115,7 +115,7 @@ void Shell::obey(std::string_view line, const GiveUp& give_up) {
   const auto [word, rest] = split(text);
   const auto* row = find(word);
   if (row != nullptr && row->act != nullptr) {
-    last_ = text;
+    last_ = row->repeats == Repeats::Yes ? text : std::string();
     return (this->*row->act)(rest, give_up);
   }
   if (const auto done = change_by_words(debugger_, text))
@@ -132,6 +132,18 @@ void Shell::obey(std::string_view line, const GiveUp& give_up) {
 template <Move move, Direction direction>
 void Shell::go(std::string_view, const GiveUp& give_up) {
   report(debugger_.go(move, direction, debugger_.thread(), give_up));
+}
+
+/// A program that waits for what nobody brings runs for ever; so after a while it is said.
+void Shell::go_on(std::string_view, const GiveUp& give_up) {
+  constexpr Duration patience = std::chrono::seconds{60};
+  const auto want = debugger_.want();
+  if (!want)
+    return report(debugger_.go(Move::Continue, Direction::Forward, debugger_.thread(), give_up));
+  const auto stop = debugger_.go_until(debugger_.timeline().time() + patience, give_up);
+  report(stop);
+  if (stop.reason == Stop::Reason::Time)
+    console_.say(fmt::format("{}; type `{}`, then `c`", want->lack, want->event));
 }
 
 void Shell::until(std::string_view rest, const GiveUp& give_up) {

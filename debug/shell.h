@@ -35,12 +35,14 @@ public:
                                                               std::string_view text)>;
   Shell(Debugger& debugger, Console& console, Write write);
 
-  /// Does what a line says; an empty one repeats the last that moved.
+  /// Does what a line says; an empty one repeats a step.
   void obey(std::string_view line, const GiveUp& give_up);
   /// The line that is about to run, as it is shown after each move.
   void show_place();
   bool done() const { return done_; }
 
+  /// Whether an empty line does it again.
+  enum class Repeats : std::uint8_t { No, Yes };
   /// A command, as `help` shows it.
   struct Row {
     std::string_view word;
@@ -48,6 +50,7 @@ public:
     std::string_view usage;
     std::string_view summary;
     void (Shell::*act)(std::string_view rest, const GiveUp& give_up);
+    Repeats repeats = Repeats::No;
   };
 
 private:
@@ -60,6 +63,7 @@ private:
   void drop(std::string_view rest, const GiveUp&);
   template <Move move, Direction direction>
   void go(std::string_view, const GiveUp& give_up);
+  void go_on(std::string_view, const GiveUp& give_up);
   void until(std::string_view rest, const GiveUp& give_up);
   void jump(std::string_view rest, const GiveUp&);
   void again(std::string_view, const GiveUp&);

@@ -7,6 +7,30 @@
 #include <fmt/format.h>
 
 namespace orb::debug {
+namespace {
+
+std::vector<Sources::Level> levels_of(const run::LinePlace& place, std::uint32_t first_file) {
+  std::vector<Sources::Level> levels;
+  std::uint32_t id = 0;
+  for (const auto& call : place.calls) {
+    levels.push_back({id, {first_file + call.file, call.line}, call.sub});
+    id = call.id;
+  }
+  levels.push_back({id, {first_file + place.file, place.line}, place.sub});
+  return levels;
+}
+
+/// Calls `visit` with the spots that a line is the first for, the outermost first.
+template <class Visit>
+void each_beginning(const Sources::Line& line, Visit visit) {
+  const auto own = line.levels.size() - 1;
+  for (auto k = line.shared == 0 ? 0 : line.shared - 1; k < own; ++k)
+    visit(line.levels[k].spot);
+  if (line.begins)
+    visit(line.spot);
+}
+
+} // namespace
 
 Sources::Sources(std::span<const run::Input> inputs, const run::Options& options) {
   for (const auto& input : inputs) {
@@ -30,19 +54,20 @@ Sources::Sources(std::span<const run::Input> inputs, const run::Options& options
 }
 
 void Sources::add_program(const run::Input& input, spec::Area area, std::uint32_t file) {
-  ProgramOf program{&input, area, {}};
+  ProgramOf program{&input, area, file, {}};
   const auto holders = letter_holders(*input.program);
-  std::optional<Spot> before;
+  const Line* before = nullptr;
   for (const auto& [number, place] : input.program->lines.places) {
-    Line line{number, {file + place.file, place.line}, place.sub, false, {}};
-    line.begins = before != line.spot;
-    before = line.spot;
+    Line line{number, {file + place.file, place.line}, levels_of(place, file), 0, false, {}};
+    line.shared = before == nullptr ? 0 : shared(*before, line);
+    line.begins = line.shared < line.levels.size() || before == nullptr ||
+                  before->levels[line.shared - 1].spot != line.spot;
     const auto found = holders.find(number);
     if (found != holders.end())
       line.symbols = found->second;
     else
       line.symbols.fill(structured::none);
-    program.lines.emplace(static_cast<int>(number), std::move(line));
+    before = &program.lines.emplace(static_cast<int>(number), std::move(line)).first->second;
   }
   programs_.push_back(std::move(program));
 }
@@ -97,6 +122,14 @@ std::string Sources::macro_name(int macro) const {
   return found == macro_names_.end() ? fmt::format("macro {}", macro) : found->second;
 }
 
+std::size_t Sources::shared(const Line& a, const Line& b) {
+  std::size_t count = 0;
+  while (count < std::min(a.levels.size(), b.levels.size()) &&
+         a.levels[count].is_same(b.levels[count]))
+    ++count;
+  return count;
+}
+
 std::optional<std::uint32_t> Sources::runs(std::uint32_t file, std::uint32_t line) const {
   std::optional<std::uint32_t> best;
   const auto take = [&](Spot spot) {
@@ -105,7 +138,7 @@ std::optional<std::uint32_t> Sources::runs(std::uint32_t file, std::uint32_t lin
   };
   for (const auto& program : programs_)
     for (const auto& [number, one] : program.lines)
-      take(one.spot);
+      each_beginning(one, take);
   for (const auto& one : commands_)
     take(one.spot);
   return best;
@@ -115,24 +148,44 @@ std::vector<int> Sources::robot_lines(Spot spot) const {
   std::vector<int> all;
   for (const auto& program : programs_)
     for (const auto& [number, one] : program.lines)
-      if (one.begins && one.spot == spot)
-        all.push_back(number);
+      each_beginning(one, [&, robot = number](Spot begins) {
+        if (begins == spot)
+          all.push_back(robot);
+      });
   return all;
+}
+
+bool Sources::has_sub(std::string_view name) const {
+  for (const auto& program : programs_)
+    for (const auto& [robot, one] : program.lines)
+      for (auto k = one.shared; k < one.levels.size(); ++k)
+        if (!one.levels[k].sub.empty() && equal_words(one.levels[k].sub, name))
+          return true;
+  return false;
 }
 
 std::vector<Spot> Sources::subs(std::string_view name) const {
   std::vector<Spot> found;
   const auto number = parse_number<int>(name);
-  for (const auto& program : programs_) {
-    std::string_view before;
+  const auto take = [&](Spot spot) {
+    if (std::find(found.begin(), found.end(), spot) == found.end())
+      found.push_back(spot);
+  };
+  for (const auto& program : programs_)
     for (const auto& [robot, one] : program.lines) {
-      const bool starts = !one.sub.empty() && equal_words(one.sub, name) && before != one.sub;
-      const bool numbered = program.input->program->compiled == nullptr && number == robot;
-      before = one.sub;
-      if ((starts || numbered) && std::find(found.begin(), found.end(), one.spot) == found.end())
-        found.push_back(one.spot);
+      if (program.input->program->compiled == nullptr && number == robot)
+        take(one.spot);
+      for (auto k = one.shared; k < one.levels.size(); ++k)
+        if (!one.levels[k].sub.empty() && equal_words(one.levels[k].sub, name))
+          take(one.levels[k].spot);
     }
-  }
+  if (!found.empty())
+    return found;
+  for (const auto& program : programs_)
+    for (const auto& call : program.input->program->lines.calls)
+      if (equal_words(call.called, name))
+        if (const auto line = runs(program.first_file + call.place.file, call.place.line))
+          take({program.first_file + call.place.file, *line});
   return found;
 }
 

@@ -42,11 +42,22 @@ public:
   /// The file of that name, or the one whose name ends like it.
   std::optional<std::uint32_t> file(std::string_view name) const;
 
+  /// A sub that is open where a line runs, though the robot itself may know of no call.
+  struct Level {
+    std::uint32_t call = 0; ///< which one of the source it was written for; 0: the robot calls it
+    Spot spot;              ///< where it stands: of the innermost level the line, else a call
+    std::string sub;        ///< empty in the main part
+
+    bool is_same(const Level& other) const { return call == other.call && sub == other.sub; }
+  };
+
   /// A line of a program of the robot.
   struct Line {
     std::uint32_t number = 0;
     Spot spot;
-    std::string sub;     ///< the sub that it stands in; empty in the main part
+    std::vector<Level> levels; ///< the outermost first; the last one is that of the line itself
+    /// How many of them the line of the robot before this one shares: the others begin here.
+    std::size_t shared = 0;
     bool begins = false; ///< it is the first of those that its spot became
     /// Of each letter the symbol that it holds before the line, as far as that is certain.
     Holders symbols{};
@@ -61,13 +72,19 @@ public:
   std::optional<std::uint32_t> runs(std::uint32_t file, std::uint32_t line) const;
   /// The lines of the robot that begin a spot.
   std::vector<int> robot_lines(Spot spot) const;
-  /// The spots at which a sub begins: its name, or a line number.
+  /// How many levels two lines share.
+  static std::size_t shared(const Line& a, const Line& b);
+  /// Whether some line begins that sub.
+  bool has_sub(std::string_view name) const;
+  /// The spots at which a sub begins: its name, or a line number. Of a sub that the compiler has
+  /// computed within its callers' lines, where it is called.
   std::vector<Spot> subs(std::string_view name) const;
 
 private:
   struct ProgramOf {
     const run::Input* input = nullptr;
     spec::Area area{};
+    std::uint32_t first_file = 0;
     std::map<int, Line> lines;
   };
   void add_program(const run::Input& input, spec::Area area, std::uint32_t file);

@@ -138,7 +138,8 @@ struct DebugAdapter::State final : debug::Console {
   Answer data_breakpoint_info(const Json& arguments);
   Answer threads();
   Answer stack_trace(const Json& arguments);
-  Answer scopes();
+  Answer scopes(const Json& arguments);
+  Answer completions(const Json& arguments);
   Answer variables(const Json& arguments);
   Answer set_variable(const Json& arguments);
   Answer evaluate(const Json& arguments);
@@ -148,7 +149,7 @@ struct DebugAdapter::State final : debug::Console {
   Answer exception_info();
 
   std::string absolute(const std::string& path) const {
-    return path.empty() || path.front() == '/' ? path : folder + "/" + path;
+    return path.empty() ? path : structured::resolve_path(folder + "/", path);
   }
   Json source(std::uint32_t file) const {
     const auto& name = debugger->sources().files()[file].name;
@@ -159,9 +160,10 @@ struct DebugAdapter::State final : debug::Console {
     const auto path = text_of(member(source, "path"));
     const auto& all = debugger->sources().files();
     for (std::uint32_t i = 0; i < all.size(); ++i)
-      if (absolute(all[i].name) == path)
+      if (!path.empty() && absolute(all[i].name) == absolute(path))
         return i;
-    return debugger->sources().file(path.empty() ? text_of(member(source, "name")) : path);
+    return debugger->sources().file(path.empty() ? text_of(member(source, "name"))
+                                                 : absolute(path));
   }
   std::optional<std::uint32_t> line_of(const Json& json) const {
     const auto number = number_of(json);
@@ -291,6 +293,8 @@ Answer DebugAdapter::State::request(const std::string& command, const Json& argu
     return Json();
   }
   if (command == "restart") {
+    if (!configured)
+      return refuse("`configurationDone` comes before `restart`");
     debugger->restart();
     over = false;
     going = false;
@@ -329,7 +333,7 @@ std::optional<Answer> DebugAdapter::State::move(const std::string& command, cons
       {"next", Move::Over, Direction::Forward},
       {"stepIn", Move::In, Direction::Forward},
       {"stepOut", Move::Out, Direction::Forward},
-      {"stepBack", Move::Over, Direction::Back},
+      {"stepBack", Move::In, Direction::Back}, // the protocol has no other way back into a sub
       {"reverseContinue", Move::Continue, Direction::Back},
   };
   for (const auto& row : rows) {
@@ -348,7 +352,9 @@ Answer DebugAdapter::State::look(const std::string& command, const Json& argumen
   if (command == "stackTrace")
     return stack_trace(arguments);
   if (command == "scopes")
-    return scopes();
+    return scopes(arguments);
+  if (command == "completions")
+    return completions(arguments);
   if (command == "variables")
     return variables(arguments);
   if (command == "setVariable")
@@ -380,7 +386,8 @@ Answer DebugAdapter::State::initialize(const Json& arguments) {
         "supportsConditionalBreakpoints", "supportsHitConditionalBreakpoints", "supportsLogPoints",
         "supportsDataBreakpoints", "supportsEvaluateForHovers", "supportsStepBack",
         "supportsSetVariable", "supportsGotoTargetsRequest", "supportsRestartRequest",
-        "supportsExceptionInfoRequest", "supportsTerminateRequest", "supportsLoadedSourcesRequest"})
+        "supportsCompletionsRequest", "supportsExceptionInfoRequest", "supportsTerminateRequest",
+        "supportsLoadedSourcesRequest"})
     can[name] = true;
   can["exceptionBreakpointFilters"] =
       Json::array({{{"filter", fault_filter},
@@ -417,10 +424,20 @@ std::optional<std::string> mistyped(const Json& arguments) {
   };
   expect({"program", "course", "test", "testName", "lang", "cwd"}, is_text, "a text");
   expect({"files", "stimulus"}, text_or_texts, "a text or a list of texts");
-  expect({"disconnected", "stopOnEntry", "stopAtEnd", "noDebug"}, is_flag, "true or false");
+  expect({"disconnected", "stopOnEntry", "stopAtEnd", "noDebug", "optimize"}, is_flag,
+         "true or false");
   expect({"seed"}, is_count, "a whole number from 0");
   expect({"input"}, numbers, "a list of whole numbers");
   return wrong;
+}
+
+/// What a command line could do about it is said as an argument of `launch`.
+std::string in_terms_of_launch(std::string message) {
+  constexpr std::string_view option = "`--lang basic`, `--lang structured` or `--lang macro`";
+  if (const auto at = message.find(option); at != std::string::npos)
+    message.replace(at, option.size(),
+                    R"(`"lang": "basic"`, `"lang": "structured"` or `"lang": "macro"`)");
+  return message;
 }
 
 } // namespace
@@ -448,6 +465,9 @@ Answer DebugAdapter::State::launch(const Json& arguments) {
     wanted.seed = static_cast<std::uint64_t>(*seed);
   for (const auto& one : member(arguments, "input"))
     wanted.numbers.push_back(one.get<std::int32_t>());
+  if (const auto& optimize = member(arguments, "optimize"); optimize.is_boolean())
+    wanted.shape =
+        optimize.get<bool>() ? structured::Shape::Shortest : structured::Shape::Steppable;
   if (flag_of(member(arguments, "disconnected")))
     wanted.client = run::Client::Absent;
   if (wanted.files.front().empty()) {
@@ -457,7 +477,7 @@ Answer DebugAdapter::State::launch(const Json& arguments) {
   }
   auto read = debug::read(wanted, files);
   if (!read)
-    return refuse(read.error().message);
+    return refuse(in_terms_of_launch(read.error().message));
   launched = *std::move(read);
   auto started = debug::Debugger::start(launched->inputs, launched->options, *this);
   if (!started) {
@@ -494,16 +514,10 @@ std::optional<std::string> read_conditions(const debug::Debugger& debugger, cons
       return expression.error();
     one.only_if = *std::move(expression);
   }
-  auto hits = std::string(trim(text_of(member(json, "hitCondition"))));
-  if (hits.starts_with(">="))
-    hits.erase(0, 2);
-  if (!hits.empty()) {
-    const auto number = parse_number<std::uint64_t>(trim(hits));
-    if (!number || *number == 0)
-      return fmt::format("`{}` is not a number of hits; write `3` to stop from the third on",
-                         to_valid_utf8(hits));
-    one.from_hit = *number;
-  }
+  const auto hits = debug::HitCondition::parse(text_of(member(json, "hitCondition")));
+  if (!hits)
+    return hits.error();
+  one.which = *hits;
   one.log = text_of(member(json, "logMessage"));
   return std::nullopt;
 }
@@ -593,7 +607,11 @@ Answer DebugAdapter::State::set_data_breakpoints(const Json& arguments) {
   for (std::size_t i = 0; wanted.is_array() && i < wanted.size(); ++i) {
     auto expression = debugger->expression(text_of(member(wanted[i], "dataId")));
     Breakpoint one;
-    const auto wrong = read_conditions(*debugger, wanted[i], one);
+    auto wrong = read_conditions(*debugger, wanted[i], one);
+    const auto access = text_of(member(wanted[i], "accessType"));
+    if (!wrong && !access.empty() && access != "write")
+      wrong = fmt::format("reads are not watched, only changes; ask for `write`, not `{}`",
+                          to_valid_utf8(access));
     if (!expression || wrong || !debugs) {
       list.push_back(unverified(!expression ? expression.error() : wrong.value_or("it only runs")));
       continue;
@@ -643,7 +661,17 @@ Answer DebugAdapter::State::stack_trace(const Json& arguments) {
   return Json{{"stackFrames", std::move(list)}, {"totalFrames", frames.size()}};
 }
 
-Answer DebugAdapter::State::scopes() {
+Answer DebugAdapter::State::scopes(const Json& arguments) {
+  const auto frame = number_of(member(arguments, "frameId"));
+  if (!frame)
+    return refuse("`frameId` is missing; `stackTrace` lists the frames");
+  const auto is_of = [&](Thread thread) {
+    const auto first = thread_number(thread) * frames_of_a_thread;
+    const auto count = static_cast<std::int64_t>(debugger->frames(thread).size());
+    return *frame >= first && *frame < first + count;
+  };
+  if (!is_of(Thread::Program) && !is_of(Thread::Macro))
+    return refuse(fmt::format("there is no frame {} now; `stackTrace` lists them", *frame));
   auto list = Json::array();
   const auto add = [&](const char* name, std::int64_t reference, bool expensive) {
     list.push_back({{"name", name}, {"variablesReference", reference}, {"expensive", expensive}});
@@ -689,6 +717,63 @@ Answer DebugAdapter::State::variables(const Json& arguments) {
     list.push_back(std::move(variable));
   }
   return Json{{"variables", std::move(list)}};
+}
+
+namespace {
+
+bool is_of_word(char c) {
+  return is_letter(c) || is_digit(c) || c == '_';
+}
+
+/// The byte at which column `column`, from 0 in UTF-16, begins; the end of the text behind it.
+std::size_t byte_at(std::string_view text, std::int64_t column) {
+  std::size_t at = 0;
+  while (at < text.size() && column > 0) {
+    const auto lead = static_cast<unsigned char>(text[at]);
+    const std::size_t size = lead < 0xC0 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    at = std::min(at + size, text.size());
+    column -= size == 4 ? 2 : 1;
+  }
+  return at;
+}
+
+} // namespace
+
+Answer DebugAdapter::State::completions(const Json& arguments) {
+  const auto text = text_of(member(arguments, "text"));
+  const auto column = std::max<std::int64_t>(
+      0, number_of(member(arguments, "column")).value_or(first_column) - first_column);
+  const auto row = number_of(member(arguments, "line")).value_or(first_line) - first_line;
+  std::string_view line = text;
+  for (std::int64_t n = 0; n < row && line.find('\n') != std::string_view::npos; ++n)
+    line.remove_prefix(line.find('\n') + 1);
+  line = line.substr(0, byte_at(line, column));
+  auto begin = line.size();
+  while (begin > 0 && is_of_word(line[begin - 1]))
+    --begin;
+  const auto typed = line.substr(begin);
+  const bool begins_line = trim(line.substr(0, begin)).empty();
+  auto list = Json::array();
+  const auto offer = [&](std::string_view word, const char* type) {
+    if (word.size() >= typed.size() && equal_words(word.substr(0, typed.size()), typed))
+      list.push_back({{"label", word},
+                      {"type", type},
+                      {"length", typed.size()},
+                      {"start", column - static_cast<std::int64_t>(typed.size()) + first_column}});
+  };
+  for (const auto name : debugger->names())
+    offer(name, "variable");
+  for (const auto& sensor : spec::variables)
+    offer(sensor.word, "property");
+  for (const auto& function : spec::functions)
+    offer(function.word, "function");
+  if (begins_line) {
+    for (const auto* word : {"until", "set"})
+      offer(word, "keyword");
+    for (const auto& event : vm::stimulus_words)
+      offer(event.word, "keyword");
+  }
+  return Json{{"targets", std::move(list)}};
 }
 
 Answer DebugAdapter::State::set_variable(const Json& arguments) {

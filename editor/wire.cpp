@@ -23,6 +23,16 @@ std::optional<std::size_t> content_length(std::string_view header) {
   return std::nullopt;
 }
 
+/// Where the header of the next message begins, if it does within `bytes`; behind what must be
+/// skipped when a body of unknown length comes first.
+std::size_t next_header(std::string_view bytes) {
+  constexpr std::string_view word = "content-length:";
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+    if (bytes.size() - at >= word.size() && equal_words(bytes.substr(at, word.size()), word))
+      return at;
+  return std::string_view::npos;
+}
+
 } // namespace
 
 std::optional<MessageReader::Event> MessageReader::next() {
@@ -49,8 +59,24 @@ std::optional<MessageReader::Event> MessageReader::next() {
   }
 }
 
+/// Skips what cannot be told from a body whose length nobody knows.
+void MessageReader::skip_to_header() {
+  constexpr std::size_t shorter_than_the_word = 14;
+  const auto at = next_header(buffer_);
+  if (at == std::string::npos) {
+    buffer_.erase(0, buffer_.size() - std::min(buffer_.size(), shorter_than_the_word));
+    return;
+  }
+  buffer_.erase(0, at);
+  lost_ = false;
+}
+
 /// Reads a header when it is complete: sets `length_`, or says what is wrong with it.
 std::optional<MessageReader::Event> MessageReader::read_header() {
+  if (lost_)
+    skip_to_header();
+  if (lost_)
+    return std::nullopt;
   auto end = buffer_.find("\r\n\r\n");
   std::size_t size = 4;
   if (const auto bare = buffer_.find("\n\n"); bare < end) {
@@ -60,13 +86,19 @@ std::optional<MessageReader::Event> MessageReader::read_header() {
   if (end == std::string::npos) {
     if (buffer_.size() <= max_header)
       return std::nullopt;
-    buffer_.erase(0, buffer_.size() - 3); // an end of header may be cut in two
+    lost_ = true;
     return Event{true, "a header without an end"};
   }
-  const auto length = content_length(std::string_view(buffer_).substr(0, end));
-  buffer_.erase(0, end + size);
-  if (!length)
+  const auto header = std::string_view(buffer_).substr(0, end);
+  const auto length = content_length(header);
+  if (!length) {
+    // A body that was longer than said may stand before the next header.
+    const auto other = next_header(header.substr(std::min<std::size_t>(1, header.size())));
+    buffer_.erase(0, other == std::string_view::npos ? end + size : other + 1);
+    lost_ = true;
     return Event{true, "a header without a usable Content-Length"};
+  }
+  buffer_.erase(0, end + size);
   if (*length > max_message) {
     to_skip_ = *length;
     return Event{true,

@@ -27,10 +27,12 @@ public:
 
 private:
   std::optional<Event> read_header();
+  void skip_to_header();
 
   std::string buffer_;
   std::optional<std::size_t> length_; ///< of the message that is being read
   std::size_t to_skip_ = 0;
+  bool lost_ = false; ///< how long the last body is is not known: the next header has to be found
 };
 
 /// A message with its header.

@@ -78,10 +78,16 @@ Input used_macros(const structured::MacroFile& file) {
 }
 
 void read_structured(Input& input, const compiler::Target& target, Lint lint,
-                     structured::Files& files, const std::vector<std::string>& kept) {
+                     structured::Files& files, const std::vector<std::string>& kept,
+                     structured::Shape shape) {
   const auto& name = input.source->name();
-  auto compiled = std::make_unique<structured::Compiled>(
-      structured::compile(name, name, input.source->text(), target, files, kept));
+  const auto compile = [&](structured::Shape one) {
+    return std::make_unique<structured::Compiled>(
+        structured::compile(name, name, input.source->text(), target, files, kept, one));
+  };
+  auto compiled = compile(shape);
+  if (shape == structured::Shape::Steppable && compiled->has_errors())
+    compiled = compile(structured::Shape::Shortest);
   auto found = structured::findings_by_file(compiled->program);
   input.findings = told(std::move(found.front()), lint);
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -189,7 +195,8 @@ bool Input::has_errors() const {
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
                                         Lint lint, structured::Files& files,
-                                        const std::vector<std::string>& kept) {
+                                        const std::vector<std::string>& kept,
+                                        structured::Shape shape) {
   const auto content = content_of(name, language);
   if (!content && !is_built(text))
     return tl::unexpected(unknown_content(name));
@@ -197,7 +204,7 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
   input.source = std::make_unique<Source>(std::move(name), std::move(text));
   switch (content.value_or(Content::Basic)) {
   case Content::Basic: read_program(input, target, lint); break;
-  case Content::Structured: read_structured(input, target, lint, files, kept); break;
+  case Content::Structured: read_structured(input, target, lint, files, kept, shape); break;
   case Content::MacroSource: read_macro_source(input, lint); break;
   case Content::MacroBody:
   case Content::MacroImage:

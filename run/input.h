@@ -100,11 +100,13 @@ enum class Lint : std::uint8_t { On, Off };
 /// Reads the content of the file `name`. Bytes that are not a macro are a failure; mistakes of a
 /// source are findings. A name that says nothing will do where the text is a built image. What a
 /// structured program names is read through `files`, its paths counting from `name`; its variables
-/// `kept` hold their values to the end (structured/compile.h).
+/// `kept` hold their values to the end (structured/compile.h). One that does not fit while it is
+/// steppable becomes the shortest.
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
                                         Lint lint, structured::Files& files,
-                                        const std::vector<std::string>& kept = {});
+                                        const std::vector<std::string>& kept = {},
+                                        structured::Shape shape = structured::Shape::Shortest);
 
 /// The first input that holds a program; null where none does.
 const Input* first_with_program(std::span<const Input> inputs);

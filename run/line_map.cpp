@@ -30,6 +30,16 @@ std::uint32_t file_of(LineMap& map, std::string name) {
   return static_cast<std::uint32_t>(map.files.size()) - 1;
 }
 
+Json in_words(const LineMap& map, const WrittenCall& call) {
+  Json json;
+  json["file"] = map.files[call.file];
+  json["line"] = call.line;
+  json["column"] = call.column;
+  if (!call.sub.empty())
+    json["sub"] = call.sub;
+  return json;
+}
+
 } // namespace
 
 std::string LineMap::words(std::uint32_t robot_line) const {
@@ -41,7 +51,7 @@ std::string LineMap::words(std::uint32_t robot_line) const {
 }
 
 LineMap line_map(const std::string& file, const compiler::Image& image) {
-  LineMap map{{file}, {}, Known::Line};
+  LineMap map{{file}, {}, Known::Line, {}};
   for (const auto& line : image.lines)
     if (line.number != compiler::none)
       map.places.emplace(line.number, LinePlace{0, line.source_line});
@@ -57,16 +67,28 @@ LineMap line_map(const structured::Compiled& compiled) {
     map.files.push_back(file.name);
     sources.emplace_back(file.name, program.text.substr(file.begin, file.end - file.begin));
   }
-  for (const auto& line : compiled.robot.lines) {
-    const auto place = structured::place_of(program, program.statements[line.statement].span);
+  const auto place_of = [&](std::uint32_t statement) {
+    const auto place = structured::place_of(program, program.statements[statement].span);
     const auto at = sources[place.file].position(place.span.begin);
-    const auto& routine = compiled.names.routines[compiled.names.routine_of[line.statement]];
-    map.places.emplace(
-        line.number,
-        LinePlace{place.file, at.line, at.column,
-                  routine.symbol == structured::none
-                      ? std::string()
-                      : std::string(program.name(compiled.names.symbols[routine.symbol].name))});
+    const auto& routine = compiled.names.routines[compiled.names.routine_of[statement]];
+    return LinePlace{place.file, at.line, at.column,
+                     routine.symbol == structured::none
+                         ? std::string()
+                         : std::string(program.name(compiled.names.symbols[routine.symbol].name))};
+  };
+  for (const auto& line : compiled.robot.lines) {
+    auto place = place_of(line.statement);
+    for (auto id = line.expansion; id != 0; id = compiled.code.expansions[id].within) {
+      const auto call = place_of(compiled.code.expansions[id].call);
+      place.calls.insert(place.calls.begin(), {id, call.file, call.line, call.column, call.sub});
+    }
+    map.places.emplace(line.number, std::move(place));
+  }
+  const auto& expansions = compiled.code.expansions;
+  for (std::size_t i = 1; i < expansions.size(); ++i) {
+    const auto& routine = compiled.names.routines[expansions[i].routine];
+    map.calls.push_back({std::string(program.name(compiled.names.symbols[routine.symbol].name)),
+                         place_of(expansions[i].call)});
   }
   return map;
 }
@@ -85,6 +107,8 @@ std::string print_line_map(const LineMap& map, const compiler::Image& image) {
       entry["column"] = place->second.column;
       if (!place->second.sub.empty())
         entry["sub"] = place->second.sub;
+      for (const auto& call : place->second.calls)
+        entry["calls"].push_back(in_words(map, call));
     } else {
       entry["line"] = line.source_line;
     }
@@ -112,9 +136,11 @@ std::optional<LineMap> parse_line_map(std::string_view text) {
     const auto own = text_of(line, "file");
     map.known = own.empty() ? map.known : Known::FileAndColumn;
     if (const auto robot_line = number_of(line, "basicLine"); robot_line && !map.files.empty())
-      map.places.emplace(*robot_line,
-                         LinePlace{file_of(map, own.empty() ? main : own), *source_line,
-                                   number_of(line, "column").value_or(1), text_of(line, "sub")});
+      map.places.emplace(*robot_line, LinePlace{file_of(map, own.empty() ? main : own),
+                                                *source_line,
+                                                number_of(line, "column").value_or(1),
+                                                text_of(line, "sub"),
+                                                {}});
   }
   return map;
 }

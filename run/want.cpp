@@ -69,8 +69,8 @@ std::optional<Want> number(const Program& of, const Options& options) {
         program.as<compiler::InputView>(statement).milliseconds != nullptr)
       continue;
     const auto line = line_at(program, statement.span.begin);
-    return Want{line, "a number",
-                fmt::format("{} waits for a number; add `--input 20`", of.where(line))};
+    const auto lack = fmt::format("{} waits for a number", of.where(line));
+    return Want{line, "a number", lack + "; add `--input 20`", lack, "input 20"};
   }
   return std::nullopt;
 }
@@ -86,9 +86,11 @@ std::optional<Want> sensor(const Program& of, const Options& options) {
     if (read == sensors.end() || comes(options, read->brings))
       continue;
     const auto line = line_at(program, node.span.begin);
-    return Want{line, read->what,
-                fmt::format("{} reads `{}`, and {}; add `--stimulus '{}'`", of.where(line),
-                            program.text_of(node.span), read->lack, read->line)};
+    const auto lack = fmt::format("{} reads `{}`, and {}", of.where(line),
+                                  program.text_of(node.span), read->lack);
+    constexpr std::string_view time = "at 2s ";
+    return Want{line, read->what, fmt::format("{}; add `--stimulus '{}'`", lack, read->line), lack,
+                read->line.substr(time.size())};
   }
   return std::nullopt;
 }

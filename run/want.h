@@ -16,6 +16,8 @@ struct Want {
   std::uint32_t line = 0; ///< the robot's number of the first line that looks
   std::string_view what;  ///< `a shake`
   std::string advice;     ///< a sentence that says so and ends in the option to type
+  std::string lack;       ///< the sentence alone
+  std::string_view event; ///< what is missing as a line of a stimulus script, but its time: `shake`
 };
 
 /// The first thing that the first program waits for, or reads, in vain.

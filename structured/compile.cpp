@@ -200,7 +200,7 @@ void keep(Compiled& compiled, std::string_view name) {
 
 /// Compiles what has been read; the findings say how far that went.
 void compile(Compiled& compiled, const compiler::Target& target,
-             const std::vector<std::string>& kept) {
+             const std::vector<std::string>& kept, Shape shape) {
   if (compiled.program.statements.empty() && !compiled.has_errors())
     compiled.program.diagnostics.push_back(
         finding(rules::NothingToRun, {0, 0}, "the file holds no statement",
@@ -216,7 +216,7 @@ void compile(Compiled& compiled, const compiler::Target& target,
   compiled.code = lower(compiled.program, compiled.names, decided);
   for (const auto& name : kept)
     keep(compiled, name);
-  optimise(compiled.code);
+  optimise(compiled.code, shape);
   if (compiled.code.too_large) {
     report_too_large(compiled, target);
     return;
@@ -298,10 +298,10 @@ void offer_lines(Compiled& compiled, std::string_view text, const compiler::Targ
 
 Compiled compile(std::string name, std::string path, std::string_view text,
                  const compiler::Target& target, Files& files,
-                 const std::vector<std::string>& kept) {
+                 const std::vector<std::string>& kept, Shape shape) {
   Compiled compiled;
   compiled.program = read(std::move(name), std::move(path), text, files);
-  compile(compiled, target, kept);
+  compile(compiled, target, kept, shape);
   silence(compiled.program);
   if (compiled.has_errors())
     offer_lines(compiled, text, target, files);

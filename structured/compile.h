@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "compiler/lint/lint.h"
 #include "structured/emit/compiled.h"
+#include "structured/optimise/optimise.h"
 #include "structured/text/files.h"
 
 #include <optional>
@@ -17,7 +18,7 @@ namespace orb::structured {
 /// their values to the end, read or not: what somebody looks at from outside.
 Compiled compile(std::string name, std::string path, std::string_view text,
                  const compiler::Target& target, Files& files,
-                 const std::vector<std::string>& kept = {});
+                 const std::vector<std::string>& kept = {}, Shape shape = Shape::Shortest);
 
 /// The letter that holds a variable of the whole program, 0 for A; nothing where none has that
 /// name, or where it is neither kept nor in use.

@@ -68,7 +68,8 @@ private:
 
 class Reader {
 public:
-  Reader(Suite& suite, structured::Files& files) : suite_(suite), files_(files) {}
+  Reader(Suite& suite, structured::Files& files, structured::Shape shape)
+      : suite_(suite), files_(files), shape_(shape) {}
 
   /// The index of a program with the files of `file`; an unreadable one is a problem of its own.
   std::size_t program(const std::string& path, const SuiteFile& file) {
@@ -137,8 +138,8 @@ private:
       made.problem += fmt::format("cannot read {}\n", path);
       return;
     }
-    auto input =
-        run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_, kept);
+    auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_,
+                                 kept, shape_);
     if (!input) {
       made.problem += run::content_of(path, "")
                           ? input.error().message + "\n"
@@ -152,6 +153,7 @@ private:
 
   Suite& suite_;
   structured::Files& files_;
+  structured::Shape shape_;
   std::map<std::string, std::size_t> known_;
 };
 
@@ -396,7 +398,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
     if (!files.read(path))
       return tl::unexpected(Failure{
           ExitCode::File, fmt::format("cannot read {}; check the name and the folder", path)});
-  Reader reader(suite, files);
+  Reader reader(suite, files, options.shape);
   std::vector<std::vector<std::size_t>> programs;
   for (auto& one : given) {
     SuiteFile file;

@@ -64,6 +64,7 @@ struct SuiteOptions {
   std::vector<std::string> programs; ///< in place of those that the files name
   std::optional<Seeds> seeds;        ///< in place of theirs
   std::string only;                  ///< the one test to run, by its exact name; empty for all
+  structured::Shape shape = structured::Shape::Shortest; ///< of structured programs
 };
 
 /// A file as it was found: what findings call it, and its text.

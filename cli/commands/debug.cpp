@@ -21,6 +21,8 @@ struct DebugOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> commands;
   bool disconnected = false;
+  bool plain = false;
+  bool optimized = false;
 };
 
 class Terminal final : public debug::Console {
@@ -61,6 +63,16 @@ ExitCode converse(debug::Shell& shell, const std::vector<std::string>& commands)
   return ExitCode::Done;
 }
 
+/// What is wrong with a source may be several errors.
+void fail_by_line(Context& context, const Failure& failure) {
+  std::string_view rest = failure.message;
+  for (auto end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+    fail(context, {failure.code, std::string(rest.substr(0, end))});
+    rest.remove_prefix(end + 1);
+  }
+  fail(context, {failure.code, std::string(rest)});
+}
+
 void debug_it(Context& context, const DebugOptions& options) {
   auto launch = options.launch;
   if (launch.files.empty() && launch.test.empty())
@@ -74,10 +86,12 @@ void debug_it(Context& context, const DebugOptions& options) {
   launch.seed = options.seed;
   if (options.disconnected)
     launch.client = run::Client::Absent;
+  if (options.plain || options.optimized)
+    launch.shape = options.plain ? structured::Shape::Steppable : structured::Shape::Shortest;
   DiskFiles files;
   const auto launched = debug::read(launch, files);
   if (!launched)
-    return fail(context, launched.error());
+    return fail_by_line(context, launched.error());
   Terminal terminal;
   const auto debugger = debug::Debugger::start((*launched)->inputs, (*launched)->options, terminal);
   if (!debugger)
@@ -111,6 +125,13 @@ void add_debug(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--input", launch.numbers, "numbers for `input`")->delimiter(',');
   command->add_flag("--disconnected", options->disconnected, "no client is connected");
+  auto* plain =
+      command->add_flag("--plain", options->plain,
+                        "each statement keeps lines of its own (the default without `--test`)");
+  command
+      ->add_flag("--optimized", options->optimized,
+                 "the lines that are sent to a robot, which may stand for several statements")
+      ->excludes(plain);
   command->add_option("--do", options->commands, "a command to begin with; may be given again")
       ->allow_extra_args(false)
       ->type_name("COMMAND");

@@ -154,6 +154,7 @@ private:
     line.label = label;
     line.origin = of.origin;
     line.routine = of.routine;
+    line.expansion = of.expansion;
     return line;
   }
 

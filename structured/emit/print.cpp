@@ -31,7 +31,7 @@ public:
       if (comments != nullptr)
         result_.text += comments->before(line);
       const auto names = static_cast<std::uint32_t>(result_.names.size());
-      result_.lines.push_back({number, line.origin, line.routine,
+      result_.lines.push_back({number, line.origin, line.routine, line.expansion,
                                static_cast<std::uint32_t>(result_.text.size()), names, names});
       put(number);
       put(' ');

@@ -27,6 +27,7 @@ struct RobotLine {
   std::uint32_t number = 0;
   std::uint32_t statement = 0;   ///< of the structured program
   std::uint32_t routine = 0;     ///< the sub that it stands in; 0 is the main program
+  std::uint32_t expansion = 0;   ///< in Code::expansions
   std::uint32_t offset = 0;      ///< into the text
   std::uint32_t names_begin = 0; ///< in RobotText::names
   std::uint32_t names_end = 0;

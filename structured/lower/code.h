@@ -113,6 +113,7 @@ struct CodeLine {
   spec::Statement robot = spec::Statement::End;
   bool guard = false; ///< of the test of an index: may only be removed where the index is proven
   std::uint16_t routine = 0;
+  std::uint32_t expansion = 0; ///< of a sub that is written into its caller; 0: none
   std::uint32_t origin = 0; ///< the statement that it is for
   std::uint32_t variable = none;
   std::uint32_t label = none;
@@ -135,6 +136,13 @@ struct WrongIndex {
   compiler::Range index; ///< among the elements of all arrays
 };
 
+/// A call in whose place the sub itself is written.
+struct Expansion {
+  std::uint32_t within = 0;    ///< the expansion that the call stands in; 0: none
+  std::uint32_t call = none;   ///< the statement that calls
+  std::uint32_t routine = 0;   ///< what it calls
+};
+
 struct Code {
   std::vector<Term> terms;
   std::vector<Condition> conditions;
@@ -143,6 +151,7 @@ struct Code {
   std::vector<Part> parts;
   std::vector<Case> cases;
   std::vector<CodeVariable> variables{CodeVariable{}}; ///< the index first
+  std::vector<Expansion> expansions{Expansion{}};      ///< the first is none
   std::vector<std::uint32_t> routines;                 ///< of each routine its entry label, or none
   std::vector<WrongIndex> wrong_indices;               ///< found by use_values()
   std::uint32_t labels = 0;                            ///< how many there are

@@ -27,6 +27,7 @@ CodeLine& Lowering::emit(LineKind kind) {
   auto& line = code_.lines.emplace_back();
   line.kind = kind;
   line.origin = origin_;
+  line.expansion = expansion_;
   line.routine = static_cast<std::uint16_t>(std::min<std::uint32_t>(written_, 0xFFFF));
   return line;
 }
@@ -97,7 +98,11 @@ void Lowering::call_routine(std::uint32_t routine, std::size_t count) {
   if (plan_.inlined[routine] && frames_.size() <= deepest_inline && !full()) {
     const auto end = new_label();
     frames_.push_back({routine, end, {}, loops_.size()});
+    const auto around = expansion_;
+    expansion_ = static_cast<std::uint32_t>(code_.expansions.size());
+    code_.expansions.push_back({around, origin_, routine});
     body(routine);
+    expansion_ = around;
     frames_.pop_back();
     label(end);
     return;

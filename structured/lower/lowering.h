@@ -181,6 +181,7 @@ private:
   std::vector<Frame> frames_;
   std::vector<Loop> loops_;
   std::uint32_t origin_ = 0;
+  std::uint32_t expansion_ = 0; ///< that is being written
   std::uint32_t written_ = 0; ///< the routine whose place is being filled
 };
 

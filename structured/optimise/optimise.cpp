@@ -23,7 +23,7 @@ bool is_huge(const Code& code) {
 
 } // namespace
 
-void optimise(Code& code) {
+void optimise(Code& code, Shape shape) {
   if (code.too_large)
     return; // it ends in the middle: labels are missing
   clean_jumps(code);
@@ -34,7 +34,7 @@ void optimise(Code& code) {
   const auto wrong_indices = code.wrong_indices; // later not every place of a statement is left
   write_switches(code);
   constexpr int most_rounds = 12;
-  bool changed = true;
+  bool changed = shape == Shape::Shortest; // the passes below move and join lines
   for (int round = 0; round < most_rounds && changed; ++round) {
     clean_jumps(code);
     changed = split_variables(code);

@@ -117,6 +117,7 @@ private:
     line.kind = kind;
     line.origin = of.origin;
     line.routine = of.routine;
+    line.expansion = of.expansion;
     code_.lines.push_back(line);
     return code_.lines.back();
   }
