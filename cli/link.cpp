@@ -219,4 +219,17 @@ void with_ball(
   context.exit = link->finish(context, context.exit);
 }
 
+void with_firmware(
+    Context& context, const PortOptions& options,
+    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
+  with_ball(context, options,
+            [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
+              if (const auto refused = refuse_bootloader(greeting, link.name)) {
+                print_error(context, refused->message);
+                return exit_code(refused->kind);
+              }
+              return work(link, session, greeting);
+            });
+}
+
 } // namespace orb::cli

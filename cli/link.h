@@ -82,4 +82,9 @@ void with_ball(
     Context& context, const PortOptions& options,
     const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work);
 
+/// The same for what only a ball's firmware does: one that is in its bootloader is refused.
+void with_firmware(
+    Context& context, const PortOptions& options,
+    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work);
+
 } // namespace orb::cli

@@ -160,6 +160,8 @@ Section firmwares_section() {
                                                  ? fmt::format("{} bytes", row.ram_bytes())
                                                  : "no orbBasic");
     entry.facts.emplace_back("API", fmt::format("{}.{:02}", row.api.major, row.api.minor));
+    entry.facts.emplace_back("Level 2 diagnostics",
+                             row.level_2 == spec::Level2::Told ? "told" : "refused");
     section.entries.push_back(std::move(entry));
   }
   return section;

@@ -43,7 +43,7 @@ inline constexpr std::chrono::milliseconds fragment_timeout{500};
 inline constexpr std::size_t ssb_modifier_size = 272;
 inline constexpr std::size_t ssb_size = 1024;
 inline constexpr std::size_t password_size = 4;
-inline constexpr std::size_t config_block_size = 256; ///< [?]
+inline constexpr std::size_t config_block_size = 1024; ///< REC
 
 /// What the sender of a refused command may do next. Source: UPLOAD.
 enum class Retry : std::uint8_t {

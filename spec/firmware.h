@@ -18,6 +18,7 @@ enum class Firmware : std::uint8_t {
 };
 
 /// The places of the version record, which ended before the API revision at first.
+inline constexpr auto version_model_at = answer_offset(ApiCommand::GetVersioning, "model");
 inline constexpr auto version_firmware_at =
     answer_offset(ApiCommand::GetVersioning, "firmware version");
 inline constexpr auto version_orbbasic_at = answer_offset(ApiCommand::GetVersioning, "orbBasic");
@@ -43,12 +44,58 @@ constexpr std::uint16_t ram_bytes_of(Revision api) {
   return 0;
 }
 
+/// The API revision behind a record of 8 bytes, as far as its orbBasic tells; 0.0 where it does
+/// not.
+constexpr Revision api_of(std::uint8_t orbbasic) {
+  struct Row {
+    std::uint8_t since;
+    Revision api;
+  };
+  constexpr auto rows = std::to_array<Row>({
+#define ORBBASIC_API(since, major, minor) {since, {major, minor}},
+#include "spec/firmware.def"
+  });
+  for (const auto& row : rows)
+    if (orbbasic >= row.since)
+      return row.api;
+  return {};
+}
+
+/// Where a model keeps its firmware.
+struct FlashPages {
+  std::uint8_t model;
+  int first;
+  int count;
+  int bytes; ///< of a page
+
+  constexpr bool has(int page) const { return page >= first && page < first + count; }
+};
+
+inline constexpr auto flash_pages = std::to_array<FlashPages>({
+#define FLASH_PAGES(model, first, count, bytes) {model, first, count, bytes},
+#include "spec/firmware.def"
+});
+
+/// What the answers say about the packets that were received: Level 2 Diagnostics.
+enum class Level2 : std::uint8_t {
+  Told,
+  Refused, ///< 04h, as a command that there is not
+};
+
+/// What a value out of range does to a program.
+enum class Ranges : std::uint8_t {
+  Documented, ///< stops it
+  Lenient,    ///< colours are clamped and negative headings wrapped; others stop it
+};
+
 struct FirmwareInfo {
   Firmware firmware;
   std::string_view name; ///< as `--firmware` takes it
   std::array<std::uint8_t, version_record_max> record_bytes;
   std::uint8_t record_size; ///< 8 or 10
   Revision api;
+  Level2 level_2;
+  Ranges ranges;
   std::string_view summary;
 
   /// The answer of Get Versioning.
@@ -58,6 +105,10 @@ struct FirmwareInfo {
   /// The orbBasic version in packed nibbles: 16h is 1.6; 0 where there is none.
   constexpr std::uint8_t orbbasic() const { return record_bytes[version_orbbasic_at]; }
   constexpr bool has_orbbasic() const { return orbbasic() != 0; }
+  /// Whether there is a firmware that the bootloader can start.
+  constexpr bool has_firmware() const {
+    return record_bytes[version_firmware_at] != 0 || record_bytes[version_firmware_at + 1] != 0;
+  }
   /// Of the orbBasic RAM area, the final NUL included; 0 without orbBasic.
   constexpr std::uint16_t ram_bytes() const {
     return has_orbbasic() ? ram_bytes_of(api) : std::uint16_t{0};
@@ -73,7 +124,8 @@ struct FirmwareInfo {
 
   /// Whether this firmware has the command: by the API revision, and orbBasic's only with orbBasic.
   constexpr bool knows(const CommandInfo& command) const {
-    return command.since <= api && (has_orbbasic() || !is_orbbasic(command.command));
+    return command.since <= api && (has_orbbasic() || !is_orbbasic(command.command)) &&
+           (level_2 == Level2::Told || command.command != ApiCommand::PerformLevel2Diagnostics);
   }
 };
 
@@ -93,8 +145,9 @@ constexpr VersionRecord version_record(Byte... bytes) {
 
 inline constexpr auto firmwares = std::to_array<FirmwareInfo>({
 #define VERSIONS(...) detail::version_record(__VA_ARGS__)
-#define FIRMWARE(enumerator, name, record, major, minor, summary)                                  \
-  {Firmware::enumerator, name, record.bytes, record.size, {major, minor}, summary},
+#define FIRMWARE(enumerator, name, record, major, minor, level_2, ranges, summary)                 \
+  {Firmware::enumerator, name,           record.bytes, record.size, {major, minor},                \
+   Level2::level_2,      Ranges::ranges, summary},
 #include "spec/firmware.def"
 #undef VERSIONS
 });
@@ -103,6 +156,14 @@ inline constexpr Firmware default_firmware = firmwares.front().firmware;
 
 constexpr const FirmwareInfo& info(Firmware firmware) {
   return firmwares[static_cast<std::size_t>(firmware)];
+}
+
+/// Where a model keeps its firmware; null for one of which nobody says.
+constexpr const FlashPages* find_flash_pages(std::uint8_t model) {
+  for (const auto& row : flash_pages)
+    if (row.model == model)
+      return &row;
+  return nullptr;
 }
 
 /// The row of a name such as `bb-8`; null when there is none.

@@ -224,11 +224,17 @@ Capabilities read_capabilities(ByteView record) {
   const auto field = [&](std::size_t at) {
     return at < record.size() ? record[at] : std::uint8_t{0};
   };
-  const spec::Revision api{field(spec::version_api_at), field(spec::version_api_at + 1)};
+  const auto orbbasic = field(spec::version_orbbasic_at);
+  const auto api =
+      std::max(spec::Revision{field(spec::version_api_at), field(spec::version_api_at + 1)},
+               spec::api_of(orbbasic));
   return {.ram_bytes = spec::ram_bytes_of(api),
           .flash_bytes = static_cast<std::size_t>(spec::value_of(Limit::FlashBytes)),
-          .has_basic = field(spec::version_orbbasic_at) != 0,
-          .can_commit = api >= spec::info(ApiCommand::CommitRamToFlash).since};
+          .has_basic = orbbasic != 0,
+          .can_commit = api >= spec::info(ApiCommand::CommitRamToFlash).since,
+          .in_bootloader = field(spec::version_firmware_at) == 0 &&
+                           field(spec::version_firmware_at + 1) == 0 && orbbasic == 0 &&
+                           field(spec::version_macro_at) == 0};
 }
 
 Capabilities default_capabilities() {

@@ -18,11 +18,12 @@ struct Capabilities {
   std::size_t ram_bytes = 0; ///< of the orbBasic RAM area, the final NUL included
   std::size_t flash_bytes = 0;
   bool has_basic = false;
-  bool can_commit = false; ///< Commit RAM Program to Flash exists (API 1.47)
+  bool can_commit = false;    ///< Commit RAM Program to Flash exists (API 1.47)
+  bool in_bootloader = false; ///< it has no firmware, or does not run it: nothing else works
 };
 
-/// Reads an answer of Get Versioning. A record of 8 bytes is from before API 1.46.
-/// Source: API §Get Versioning and its history of revisions.
+/// Reads an answer of Get Versioning. A record of 8 bytes is from before API 1.46, unless its
+/// orbBasic is younger. Source: API §Get Versioning and its history of revisions, M107.
 Capabilities read_capabilities(ByteView version_record);
 
 /// Those that are assumed where no ball is asked: of the newest firmware.

@@ -606,7 +606,25 @@ tl::expected<Response, Report> request(Session& session, ApiCommand command, con
   return tl::unexpected(report);
 }
 
+std::string bootloader_remedy(std::string_view port) {
+  return fmt::format("`orb exec leave-bootloader --port {}` starts the firmware; where that is "
+                     "refused, charge the ball and let the vendor's app write its firmware again",
+                     port);
+}
+
+std::optional<Report> refuse_bootloader(const Greeting& greeting, std::string_view port) {
+  if (!greeting.firmware.in_bootloader)
+    return std::nullopt;
+  return Report{
+      Report::Kind::Refused, Content::Unchanged,
+      fmt::format("the ball is in its bootloader, where nothing runs; it is unchanged; {}",
+                  bootloader_remedy(port)),
+      0};
+}
+
 Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery) {
+  if (auto refused = refuse_bootloader(greeting))
+    return *refused;
   if (!greeting.firmware.can_commit)
     return {Report::Kind::Refused, Content::Unchanged,
             "this firmware cannot commit RAM to flash (API 1.47 can); upload with `--area flash`",
@@ -627,6 +645,8 @@ Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery
   const auto greeting = greet(session);
   if (!greeting)
     return greeting.error();
+  if (auto refused = refuse_bootloader(*greeting))
+    return *refused;
   Report report;
   std::string stored;
   const auto several = delivery.macros.size() + (delivery.program ? 1 : 0) > 1;

@@ -96,6 +96,13 @@ enum class BatteryPolicy : std::uint8_t { Refuse, Ignore };
 /// Waits for stray bytes, pings until there is an answer, asks for versions and power.
 tl::expected<Greeting, Report> greet(Session& session);
 
+/// What helps a ball that is in its bootloader: one that was sent there, or whose update was cut
+/// short (REC; what help the vendor's support gives for a ball that flashes red).
+std::string bootloader_remedy(std::string_view port = "…");
+
+/// Why a ball that was greeted takes neither programs nor macros: it is in its bootloader.
+std::optional<Report> refuse_bootloader(const Greeting& greeting, std::string_view port = "…");
+
 /// Puts a program into the ball and says the truth about it (docs/uploading.md). Ends before the
 /// deadline of the plan.
 Report upload(Session& session, const ProgramJob& job, const Greeting& greeting,

@@ -71,10 +71,10 @@ void add_abort(CLI::App& app, Context& context) {
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
   command->callback([&context, options] {
-    with_ball(context, *options,
-              [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {
-                return abort_all(context, session, greeting);
-              });
+    with_firmware(context, *options,
+                  [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {
+                    return abort_all(context, session, greeting);
+                  });
   });
 }
 

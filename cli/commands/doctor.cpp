@@ -174,6 +174,9 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
   checkup.good(link->is_sim ? "the built-in virtual ball answers" : "a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
     checkup.good(fmt::format("{} stray bytes came before that, as real balls send them", noise));
+  if (greeting->firmware.in_bootloader)
+    checkup.bad("it is in its bootloader, where nothing runs",
+                uploader::bootloader_remedy(link->name));
   const auto state = greeting->power_state();
   if (state == spec::power_state::low || state == spec::power_state::critical)
     checkup.bad(fmt::format("its battery is {}", spec::value_name("power state", state)),

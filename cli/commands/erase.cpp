@@ -53,10 +53,10 @@ void add_erase(CLI::App& app, Context& context) {
       ->check(one_of({"ram", "flash"}))
       ->capture_default_str();
   command->callback([&context, options] {
-    with_ball(context, options->port,
-              [&](Link&, uploader::Session& session, const uploader::Greeting&) {
-                return erase(context, session, options->area);
-              });
+    with_firmware(context, options->port,
+                  [&](Link&, uploader::Session& session, const uploader::Greeting&) {
+                    return erase(context, session, options->area);
+                  });
   });
 }
 

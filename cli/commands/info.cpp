@@ -43,10 +43,14 @@ private:
   std::vector<protocol::FieldValue> values_;
 };
 
-std::string versions_text(const uploader::Greeting& greeting) {
+std::string versions_text(const std::string& port, const uploader::Greeting& greeting) {
   const Fields fields(ApiCommand::GetVersioning, greeting.versions);
   auto text = fmt::format("model     {:02X}h, hardware {}\n", fields.number("model").value_or(0),
                           fields.number("hardware").value_or(0));
+  if (greeting.firmware.in_bootloader)
+    return text + fmt::format("firmware  none runs: the ball is in its bootloader, {}\n"
+                              "help      {}\n",
+                              fields.nibbles("bootloader"), uploader::bootloader_remedy(port));
   text +=
       fmt::format("firmware  {}.{}, bootloader {}\n", fields.number("firmware version").value_or(0),
                   fields.number("firmware revision").value_or(0), fields.nibbles("bootloader"));
@@ -72,7 +76,7 @@ std::string power_text(ByteView power) {
                      fields.number("since charge").value_or(0));
 }
 
-Json versions_json(const uploader::Greeting& greeting) {
+Json versions_json(const std::string& port, const uploader::Greeting& greeting) {
   const Fields fields(ApiCommand::GetVersioning, greeting.versions);
   const auto& firmware = greeting.firmware;
   Json json{{"model", fields.number("model").value_or(0)},
@@ -80,6 +84,12 @@ Json versions_json(const uploader::Greeting& greeting) {
             {"firmware", fmt::format("{}.{}", fields.number("firmware version").value_or(0),
                                      fields.number("firmware revision").value_or(0))},
             {"bootloader", fields.nibbles("bootloader")}};
+  if (firmware.in_bootloader) {
+    json.erase("firmware");
+    json["inBootloader"] = true;
+    json["help"] = uploader::bootloader_remedy(port);
+    return json;
+  }
   if (firmware.has_basic)
     json["orbBasic"] = {{"version", fields.nibbles("orbBasic")},
                         {"ramBytes", firmware.ram_bytes},
@@ -103,7 +113,7 @@ Json power_json(ByteView power) {
 /// The same as the text, as one document.
 Json info_json(const std::string& port, const uploader::Greeting& greeting) {
   Json json{{"schema", "orb.info/1"}, {"port", port}};
-  json.update(versions_json(greeting));
+  json.update(versions_json(port, greeting));
   if (greeting.power)
     json["battery"] = power_json(*greeting.power);
   return json;
@@ -143,7 +153,8 @@ void run(Context& context, const PortOptions& options, const std::string& format
   with_ball(context, options,
             [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
               auto json = info_json(link.name, greeting);
-              auto text = fmt::format("port      {}\n", link.name) + versions_text(greeting);
+              auto text =
+                  fmt::format("port      {}\n", link.name) + versions_text(link.name, greeting);
               if (greeting.power)
                 text += power_text(*greeting.power);
               if (const auto radio = request(session, ApiCommand::GetBluetoothInfo)) {
@@ -156,7 +167,7 @@ void run(Context& context, const PortOptions& options, const std::string& format
                 print_error(context, radio.error().message);
                 return exit_code(radio.error().kind);
               }
-              if (link.is_ble)
+              if (link.is_ble && !greeting.firmware.in_bootloader)
                 ask_for_programs(session, text, json);
               if (format == "json")
                 print_json(json);

@@ -197,13 +197,13 @@ void listen(Context& context, const Options& options) {
     inputs = read_program(lookup.lines);
     lookup.input = inputs.empty() ? nullptr : &inputs.front();
   }
-  with_ball(context, options.port,
-            [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
-              print_note(context, "listening; Ctrl-C ends");
-              return monitor(context, link, session, lookup, options.format).lost
-                         ? ExitCode::LinkLost
-                         : ExitCode::Done;
-            });
+  with_firmware(context, options.port,
+                [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
+                  print_note(context, "listening; Ctrl-C ends");
+                  return monitor(context, link, session, lookup, options.format).lost
+                             ? ExitCode::LinkLost
+                             : ExitCode::Done;
+                });
 }
 
 } // namespace

@@ -22,6 +22,10 @@ constexpr auto version_hardware_at =
 constexpr auto version_bootloader_at =
     spec::answer_offset(spec::ApiCommand::GetVersioning, "bootloader");
 
+// The bootloader's record, as it was recorded (REC).
+constexpr std::size_t short_record = 8;
+constexpr std::uint8_t short_record_version = 1;
+
 std::uint16_t clamp_u16(std::uint64_t value) {
   return static_cast<std::uint16_t>(std::min<std::uint64_t>(value, UINT16_MAX));
 }
@@ -46,8 +50,7 @@ HANDLE(Ping) {
 }
 
 HANDLE(GetVersioning) {
-  const auto record = firmware_.record();
-  return {ResponseCode::Ok, {record.begin(), record.end()}};
+  return {ResponseCode::Ok, version_record()};
 }
 
 HANDLE(SetDeviceName) {
@@ -121,8 +124,17 @@ HANDLE(JumpToBootloader) {
 }
 
 HANDLE(LeaveBootloader) {
+  if (!firmware_.has_firmware())
+    return {ResponseCode::MainCorrupt, {}};
   in_bootloader_ = false;
   return {};
+}
+
+HANDLE(IsPageBlank) {
+  const auto* pages = spec::find_flash_pages(firmware_.record()[spec::version_model_at]);
+  if (pages == nullptr || !pages->has(call.operands.u8(0)))
+    return {ResponseCode::PageIllegal, {}};
+  return call.answer({firmware_.has_firmware() ? 0 : 1});
 }
 
 HANDLE(PerformLevel1Diagnostics) {
@@ -161,6 +173,19 @@ HANDLE(PollPacketTimes) {
   // Received and sent in the same millisecond.
   const auto clock = host_->link().clock_ms(host_->now());
   return call.answer({call.operands.number(0), clock, clock});
+}
+
+Bytes Dispatcher::version_record() const {
+  const auto record = firmware_.record();
+  Bytes told(record.begin(), record.end());
+  if (!in_bootloader_)
+    return told;
+  told.resize(short_record);
+  told.front() = short_record_version;
+  for (const auto at : {spec::version_firmware_at, spec::version_firmware_at + 1,
+                        spec::version_orbbasic_at, spec::version_macro_at})
+    told[at] = 0;
+  return told;
 }
 
 std::string Dispatcher::level_1() {

@@ -48,6 +48,7 @@ struct Dispatcher::Handlers {
 Dispatcher::Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware)
     : host_(&host), seed_(seed), firmware_(spec::info(firmware)) {
   profile_.cold_boots = 1;
+  in_bootloader_ = !firmware_.has_firmware();
 }
 
 void Dispatcher::receive(ByteView bytes) {
@@ -97,12 +98,8 @@ Dispatcher::Reply Dispatcher::obey(const Item& item) {
   if (resets || !firmware_.has_option_bits())
     host_->stay_awake();
 
-  const auto leaves_bootloader =
-      spec::api_command(item.did, item.cid) == ApiCommand::LeaveBootloader;
-  const auto known_device = in_bootloader_
-                                ? item.did == spec::did_core || leaves_bootloader
-                                : item.did == spec::did_core || item.did == spec::did_sphero;
-  if (!known_device) {
+  const auto other_device = in_bootloader_ ? spec::did_bootloader : spec::did_sphero;
+  if (item.did != spec::did_core && item.did != other_device) {
     ++counters_.bad_did;
     return {ResponseCode::BadDevice, {}};
   }
@@ -194,7 +191,7 @@ void Dispatcher::on_sleep() {
   decoder_.reset();
   self_level_.stop();
   profile_.soul.stop_boost();
-  in_bootloader_ = false;
+  in_bootloader_ = !firmware_.has_firmware();
   device_mode_ = spec::device_mode::normal;
   accelerometer_range_ = spec::accelerometer_range::g8;
   power_notice_at_ = soul_tick_at_ = gyro_check_at_ = never;

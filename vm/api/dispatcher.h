@@ -88,6 +88,8 @@ private:
   struct Handlers;
 
   std::string level_1();
+  /// What Get Versioning answers: the bootloader knows of itself only.
+  Bytes version_record() const;
   /// Starts or ends the boost macro.
   void boost(Switch state);
   void tick_soul();

@@ -267,6 +267,57 @@ TEST(Dispatcher, TheBootloaderAnswersDeviceZeroUntilLeft) {
   EXPECT_EQ(client.code(ApiCommand::LeaveBootloader), ResponseCode::BadDevice);
 }
 
+TEST(Dispatcher, TheBootloaderAnswersAsTheRecordedOneDid) {
+  Client client(spec::Firmware::Sphero373);
+  EXPECT_EQ(client.ask(ApiCommand::GetVersioning).data,
+            (Bytes{0x01, 0x03, 0x01, 0x03, 0x49, 0x33, 0x19, 0x06}));
+  const auto says = [&](const Bytes& asked, const Bytes& expected) {
+    client.ball->receive(asked);
+    client.ball->advance_to(client.ball->now() + 50ms);
+    EXPECT_EQ(client.ball->take_output(), expected);
+  };
+  says({0xFF, 0xFF, 0x00, 0x30, 0x01, 0x01, 0xCD}, {0xFF, 0xFF, 0x00, 0x01, 0x01, 0xFD});
+  says({0xFF, 0xFF, 0x01, 0x05, 0x02, 0x02, 0x10, 0xE5},
+       {0xFF, 0xFF, 0x00, 0x02, 0x02, 0x00, 0xFB});
+  says({0xFF, 0xFF, 0x00, 0x02, 0x01, 0x01, 0xFB},
+       {0xFF, 0xFF, 0x00, 0x01, 0x09, 0x01, 0x03, 0x01, 0x00, 0x00, 0x33, 0x00, 0x00, 0xBD});
+  says({0xFF, 0xFF, 0x01, 0x04, 0x03, 0x01, 0xF6}, {0xFF, 0xFF, 0x00, 0x03, 0x01, 0xFB});
+  EXPECT_EQ(client.ask(ApiCommand::GetVersioning).data[6], 0x19);
+}
+
+TEST(Dispatcher, TheBootloaderKnowsThePagesOfItsModel) {
+  Client client(spec::Firmware::Sphero373);
+  client.ask(ApiCommand::JumpToBootloader);
+  EXPECT_EQ(client.code(ApiCommand::IsPageBlank, {5}), ResponseCode::PageIllegal);
+  EXPECT_EQ(client.ask(ApiCommand::IsPageBlank, {6}).data, (Bytes{0}));
+  EXPECT_EQ(client.ask(ApiCommand::IsPageBlank, {59}).data, (Bytes{0}));
+  EXPECT_EQ(client.code(ApiCommand::IsPageBlank, {60}), ResponseCode::PageIllegal);
+}
+
+TEST(Dispatcher, WithoutFirmwareTheBootloaderIsNotLeft) {
+  Client client(spec::Firmware::Bootloader);
+  EXPECT_EQ(client.code(ApiCommand::LeaveBootloader), ResponseCode::MainCorrupt);
+  EXPECT_EQ(client.code(ApiCommand::GetRgbLed), ResponseCode::BadDevice);
+  EXPECT_EQ(client.ask(ApiCommand::IsPageBlank, {16}).data, (Bytes{1}));
+}
+
+TEST(Dispatcher, SomeFirmwareDoesNotTellWhatItHasReceived) {
+  for (const auto firmware : {spec::Firmware::Sphero373, spec::Firmware::Bb8})
+    EXPECT_EQ(Client(firmware).code(ApiCommand::PerformLevel2Diagnostics),
+              ResponseCode::BadCommand);
+}
+
+TEST(Dispatcher, BlocksHaveTheSizeOfTheRecordedOnes) {
+  Client client;
+  for (std::uint8_t block = 0; block < 2; ++block) {
+    EXPECT_TRUE(client.ask(ApiCommand::GetConfigurationBlock, {block}).data.empty());
+    ASSERT_EQ(client.messages(AsyncId::ConfigBlock).size(), 1u);
+    EXPECT_EQ(client.rest[0].data.size(), 1024u);
+  }
+  EXPECT_TRUE(client.ask(ApiCommand::GetSsb).data.empty());
+  EXPECT_EQ(client.rest[0].data.size(), 1024u);
+}
+
 TEST(Dispatcher, CountsWhatItReceives) {
   Client client;
   const auto counter = [&](std::size_t at) {
