@@ -160,6 +160,17 @@ private:
   std::vector<Suspect> found_;
 };
 
+/// What balls do with the same value that programs were shown to work on; mostly nothing.
+std::string elsewhere(const Suspect& suspect, std::int64_t value) {
+  const auto is_colour = suspect.kind == Kind::Argument && suspect.statement == Statement::Rgb;
+  if (!is_colour && !(suspect.turns && value < suspect.least))
+    return "";
+  const auto turn = suspect.greatest + 1;
+  return fmt::format("some balls take it as {} and go on, as with `--lenient`",
+                     is_colour ? std::clamp(value, suspect.least, suspect.greatest)
+                               : (value % turn + turn) % turn);
+}
+
 /// Which kinds of places an error can come from.
 bool raises(Kind kind, BasicError error) {
   switch (kind) {
@@ -407,6 +418,7 @@ private:
     }
     cause.parameter = suspect.name;
     cause.value = value;
+    cause.aside = elsewhere(suspect, value);
     cause.least = suspect.least;
     cause.greatest = suspect.greatest;
     cause.seen = fmt::format("{} is {}, {} allowed", suspect.name, value,

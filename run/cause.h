@@ -16,6 +16,7 @@ struct Cause {
   std::string seen = {};      ///< `heading is 360, 0 to 359 allowed; use X % 360`
   std::string variables = {}; ///< that made it: `X is 360, S is 50`
   std::string help = {};      ///< the line to write: `write `20 goroll X % 360,S,1``
+  std::string aside = {};     ///< what not every ball does
 
   // The number that was wrong and what would have been right.
   std::string parameter = {};

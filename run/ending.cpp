@@ -125,6 +125,8 @@ std::string render(const ProgramError& fault, Style style) {
                           cause.seen.empty() ? "" : ": ", cause.seen);
   if (const auto& details = cause.seen.empty() ? fault.finding : cause.variables; !details.empty())
     text += fmt::format("  {}\n", details);
+  if (!cause.aside.empty())
+    text += fmt::format("  note: {}\n", cause.aside);
   if (const auto& help = help_of(fault); !help.empty())
     text += fmt::format("  help: {}\n", help);
   return text;

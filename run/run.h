@@ -49,7 +49,8 @@ struct Options {
   Client client = Client::Connected;
   compiler::Target target; ///< its area is where the program lies
   spec::Firmware firmware = spec::default_firmware;
-  std::optional<std::size_t> ram_bytes; ///< else what the firmware has
+  std::optional<std::size_t> ram_bytes;           ///< else what the firmware has
+  spec::Ranges ranges = spec::Ranges::Documented; ///< Lenient also where the firmware is
   std::uint32_t lines_per_second =
       static_cast<std::uint32_t>(spec::value_of(spec::Limit::LinesPerSecond));
   vm::Native native = vm::Native::Auto;          ///< when programs become machine code

@@ -135,6 +135,7 @@ vm::BallOptions ball_options(const Options& options) {
   ball.lines_per_second = options.lines_per_second;
   ball.firmware = options.firmware;
   ball.ram_bytes = options.ram_bytes.value_or(spec::info(options.firmware).ram_bytes());
+  ball.ranges = options.ranges;
   ball.loader = compiler::load;
   ball.native = options.native;
   ball.native_programs = options.native_programs;

@@ -19,12 +19,19 @@ std::int32_t rounded_s16(double value) {
   return static_cast<std::int32_t>(std::lround(std::clamp<double>(value, INT16_MIN, INT16_MAX)));
 }
 
+ProgramOptions program_options(const BallOptions& options) {
+  ProgramOptions programs = options;
+  if (spec::info(options.firmware).ranges == spec::Ranges::Lenient)
+    programs.ranges = spec::Ranges::Lenient;
+  return programs;
+}
+
 } // namespace
 
 Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
       body_(options.seed), link_(options.wire), drive_(body_, settings_), power_(settings_),
-      programs_(options, options.seed), macros_(asks_->of_macro),
+      programs_(program_options(options), options.seed), macros_(asks_->of_macro),
       dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
 }

@@ -9,6 +9,7 @@ Programs::Programs(const ProgramOptions& options, std::uint64_t seed)
                                   options.native_programs) {
   if (options_.trace_lines)
     machine_.trace_lines();
+  machine_.set_ranges(options_.ranges);
   machine_.ask(options_.gate);
 }
 

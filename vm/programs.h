@@ -27,8 +27,9 @@ struct ProgramOptions {
   std::uint32_t lines_per_second = static_cast<std::uint32_t>(
       spec::value_of(spec::Limit::LinesPerSecond)); ///< from 1 to 1 000 000 000
   std::size_t ram_bytes = static_cast<std::size_t>(spec::value_of(spec::Limit::RamBytes));
-  Loader loader = nullptr;  ///< without it every program is empty
-  bool trace_lines = false; ///< the observer is told every line
+  Loader loader = nullptr;                        ///< without it every program is empty
+  bool trace_lines = false;                       ///< the observer is told every line
+  spec::Ranges ranges = spec::Ranges::Documented; ///< Lenient also where the firmware is
   Dispatch dispatch = Dispatch::Threaded;
   Native native = Native::Auto;
   NativePrograms* native_programs = nullptr; ///< machine code that balls share; must outlive them

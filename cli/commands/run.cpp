@@ -53,6 +53,7 @@ struct RunOptions {
   TargetOptions target;
   bool disconnected = false;
   bool realtime = false;
+  bool lenient = false;
   bool watch = false;
   bool open = false;
   run::Options run;
@@ -186,6 +187,8 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
                    : given.native == "off" ? vm::Native::Off
                                            : vm::Native::Auto;
   options.client = given.disconnected ? run::Client::Absent : run::Client::Connected;
+  if (given.lenient)
+    options.ranges = spec::Ranges::Lenient;
   options.target = given.target.target();
   if (given.target.ram != 0)
     options.ram_bytes = static_cast<std::size_t>(given.target.ram);
@@ -440,6 +443,8 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
   command.add_option("--firmware", options.firmware, "the firmware that is simulated")
       ->check(one_of(std::move(names)))
       ->capture_default_str();
+  command.add_flag("--lenient", options.lenient,
+                   "clamps colours and wraps negative headings, as some robots seem to do");
   add_stimulus_option(command, options.stimuli);
   add_course_option(command, options.course);
   command

@@ -4,6 +4,7 @@
 #include "base/time.h"
 #include "bytecode/chunk.h"
 #include "spec/basic.h"
+#include "spec/firmware.h"
 #include "spec/limits.h"
 #include "vm/machine/host.h"
 
@@ -116,6 +117,7 @@ struct Core {
   std::uint16_t entry = 0;   ///< the variable of `input`
   std::int32_t fallback = 0; ///< what it takes when nothing comes
 
+  spec::Ranges ranges = spec::Ranges::Documented;
   Host* host = nullptr;
   bool interrupted = false; ///< somebody wants the ball back after this line
 

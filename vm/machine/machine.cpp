@@ -44,6 +44,17 @@ constexpr bool within(const spec::Parameter& parameter, std::int32_t value) {
   return parameter.least <= value && value <= parameter.greatest;
 }
 
+/// What a lenient ball makes of a value out of range; nothing: it stops at it, too.
+std::optional<std::int32_t> bent(Statement statement, const spec::Parameter& parameter,
+                                 std::int32_t value) {
+  if (statement == Statement::Rgb)
+    return std::clamp(value, parameter.least, parameter.greatest);
+  if (parameter.unit != "deg" || value >= parameter.least)
+    return std::nullopt;
+  const auto turn = parameter.greatest + 1;
+  return (value % turn + turn) % turn;
+}
+
 std::size_t timer_number(Variable variable) {
   return static_cast<std::size_t>(variable) - static_cast<std::size_t>(Variable::TimerA);
 }
@@ -189,11 +200,23 @@ Then Core::read_data(const Code& instruction) {
 
 Then Core::perform(const Code& instruction) {
   const auto statement = static_cast<Statement>(instruction.a);
-  const std::span<const std::int32_t> arguments{registers.data() + instruction.b, instruction.c};
+  std::span<const std::int32_t> arguments{registers.data() + instruction.b, instruction.c};
   const auto parameters = spec::info(statement).parameters();
+  std::array<std::int32_t, std::tuple_size_v<decltype(spec::StatementInfo::parameter_slots)>>
+      taken{};
   for (std::size_t i = 0; i < arguments.size(); ++i)
-    if (!within(parameters[i], arguments[i]))
-      return fail(BasicError::BadNumericParameter);
+    if (!within(parameters[i], arguments[i])) {
+      const auto instead = ranges == spec::Ranges::Lenient
+                               ? bent(statement, parameters[i], arguments[i])
+                               : std::nullopt;
+      if (!instead)
+        return fail(BasicError::BadNumericParameter);
+      if (arguments.data() != taken.data()) {
+        std::ranges::copy(arguments, taken.begin());
+        arguments = {taken.data(), arguments.size()};
+      }
+      taken[i] = *instead;
+    }
   if (const auto problem = host->perform(statement, arguments, line_end()))
     return fail(*problem);
   return only_lights(statement) && !interrupted ? Then::Next : Then::Leave;

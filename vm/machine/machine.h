@@ -117,6 +117,8 @@ public:
   /// Goes on at another line at `now`, whatever it waited for; false where there is no such line.
   bool go_to(int line, Instant now);
 
+  /// What values out of range do from now on.
+  void set_ranges(spec::Ranges ranges) { core_.ranges = ranges; }
   /// From now on the host is told every line.
   void trace_lines() { tracing_ = true; }
 
