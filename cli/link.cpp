@@ -118,6 +118,20 @@ uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& optio
   return uploader::ble_budgets(budgets);
 }
 
+/// Bluetooth delivers each packet once; what is behind other links, a relay perhaps, nobody knows.
+bool may_double(const Endpoint& endpoint) {
+  switch (endpoint.scheme) {
+  case Scheme::Serial: return !std::string_view(endpoint.path).starts_with("/dev/rfcomm");
+  case Scheme::Tcp:
+  case Scheme::Pty: return true;
+  case Scheme::Rfcomm:
+  case Scheme::Ble:
+  case Scheme::Replay:
+  case Scheme::Sim: return false;
+  }
+  return false;
+}
+
 } // namespace
 
 tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
@@ -183,6 +197,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.name = endpoint->text;
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.is_ble = endpoint->scheme == Scheme::Ble;
+  link.may_double = may_double(*endpoint);
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
   if (link.is_sim)

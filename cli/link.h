@@ -55,7 +55,8 @@ private:
 struct Link {
   bool is_sim = false;
   bool is_ble = false;
-  std::string name; ///< the port, for messages
+  bool may_double = false; ///< nothing says that it delivers each packet once
+  std::string name;        ///< the port, for messages
   uploader::Budgets budgets;
   std::uint8_t first_seq = 0;
   std::unique_ptr<WireLog> log;

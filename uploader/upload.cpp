@@ -1,6 +1,7 @@
 #include "uploader/upload.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace orb::uploader {
@@ -146,7 +147,7 @@ public:
       at = 0;
     }
     show(Stage::Done);
-    return {Report::Kind::Done, Content::Stored, std::move(done), 0};
+    return {Report::Kind::Done, Content::Stored, std::move(done), 0, uncounted_};
   }
 
 private:
@@ -370,6 +371,8 @@ private:
     }
     if (session_.duplicate_seen())
       return doubled();
+    const auto counted = before_ && trust_ == Trust::Yes;
+    uncounted_ = step.command == ApiCommand::Ping || counted ? 0 : status_.packets;
     content_ = committed ? Content::Uncommitted : Content::Stored;
     return Sent::Whole;
   }
@@ -473,7 +476,8 @@ private:
   Progress& progress_;
   Status status_;
   Content content_ = Content::Unchanged;
-  std::optional<Count> before_;                                               ///< the content
+  std::size_t uncounted_ = 0;   ///< pieces of which only the answers are known
+  std::optional<Count> before_; ///< the content
   enum class Trust : std::uint8_t { NotYet, Yes, No } trust_ = Trust::NotYet; ///< in its counting
 };
 
@@ -509,6 +513,16 @@ std::string no_ball(const Session& session, const NoAnswer& failure) {
 }
 
 } // namespace
+
+// A piece arrives once with (1−d)(1−q)² or d·2q(1−q)², and twice with one of its answers lost, so
+// that it looks like once, with d(1−q)²·2q(1−q); whatever else happens to it starts the upload
+// over.
+double unseen_bound(std::size_t pieces, double doubled, double lost) {
+  const auto arrives = (1 - lost) * (1 - lost);
+  const auto once = (1 - doubled) * arrives + doubled * 2 * lost * arrives;
+  const auto twice_unseen = doubled * arrives * 2 * lost * (1 - lost);
+  return 1 - std::pow(once / (once + twice_unseen), static_cast<double>(pieces));
+}
 
 ExitCode exit_code(Report::Kind kind) {
   switch (kind) {
@@ -651,6 +665,7 @@ Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery
   std::string stored;
   const auto several = delivery.macros.size() + (delivery.program ? 1 : 0) > 1;
   const auto done = [&](const std::string& name, Report next) {
+    next.uncounted += report.uncounted;
     report = std::move(next);
     const auto is_done = report.kind == Report::Kind::Done;
     if (several)

@@ -37,7 +37,15 @@ struct Report {
   Content content = Content::Unchanged;
   std::string message;   ///< one sentence: what happened, what is on the ball, what helps
   std::uint8_t code = 0; ///< of Refused, where the ball said it
+  /// Pieces that the ball has answered without telling how many it received: see unseen_bound().
+  std::size_t uncounted = 0;
 };
+
+/// The greatest share of uploads that look right and are not, over a link that delivers a share
+/// `doubled` of commands twice and loses a share `lost` of packets in each direction, to a ball
+/// that does not tell how many packets it has received: one of `pieces` came twice, and one of its
+/// answers was lost. A link that doubles nothing gives 0.
+double unseen_bound(std::size_t pieces, double doubled, double lost);
 
 /// The code that a command ends with after such a report.
 ExitCode exit_code(Report::Kind kind);

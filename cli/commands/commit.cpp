@@ -34,10 +34,10 @@ void add_commit(CLI::App& app, Context& context) {
   add_port_options(*command, options->port);
   command->add_flag("--force", options->force, "commit even if the battery is low");
   command->callback([&context, options] {
-    with_ball(context, options->port,
-              [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {
-                return commit(context, session, greeting, *options);
-              });
+    with_firmware(context, options->port,
+                  [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {
+                    return commit(context, session, greeting, *options);
+                  });
   });
 }
 

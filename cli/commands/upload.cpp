@@ -128,6 +128,17 @@ Lookup lookup_of(const std::vector<run::Input>& inputs) {
   return first == nullptr ? Lookup{} : Lookup{first->program->lines, first};
 }
 
+/// What a success leaves open where the ball does not count packets.
+std::string uncounted_note(std::size_t pieces) {
+  constexpr double assumed = 0.01; // of packets doubled, and of packets lost
+  return fmt::format("note: this ball does not tell how many packets it has received, so a piece "
+                     "that came twice is not seen when one of its two answers is lost; where the "
+                     "link doubles {0:.0f} % of packets and loses {0:.0f} %, that is at most "
+                     "{1:.2f} % of uploads of {2} piece{3}; Bluetooth doubles none",
+                     assumed * 100, uploader::unseen_bound(pieces, assumed, assumed) * 100, pieces,
+                     pieces == 1 ? "" : "s");
+}
+
 /// Tells how it ended, and watches what runs where that was asked for.
 ExitCode finish(const Context& context, const Options& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
@@ -138,6 +149,8 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
              fmt::format("{}, {} packets sent, {:.2f} s{}", report.message,
                          session.counts().packets_out, static_cast<double>(took.count()) / 1e9,
                          link.is_sim ? ", on the built-in virtual ball" : ""));
+  if (report.uncounted > 0 && link.may_double)
+    print_note(context, uncounted_note(report.uncounted));
   if (!options.monitor)
     return ExitCode::Done;
   const auto watched = monitor(context, link, session, lookup);
