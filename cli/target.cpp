@@ -39,7 +39,10 @@ compiler::Target TargetOptions::target() const {
 }
 
 void add_target_options(CLI::App& command, TargetOptions& options) {
-  command.add_option("--target", options.version, "the orbBasic version of the robot (1.6)")
+  command
+      .add_option("--target", options.version,
+                  fmt::format("the orbBasic version of the robot ({})",
+                              spec::info(spec::default_basic_version).text))
       ->check(one_of(versions()))
       ->envname("ORB_TARGET");
   command.add_option("--ram", options.ram, "bytes of the robot's RAM area")

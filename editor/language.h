@@ -21,7 +21,7 @@ namespace orb::editor {
 
 /// What programs are checked for, and the files around them.
 struct LanguageOptions {
-  spec::BasicVersion target = spec::BasicVersion::V1_6;
+  spec::BasicVersion target = spec::default_basic_version;
   structured::Files* files = nullptr; ///< what programs include; null: no file at all
   std::vector<const Source*> open;    ///< structured programs, which may include each other
 };

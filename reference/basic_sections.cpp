@@ -251,6 +251,7 @@ Section basic_flags_section() {
     entry.name = row.symbol;
     entry.summary = row.summary;
     entry.facts.emplace_back("value", fmt::format("{}", static_cast<int>(row.flag)));
+    entry.facts.emplace_back("since", std::string(spec::info(row.since).text));
     section.entries.push_back(std::move(entry));
   }
   return section;

@@ -3,6 +3,8 @@
 // The orbBasic language of the robot as tables: statements, functions, system variables, operators,
 // errors, flags and colours. The rows, and what their columns mean, are in spec/basic.def.
 
+#include "spec/limits.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +24,34 @@ enum class BasicVersion : std::uint8_t {
 struct BasicVersionInfo {
   BasicVersion version;
   std::string_view text; ///< as in `--target`
+  Limit ram;             ///< the most bytes that the RAM area of a ball of that time has
   std::string_view summary;
 };
 
 inline constexpr auto basic_versions = std::to_array<BasicVersionInfo>({
-#define ORB_BASIC_VERSION(name, text, summary) {BasicVersion::name, text, summary},
+#define ORB_BASIC_VERSION(name, text, ram, summary) {BasicVersion::name, text, Limit::ram, summary},
+#include "spec/basic.def"
+});
+
+/// The version that is assumed where nobody names one: the last of which is known what it added.
+inline constexpr auto default_basic_version = BasicVersion::V1_7;
+
+/// What came later to a word that was there before.
+enum class BasicGrowth : std::uint8_t {
+#define ORB_BASIC_GROWTH(name, ...) name,
+#include "spec/basic.def"
+};
+
+struct BasicGrowthInfo {
+  BasicGrowth growth;
+  BasicVersion since;
+  std::string_view source;
+  std::string_view what;
+};
+
+inline constexpr auto basic_growths = std::to_array<BasicGrowthInfo>({
+#define ORB_BASIC_GROWTH(name, since, source, what)                                                \
+  {BasicGrowth::name, BasicVersion::since, source, what},
 #include "spec/basic.def"
 });
 
@@ -252,18 +277,20 @@ inline constexpr auto basic_errors = std::to_array<BasicErrorInfo>({
 
 /// The bits of `basflg`.
 enum class BasicFlag : std::uint8_t {
-#define ORB_BASIC_FLAG(name, value, symbol, summary) name = value,
+#define ORB_BASIC_FLAG(name, value, since, symbol, summary) name = value,
 #include "spec/basic.def"
 };
 
 struct BasicFlagInfo {
   BasicFlag flag;
+  BasicVersion since;
   std::string_view symbol; ///< the document's name
   std::string_view summary;
 };
 
 inline constexpr auto basic_flags = std::to_array<BasicFlagInfo>({
-#define ORB_BASIC_FLAG(name, value, symbol, summary) {BasicFlag::name, symbol, summary},
+#define ORB_BASIC_FLAG(name, value, since, symbol, summary)                                        \
+  {BasicFlag::name, BasicVersion::since, symbol, summary},
 #include "spec/basic.def"
 });
 
@@ -287,6 +314,9 @@ inline constexpr auto particles =
 
 constexpr const BasicVersionInfo& info(BasicVersion version) {
   return basic_versions[static_cast<std::size_t>(version)];
+}
+constexpr const BasicGrowthInfo& info(BasicGrowth growth) {
+  return basic_growths[static_cast<std::size_t>(growth)];
 }
 constexpr const StatementInfo& info(Statement statement) {
   return statements[static_cast<std::size_t>(statement)];

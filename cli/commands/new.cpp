@@ -141,7 +141,7 @@ at 10s shake
 )"},
     {"orb.toml", R"(# Defaults for every orb command in this folder; flags are stronger.
 [check]
-target = "1.6"
+target = "1.7"
 
 # Balls by name, used as `--port @red`.
 # [balls]

@@ -107,8 +107,7 @@ std::int32_t area_bytes(const Target& target) {
     return spec::value_of(spec::Limit::FlashBytes);
   if (target.ram_bytes)
     return *target.ram_bytes;
-  return spec::value_of(target.version == spec::BasicVersion::V0_9 ? spec::Limit::RamBytesUntil146
-                                                                   : spec::Limit::RamBytes);
+  return spec::value_of(spec::info(target.version).ram);
 }
 
 std::vector<Diagnostic> lint(const Program& program, const Target& target) {

@@ -15,10 +15,10 @@ using spec::Area;
 
 /// The robot that a program is meant for.
 struct Target {
-  spec::BasicVersion version = spec::BasicVersion::V1_6;
+  spec::BasicVersion version = spec::default_basic_version;
   Area area = Area::Ram;
-  /// Bytes of the RAM area: 1024, 3072 or 4096. Nothing means: what the version has, with a warning
-  /// above what every robot has.
+  /// Bytes of the RAM area: 1024, 3072 or 4096. Nothing means: the most that the version has, with
+  /// a warning above what every robot has.
   std::optional<std::int32_t> ram_bytes;
 };
 

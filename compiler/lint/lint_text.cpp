@@ -1,5 +1,6 @@
 #include "compiler/lint/lint_passes.h"
 
+#include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/words.h"
 #include "spec/limits.h"
@@ -233,7 +234,9 @@ private:
 
   void check(const StatementNode& statement) {
     const auto& row = spec::info(statement.kind);
-    if (row.since > target_.version)
+    if (statement.kind == spec::Statement::Goroll)
+      check_age_of_goroll(statement);
+    else if (row.since > target_.version)
       add_newer(statement.word, row.word, row.since);
     const bool wordy = statement.word.size() > 0 && statement.spelling != Spelling::QuestionMark;
     if (wordy && statement.word.end < statement.span.end)
@@ -253,6 +256,34 @@ private:
     }
   }
 
+  /// Before August 2012 it had two values.
+  void check_age_of_goroll(const StatementNode& statement) {
+    const auto& row = spec::info(statement.kind);
+    const auto values = program_.items_of(statement);
+    if (row.since <= target_.version || values.size() < row.parameters().size())
+      return;
+    add_newer(statement.word, row.word, row.since);
+    findings_.all().back().help =
+        fmt::format("it had two values then: write `{}`",
+                    program_.text_of({statement.word.begin, values[values.size() - 2].span.end}));
+  }
+
+  void check_age_of_timer(const LetView& let) {
+    const auto& row = spec::info(spec::BasicGrowth::TimersCountUp);
+    if (row.since <= target_.version || let.variable.kind != ItemKind::System ||
+        !is_timer(static_cast<spec::Variable>(let.variable.value)))
+      return;
+    const auto& value = program_.nodes[let.expression.value];
+    if (value.kind != NodeKind::Number || value.value != 0)
+      return;
+    auto& d = findings_.add(
+        rules::NewerThanTarget, let.variable.span,
+        fmt::format("a timer that is set to 0 counts up since orbBasic {}, the target has {}",
+                    spec::info(row.since).text, spec::info(target_.version).text),
+        "set it to a number and see how far it has counted down");
+    d.severity = Severity::Warning;
+  }
+
   void add_newer(Span span, std::string_view word, spec::BasicVersion since) {
     findings_.add(rules::NewerThanTarget, span,
                   fmt::format("`{}` needs orbBasic {}, the target has {}", word,
@@ -260,6 +291,7 @@ private:
   }
 
   void check_let(const StatementNode& statement) {
+    check_age_of_timer(program_.as<LetView>(statement));
     if (statement.spelling != Spelling::Let)
       return;
     auto& d = findings_.add(rules::UndocumentedLet, statement.word, "`let` is not documented",

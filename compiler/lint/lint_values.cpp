@@ -683,7 +683,8 @@ private:
     const auto arguments = program_.items_of(statement);
     for (std::size_t i = 0; i < arguments.size(); ++i)
       check_range(arguments[i], row.word, parameters[i]);
-    if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size())
+    if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
+        target_.version >= spec::info(spec::BasicGrowth::GoValue).since)
       add_missing_go(statement, arguments.back());
     if (statement.kind == spec::Statement::Basflg)
       check_flags(arguments.front());
@@ -695,7 +696,8 @@ private:
 
   void add_missing_go(const StatementNode& statement, const Item& last) {
     const auto speed = range_of(last);
-    auto& d = findings_.add(rules::MissingGo, statement.span, "`goroll` takes 3 values, found 2",
+    auto& d = findings_.add(rules::MissingGo, statement.span,
+                            "`goroll` takes 3 values since orbBasic 1.2 (August 2012), found 2",
                             "add the go value: 1 drives, 0 brakes");
     const auto end = last.span.end;
     if (speed.constant())
@@ -705,6 +707,13 @@ private:
 
   void check_flags(const Item& value) {
     const auto range = range_of(value);
+    for (const auto& row : spec::basic_flags)
+      if (range.constant() && (range.lo & static_cast<std::int32_t>(row.flag)) != 0 &&
+          row.since > target_.version)
+        findings_.add(rules::NewerThanTarget, value.span,
+                      fmt::format("flag {} ({}) needs orbBasic {}, the target has {}",
+                                  static_cast<int>(row.flag), row.symbol,
+                                  spec::info(row.since).text, spec::info(target_.version).text));
     const auto all = spec::value_of(spec::Limit::GreatestBasicFlags);
     if (range.lo > all &&
         !range.misses(0, spec::info(spec::Statement::Basflg).parameters()[0].greatest))

@@ -16,15 +16,15 @@ namespace robot = compiler::rules;
 
 /// The rules whose findings say something about the source, in words that fit it.
 bool is_told(const Rule* rule) {
-  for (const auto* told :
-       {&robot::ValueOutOfRange, &robot::DivisionByZero, &robot::UnknownFlags,
-        &robot::MissingGo,       &robot::ReadPastData,   &robot::ClearedByReading,
-        &robot::DataReplaced,    &robot::BusyLoop,       &robot::IndexRange,
-        &robot::NonprintingByte, &robot::MissingDelay,   &robot::DrivesOn,
-        &robot::LoopLeavesRange, &robot::HeadingGrows,   &robot::MayLeaveRange,
-        &robot::WrongUnit,       &robot::TinyValue,      &robot::GoZero,
-        &robot::WeakBrake,       &robot::StaleSensor,    &robot::InvertedWait,
-        &robot::LoopVariableSet, &robot::EmptyLoop,      &robot::AlwaysOne})
+  for (const auto* told : {&robot::ValueOutOfRange,  &robot::DivisionByZero,  &robot::UnknownFlags,
+                           &robot::MissingGo,        &robot::NewerThanTarget, &robot::ReadPastData,
+                           &robot::ClearedByReading, &robot::DataReplaced,    &robot::BusyLoop,
+                           &robot::IndexRange,       &robot::NonprintingByte, &robot::MissingDelay,
+                           &robot::DrivesOn,         &robot::LoopLeavesRange, &robot::HeadingGrows,
+                           &robot::MayLeaveRange,    &robot::WrongUnit,       &robot::TinyValue,
+                           &robot::GoZero,           &robot::WeakBrake,       &robot::StaleSensor,
+                           &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
+                           &robot::AlwaysOne})
     if (rule == told)
       return true;
   return false;

@@ -322,7 +322,7 @@ TEST(Targets, NewerWordsAreNamed) {
   compiler::Target target;
   target.version = spec::BasicVersion::V0_9;
   EXPECT_EQ(first_rule(compiled("goroll 0, 80, 1\n", target)), "newer-than-target");
-  const auto old = compiled("x = -5\nlocate x, -3\nprint x * -2\n", target);
+  const auto old = compiled("x = -5\nprint x, -3\nprint x * -2\n", target);
   EXPECT_FALSE(old.has_errors()) << first_rule(old);
 }
 
