@@ -659,7 +659,7 @@ Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery
   const auto greeting = greet(session);
   if (!greeting)
     return greeting.error();
-  if (auto refused = refuse_bootloader(*greeting))
+  if (auto refused = refuse_bootloader(*greeting, delivery.port))
     return *refused;
   Report report;
   std::string stored;

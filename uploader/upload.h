@@ -128,6 +128,7 @@ struct Delivery {
   std::vector<NamedMacro> macros;
   std::string program_name;
   std::optional<ProgramJob> program;
+  std::string port = "…"; ///< as the user names it, for messages
 };
 
 /// Greets the ball and uploads all of it, up to the first that is not Done. Where there are

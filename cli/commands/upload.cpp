@@ -131,10 +131,10 @@ Lookup lookup_of(const std::vector<run::Input>& inputs) {
 /// What a success leaves open where the ball does not count packets.
 std::string uncounted_note(std::size_t pieces) {
   constexpr double assumed = 0.01; // of packets doubled, and of packets lost
-  return fmt::format("note: this ball does not tell how many packets it has received, so a piece "
-                     "that came twice is not seen when one of its two answers is lost; where the "
-                     "link doubles {0:.0f} % of packets and loses {0:.0f} %, that is at most "
-                     "{1:.2f} % of uploads of {2} piece{3}; Bluetooth doubles none",
+  return fmt::format("note: this ball does not count packets, so a piece that came twice is not "
+                     "seen when one of its answers is lost: at most {1:.2f} % of uploads of {2} "
+                     "piece{3} where the link doubles {0:.0f} % of packets and loses {0:.0f} %; "
+                     "Bluetooth doubles none",
                      assumed * 100, uploader::unseen_bound(pieces, assumed, assumed) * 100, pieces,
                      pieces == 1 ? "" : "s");
 }
@@ -185,9 +185,10 @@ void upload(Context& context, const Options& options) {
   const auto inputs = load_all(context, options);
   if (!inputs)
     return cli::fail(context, inputs.error());
-  const auto delivery = run::arrange(*inputs, delivery_options(options));
+  auto delivery = run::arrange(*inputs, delivery_options(options));
   if (!delivery)
     return cli::fail(context, delivery.error());
+  delivery->port = options.port.port;
   context.exit = options.dry_run ? dry_run(context, options, *delivery, *budgets)
                                  : send(context, options, *delivery, lookup_of(*inputs));
 }

@@ -423,5 +423,17 @@ TEST(UploadMacro, AsksForTheStatusAfterALostStart) {
   }
 }
 
+TEST(UnseenBound, IsNothingWhereNothingIsDoubledOrNothingIsLost) {
+  EXPECT_EQ(unseen_bound(5, 0, 0.1), 0);
+  EXPECT_EQ(unseen_bound(5, 0.1, 0), 0);
+  EXPECT_EQ(unseen_bound(0, 0.1, 0.1), 0);
+}
+
+TEST(UnseenBound, GrowsWithThePieces) {
+  // Of pieces that look right, 0.01 · 2 · 0.01 · 0.99 of 0.99 + 0.01 · 2 · 0.01 arrived twice.
+  EXPECT_NEAR(unseen_bound(1, 0.01, 0.01), 0.000198 / (0.9902 + 0.000198), 1e-9);
+  EXPECT_NEAR(unseen_bound(5, 0.01, 0.01), 0.000999, 1e-6);
+}
+
 } // namespace
 } // namespace orb::uploader
