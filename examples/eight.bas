@@ -3,12 +3,12 @@
 10 for L = 1 to 2
 20 RGB 0,120,255
 30 for T = 0 to 35
-40 goroll T * 10,90,1
+40 goroll T * 10,60,1
 50 delay 90
 60 next T
 70 RGB 255,110,0
 80 for T = 0 to 35
-90 goroll (360 - T * 10) % 360,90,1
+90 goroll (360 - T * 10) % 360,60,1
 100 delay 90
 110 next T
 120 next L

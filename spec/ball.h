@@ -15,6 +15,34 @@ using ms = std::chrono::milliseconds;
 #undef BALL
 } // namespace ball
 
+/// How a robot drives: the classic ball's numbers, until a robot has rows of its own.
+struct Driving {
+  double speed_offset = ball::speed_offset;
+  double speed_slope = ball::speed_slope;
+  double full_speed = ball::full_speed;
+  double speed_lag = ball::speed_lag;
+  double grip = ball::grip;
+  double turn_gain = ball::turn_gain;
+  int dead_steps = static_cast<int>(ball::dead_time.count()) * ball::control_rate / 1000;
+};
+/// So long a dead time can be, in steps of the control system.
+inline constexpr int most_dead_steps = 63;
+static_assert(Driving{}.dead_steps <= most_dead_steps);
+
+/// The steady speed at an ordered value, 0 to 255: three straight lines.
+constexpr double speed_cm_s(const Driving& numbers, int ordered) {
+  const auto on_line = [&](int value) {
+    return numbers.speed_offset + numbers.speed_slope * value;
+  };
+  if (ordered <= ball::slowest_driven)
+    return on_line(ball::slowest_driven) * ordered / ball::slowest_driven;
+  if (ordered <= ball::fastest_driven)
+    return on_line(ordered);
+  const double beyond =
+      static_cast<double>(ordered - ball::fastest_driven) / (ball::greatest - ball::fastest_driven);
+  return on_line(ball::fastest_driven) * (1 - beyond) + numbers.full_speed * beyond;
+}
+
 struct BallNumber {
   std::string_view name; ///< the constant's
   double value;

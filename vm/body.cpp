@@ -19,7 +19,7 @@ double on_scale(double speed_cm_s) {
 
 } // namespace
 
-Body::Body(std::uint64_t seed) : sensors_(seed) {}
+Body::Body(std::uint64_t seed, const spec::Driving& numbers) : drive_(numbers), sensors_(seed) {}
 
 Instant Body::next_step() const {
   return moving() ? grid_after(now_) : never;
@@ -50,24 +50,26 @@ std::optional<Impact> Body::take_impact() {
   return impact;
 }
 
-/// Whether the next step changes nothing but its place.
+/// Whether the next steps change nothing but its place and its speed.
 bool Body::goes_straight_on() const {
-  return rolls_freely() && drive_.steady() && !sensors_.falls() && !impact_;
+  return rolls_freely() && drive_.straight() && !sensors_.falls() && !impact_;
 }
 
 void Body::go_straight_on(Duration::rep steps) {
-  drive_.rest();
-  const auto going = drive_.course();
-  for (; steps > 0; --steps)
+  for (; steps > 0; --steps) {
+    drive_.step_straight();
+    const auto going = drive_.course();
     move_to({world_.x + going.vx * step_s, world_.y + going.vy * step_s}, going.speed * step_s,
             going.speed);
+  }
 }
 
 void Body::single_step() {
   drive_.step();
   if (drive_.rolls())
     travel();
-  sensors_.step(now_);
+  if (sensors_.falls())
+    sensors_.step(now_);
 }
 
 void Body::travel() {
@@ -143,21 +145,19 @@ void Body::push(int heading_deg, int strength) {
 }
 
 Movement Body::movement() const {
-  return {now_, drive_.yaw_deg(), drive_.yaw_rate_deg_s(), drive_.forward_cm_s(),
-          drive_.forward_acceleration_cm_s2()};
+  return {now_, drive_.yaw_deg(), drive_.yaw_rate_deg_s(), drive_.forward_acceleration_cm_s2(),
+          drive_.sideways_acceleration_cm_s2()};
 }
 
 Vector3 Body::velocity_cm_s() const {
   if (tare_deg_ == drive_.world_offset_deg()) // the locator has the world's axes
     return {drive_.course().vx, drive_.course().vy, 0};
-  const double forward = drive_.forward_cm_s();
   const auto drift = drive_.drift_cm_s();
-  const double way = (drive_.yaw_deg() + tare_deg_) * to_radians;
+  const auto own = drive_.own_velocity_cm_s(drive_.yaw_deg() + tare_deg_);
   const double turned = (tare_deg_ - drive_.world_offset_deg()) * to_radians;
   const double sine = std::sin(turned);
   const double cosine = std::cos(turned);
-  return {forward * std::sin(way) + drift.x * cosine + drift.y * sine,
-          forward * std::cos(way) + drift.y * cosine - drift.x * sine, 0};
+  return {own.x + drift.x * cosine + drift.y * sine, own.y + drift.y * cosine - drift.x * sine, 0};
 }
 
 double Body::speed_cm_s() const {

@@ -41,7 +41,8 @@ class Body {
 public:
   static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 
-  explicit Body(std::uint64_t seed);
+  /// `numbers`: how this robot drives.
+  explicit Body(std::uint64_t seed, const spec::Driving& numbers = {});
 
   /// `observer` sees every step; null: nobody. It must outlive the body.
   void observe(StepObserver* observer) { observer_ = observer; }

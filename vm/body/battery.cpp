@@ -11,7 +11,9 @@ constexpr double hour_s = std::chrono::seconds{1h}.count();
 } // namespace
 
 void Battery::drain(double speed_cm_s) {
-  volts_ -= motion_drain / hour_s * step_s * std::min(1.0, speed_cm_s / full_speed);
+  constexpr double at_full_speed = motion_drain / hour_s * step_s;
+  constexpr double of_full_speed = 1 / full_speed;
+  volts_ -= at_full_speed * std::min(1.0, speed_cm_s * of_full_speed);
 }
 
 void Battery::set(double volts, Instant now) {

@@ -1,33 +1,73 @@
 #include "vm/body/drivetrain.h"
 
-#include "vm/body/angles.h"
-
 namespace orb::vm {
 
 using namespace spec::ball; // the numbers of the model
 
 void Drivetrain::power_on() {
+  forget_orders();
   world_offset_deg_ += yaw_deg_;
-  yaw_deg_ = target_deg_ = 0;
-  forward_ = left_wheel_ = right_wheel_ = drift_x_ = drift_y_ = 0;
-  rotate_left_deg_ = rotate_rate_ = yaw_rate_ = forward_acceleration_ = 0;
+  yaw_deg_ = target_deg_ = aim_deg_ = 0;
+  forward_ = slip_ = left_wheel_ = right_wheel_ = drift_x_ = drift_y_ = 0;
+  rotate_left_deg_ = rotate_rate_ = 0;
+  rest();
   stabilized_ = true;
   raw_ = false;
   left_ = right_ = {};
-  target_speed_ = 0;
-  go_ = Go::Brake;
   rotation_rate_ = default_rotation_rate;
   vector_drive_limit_ = default_vector_drive_limit;
+}
+
+/// Sends an order on its way. Of two between the same steps the motors see the second.
+void Drivetrain::give(Order order) {
+  order.due = steps_ + static_cast<std::uint32_t>(numbers_.dead_steps);
+  target_speed_ = order.speed;
+  if (waiting_ > 0 && waiting(waiting_ - 1).due == order.due) {
+    Order& last = waiting(waiting_ - 1);
+    if (order.heading_deg == Order::same_heading)
+      order.heading_deg = last.heading_deg;
+    last = order;
+    return;
+  }
+  waiting(waiting_++) = order;
+}
+
+/// The orders whose time has come reach the motors.
+void Drivetrain::take_orders() {
+  for (; waiting_ > 0 && waiting(0).due == steps_; --waiting_) {
+    const Order order = waiting(0);
+    if (order.heading_deg != Order::same_heading)
+      aim_deg_ = order.heading_deg;
+    aim_cm_s_ = spec::speed_cm_s(numbers_, order.speed);
+    go_ = order.go;
+    first_ = (first_ + 1) % orders_.size();
+  }
+  ++steps_;
+}
+
+/// What turns or renames the ball at once outdates the headings on their way, not the speeds.
+void Drivetrain::forget_headings() {
+  for (std::size_t place = 0; place < waiting_; ++place)
+    waiting(place).heading_deg = Order::same_heading;
+}
+
+void Drivetrain::forget_orders() {
+  waiting_ = 0;
+  target_speed_ = 0;
+  aim_cm_s_ = 0;
+  go_ = Go::Brake;
 }
 
 Outcome Drivetrain::obey(const Roll& roll) {
   if (!stabilized_)
     return Outcome::Refused;
+  if (rotate_left_deg_ != 0) // until the order arrives it points where it has turned to
+    aim_deg_ = yaw_deg_;
+  rotate_left_deg_ = rotate_rate_ = 0;
   target_deg_ = roll.heading_deg;
-  target_speed_ = roll.go == Go::Brake ? 0 : roll.speed;
-  go_ = roll.go;
-  rotate_left_deg_ = 0;
-  rotate_rate_ = 0;
+  give({.heading_deg = static_cast<std::int16_t>(roll.heading_deg),
+        .speed = static_cast<std::uint8_t>(roll.go == Go::Brake ? 0 : roll.speed),
+        .go = roll.go});
   return Outcome::Done;
 }
 
@@ -37,15 +77,15 @@ Outcome Drivetrain::obey(const Rotate& turn) {
   const double least = std::abs(turn.angle_deg) / greatest_yaw_rate;
   rotate_left_deg_ = turn.angle_deg;
   rotate_rate_ = std::abs(turn.angle_deg) / std::max({least, seconds(turn.time), step_s});
-  target_deg_ = wrap_360(yaw_deg_ + turn.angle_deg);
+  target_deg_ = aim_deg_ = wrap_360(yaw_deg_ + turn.angle_deg);
+  forget_headings();
   return Outcome::Done;
 }
 
 Outcome Drivetrain::obey(const SetSpeed& change) {
   if (!stabilized_)
     return Outcome::Refused;
-  target_speed_ = change.speed;
-  go_ = roll_at(change.speed).go;
+  give({.speed = static_cast<std::uint8_t>(change.speed), .go = roll_at(change.speed).go});
   return Outcome::Done;
 }
 
@@ -55,8 +95,7 @@ Roll Drivetrain::roll_at(int speed) const {
 }
 
 Outcome Drivetrain::obey(const Stop&) {
-  target_speed_ = 0;
-  go_ = Go::Brake;
+  give({.speed = 0, .go = Go::Brake});
   if (raw_)
     left_ = right_ = {MotorMode::Off, 0};
   return Outcome::Done;
@@ -76,7 +115,7 @@ Outcome Drivetrain::obey(const Motors& motors) {
     left_wheel_ = right_wheel_ = forward_;
   raw_ = true;
   stabilized_ = false;
-  target_speed_ = 0;
+  forget_orders();
   rotate_left_deg_ = rotate_rate_ = 0;
   if (!ignored(left))
     left_ = left;
@@ -88,15 +127,16 @@ Outcome Drivetrain::obey(const Motors& motors) {
 Outcome Drivetrain::obey(Stabilization mode) {
   if (mode == Stabilization::Off) {
     stabilized_ = false;
-    target_speed_ = 0;
+    forget_orders();
     rotate_left_deg_ = rotate_rate_ = 0;
     return Outcome::Done;
   }
   if (!stabilized_ || mode == Stabilization::OnAndReset) {
-    target_deg_ = yaw_deg_;
+    target_deg_ = aim_deg_ = yaw_deg_;
     rotate_left_deg_ = rotate_rate_ = 0;
+    forget_headings();
     if (!stabilized_)
-      target_speed_ = 0;
+      forget_orders();
   }
   stabilized_ = true;
   raw_ = false;
@@ -108,7 +148,8 @@ Outcome Drivetrain::obey(Stabilization mode) {
 double Drivetrain::rename_heading(int heading_deg) {
   const double turned = yaw_deg_ - heading_deg;
   world_offset_deg_ += turned;
-  yaw_deg_ = target_deg_ = heading_deg;
+  yaw_deg_ = target_deg_ = aim_deg_ = heading_deg;
+  forget_headings();
   rotate_left_deg_ = rotate_rate_ = 0;
   return turned;
 }
@@ -121,22 +162,19 @@ void Drivetrain::push(Point velocity) {
 void Drivetrain::bounce(Point velocity) {
   drift_x_ = velocity.x;
   drift_y_ = velocity.y;
-  forward_ = left_wheel_ = right_wheel_ = 0;
-}
-
-/// The speed that it strives for.
-double Drivetrain::commanded_cm_s() const {
-  return full_speed * target_speed_ / greatest;
+  forward_ = slip_ = left_wheel_ = right_wheel_ = 0;
 }
 
 void Drivetrain::step() {
+  take_orders();
   turn();
   drive();
+  lose_slip();
   lose_drift();
 }
 
 bool Drivetrain::stopped() const {
-  return std::abs(forward_) < stopped_below &&
+  return std::abs(forward_) < stopped_below && std::abs(slip_) < stopped_below &&
          (!drifts() || std::hypot(drift_x_, drift_y_) < stopped_below);
 }
 
@@ -145,33 +183,31 @@ bool Drivetrain::fast_turn() const {
 }
 
 void Drivetrain::turn() {
-  const double before = yaw_deg_;
   double turned = 0;
   if (!stabilized_) {
     const double wheels = raw_ ? (left_wheel_ - right_wheel_) / track / to_radians : 0;
     turned = std::clamp(wheels + spin_deg_s_, -greatest_yaw_rate, greatest_yaw_rate) * step_s;
+    yaw_deg_ = target_deg_ = aim_deg_ = wrap_360(yaw_deg_ + turned);
   } else if (rotate_left_deg_ != 0) {
     const double most = rotate_rate_ * step_s;
     turned = std::clamp(rotate_left_deg_, -most, most);
     rotate_left_deg_ -= turned;
-  } else {
-    const double most = (fast_turn() ? fast_rotation_rate : rotation_rate_) * step_s;
-    turned = std::clamp(shortest_turn(yaw_deg_, target_deg_), -most, most);
-    if (std::abs(shortest_turn(yaw_deg_ + turned, target_deg_)) < 1e-9) {
-      yaw_deg_ = target_deg_;
-      yaw_rate_ = turned / step_s;
-      return;
-    }
+    yaw_deg_ = rotate_left_deg_ == 0 ? aim_deg_ : wrap_360(yaw_deg_ + turned);
+  } else if (yaw_deg_ != aim_deg_) {
+    const double rate = fast_turn() ? fast_rotation_rate : rotation_rate_ * numbers_.turn_gain;
+    const double most = rate * step_s;
+    const double left = shortest_turn(yaw_deg_, aim_deg_);
+    turned = std::clamp(left, -most, most);
+    yaw_deg_ = std::abs(left - turned) < 1e-9 ? aim_deg_ : wrap_360(yaw_deg_ + turned);
   }
-  yaw_deg_ = wrap_360(before + turned);
-  yaw_rate_ = turned / step_s;
-  if (stabilized_ && rotate_rate_ != 0) {
-    if (rotate_left_deg_ == 0) {
-      rotate_rate_ = 0;
-      yaw_deg_ = target_deg_;
-    }
-  } else if (!stabilized_)
-    target_deg_ = yaw_deg_;
+  yaw_rate_ = turned * control_rate;
+  // It turns, and what it weighs goes on: the wheels have to bring that round.
+  if (stabilized_ && turned != 0 && (forward_ != 0 || slip_ != 0)) {
+    const auto& turn = turned_.of(turned);
+    const double forward = forward_;
+    forward_ = forward * turn.cosine() + slip_ * turn.sine();
+    slip_ = slip_ * turn.cosine() - forward * turn.sine();
+  }
 }
 
 void Drivetrain::drive() {
@@ -194,13 +230,37 @@ void Drivetrain::drive() {
   } else if (!stabilized_) {
     forward_ = toward(forward_, 0, coasting * step_s);
   } else {
-    const bool slow = std::abs(forward_) <= full_speed * vector_drive_limit_ / greatest;
-    const bool waits =
-        vector_drive_ == Switch::On && slow && std::abs(shortest_turn(yaw_deg_, target_deg_)) > 1;
-    const double target = waits ? 0 : commanded_cm_s();
-    forward_ = toward(forward_, target, (go_ == Go::Brake ? braking : acceleration) * step_s);
+    approach();
   }
-  forward_acceleration_ = (forward_ - before) / step_s;
+  forward_acceleration_ = (forward_ - before) * control_rate;
+}
+
+/// Whether vector drive turns before it moves.
+bool Drivetrain::turns_first() const {
+  return vector_drive_ == Switch::On &&
+         std::abs(forward_) <= full_speed * vector_drive_limit_ / greatest &&
+         std::abs(shortest_turn(yaw_deg_, aim_deg_)) > 1;
+}
+
+/// The control system brings the speed nearer to what is ordered.
+void Drivetrain::approach() {
+  const double target = turns_first() ? 0 : aim_cm_s_;
+  if (forward_ == target)
+    return;
+  const double rate = go_ == Go::Brake ? braking
+                                       : std::clamp(std::abs(target - forward_) * gain_,
+                                                    least_acceleration, acceleration);
+  forward_ = toward(forward_, target, rate * step_s);
+}
+
+/// The shell grips the floor: it is pushed the way it points.
+void Drivetrain::lose_slip() {
+  sideways_acceleration_ = forward_ * yaw_rate_ * to_radians;
+  if (!stabilized_ && slip_ == 0)
+    return;
+  const double before = slip_;
+  slip_ = toward(slip_, 0, numbers_.grip * step_s);
+  sideways_acceleration_ = (slip_ - before) * control_rate;
 }
 
 void Drivetrain::lose_drift() {
@@ -210,17 +270,6 @@ void Drivetrain::lose_drift() {
   const double left = std::max(0.0, drift - drift_friction * step_s) / drift;
   drift_x_ *= left;
   drift_y_ *= left;
-}
-
-const Course& Drivetrain::course() const {
-  const double heading = yaw_deg_ + world_offset_deg_;
-  if (course_.forward != forward_ || course_.heading_deg != heading ||
-      course_.drift_x != drift_x_ || course_.drift_y != drift_y_) {
-    const double vx = forward_ * std::sin(heading * to_radians) + drift_x_;
-    const double vy = forward_ * std::cos(heading * to_radians) + drift_y_;
-    course_ = {forward_, heading, drift_x_, drift_y_, vx, vy, std::hypot(vx, vy)};
-  }
-  return course_;
 }
 
 } // namespace orb::vm

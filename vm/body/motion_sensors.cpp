@@ -48,8 +48,7 @@ Vector3 MotionSensors::acceleration_g(const Movement& movement) const {
     return {};
   const double pitch = tilt_pitch_deg_ * to_radians;
   const double roll = tilt_roll_deg_ * to_radians;
-  Vector3 felt{-std::sin(roll) * std::cos(pitch) +
-                   movement.forward_cm_s * movement.yaw_rate_deg_s * to_radians / gravity,
+  Vector3 felt{-std::sin(roll) * std::cos(pitch) + movement.sideways_acceleration_cm_s2 / gravity,
                std::sin(pitch) + movement.forward_acceleration_cm_s2 / gravity,
                std::cos(roll) * std::cos(pitch)};
   if (now < shaken_until_)

@@ -13,8 +13,8 @@ struct Movement {
   Instant at{};
   double yaw_deg = 0;
   double yaw_rate_deg_s = 0;
-  double forward_cm_s = 0;
   double forward_acceleration_cm_s2 = 0;
+  double sideways_acceleration_cm_s2 = 0; ///< to the right
 };
 
 /// Accelerometer and gyro, and what a hand does to them: shakes, tosses, tilts, noise.

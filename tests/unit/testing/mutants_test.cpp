@@ -43,15 +43,15 @@ constexpr auto mutants = std::to_array<Mutant>({
     {"print", "expect print ~\"ump\"\n", "10 print \"bumper\"\n", "10 print \"bunper\"\n", "nearest \"bunper\" at 0.3 ms"},
     {"print", "never print \"x\"\n", "10 print \"y\"\n", "10 print \"x\"\n", "\"x\" at 0.3 ms"},
     {"prints", "expect prints\n\"a\"\n\"b\"\n", "10 print \"a\"\n20 print \"b\"\n", "10 print \"a\"\n20 print \"c\"\n", "line 2 is \"c\" at 0.7 ms, not \"b\""},
-    {"near", "expect near 65,0 by 9cm at end\n", drive, "10 goroll 90,86,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "10.8 cm from 65,0 at the end, 2 s"},
-    {"beyond", "expect beyond x>62\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "nearest x 59.7 at 1.24 s"},
-    {"inside", "expect inside goal at end\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "2.3 cm from goal at the end, 2 s"},
-    {"stay", "expect stay arena\n", "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", drive, "0.1 cm from arena at 1."},
+    {"near", "expect near 72,3 by 5cm at end\n", drive, "10 goroll 90,86,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "6.4 cm from 72,3 at the end, 2 s"},
+    {"beyond", "expect beyond x>70\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "nearest x 67.4 at 1.38 s"},
+    {"inside", "expect inside goal at end\n", drive, "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "2.6 cm from goal at the end, 2 s"},
+    {"stay", "expect stay arena\n", "10 goroll 90,90,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", drive, "0.01 cm from arena at 1."},
     {"heading", "expect heading 90 by 5 at 1s\n", drive, "10 goroll 84,100,1\n20 delay 1000\n", "heading 84 at 1 s"},
-    {"speed", "expect speed 50..60cm/s\n", "10 goroll 0,66,1\n20 delay 1000\n", "10 goroll 0,58,1\n20 delay 1000\n", "nearest 45.5 cm/s at 0.3 s"},
+    {"speed", "expect speed 60..70cm/s\n", "10 goroll 0,66,1\n20 delay 1000\n", "10 goroll 0,50,1\n20 delay 1000\n", "nearest 57.0 cm/s at 1.29 s"},
     {"moving", "expect moving at 500ms\n", drive, "10 delay 1000\n", "resting at 0.5 s"},
-    {"resting", "expect resting at end\n", drive, "10 goroll 90,100,1\n20 delay 1000\n", "moving at 78.4 cm/s at the end, 5 s"},
-    {"distance", "expect distance 65cm..75cm\n", drive, "10 goroll 90,80,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "it drove 56.2 cm"},
+    {"resting", "expect resting at end\n", drive, "10 goroll 90,100,1\n20 delay 1000\n", "moving at 95.3 cm/s at the end, 5 s"},
+    {"distance", "expect distance 65cm..75cm\n", drive, "10 goroll 90,60,1\n20 delay 1000\n30 goroll 90,0,0\n40 delay 1000\n", "it drove 52.1 cm"},
     {"color", "expect color red by 3 during 100ms..200ms\n", "10 RGB 252,0,0\n20 delay 500\n", "10 RGB 251,0,0\n20 delay 500\n", "#FB0000 at 0.1 s"},
     {"backled", "expect backled 200..255\n", "10 backLED 200\n20 delay 100\n", "10 backLED 199\n20 delay 100\n", "nearest back LED 199 at 0.3 ms"},
     {"marker", "expect marker 3 macro wink\n", "10 macrun 40\n20 delay 100\n", "10 macrun 41\n20 delay 100\n", "marker 3 of macro 41 at 0.3 ms"},
@@ -69,8 +69,8 @@ constexpr auto mutants = std::to_array<Mutant>({
 constexpr std::string_view course =
     R"(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200" viewBox="-100 -100 200 200">
 <circle class="start" cx="0" cy="0" r="3"/>
-<rect class="zone" id="goal" x="62" y="-10" width="30" height="20"/>
-<rect class="zone" id="arena" x="-20" y="-20" width="80" height="40"/>
+<rect class="zone" id="goal" x="70" y="-10" width="30" height="20"/>
+<rect class="zone" id="arena" x="-20" y="-20" width="90" height="40"/>
 </svg>)";
 constexpr std::string_view macros = ".macro wink id=40\nmarker 3\n.macro nod id=41\nmarker 3\n";
 

@@ -77,14 +77,79 @@ TEST_F(TheBall, Heading90IsToTheRight) {
 }
 
 TEST_F(TheBall, TurnsAtTheRotationRateWhileItDrives) {
+  const double rate = spec::ball::default_rotation_rate * spec::ball::turn_gain;
   ball.drive(Roll{0, 255, Go::Drive});
   ball.advance_to(ball.now() + 3s);
   ball.drive(Roll{90, 255, Go::Drive});
-  ball.advance_to(ball.now() + 250ms);
-  EXPECT_NEAR(ball.body().yaw_deg(), 156.8 * 0.25, 0.5);
+  ball.advance_to(ball.now() + spec::ball::dead_time + 250ms);
+  EXPECT_NEAR(ball.body().yaw_deg(), rate * 0.25, 1);
   ball.drive(Roll{180, 255, Go::FastTurn});
-  ball.advance_to(ball.now() + 100ms);
-  EXPECT_NEAR(ball.body().yaw_deg(), 156.8 * 0.25 + 100, 3);
+  ball.advance_to(ball.now() + spec::ball::dead_time);
+  EXPECT_NEAR(ball.body().yaw_deg(), rate * 0.35, 1) << "on its way, the order changes nothing";
+  ball.advance_to(ball.now() + 50ms);
+  EXPECT_NEAR(ball.body().yaw_deg(), rate * 0.35 + 50, 3);
+}
+
+TEST_F(TheBall, AnOrderReachesTheMotorsAfterTheDeadTime) {
+  ball.drive(Roll{0, 60, Go::Drive});
+  EXPECT_EQ(ball.body().speed_setpoint(), 60);
+  ball.advance_to(ball.now() + spec::ball::dead_time);
+  EXPECT_EQ(ball.body().pose().speed_cm_s, 0);
+  ball.advance_to(ball.now() + 10ms);
+  EXPECT_GT(ball.body().pose().speed_cm_s, 0);
+}
+
+TEST_F(TheBall, OrdersArriveInTheirOrder) {
+  for (int heading = 0; heading < 200; ++heading) {
+    ball.drive(Roll{heading, 60, Go::Drive});
+    ball.advance_to(ball.now() + 1ms);
+  }
+  ball.drive(Roll{90, 0, Go::Brake});
+  ball.advance_to(ball.now() + 50ms);
+  EXPECT_GT(ball.body().pose().speed_cm_s, 5) << "the stop is still on its way";
+  ball.advance_to(ball.now() + 1s);
+  EXPECT_TRUE(ball.body().stopped());
+  EXPECT_DOUBLE_EQ(ball.body().yaw_deg(), 90);
+}
+
+TEST_F(TheBall, ARotationOutdatesTheHeadingsOnTheirWayAndNotTheSpeeds) {
+  ball.drive(Roll{180, 40, Go::Drive});
+  ball.drive(Rotate{90, 200ms});
+  ball.advance_to(ball.now() + 3s);
+  EXPECT_DOUBLE_EQ(ball.body().yaw_deg(), 90);
+  EXPECT_NEAR(ball.body().pose().speed_cm_s, spec::speed_cm_s({}, 40), 1e-9);
+}
+
+TEST_F(TheBall, StabilisationOffForgetsWhatIsOnItsWay) {
+  ball.drive(Roll{0, 100, Go::Drive});
+  ball.drive(Stabilization::Off);
+  ball.advance_to(ball.now() + 1s);
+  EXPECT_EQ(ball.body().pose().speed_cm_s, 0);
+  EXPECT_EQ(ball.body().next_step(), never);
+}
+
+TEST_F(TheBall, DrivesAsFastAsTheRecordedDrives) {
+  for (const auto& [ordered, cm_s] : {std::pair{25, 34.1}, {45, 52.4}, {65, 70.7}}) {
+    ball.drive(Roll{0, ordered, Go::Drive});
+    ball.advance_to(ball.now() + 3s);
+    EXPECT_NEAR(ball.body().pose().speed_cm_s, cm_s, 0.1) << ordered;
+  }
+}
+
+TEST_F(TheBall, ATurnWhileItDrivesIsABend) {
+  ball.drive(Roll{0, 60, Go::Drive});
+  ball.advance_to(ball.now() + 3s);
+  const auto before = ball.body().pose();
+  ball.drive(Roll{90, 60, Go::Drive});
+  double slowest = before.speed_cm_s;
+  for (int i = 0; i < 100; ++i) {
+    ball.advance_to(ball.now() + 10ms);
+    slowest = std::min(slowest, ball.body().pose().speed_cm_s);
+  }
+  EXPECT_LT(slowest, before.speed_cm_s * 0.9) << "a turn costs speed";
+  EXPECT_GT(slowest, before.speed_cm_s * 0.4);
+  EXPECT_GT(ball.body().pose().y_cm, before.y_cm + 10) << "it goes on the old way for a while";
+  EXPECT_NEAR(ball.body().velocity_cm_s().y, 0, 1);
 }
 
 TEST_F(TheBall, SetHeadingKeepsTheLocatorsAxes) {
