@@ -212,7 +212,7 @@ Then Core::perform(const Code& instruction) {
       if (!instead)
         return fail(BasicError::BadNumericParameter);
       if (arguments.data() != taken.data()) {
-        std::ranges::copy(arguments, taken.begin());
+        std::copy(arguments.begin(), arguments.end(), taken.begin());
         arguments = {taken.data(), arguments.size()};
       }
       taken[i] = *instead;
