@@ -742,11 +742,35 @@ private:
   void check_unused() {
     if (any_error(program_.diagnostics))
       return; // what reads it may be what is wrong
-    for (const auto& symbol : names_.symbols)
-      if (!symbol.read && (symbol.kind == SymbolKind::Variable || symbol.kind == SymbolKind::Local))
-        report(rules::UnusedName, symbol.span,
-               fmt::format("`{}` is {}", program_.name(symbol.name),
-                           symbol.kind == SymbolKind::Local ? "never read" : "set but never read"));
+    const bool runs = main_file_runs();
+    for (const auto& symbol : names_.symbols) {
+      if (symbol.read)
+        continue;
+      if (symbol.kind == SymbolKind::Variable)
+        report_unused(symbol, "is set but never read");
+      else if (symbol.kind == SymbolKind::Local)
+        report_unused(symbol, "is never read");
+      else if (symbol.kind == SymbolKind::Constant && runs && in_main_file(symbol.span))
+        report_unused(symbol,
+                      "is never used"); // those of an included file are for all that include it
+    }
+  }
+
+  void report_unused(const Symbol& symbol, std::string_view how) {
+    report(rules::UnusedName, symbol.span, fmt::format("`{}` {}", program_.name(symbol.name), how));
+  }
+
+  bool in_main_file(Span span) const {
+    return &program_.file_at(span.begin) == &program_.files.front();
+  }
+
+  /// Not only declarations, for others to include.
+  bool main_file_runs() const {
+    return std::any_of(program_.statements.begin(), program_.statements.end(),
+                       [&](const Statement& one) {
+                         return one.depth == 0 && !declares(one.kind) && one.kind != Kind::EndSub &&
+                                one.kind != Kind::EndFunction && in_main_file(one.span);
+                       });
   }
 
   std::string_view name_of(std::uint32_t routine) const {
