@@ -59,6 +59,8 @@ function(orb_page folder name)
   endforeach()
   string(APPEND assets "} // namespace orb::${folder}\n")
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${folder}_assets.cpp CONTENT "${assets}" @ONLY)
+  # No compiler in use knows the limit that the standard lets a literal have.
+  set_source_files_properties(${CMAKE_BINARY_DIR}/${folder}_assets.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   target_sources(orb_${folder} PRIVATE ${CMAKE_BINARY_DIR}/${folder}_assets.cpp)
 endfunction()
 

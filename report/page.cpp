@@ -5,12 +5,14 @@
 #include "spec/basic.h"
 #include "spec/macro.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace orb::report {
 namespace {
@@ -82,12 +84,14 @@ ordered_json poses(const Journey& journey) {
           {"speed", by(&vm::Pose::speed_cm_s, 100)}};
 }
 
+int rgb(const vm::Color& color) {
+  return color.red << 16 | color.green << 8 | color.blue;
+}
+
 ordered_json lamps(const Journey& journey) {
   const auto& entries = journey.led().entries();
-  return {{"t", times(entries)}, {"rgb", plain(entries, [](const auto& entry) {
-                                    return entry.value.red << 16 | entry.value.green << 8 |
-                                           entry.value.blue;
-                                  })}};
+  return {{"t", times(entries)},
+          {"rgb", plain(entries, [](const auto& entry) { return rgb(entry.value); })}};
 }
 
 ordered_json places(const Journey& journey) {
@@ -138,19 +142,24 @@ ordered_json files(const Journey& journey) {
   return list;
 }
 
+ordered_json happening_json(const Happening& happening) {
+  const bool prints = happening.kind == Happening::Kind::Print;
+  ordered_json one = {{"t", microseconds(happening.t)},
+                      {"kind", kind_name(happening.kind)},
+                      {"text", prints ? from_latin1(happening.text) : happening.text}};
+  if (!happening.label.empty())
+    one["short"] = happening.label;
+  if (happening.at && happening.kind != Happening::Kind::Print) {
+    one["x"] = happening.at->x_cm;
+    one["y"] = happening.at->y_cm;
+  }
+  return one;
+}
+
 ordered_json happenings(const Journey::Listed& listed) {
   auto list = ordered_json::array();
   for (const auto& happening : listed.happenings) {
-    const bool prints = happening.kind == Happening::Kind::Print;
-    ordered_json one = {{"t", microseconds(happening.t)},
-                        {"kind", kind_name(happening.kind)},
-                        {"text", prints ? from_latin1(happening.text) : happening.text}};
-    if (!happening.label.empty())
-      one["short"] = happening.label;
-    if (happening.at && happening.kind != Happening::Kind::Print) {
-      one["x"] = happening.at->x_cm;
-      one["y"] = happening.at->y_cm;
-    }
+    auto one = happening_json(happening);
     if (listed.left_out > 0 && list.size() == listed.gap_at)
       one["gap"] = listed.left_out;
     list.push_back(std::move(one));
@@ -337,6 +346,56 @@ ordered_json run_data(const Journey& journey, std::string_view title,
   return data;
 }
 
+/// The entries of `series` that came after `t`.
+template <class Value>
+std::span<const typename Series<Value>::Entry> since(const Series<Value>& series, Duration t) {
+  const auto& entries = series.entries();
+  const auto first = std::partition_point(entries.begin(), entries.end(),
+                                          [&](const auto& entry) { return entry.t <= t; });
+  return std::span(entries).subspan(static_cast<std::size_t>(first - entries.begin()));
+}
+
+template <class Entries>
+ordered_json plain_times(const Entries& entries) {
+  return plain(entries, [](const auto& entry) { return microseconds(entry.t); });
+}
+
+ordered_json new_poses(std::span<const Series<vm::Pose>::Entry> entries) {
+  const auto by = [&](auto member, double scale) {
+    return plain(entries, [&](const auto& entry) {
+      return std::round(entry.value.*member * scale) / scale;
+    });
+  };
+  return {{"t", plain_times(entries)},
+          {"x", by(&vm::Pose::x_cm, 1000)},
+          {"y", by(&vm::Pose::y_cm, 1000)},
+          {"heading", by(&vm::Pose::heading_deg, 10)},
+          {"speed", by(&vm::Pose::speed_cm_s, 100)}};
+}
+
+/// Of lines that ran it is the last that somebody can see.
+ordered_json new_places(std::span<const Series<Place>::Entry> entries) {
+  if (!entries.empty())
+    entries = entries.last(1);
+  return {{"t", plain_times(entries)},
+          {"file", plain(entries, [](const auto& entry) { return entry.value.file; })},
+          {"line", plain(entries, [](const auto& entry) { return entry.value.line; })}};
+}
+
+ordered_json new_happenings(const Journey& journey, std::uint64_t& told) {
+  auto list = ordered_json::array();
+  std::uint64_t all = 0;
+  for (const auto count : journey.totals().happenings)
+    all += count;
+  if (all == told)
+    return list;
+  const auto listed = journey.listed().happenings;
+  const auto fresh = std::min<std::uint64_t>(all - std::exchange(told, all), listed.size());
+  for (const auto& happening : std::span(listed).last(fresh))
+    list.push_back(happening_json(happening));
+  return list;
+}
+
 /// JSON that may stand in a script element: no `<`, so no end tag and no comment can be in it.
 std::string script_safe(const ordered_json& data) {
   const auto text = data.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
@@ -356,6 +415,29 @@ std::string script_safe(const ordered_json& data) {
 std::string run_json(const Journey& journey, std::string_view title,
                      std::span<const std::string_view> keywords) {
   return script_safe(run_data(journey, title, keywords));
+}
+
+std::string growth_json(const Journey& journey, Shown& shown) {
+  const auto until = shown.until;
+  const auto tell = [&](const auto& entries) {
+    if (!entries.empty())
+      shown.until = std::max(shown.until, entries.back().t);
+    return entries;
+  };
+  const auto led = tell(since(journey.led(), until));
+  const auto back_led = tell(since(journey.back_led(), until));
+  ordered_json data = {
+      {"pose", new_poses(tell(since(journey.poses(), until)))},
+      {"led",
+       {{"t", plain_times(led)},
+        {"rgb", plain(led, [](const auto& entry) { return rgb(entry.value); })}}},
+      {"backled",
+       {{"t", plain_times(back_led)},
+        {"value", plain(back_led, [](const auto& entry) { return entry.value; })}}},
+      {"line", new_places(tell(since(journey.places(), until)))},
+      {"events", new_happenings(journey, shown.happenings)},
+      {"totals", totals(journey)}};
+  return script_safe(data);
 }
 
 std::optional<std::string> run_of_page(std::string_view page) {

@@ -20,6 +20,17 @@ std::string report_page(const Journey& journey, std::string_view title,
 std::string run_json(const Journey& journey, std::string_view title,
                      std::span<const std::string_view> keywords = {});
 
+/// How much of a run that goes on is shown already.
+struct Shown {
+  Duration until = -Duration{1};
+  std::uint64_t happenings = 0;
+};
+
+/// What has come to a run since `shown`, which is brought up to date: rows of the columns and the
+/// events of run_json(), as plain values, for whoever shows the run while it goes on. A column that
+/// has become too long is thinned in run_json() only.
+std::string growth_json(const Journey& journey, Shown& shown);
+
 /// The run that a page of report_page() plays back; nothing where `page` is something else.
 std::optional<std::string> run_of_page(std::string_view page);
 

@@ -339,6 +339,7 @@ struct Live::State {
   tl::expected<void, Failure> begin();
   bool rolls() const;
   bool advance(Instant target);
+  Ending so_far() const { return ending_of(inputs, options, watcher, ball, limit); }
   tl::expected<Ending, Failure> finish();
 
   std::span<const Input> inputs;
@@ -399,7 +400,7 @@ bool Live::State::advance(Instant target) {
 tl::expected<Ending, Failure> Live::State::finish() {
   if (started == Started::Refused || answer.refused())
     return tl::unexpected(refusal(load, options));
-  const auto ending = ending_of(inputs, options, watcher, ball, limit);
+  const auto ending = so_far();
   listener.on_end(ending);
   if (journey != nullptr)
     journey->finish(ending.seen_to, std::string(to_string(ending.reason)),
@@ -455,6 +456,14 @@ const vm::Ball& Live::ball() const {
 
 bool Live::waits_for_number() const {
   return state_->ball.machine().waits_for_input() && !state_->ball.input_queued();
+}
+
+bool Live::rolls_out() const {
+  return state_->rolls();
+}
+
+Ending Live::so_far() const {
+  return state_->so_far();
 }
 
 tl::expected<Ending, Failure> Live::finish() {

@@ -36,6 +36,10 @@ public:
   Duration time() const; ///< since the start
   const vm::Ball& ball() const;
   bool waits_for_number() const;
+  /// Nothing runs any more, and the ball still rolls.
+  bool rolls_out() const;
+  /// How it would end now.
+  Ending so_far() const;
 
   /// How it ended; nothing can be done with the run after that.
   tl::expected<Ending, Failure> finish();

@@ -34,27 +34,53 @@ export function forget_events() {
   events = [];
   clear_rows();
 }
+const most_rows = 500; // of a run that goes on
+/** More of a run that goes on; the oldest rows go. */
+export function list_more_events(more) {
+  if (!more.length) return;
+  const fresh = more.slice(-most_rows);
+  for (const event of fresh) add_row(event);
+  events = [...events, ...fresh];
+  event_times = events.map(event => event.t);
+  const old = events.length - most_rows;
+  if (old > 0) {
+    events = events.slice(old);
+    event_times = event_times.slice(old);
+    for (const row of event_rows.splice(0, old)) row.remove();
+    current_event = Math.max(-1, current_event - old);
+  }
+  $("no-events").hidden = true;
+  if (more.some(({ kind }) => !$("filters").querySelector(`[data-filter=${kind}]`))) list_filters();
+  show_kinds();
+}
 export function list_events() {
   const listed = events.length;
   const goes_on = playback.live && listed <= playback.shown.run.events.length && events.every((event, i) => event.t === playback.shown.run.events[i].t && !playback.shown.run.events[i].gap);
-  events = playback.shown.run.events;
+  events = [...playback.shown.run.events];
   event_times = events.map(event => event.t);
   if (!goes_on) clear_rows();
   for (const [i, event] of events.entries()) {
     if (goes_on && i < listed) continue;
     if (event.gap && i > 0)
       $("events").append(element("li", { class: "gap" }, `${event.gap.toLocaleString("en")} events in between are not listed`));
-    const item = element("li", { class: event.kind });
-    const button = element("button", { type: "button", "data-t": event.t, "data-kind": event.kind });
-    const words = element("span", { class: "words" }, event.text.replace(/\n$/, "") || "(empty line)");
-    button.append(element("span", { class: "t" }, seconds(event.t)), icon(event.kind), words);
-    button.setAttribute("aria-label", `${seconds(event.t)} seconds, ${event.kind}: ${event.text}`);
-    button.addEventListener("click", () => seek(event.t));
-    item.append(button);
-    $("events").append(item);
-    event_rows.push(item);
+    add_row(event);
   }
   $("no-events").hidden = events.length > 0;
+  list_filters();
+  show_kinds();
+}
+function add_row(event) {
+  const item = element("li", { class: event.kind });
+  const button = element("button", { type: "button", "data-t": event.t, "data-kind": event.kind });
+  const words = element("span", { class: "words" }, event.text.replace(/\n$/, "") || "(empty line)");
+  button.append(element("span", { class: "t" }, seconds(event.t)), icon(event.kind), words);
+  button.setAttribute("aria-label", `${seconds(event.t)} seconds, ${event.kind}: ${event.text}`);
+  button.addEventListener("click", () => seek(event.t));
+  item.append(button);
+  $("events").append(item);
+  event_rows.push(item);
+}
+function list_filters() {
   $("filters").replaceChildren();
   for (const [kind, { words }] of Object.entries(kinds)) {
     const count = playback.shown.run.counts[kind] ?? 0;
@@ -66,7 +92,6 @@ export function list_events() {
     });
     $("filters").append(button);
   }
-  show_kinds();
 }
 function show_kinds() {
   for (const button of $("filters").children) button.setAttribute("aria-pressed", String(!hidden_kinds.has(button.dataset.filter)));

@@ -44,17 +44,34 @@ export function journey(run) {
   };
   const lamp_at = t => led.rgb[last_at(led.t, t)] ?? 0;
   const tail_at = t => backled.value[last_at(backled.t, t)] ?? 0;
-  // Stretches of path in one colour; the LED may change between two poses.
-  const stretches = [];
-  let color = -1;
-  for (let i = 1; i < pose.t.length; ++i) {
-    const lit = lamp_at(pose.t[i - 1]);
-    if (pose.x[i] === pose.x[i - 1] && pose.y[i] === pose.y[i - 1]) continue;
-    const open = stretches[stretches.length - 1];
-    if (lit === color && open && open.to === i - 1) open.to = i;
-    else stretches.push({ from: i - 1, to: i, color: lit });
-    color = lit;
-  }
   const name = base_name(run.title);
-  return { run, name, pose, led, backled, steps, line_times, variables, stretches, state_at, lamp_at, tail_at };
+  const made = { run, name, pose, led, backled, steps, line_times, variables, stretches: [], state_at, lamp_at, tail_at };
+  add_stretches(made, 1, Infinity);
+  return made;
+}
+/** Stretches of path in one colour, from the pose `first` on, of at most `most` steps; the LED may change between
+ *  two poses. */
+function add_stretches({ pose, stretches, lamp_at }, first, most) {
+  for (let i = Math.max(first, 1); i < pose.t.length; ++i) {
+    if (pose.x[i] === pose.x[i - 1] && pose.y[i] === pose.y[i - 1]) continue;
+    const lit = lamp_at(pose.t[i - 1]), open = stretches[stretches.length - 1];
+    if (open && open.color === lit && open.to === i - 1 && i - open.from <= most) open.to = i;
+    else stretches.push({ from: i - 1, to: i, color: lit });
+  }
+}
+/** More of a run that goes on: rows of plain values. Its stretches stay short, as the last one is drawn again and
+ *  again. */
+export function lengthen(one, { pose, led, backled, line, events }) {
+  const first = one.pose.t.length;
+  for (const [column, more] of [[one.pose, pose], [one.led, led], [one.backled, backled]])
+    for (const key of Object.keys(column)) column[key].push(...more[key]);
+  line.t.forEach((t, i) => {
+    const own = one.steps[line.file[i]];
+    own.t.push(t);
+    own.line.push(line.line[i]);
+    one.line_times.push(t);
+  });
+  one.run.events.push(...events);
+  for (const { kind } of events) one.run.counts[kind] = (one.run.counts[kind] ?? 0) + 1;
+  add_stretches(one, first, 100);
 }

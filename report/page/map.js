@@ -1,10 +1,10 @@
 // The maps: of the run, and of the one before it.
 
 import { $, clamp, css_color, length_words, position_words, shape, speed_words } from "./dom.js";
-import { area, grid_step, is_turned, look_at, make_chart, measure, survey, turned_by, view } from "./map_chart.js";
+import { area, grid_step, is_turned, look_at, make_chart, measure, outgrown, survey, turned_by, view } from "./map_chart.js";
 import { draw_grid, draw_paper_scale, draw_walls, draw_zones } from "./map_ground.js";
-import { draw_marks } from "./map_marks.js";
-import { draw_ball, draw_path, draw_progress } from "./map_path.js";
+import { draw_event, draw_marks, list_signs } from "./map_marks.js";
+import { draw_ball, draw_path, draw_progress, draw_stretches } from "./map_path.js";
 import { playback, show, watch } from "./playback.js";
 
 function make_map(map) {
@@ -22,9 +22,10 @@ function make_map(map) {
     draw_grid(chart, grid, shape("g", {}, map));
     draw_path(chart);
     map.append(words); // names of zones lie on the path
-    draw_marks(chart, shape("g", {}, map), kept_clear);
+    const marks = shape("g", {}, map);
+    draw_marks(chart, marks, kept_clear);
     draw_paper_scale(chart, shape("g", { class: "paper-scale" }, map));
-    layers = draw_ball(chart, map);
+    layers = { marks, ...draw_ball(chart, map) };
   }
   /** Following moves the map only when the ball comes near its edge. */
   function leaves_view(state) {
@@ -61,7 +62,11 @@ function make_map(map) {
     for (const name of ["pointerup", "pointercancel"])
       map.addEventListener(name, () => map.removeEventListener("pointermove", drag), { once: true });
   });
-  return { load: one => { chart.one = one; }, draw, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
+  function grow(events) {
+    draw_stretches(chart);
+    for (const event of events) draw_event(chart, layers.marks, event);
+  }
+  return { grow, load: one => { chart.one = one; }, draw, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
 }
 const all_maps = [make_map($("map")), make_map($("map-before"))]; // the run's comes first
 let maps = [];
@@ -97,6 +102,17 @@ export function redraw() {
   if (!playback.main) return;
   draw_maps();
   show();
+}
+
+/** More of a run that goes on, from the pose `first` on; where the map does not hold it, all is drawn anew. */
+export function grow_maps(first, events) {
+  if (outgrown(first)) {
+    survey();
+    draw_maps();
+  } else {
+    for (const one of maps) one.grow(events);
+  }
+  if (events.some(event => event.x !== undefined)) list_signs();
 }
 
 export function zoom_by(factor) {

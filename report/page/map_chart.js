@@ -36,8 +36,28 @@ export function survey() {
   area.box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
   const spread = axis => { const list = poses.map(one => one[axis]); return most(list) - least(list); };
   area.moved = spread(0) > 1 || spread(1) > 1;
+  if (playback.live && area.moved) grow_box();
   // A map has a scale where something lies on it; else it shows the ball alone.
   area.mapped = area.moved || playback.runs.some(one => one.run.course);
+}
+
+const room_cm = 50; // around the start of a run that goes on
+/** Makes room for what is to come, so that the map is seldom drawn anew. */
+function grow_box() {
+  const { box } = area, more = Math.max(box.right - box.left, box.high - box.low) / 4;
+  const left = Math.min(box.left - more, -room_cm), right = Math.max(box.right + more, room_cm);
+  const low = Math.min(box.low - more, -room_cm), high = Math.max(box.high + more, room_cm);
+  area.box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
+}
+/** Whether the map does not hold the poses from `first` on. */
+export function outgrown(first) {
+  const { pose } = playback.main, { box } = area;
+  for (let i = first; i < pose.t.length; ++i) {
+    if (!area.moved && Math.hypot(pose.x[i] - pose.x[0], pose.y[i] - pose.y[0]) > 1) return true;
+    const [right, up] = place(pose.x[i], pose.y[i]);
+    if (area.moved && (right < box.left || right > box.right || up < box.low || up > box.high)) return true;
+  }
+  return false;
 }
 
 /** 1, 2 or 5 times a power of ten: lines stand at least 64 pixels apart. */

@@ -35,16 +35,27 @@ function free_place(chart, x, y, words, { taken, borders }) {
   taken.push({ left: x + best[0], right: x + best[0] + wide, high: y + best[1] - tall, low: y + best[1] + 4 });
   return best;
 }
+function draw_sign(chart, parent, x, y, kind, title) {
+  const group = shape("g", { transform: `translate(${chart.point([x, y])})`, "data-mark": kind }, parent);
+  if (title) shape("title", {}, group).textContent = title;
+  mark_art[kind](group);
+  return group;
+}
+/** The sign of an event that has one. */
+export function draw_event(chart, parent, event) {
+  if (event.x === undefined || !mark_art[event.kind]) return null;
+  return draw_sign(chart, parent, event.x, event.y, event.kind, `${seconds(event.t)} s: ${event.text}`);
+}
 /** `floor`: what is no place for a word: boxes that are taken, and borders. */
 export function draw_marks(chart, parent, floor) {
   const { taken } = floor;
-  const pin = (x, y, kind, title) => {
+  const take = (x, y) => {
     const there = chart.at(x, y);
-    const group = shape("g", { transform: `translate(${chart.point([x, y])})`, "data-mark": kind }, parent);
-    if (title) shape("title", {}, group).textContent = title;
-    mark_art[kind](group);
     taken.push({ left: there.x - 8, right: there.x + 8, high: there.y - 8, low: there.y + 8 });
-    return group;
+  };
+  const pin = (x, y, kind) => {
+    draw_sign(chart, parent, x, y, kind);
+    take(x, y);
   };
   // Marks in one place share their words.
   const labels = new Map();
@@ -58,10 +69,8 @@ export function draw_marks(chart, parent, floor) {
     const there = chart.at(x, y), [dx, dy] = free_place(chart, there.x, there.y, words, floor);
     shape("text", { x: there.x + dx, y: there.y + dy, class: "mark-word" }, parent).textContent = words;
   };
-  for (const event of chart.one.run.events) {
-    if (event.x === undefined || !mark_art[event.kind]) continue;
-    pin(event.x, event.y, event.kind, `${seconds(event.t)} s: ${event.text}`);
-  }
+  for (const event of chart.one.run.events) if (draw_event(chart, parent, event)) take(event.x, event.y);
+  if (playback.live) labels.clear(); // places for words are looked for when it has ended
   const some = list => list.length > 4 ? [...list.slice(0, 3), "…"] : list;
   if (labels.size < 40) for (const { x, y, words } of labels.values()) word(x, y, some(words).join(", "));
   if (!chart.one.pose.t.length) return;

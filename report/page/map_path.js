@@ -13,26 +13,54 @@ function line_from(chart, from, to) {
 /** All of the path, faded; the part that lies before the moment shown is laid over it by draw_progress(). */
 export function draw_path(chart) {
   const { map } = chart;
+  for (const old of map.parentElement.querySelectorAll(".ground")) old.remove();
   const ahead = shape("g", { class: "ahead" }, map);
   const halos = shape("g", { class: "halo" }, map);
-  const dark = shape("g", {}, map); // unlit stretches lie below lit ones
-  const casings = shape("g", {}, map);
-  const done = shape("g", {}, map);
-  const casing_class = color => brightness(color) > .7 ? "run casing pale" : brightness(color) < .2 ? "run casing deep" : "run casing";
-  for (const stretch of chart.one.stretches) {
-    const lit = stretch.color !== 0;
-    const look = { class: lit ? "run" : "run unlit", d: line_from(chart, stretch.from, stretch.to), ...lit ? { stroke: css_color(stretch.color) } : {} };
-    stretch.d = look.d;
-    if (lit) shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 4.5 }, ahead);
-    shape("path", { ...look, "stroke-width": 3 }, ahead);
-    stretch.layers = [
-      ...lit ? [shape("path", { ...look, "stroke-width": 13 }, halos),
-        shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 6 }, casings)] : [],
-      shape("path", { ...look, "stroke-width": lit ? 3.5 : 2.5 }, lit ? done : dark),
-    ];
-    for (const layer of stretch.layers) layer.setAttribute("visibility", "hidden");
-    stretch.state = "ahead";
-  }
+  const kept = kept_in(playback.live ? ground_of(chart) : map);
+  const fresh = shape("g", {}, map);
+  chart.path = { ahead, halos, ...kept, fresh, drawn: 0, kept: 0 };
+  draw_stretches(chart);
+}
+const kept_in = parent => {
+  const dark = shape("g", {}, parent); // unlit stretches lie below lit ones
+  return { dark, casings: shape("g", {}, parent), done: shape("g", {}, parent) };
+};
+const most_kept = 120; // stretches that are painted at once
+/** A stretch of a run that goes on has come to its end. */
+function keep_stretch(chart, { layers, color }) {
+  const { path } = chart, [line, casing] = [...layers].reverse();
+  if (++path.kept % most_kept === 0) Object.assign(path, kept_in(ground_of(chart)));
+  (color ? path.done : path.dark).append(line);
+  if (casing) path.casings.append(casing);
+}
+/** What lies behind the map of a run that goes on: what has come to rest there is not painted anew with each frame. */
+function ground_of(chart) {
+  const ground = shape("svg", { class: "ground", "aria-hidden": "true", viewBox: chart.map.getAttribute("viewBox") });
+  chart.map.before(ground);
+  return ground;
+}
+/** Those that are not drawn yet. */
+export function draw_stretches(chart) {
+  const { path, one: { stretches } } = chart;
+  for (; path.drawn < stretches.length; ++path.drawn) draw_stretch(chart, stretches[path.drawn]);
+}
+const casing_class = color => brightness(color) > .7 ? "run casing pale" : brightness(color) < .2 ? "run casing deep" : "run casing";
+function draw_stretch(chart, stretch) {
+  const { ahead, halos, dark, casings, done, fresh } = chart.path;
+  const lit = stretch.color !== 0;
+  const look = { class: lit ? "run" : "run unlit", d: line_from(chart, stretch.from, stretch.to), ...lit ? { stroke: css_color(stretch.color) } : {} };
+  stretch.d = look.d;
+  // Of a run that goes on nothing lies ahead, and what grows stands apart from what each frame need not paint anew.
+  const all = !playback.live;
+  if (lit && all) shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 4.5 }, ahead);
+  if (all) shape("path", { ...look, "stroke-width": 3 }, ahead);
+  stretch.layers = [
+    ...lit && all ? [shape("path", { ...look, "stroke-width": 13 }, halos)] : [],
+    ...lit ? [shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 6 }, all ? casings : fresh)] : [],
+    shape("path", { ...look, "stroke-width": lit ? 3.5 : 2.5 }, all ? lit ? done : dark : fresh),
+  ];
+  for (const layer of stretch.layers) layer.setAttribute("visibility", "hidden");
+  stretch.state = "ahead";
 }
 /** Shows the part of the path that lies before this moment; only what changed is touched. */
 export function draw_progress(chart, state) {
@@ -40,14 +68,15 @@ export function draw_progress(chart, state) {
   for (const stretch of chart.one.stretches) {
     const wanted = stretch.to <= i ? "done" : stretch.from <= i ? "open" : "ahead";
     if (wanted === stretch.state && wanted !== "open") continue;
-    const cut = wanted === "open", whole = !cut && stretch.state === "open";
+    const cut = wanted === "open", whole = !cut && (stretch.state === "open" || playback.live);
     const d = cut
       ? `${line_from(chart, stretch.from, Math.min(i, stretch.to))}L${chart.point([state.x, state.y])}`
-      : stretch.d;
+      : whole ? line_from(chart, stretch.from, stretch.to) : stretch.d;
     for (const layer of stretch.layers) {
       if (cut || whole) layer.setAttribute("d", d);
       layer.setAttribute("visibility", wanted === "ahead" ? "hidden" : "visible");
     }
+    if (playback.live && wanted === "done") keep_stretch(chart, stretch);
     stretch.state = wanted;
   }
 }
@@ -68,6 +97,11 @@ export function draw_ball(chart, parent) {
   shape("circle", { r, fill: `url(#${chart.map.id}-shine)` }, ball);
   const nose = shape("g", {}, ball);
   shape("path", { d: `M0 ${-r - 9}l5 8h-10z`, class: "mark-end" }, nose);
+  const eyes = shape("g", { class: "eyes" }, nose);
+  for (const side of [-1, 1]) {
+    shape("ellipse", { cx: side * r * .36, cy: -r * .3, rx: r * .25, ry: r * .3 }, eyes);
+    shape("circle", { cx: side * r * .36, cy: -r * .4, r: r * .13, class: "pupil" }, eyes);
+  }
   const tail = shape("circle", { cy: r - 2, r: r / 5 + 1, fill: "#4a8dff" }, nose);
   return { ball, lamp, nose, tail, halo, lamp_stops };
 }

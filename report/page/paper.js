@@ -15,7 +15,7 @@ window.addEventListener("beforeprint", () => {
   put_aside = { now: playback.now, ...view };
   Object.assign(view, { zoom: 1, x: 0, y: 0, follow: false });
   playback.now = playback.end;
-  playback.shown.run.files.forEach((file, i) => {
+  if ($("paper-files")) playback.shown.run.files.forEach((file, i) => {
     if (i === playback.file && $("source")) return;
     const table = element("table", { class: "listing" });
     table.append(...source_rows(file));
@@ -29,6 +29,6 @@ window.addEventListener("afterprint", () => {
   Object.assign(view, looked);
   playback.now = then;
   put_aside = null;
-  $("paper-files").replaceChildren();
+  $("paper-files")?.replaceChildren();
   redraw();
 });

@@ -1,12 +1,13 @@
 // Plays runs back on the parts of the page that are there.
 
 import { $, clamp } from "./dom.js";
-import { forget_events } from "./events.js";
+import { forget_events, list_more_events } from "./events.js";
+import { lengthen } from "./journey.js";
 import { next_theme, show_heading } from "./heading.js";
 import { take_keys } from "./keys.js";
 import { draw_lanes, draw_track, list_lanes } from "./lanes.js";
 import { choose, list_runs } from "./lists.js";
-import { draw_maps, list_maps, show_still } from "./map.js";
+import { draw_maps, grow_maps, list_maps, show_still } from "./map.js";
 import { survey, view } from "./map_chart.js";
 import { list_signs } from "./map_marks.js";
 import { playback, seek, show, take, watch } from "./playback.js";
@@ -47,6 +48,30 @@ function load(run, run_before = null, goes_on = false) {
   playback.now = clamp(playback.now, 0, playback.end);
   draw_everything();
 }
+/** More of a run that goes on, up to `t` microseconds. */
+function grow(more, t) {
+  if (!playback.live) return;
+  const first = playback.main.pose.t.length;
+  lengthen(playback.main, more);
+  playback.end = Math.max(1, t);
+  slider.max = playback.end;
+  list_more_events(more.events);
+  grow_maps(first, more.events);
+}
+/** A run that went on is over, and nothing more is known of it. */
+function settle() {
+  if (!playback.live) return;
+  set_playing(false);
+  playback.live = false;
+  playback.now = playback.end;
+  document.querySelector(".transport").inert = false;
+  set_rate();
+  survey();
+  list_signs();
+  show_still();
+  draw_track();
+  draw_everything();
+}
 /** The moment that the address asks for: `#t=3.2`, in seconds; null where it asks for none. */
 function asked_time() {
   const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);
@@ -64,14 +89,14 @@ new ResizeObserver(() => {
   pending = requestAnimationFrame(() => { if (playback.main) draw_everything(); });
 }).observe($("map"));
 
-/** What plays runs back: `load()` takes the data of a run, of the report's own or, again and again, of one
- *  that still goes on. `keys`: within what its keys work; `on_moment`: is told the lines that ran last,
+/** What plays runs back: `load()` takes the data of a run, of the report's own or of one
+ *  that still goes on, and `grow()` more of that. `keys`: within what its keys work; `on_moment`: is told the lines that ran last,
  *  file by file, when the moment changes. */
 export function orb_player({ keys = document, on_moment = null } = {}) {
   take_keys(keys);
   if (on_moment) watch(() => on_moment(lines_now()));
   return {
-    load, seek, seek_asked, next_theme,
+    load, grow, settle, seek, seek_asked, next_theme,
     play: () => set_playing(true), pause: () => set_playing(false),
     end: () => playback.end,
   };

@@ -12,11 +12,20 @@ for (const [name, words] of [["position", "at"], ["speed", "speed"], ["heading",
 }
 readings.led.append(element("span", { class: "swatch" }), document.createTextNode(""));
 
+let lit = null;
+/** Only what has the colour is told of it: of the whole page each element would be styled anew. */
+function show_lamp(lamp, color) {
+  if (lamp === lit) return;
+  lit = lamp;
+  for (const { style } of document.querySelectorAll(".mark, .track")) {
+    style.setProperty("--lamp", color);
+    if (lamp) style.setProperty("--lamp-solid", color);
+    else style.removeProperty("--lamp-solid");
+  }
+}
 watch(state => {
   const lamp = playback.main.lamp_at(playback.now), lamp_color = lamp ? css_color(lamp) : "transparent";
-  document.documentElement.style.setProperty("--lamp", lamp_color);
-  if (lamp) document.documentElement.style.setProperty("--lamp-solid", lamp_color);
-  else document.documentElement.style.removeProperty("--lamp-solid");
+  show_lamp(lamp, lamp_color);
   readings.position.textContent = position_words(state);
   readings.speed.textContent = speed_words(state);
   readings.heading.textContent = `${state.heading.toFixed(1)}°`;

@@ -115,6 +115,22 @@ class Browser:
         self._answers = {}
         self._pages = {}
         self._rest = b""
+        self._traced, self._traces = [], False
+
+    def longest_tasks(self, seconds):
+        """The processor time, in ms, of the tasks of the pages' main threads within `seconds`, the longest first.
+        Unlike the time that passes it does not depend on what else this machine has to do."""
+        self._traced, self._traces = [], True
+        self.call("Tracing.start", {"traceConfig": {"includedCategories": ["toplevel"], "excludedCategories": ["*"]}})
+        limit = time.monotonic() + seconds
+        while time.monotonic() < limit:
+            self.listen(0.1)
+        self.call("Tracing.end", {})
+        while self._traces:
+            self.listen(0.1)
+        main = {(one["pid"], one["tid"]) for one in self._traced if one["name"] == "thread_name" and one["args"]["name"] == "CrRendererMain"}
+        tasks = [one.get("tdur", 0) / 1000 for one in self._traced if one["name"].endswith("RunTask") and (one["pid"], one["tid"]) in main]
+        return sorted(tasks, reverse=True)
 
     def close(self):
         try:
@@ -150,6 +166,10 @@ class Browser:
         for message in map(json.loads, messages):
             if "id" in message:
                 self._answers[message["id"]] = message
+            elif message.get("method") == "Tracing.dataCollected":
+                self._traced += message["params"]["value"]
+            elif message.get("method") == "Tracing.tracingComplete":
+                self._traces = False
             elif message.get("sessionId") in self._pages:
                 self._pages[message["sessionId"]].on_event(message["method"], message["params"])
 
