@@ -1,4 +1,5 @@
 #include "playground/request.h"
+#include "playground/robot.h"
 #include "playground/runs.h"
 #include "playground/sources.h"
 #include "playground/tests.h"
@@ -39,6 +40,7 @@ private:
   Answer report(Request& request);
   Answer deliver_start(Request& request);
   Answer deliver_step(Request& request);
+  Answer hear_robot(Request& request) { return ear_.hear(request); }
   template <Answer (*function)(Request&)>
   Answer plain(Request& request) {
     return function(request);
@@ -48,6 +50,7 @@ private:
   editor::LanguageServer server_{&folder_, &folder_};
   std::unique_ptr<Run> live_;
   std::optional<Upload> upload_;
+  RobotEar ear_;
 };
 
 const Engine::Row Engine::rows[] = {
@@ -59,6 +62,8 @@ const Engine::Row Engine::rows[] = {
     {"test", &Engine::plain<playground::test>},
     {"replay", &Engine::plain<playground::replay>},
     {"links", &Engine::plain<playground::links>},
+    {"tell_robot", &Engine::plain<playground::tell_robot>},
+    {"hear_robot", &Engine::hear_robot},
     {"run", &Engine::run},
     {"files", &Engine::files},
     {"lsp", &Engine::lsp},
@@ -121,7 +126,8 @@ Answer Engine::live_start(Request& request) {
     return tl::unexpected(run.error());
   live_ = *std::move(run);
   live_->keep_waiting();
-  return print({{"hint", live_->hint()}});
+  const auto hint = print(live_->hint());
+  return fmt::format(R"({{"hint":{},"report":{}}})", hint, live_->report_so_far());
 }
 
 Answer Engine::live_advance(Request& request) {

@@ -2,8 +2,10 @@
 
 import { OrbError } from "./error.js";
 
+const patience = 10_000; // milliseconds until an engine that has said nothing is late
+
 export class Client {
-  #url; #worker; #next = 1; #open = new Map(); #listeners = new Map();
+  #url; #worker; #late = 0; #broken = null; #next = 1; #open = new Map(); #listeners = new Map();
 
   /** Settles when the wasm is there; rejects where it cannot be loaded. A new one after restart(). */
   ready;
@@ -14,18 +16,33 @@ export class Client {
   }
 
   #begin() {
+    this.#broken = null;
     const worker = new Worker(this.#url, { type: "module" });
     this.#worker = worker;
+    this.#late = setTimeout(() => this.#emit("late"), patience);
     this.ready = new Promise((done, failed) => {
+      const broken = message => {
+        clearTimeout(this.#late);
+        this.#broken = new OrbError({ code: "broken", message });
+        failed(this.#broken);
+        this.#reject_all(this.#broken);
+        this.#emit("broken", this.#broken);
+      };
       worker.onmessage = ({ data }) => {
-        if (data.event === "ready") done(data.data);
-        else if (data.event === "broken") failed(new OrbError({ code: "broken", message: data.data.message }));
+        if (data.event === "ready") {
+          clearTimeout(this.#late);
+          done(data.data);
+          this.#emit("ready", data.data);
+        } else if (data.event === "broken") broken(data.data.message);
         else if (data.event) this.#emit(data.event, data.data);
         else this.#settle(data);
       };
-      worker.onerror = event => failed(new OrbError({ code: "broken", message: event.message ?? "the worker cannot be loaded" }));
+      worker.onerror = event => {
+        event.preventDefault();
+        broken(event.message || "the worker cannot be loaded");
+      };
     });
-    this.ready.catch(error => this.#reject_all(error));
+    this.ready.catch(() => {}); // whoever waits for it hears of it
   }
 
   #settle({ id, result, error }) {
@@ -42,8 +59,9 @@ export class Client {
     for (const listener of this.#listeners.get(event) ?? []) listener(data);
   }
 
-  /** Asks for something of playground/README.md. */
+  /** Asks for something of playground/README.md; refused where the worker is broken. */
   call(method, params = {}) {
+    if (this.#broken) return Promise.reject(this.#broken);
     return new Promise((done, failed) => {
       const id = this.#next++;
       this.#open.set(id, { done, failed });
@@ -59,6 +77,7 @@ export class Client {
 
   /** Ends whatever goes on, at once, and begins anew: nothing is open for the language server then. */
   restart() {
+    clearTimeout(this.#late);
     this.#worker.terminate();
     this.#reject_all(new OrbError({ code: "stopped", message: "stopped" }));
     this.#begin();

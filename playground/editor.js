@@ -9,7 +9,7 @@ import { setDiagnostics, lintGutter, nextDiagnostic } from "@codemirror/lint";
 import { LSPClient, LSPPlugin, serverCompletion, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
   renameKeymap, jumpToDefinitionKeymap } from "@codemirror/lsp-client";
 import { harmless } from "./page/dom.js";
-import { limits } from "./page/workspace.js";
+import { limit_words, limits } from "./page/workspace.js";
 
 const uri_of = name => "file:///" + encodeURIComponent(name);
 /** Longer texts are checked when the typing rests, so that it stays fluent. */
@@ -79,6 +79,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
         for (const answer of (await language.call("lsp", { message })).messages)
           for (const listener of listeners) listener(typeof answer === "string" ? answer : JSON.stringify(answer));
       } catch (error) {
+        if (error.code === "broken") return; // which the page says
         if (error.code !== "stopped" && ++lost <= reconnects) language.restart();
         else if (lost > reconnects) say("The checker has stopped. Save your program and load the page again.", "bad");
       }
@@ -97,6 +98,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     connect();
     const name = shown;
     for (const [one, state] of states) states.set(one, fresh(one, state.doc.toString()));
+    shown = ""; // what the view holds speaks to the server that is gone
     if (name) show(name);
   });
 
@@ -170,7 +172,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
   // -- texts --
   const short_enough = EditorState.changeFilter.of(transaction => {
     if (!transaction.docChanged || transaction.newDoc.length <= limits.text) return true;
-    setTimeout(() => say(`A file holds ${limits.text / 1024} KB at most; that was left out.`, "bad"));
+    setTimeout(() => say(`${limit_words.text}; that was left out.`, "bad"));
     return false;
   });
   const fresh = (name, text) => EditorState.create({
@@ -193,7 +195,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     if (!states.has(name)) states.set(name, fresh(name, text));
     shown = name;
     findings = [];
-    on_findings(name, []);
+    on_findings(name, null); // nobody knows yet
     language.call("files", { files: files() }).catch(() => {}); // what it includes, what it tests
     if (view) view.setState(states.get(name));
     else view = new EditorView({ state: states.get(name), parent });

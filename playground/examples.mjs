@@ -1,9 +1,13 @@
 // Writes examples.json: the examples and lessons of the repository, each with all files that it needs in one
-// folder. usage: node playground/examples.mjs ROOT FILE
+// folder, and the path that it drives. usage: node playground/examples.mjs ROOT FILE ENGINE, the last a folder with
+// the engine as a package
 import { readdirSync, readFileSync, existsSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 
-const [root, out] = process.argv.slice(2);
+const [root, out, engine_folder] = process.argv.slice(2);
+const { load_engine } = await import(pathToFileURL(resolve(engine_folder, "engine.js")));
+const engine = await load_engine();
 const folder = join(root, "examples");
 const read = path => readFileSync(path, "utf8");
 const stem = name => name.replace(/\.\w+$/, "");
@@ -25,9 +29,10 @@ function gather(files, name, text) {
     if (!(other in files)) gather(files, other, read(join(folder, other)));
 }
 
-/** The options of the command that stands in the first lines of a program. */
+/** The options of the first command that runs something in a text: the first lines of a program, or a task. */
 function run_of(text, main) {
-  const words = (text.match(/orb run (.*)/)?.[1] ?? "").trim().split(/\s+/).map(word => word.replace(/^examples\//, ""));
+  const words = (text.match(/orb run (.*)/)?.[1].match(/'[^']*'|\S+/g) ?? [])
+    .map(word => word.replace(/^'(.*)'$/, "$1").replace(/^(examples|\.\.\/\.\.)\//, ""));
   const value = option => words.includes(option) ? words[words.indexOf(option) + 1] : undefined;
   const options = {
     stimuli: value("--stimulus") && [value("--stimulus")],
@@ -58,8 +63,54 @@ function example(name) {
   if (is_tested) gather(files, test, tested);
   return {
     id: name, title: title ?? stem(name)[0].toUpperCase() + stem(name).slice(1), summary: summary.replace(/[,.]$/, ""),
-    language: ending(name), files, main: name, ...is_tested && { test }, run,
+    language: ending(name), files, main: name, ...is_tested && { test }, run, ...drawing({ files, run }, name),
   };
+}
+
+/** A task as the page gives it: a block is replaced by the comment `page:` that follows it, and what is to be typed into a
+ *  terminal is a button there. */
+function for_page(readme) {
+  const blocks = flat(readme).trim().split(/\n\n+/), said = block => /^<!-- page: ([^]*) -->$/.exec(block ?? "")?.[1];
+  return blocks.flatMap((block, i) => {
+    if (said(block) || said(blocks[i + 1])) return said(block) ?? [];
+    return block.split("\n").every(line => line.startsWith("    orb ")) ? [] : block;
+  }).join("\n\n") + "\n";
+}
+
+/** The path as a drawing of 120 by 72: [colour, d] of each stretch; and the last colour of the LED. */
+function drawing({ files, run }, main, text = files[main]) {
+  const { report } = engine.call("run", { files: { ...files, [main]: text }, ...run, names: run.names ?? [main], for: run.for ?? "60s", report: true });
+  const { pose, led } = report, sums = list => { let sum = 0; return list.map(step => sum += step); };
+  const t = sums(pose.t), x = sums(pose.x), y = sums(pose.y), changes = sums(led.t);
+  const hex = rgb => rgb ? `#${rgb.toString(16).padStart(6, "0")}` : "";
+  const color = hex([...led.rgb].reverse().find(Boolean) ?? 0);
+  const [left, right, low, high] = [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
+  const scale = Math.min(108 / (right - left), 60 / (high - low));
+  if (!t.length || right - left + high - low < 20_000) return { color };
+  const at = i => `${Math.round(60 + (x[i] - (left + right) / 2) * scale)} ${Math.round(36 - (y[i] - (low + high) / 2) * scale)}`;
+  const path = [];
+  for (let i = 0; i < t.length; ++i) {
+    const lit = hex(led.rgb[changes.findLastIndex(change => change <= t[i])] ?? 0), open = path.at(-1), here = at(i);
+    if (!open || open[0] !== lit && path.length < 12) path.push([lit, `M${open?.last ?? here}L${here}`]);
+    else if (open.last !== here) open[1] += ` ${here}`;
+    path.at(-1).last = here;
+  }
+  return { path: path.filter(([, d]) => d.includes("L")).map(([stroke, d]) => [stroke, straightened(d)]) };
+}
+/** Without the points that lie within one unit of the line between those that stay (Ramer, Douglas and Peucker). */
+function straightened(d) {
+  const numbers = d.slice(1).split(/[L ]/).map(Number), points = [];
+  for (let i = 0; i < numbers.length; i += 2) points.push([numbers[i], numbers[i + 1]]);
+  const off = ([x, y], [ax, ay], [bx, by]) => {
+    const length = Math.hypot(bx - ax, by - ay);
+    return length ? Math.abs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / length : Math.hypot(x - ax, y - ay);
+  };
+  const thin = list => {
+    const [first, last] = [list[0], list.at(-1)];
+    const far = list.map(point => off(point, first, last)), most = Math.max(...far), at = far.indexOf(most);
+    return most <= 1 ? [first, last] : [...thin(list.slice(0, at + 1)).slice(0, -1), ...thin(list.slice(at))];
+  };
+  return `M${thin(points).map(point => point.join(" ")).join("L")}`;
 }
 
 function lesson(name) {
@@ -68,10 +119,10 @@ function lesson(name) {
   const files = {};
   gather(files, "robot.orb", read(join(place, "robot.orb")));
   gather(files, "robot.test", read(join(place, "robot.test")));
-  const course = Object.keys(files).find(file => ending(file) === "svg");
+  const run = run_of(readme, "robot.orb"), solution = read(join(place, "solution.orb"));
   return {
-    id: `lessons/${name}`, title: readme.match(/^# \d+\. (.*)$/m)[1], language: "orb", readme,
-    solution: read(join(place, "solution.orb")), files, main: "robot.orb", test: "robot.test", run: course ? { course } : {},
+    id: `lessons/${name}`, title: readme.match(/^# \d+\. (.*)$/m)[1], language: "orb", readme: for_page(readme),
+    solution, files, main: "robot.orb", test: "robot.test", run, ...drawing({ files, run }, "robot.orb", solution),
   };
 }
 

@@ -1,5 +1,6 @@
 // The playground's page: what its parts have to do with each other.
 
+import { renderSVG as qr_code } from "uqr";
 import { orb_player } from "../report/page/player.js";
 import { Client } from "./client.js";
 import { make_editor } from "./editor.js";
@@ -7,15 +8,20 @@ import { Ball } from "./page/ball.js";
 import { Verdicts } from "./page/verdicts.js";
 import { $, element, button, say, download, with_code } from "./page/dom.js";
 import { set_up_flash } from "./page/flash.js";
-import { as_workspace, load_library, mark_done, show_library, show_task } from "./page/library.js";
+import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
+import { set_up_mine } from "./page/mine.js";
+import { fill_sheet } from "./page/sheet.js";
+import { first_steps, welcome } from "./page/steps.js";
+import { Store, new_id } from "./page/store.js";
 import { set_up_world } from "./page/world.js";
-import { checked, empty, from_fragment, keep, kept, kind_of, limits, name_trouble, program_of, tests_of, to_fragment, ending_of, kinds } from "./page/workspace.js";
+import { AddressError, checked, empty, from_fragment, keep, kept, kind_of, limit_words, limits, name_trouble, program_of, tests_of, to_fragment, ending_of, kinds } from "./page/workspace.js";
 
 // One worker answers while somebody types; the other runs programs and is ended with them.
 const worker_url = new URL("./worker.js", import.meta.url);
 const language = new Client(worker_url), machine = new Client(worker_url);
 
 let workspace = empty();
+window.addEventListener("beforeprint", () => fill_sheet(workspace));
 const nonce = "orb-editor"; // of the policy in page.html: the editor makes its style sheet itself
 
 const player = orb_player({
@@ -28,12 +34,46 @@ editor = make_editor({
   files: () => workspace.files,
   on_change(name, text) {
     workspace.files[name] = text;
+    steps.changed();
     keep_soon();
   },
   on_findings: (name, list) => show_findings(list),
 });
 
-let keeping = 0;
+// ---- the engines: one that does not answer is named ----
+function show_trouble(id, words) {
+  $(id).firstElementChild.textContent = words;
+  $(id).hidden = !words;
+}
+const broken = new Set();
+for (const client of [language, machine]) {
+  let lives = 3; // one that has run, and ends, is begun again
+  let has_run = false;
+  client.on("broken", ({ message }) => {
+    if (client === machine) ball.give_up();
+    if (has_run && lives-- > 0) return client.restart();
+    broken.add(client);
+    show_trouble("engine", `The engine of orb does not run: ${message}. Nothing can be checked or run until it does.`);
+    if (client === language) $("count").textContent = "not checked";
+  });
+  client.on("late", () => show_trouble("engine", "The engine of orb is still being loaded. On a slow network that takes a while."));
+  client.on("ready", () => {
+    has_run = true;
+    broken.delete(client);
+    if (!broken.size) show_trouble("engine", "");
+  });
+}
+$("engine-again").addEventListener("click", () => {
+  show_trouble("engine", "");
+  for (const client of [language, machine]) client.restart();
+});
+
+// ---- what is written is kept ----
+const store = new Store(words => show_trouble("storage", words));
+$("storage-seen").addEventListener("click", () => show_trouble("storage", ""));
+const opened = new Map(); // documents of this page as they were left, whatever the browser keeps
+const version_every = 60_000; // milliseconds of writing
+let keeping = 0, last_version = 0;
 function stop_keeping() {
   clearTimeout(keeping);
   keeping = 0;
@@ -41,6 +81,15 @@ function stop_keeping() {
 function keep_now() {
   stop_keeping();
   keep(workspace);
+  const mark = Date.now() - last_version > version_every;
+  if (mark) last_version = Date.now();
+  store.keep(workspace, mark);
+}
+/** What it is now becomes a state to come back to. */
+function mark_version() {
+  if (keeping) keep_now();
+  last_version = Date.now();
+  return store.keep(workspace, true);
 }
 function keep_soon() {
   stop_keeping();
@@ -50,6 +99,12 @@ window.addEventListener("pagehide", () => { if (keeping) keep_now(); }); // a ta
 
 // ---- findings below the text ----
 function show_findings(list) {
+  if (!list) {
+    $("findings").replaceChildren();
+    $("count").textContent = broken.has(language) ? "not checked" : "checking…";
+    $("count").className = "";
+    return;
+  }
   const ordered = [...list].sort((a, b) => a.from - b.from);
   $("findings").replaceChildren(...ordered.slice(0, 100).map(one => {
     const [first, ...more] = one.message.split("\n");
@@ -61,7 +116,7 @@ function show_findings(list) {
   }));
   const count = severity => list.filter(one => one.severity === severity).length;
   const words = [["error", count("error")], ["warning", count("warning")]].filter(([, n]) => n).map(([word, n]) => `${n} ${word}${n > 1 ? "s" : ""}`);
-  $("count").textContent = words.join(", ") || "no mistakes found";
+  $("count").textContent = words.join(", ") || "no mistakes found"; // which a screen reader says when it changes
   $("count").className = count("error") ? "bad" : "";
 }
 /** What a run was refused for may stand in a file that is not shown. */
@@ -94,7 +149,8 @@ function show_tabs() {
 }
 function show_test_button() {
   $("test").textContent = workspace.lesson ? "Am I done?" : "Test";
-  $("test").disabled = !!ball.busy || !tests_of(workspace).length;
+  $("test").hidden = !tests_of(workspace).length;
+  $("test").setAttribute("aria-disabled", String(!!ball.busy)); // a disabled one would lose the focus
 }
 $("tabs").addEventListener("keydown", event => {
   const names = Object.keys(workspace.files), at = names.indexOf(workspace.active);
@@ -121,30 +177,58 @@ function show_file(name) {
 function open_workspace(next) {
   editor.reset();
   workspace = next;
+  workspace.title ||= workspace.main || program_of(workspace, workspace.active) || workspace.active;
   $("verdicts").hidden = true;
   world.show();
   show_file(workspace.active);
   show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution });
+  steps.show(workspace);
+  show_came();
+  ball.rest();
 }
-/** Something else comes: what was there stays at hand. */
-function exchange(next, words) {
-  if (Object.keys(workspace.files).length) {
+/** What was open before, and the way back to it: also after the page was loaded again. */
+function show_came(words = "", more = []) {
+  $("came").hidden = !workspace.before && !more.length;
+  if ($("came").hidden) return;
+  const back = workspace.before ? [button("Back to what you had", go_back)] : [];
+  $("came").replaceChildren(element("span", {}, words || `This is “${workspace.title}”.`), ...more, ...back, button("Fine", () => {
+    workspace.before = "";
+    keep_soon();
+    $("came").hidden = true;
+  }));
+}
+/** Something else comes: what was there stays as it is, in a place of its own. */
+function exchange(next, words, more = []) {
+  if (workspace.document && Object.keys(workspace.files).length) {
+    opened.set(workspace.document, structuredClone(workspace));
+    mark_version();
     keep(workspace, "before");
-    $("came").firstElementChild.textContent = words;
-    $("came").replaceChildren($("came").firstElementChild, button("Back to what you had", () => {
-      const before = kept("before");
-      if (before) exchange(before, "This is what you had.");
-    }), button("Fine", () => { $("came").hidden = true; }));
-    $("came").hidden = false;
+    next.before = workspace.document === next.document ? workspace.before : workspace.document;
   }
   open_workspace(next);
+  show_came(words, more);
 }
-const pick = item => {
-  ball.stop();
-  exchange(checked(as_workspace(item)), `${item.readme ? "The lesson" : "The example"} “${item.title}” is open.`);
+const document_of = async id => id === workspace.document ? structuredClone(workspace) : opened.get(id) ?? await store.find(id);
+async function go_back() {
+  const before = await document_of(workspace.before) ?? kept("before");
+  if (before) exchange({ ...before, before: "" }, `“${before.title}”, as you left it.`);
+  else say("This browser has not kept it.", "bad");
+}
+/** A lesson or an example: as it was left, where somebody has worked on it. */
+async function pick(item) {
+  const fresh = { ...checked(as_workspace(item)), document: item.id, title: item.title };
+  const mine = await document_of(item.id);
+  const what = `${item.readme ? "The lesson" : "The example"} “${item.title}”`;
+  if (!mine || same_files(mine, fresh)) exchange(fresh, `${what} is open.`);
+  else exchange({ ...mine, before: "" }, `${what}, as you left it.`, [button("Begin it again", () => {
+    mark_version();
+    exchange(fresh, `${what} from its beginning. What you had is among the earlier states under Mine.`);
+  })]);
   show_view("work");
-};
+}
+const same_files = (one, other) => JSON.stringify(Object.entries(one.files).sort()) === JSON.stringify(Object.entries(other.files).sort());
 function show_solution({ solution, main }) {
+  mark_version();
   show_file(main);
   editor.replace(solution);
   say("One way to do it; yours may be better. Undo brings your text back.");
@@ -160,7 +244,7 @@ async function ask_name(title, start, then) {
     if (event.submitter?.value !== "ok") return;
     const name = $("name").value.trim();
     const trouble = name_trouble(name) || (name !== start && Object.hasOwn(workspace.files, name) ? "There is such a file already." : "")
-      || (Object.keys(workspace.files).length >= limits.files ? `More than ${limits.files} files are too many.` : "");
+      || (name !== start && title === "New file" && Object.keys(workspace.files).length >= limits.files ? `${limit_words.files}.` : "");
     $("name-trouble").textContent = trouble;
     if (trouble) { event.preventDefault(); $("name").focus(); } else then(name);
   };
@@ -170,7 +254,15 @@ $("new-file").addEventListener("click", () => ask_name("New file", "new.orb", na
   world.show();
   show_file(name);
   editor.focus();
+  say(new_words(name));
 }));
+/** What a new file is good for. */
+function new_words(name) {
+  const kind = kind_of(name);
+  return kind.program ? `${name} is a ${kind.words} of its own: Run runs the program that is shown.`
+    : ending_of(name) === "test" ? `${name} says what the program must do: ${program_of(workspace, name) || "no program"} is tested.`
+    : `${name} is a ${kind.words}: choose it under More.`;
+}
 $("rename-file").addEventListener("click", () => ask_name("Rename", workspace.active, name => {
   const before = workspace.active;
   if (name === before) return;
@@ -196,19 +288,26 @@ $("save").addEventListener("click", save);
 $("open").addEventListener("click", () => $("files-to-open").click());
 async function take_files(list) {
   const files = {}, troubles = [];
-  for (const file of [...list].slice(0, limits.files)) {
-    const trouble = name_trouble(file.name) || (file.size > limits.text ? `It is longer than ${limits.text / 1024} KB.` : "");
+  for (const file of list) {
+    const text = file.size <= 4 * limits.text ? await file.text() : null;
+    const trouble = name_trouble(file.name) || (text === null || text.length > limits.text ? `${limit_words.text}.` : "")
+      || (Object.keys(files).length >= limits.files ? `${limit_words.files}.` : "");
     if (trouble) troubles.push(`${file.name}: ${trouble}`);
-    else files[file.name] = await file.text();
+    else files[file.name] = text;
   }
   const names = Object.keys(files);
   if (names.length) {
     const stays = names.every(name => !kind_of(name).program); // a test, say, comes to its program
-    const next = checked({ files: stays ? { ...workspace.files, ...files } : files, active: names[0], run: stays ? workspace.run : undefined });
-    if (stays) open_workspace(next);
-    else exchange(next, `${names.join(", ")}: opened.`);
+    const all = stays ? { ...workspace.files, ...files } : files;
+    if (Object.keys(all).length > limits.files) troubles.push(`${limit_words.files}.`);
+    else {
+      mark_version();
+      const next = checked({ ...stays ? workspace : {}, files: all, active: names[0] });
+      if (stays) open_workspace(next);
+      else exchange({ ...next, document: new_id() }, `${names.join(", ")}: opened.`);
+    }
   }
-  if (troubles.length) say(troubles.join(" "), "bad");
+  if (troubles.length) say(troubles.slice(0, 3).join(" "), "bad");
 }
 $("files-to-open").addEventListener("change", async () => { await take_files($("files-to-open").files); $("files-to-open").value = ""; });
 document.addEventListener("dragover", event => { if (event.dataTransfer?.types.includes("Files")) event.preventDefault(); });
@@ -225,10 +324,18 @@ $("share").addEventListener("click", async () => {
     $("share-link").value = link;
     $("share-dialog").showModal();
     $("share-link").select();
-  } catch {
-    say("That is too much for an address; save the files instead.", "bad");
+    show_code(link);
+  } catch (error) {
+    say(error instanceof AddressError ? error.message : `No address can be made: ${error.message}`, "bad");
   }
 });
+/** The address for a telephone's camera, where it is short enough for one. */
+function show_code(link) {
+  const most = 2331; // bytes in the largest code with its damage repaired to a seventh
+  $("share-code").hidden = link.length > most;
+  $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code; the address holds it." : "";
+  if (link.length <= most) $("share-code").innerHTML = qr_code(link, { ecc: "M", border: 2 });
+}
 $("share-copy").addEventListener("click", async () => {
   $("share-link").select();
   try { await navigator.clipboard.writeText($("share-link").value); } catch { document.execCommand("copy"); }
@@ -236,36 +343,60 @@ $("share-copy").addEventListener("click", async () => {
   setTimeout(() => { $("share-copy").textContent = "Copy"; }, 1500);
 });
 /** Takes what the address holds, and then takes it off the address: what is written from now on is not in it. */
-async function take_address() {
-  const { hash } = location;
-  if (hash.startsWith("#lesson=") || hash.startsWith("#example=")) {
-    const id = decodeURIComponent(hash.slice(hash.indexOf("=") + 1));
-    const all = (await load_library()).flatMap(group => group.items);
+async function take_address(hash) {
+  const named = /^#(?:lesson|example)=(.*)$/.exec(hash);
+  if (named) {
+    const id = decodeURIComponent(named[1]);
+    const groups = await load_library().catch(() => {
+      throw new AddressError("The lessons and examples could not be loaded. Is there a network? Load the page again.");
+    });
+    const all = groups.flatMap(group => group.items);
     const item = all.find(one => one.id === id) ?? all.find(one => one.main === id) ?? all.find(one => Object.hasOwn(one.files, id));
-    if (!item) throw new Error("no such example");
-    return { next: checked(as_workspace(item)), words: `“${item.title}” is open.` };
+    if (!item) throw new AddressError(`The address is damaged: there is no lesson or example “${id}”.`);
+    return () => pick(item);
   }
+  if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which says nothing to this page.`);
   const next = await from_fragment(hash);
-  return next && { next, words: "A shared program is open." };
+  if (!next) throw new AddressError("The address is damaged: there is no program in it that can be read.");
+  return () => exchange({ ...next, document: new_id() }, "A shared program is open.");
 }
 async function open_address() {
+  const { hash } = location;
+  if (hash.length < 2) return false;
   try {
-    const taken = await take_address();
-    if (!taken) return false;
+    const open = await take_address(hash);
     history.replaceState(null, "", location.pathname + location.search);
-    exchange(taken.next, taken.words);
+    await open();
     return true;
-  } catch {
-    say("The address is damaged: there is no program in it that can be read.", "bad");
+  } catch (error) {
+    say(error instanceof AddressError ? error.message : "The address is damaged: there is no program in it that can be read.", "bad");
     return false;
   }
 }
 window.addEventListener("hashchange", open_address);
 
 // ---- the ball, tests, flashing ----
-const ball = new Ball({ machine, player, workspace: () => workspace, on_mistakes: show_mistakes, on_begin: () => { show_view("play"); show_program(); }, on_busy: show_test_button });
+const steps = first_steps({ on_next: async () => {
+  const [first] = (await load_library()).flatMap(group => group.items).filter(item => item.readme);
+  pick(first);
+} });
+const ball = new Ball({ machine, player, workspace: () => workspace, on_mistakes: show_mistakes, on_place: go_to, on_busy: show_test_button,
+  on_begin() {
+    mark_version();
+    show_view("play");
+    show_program();
+    steps.ran();
+  } });
 const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_place: go_to,
-  on_passed: () => { if (workspace.lesson) mark_done(workspace.lesson); } });
+  on_passed() {
+    if (!workspace.lesson) return null;
+    mark_done(workspace.lesson);
+    show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution }, true);
+    const next = lesson_after(workspace.lesson);
+    return next && (() => pick(next));
+  } });
+const mine = set_up_mine({ store, workspace: () => workspace, on_open: (next, words) => { exchange(next, words); show_view("work"); },
+  begin: () => checked({ files: { "program.orb": welcome }, active: "program.orb" }) });
 const world = set_up_world({ workspace: () => workspace, keep: keep_soon });
 set_up_flash({ machine, workspace: () => workspace, on_mistakes: show_mistakes });
 
@@ -277,12 +408,15 @@ function show_program() {
 function test() {
   const beside = `${program_of(workspace, workspace.active).replace(/\.\w+$/, "")}.test`;
   const all = tests_of(workspace);
+  if (ball.busy) return;
+  mark_version();
   show_view("play");
   verdicts.run(ending_of(workspace.active) === "test" ? [workspace.active] : all.includes(beside) ? [beside] : all);
 }
-const start = () => ball.start(), instant = () => ball.instant(), stop = () => ball.stop();
-for (const [id, deed] of Object.entries({ run: start, instant, test, stop })) $(id).addEventListener("click", deed);
+const start = () => ball.busy ? ball.stop() : ball.start(), instant = () => ball.instant(), stop = () => ball.stop();
+for (const [id, deed] of Object.entries({ run: start, instant, test })) $(id).addEventListener("click", deed);
 $("pick").addEventListener("click", () => show_library(pick));
+$("mine").addEventListener("click", () => { mark_version().then(mine.show); });
 $("task-fold").addEventListener("click", () => {
   const hidden = $("task").classList.toggle("folded");
   $("task-fold").setAttribute("aria-expanded", String(!hidden));
@@ -307,25 +441,15 @@ document.addEventListener("keydown", event => {
 }, { capture: true });
 
 // ---- begin ----
-const welcome = `' Welcome! Press Run, then change something and run it again.
-const side = 90
-
-for turn = 0 to 3
-  RGB 60 * turn, 120, 255 - 60 * turn
-  goroll turn * 90, 80, 1
-  delay 1s
-next turn
-goroll 0, 0, 0
-print "back at " xpos "," ypos
-`;
 async function begin() {
-  workspace = kept() ?? empty();
+  const found = kept();
+  if (found) workspace = { ...found, document: found.document || new_id() };
   if (!await open_address()) {
-    open_workspace(Object.keys(workspace.files).length ? workspace : checked({ files: { "welcome.orb": welcome }, active: "welcome.orb" }));
+    open_workspace(found ? workspace : { ...checked({ files: { "welcome.orb": welcome }, active: "welcome.orb" }), document: "welcome", title: "First steps" });
     stop_keeping(); // nothing was written in it yet, but perhaps in another tab
   }
-  await machine.ready;
-  document.documentElement.dataset.ready = Math.round(performance.now()); // for whoever measures
 }
-begin();
+const begun = begin();
+// For whoever measures.
+machine.on("ready", () => begun.then(() => { document.documentElement.dataset.ready ??= Math.round(performance.now()); }));
 if ("serviceWorker" in navigator && location.protocol.startsWith("http")) navigator.serviceWorker.register("sw.js").catch(() => {});

@@ -3,7 +3,6 @@
 #include "base/duration.h"
 #include "base/utf8.h"
 #include "playground/sources.h"
-#include "report/page.h"
 #include "run/want.h"
 #include "structured/text/words.h"
 #include "vm/stimulus.h"
@@ -13,6 +12,9 @@
 
 namespace orb::playground {
 namespace {
+
+/// How long a ball is watched that drives on though nothing runs any more.
+constexpr Duration watched = 5s;
 
 int rgb(vm::Color color) {
   return color.red << 16 | color.green << 8 | color.blue;
@@ -118,11 +120,17 @@ bool Run::advance(Duration t) {
       if (!over_)
         live_->wait(t);
     }
+  if (!over_ && live_->rolls_out()) {
+    rolls_since_ = rolls_since_.value_or(live_->time());
+    over_ = live_->time() - *rolls_since_ > watched;
+  } else {
+    rolls_since_.reset();
+  }
   return !over_;
 }
 
 void Run::stop() {
-  if (!over_)
+  if (!over_ && !live_->rolls_out())
     live_->stop();
 }
 
@@ -132,8 +140,11 @@ tl::expected<void, Problem> Run::apply(const std::string& line) {
   const auto script = vm::parse_stimulus(source);
   if (!script.diagnostics.empty())
     return refuse(ExitCode::BadInput, script.diagnostics.front().message);
-  for (const auto& event : script.events)
+  for (const auto& event : script.events) {
     live_->apply(event.stimulus);
+    // What somebody does by hand is part of the world: nobody says later that it never came.
+    launched_->options.stimuli.push_back({live_->time(), event.stimulus});
+  }
   return {};
 }
 
@@ -145,13 +156,21 @@ std::string Run::hint() const {
 std::string Run::frame() {
   const auto& ball = live_->ball();
   const auto prints = std::string_view(prints_).substr(told_prints_);
+  auto faults = ordered_json::array();
+  for (const auto& fault : std::exchange(faults_, {}))
+    faults.push_back(fault_json(fault));
   const ordered_json frame{{"ms", milliseconds(live_->time())},
                            {"pose", pose_json(ball.body().pose())},
                            {"led", rgb(ball.led())},
                            {"prints", from_latin1(prints)},
-                           {"waits_for", live_->waits_for_number() ? "a number" : ""}};
+                           {"waits_for", live_->waits_for_number() ? "a number" : ""},
+                           {"faults", std::move(faults)},
+                           {"ended", rolls_since_ ? run::to_string(live_->so_far()) : ""}};
   told_prints_ = prints_.size();
-  return print(frame);
+  auto text = print(frame);
+  if (journey_) // which is JSON already
+    text.replace(text.size() - 1, 1, ",\"more\":" + report::growth_json(*journey_, shown_) + "}");
+  return text;
 }
 
 std::string Run::report_so_far() const {
@@ -186,6 +205,7 @@ void Run::on_event(Duration t, const vm::Event& event) {
 void Run::on_fault(Duration t, const run::ProgramError& fault) {
   if (trace_)
     trace_->add(t, fault);
+  faults_.push_back(fault);
 }
 
 std::string Run::report_of(const report::Journey& journey) const {

@@ -3,6 +3,7 @@
 #include "debug/launch.h"
 #include "playground/request.h"
 #include "report/journey.h"
+#include "report/page.h"
 #include "run/live.h"
 #include "run/trace.h"
 
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace orb::playground {
 
@@ -26,7 +28,8 @@ public:
 
   /// Goes on to its end.
   void finish();
-  /// Goes on to robot time `t`; false once it is over. While it waits for a number it goes on.
+  /// Goes on to robot time `t`; false once it is over. While it waits for a number it goes on. A
+  /// ball that still drives when nothing runs any more is watched for some seconds.
   bool advance(Duration t);
   /// Ends it where it has not come to its end by itself.
   void stop();
@@ -57,6 +60,9 @@ private:
   std::optional<run::Trace> trace_;
   std::unique_ptr<run::Live> live_;
   std::string prints_;
+  std::vector<run::ProgramError> faults_; ///< that no frame has told
+  report::Shown shown_;                   ///< by the frames
+  std::optional<Duration> rolls_since_;   ///< nothing runs any more
   std::string trace_text_;
   bool over_ = false;
   std::size_t told_prints_ = 0; ///< by the last frame

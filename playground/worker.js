@@ -26,8 +26,8 @@ function tick() {
     if (over) end();
     else clock.timer = setTimeout(tick, frame_ms);
   } catch (error) {
-    end();
-    throw error;
+    clock = null;
+    post("broken", { message: error.message });
   }
 }
 
@@ -61,6 +61,8 @@ function answer({ id, method, params = {} }) {
     const result = Object.hasOwn(own, method) ? own[method](params) : engine.call(method, params);
     postMessage({ id, result });
   } catch (error) {
+    // After that nothing in its memory can be relied on.
+    if (error instanceof WebAssembly.RuntimeError) post("broken", { message: `${method}: ${error.message}` });
     postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });
   }
 }

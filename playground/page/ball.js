@@ -1,9 +1,9 @@
 // Runs: in the time of the robot, at once, and what is done to the ball meanwhile.
 
-import { $ } from "./dom.js";
+import { $, announce, button, element, with_code } from "./dom.js";
 import { ending_of, program_of } from "./workspace.js";
 
-const often = 150; // milliseconds between two looks at a run that goes on
+const silent_ms = 4000; // without a frame
 const patience = 400; // milliseconds that a worker has to end a run itself
 
 /** What `run` and `start` are asked: the files, which of them, and the world around. */
@@ -15,10 +15,19 @@ export function request(workspace) {
   return { files, names: [program, ...macros], stimuli: run.stimuli, input, seed: run.seed, ...run.course ? { course: run.course } : {} };
 }
 
+const nothing = { t: [], x: [], y: [], heading: [], speed: [], rgb: [], value: [], file: [], line: [] };
+/** A ball that has done nothing yet, as data of a run. */
+const at_rest = {
+  title: "", end: { t: 0, reason: "", text: "" }, totals: [], counts: {}, thinned: "", files: [],
+  words: { basic: {}, structured: {}, macro: {} }, walls: [], pose: { step: 50_000, ...nothing }, led: nothing, backled: nothing,
+  line: nothing, variables: [], sensors: [], events: [],
+};
+const icons = { run: "M7 4l14 8-14 8z", stop: "M6 6h12v12H6z" };
+
 /** `machine`: the client of a worker that may be ended at any time. */
 export class Ball {
-  constructor({ machine, player, workspace, on_mistakes, on_begin, on_busy }) {
-    Object.assign(this, { machine, player, workspace, on_mistakes, on_begin, on_busy, busy: "", last: null, heading: 0 });
+  constructor({ machine, player, workspace, on_mistakes, on_place, on_begin, on_busy }) {
+    Object.assign(this, { machine, player, workspace, on_mistakes, on_place, on_begin, on_busy, busy: "", heading: 0 });
     machine.on("frame", frame => this.take_frame(frame));
     machine.on("end", answer => this.end(answer));
     for (const one of $("hands").querySelectorAll("[data-line]")) one.addEventListener("click", () => this.press(one));
@@ -28,19 +37,33 @@ export class Ball {
 
   set_busy(what) {
     this.busy = what;
-    for (const id of ["run", "instant"]) $(id).disabled = what !== "";
+    const runs = what !== "";
+    // One button for both keeps its focus.
+    $("run").classList.toggle("stop", runs);
+    $("run-words").textContent = runs ? "Stop" : "Run";
+    $("run-icon").setAttribute("d", runs ? icons.stop : icons.run);
+    $("instant").setAttribute("aria-disabled", String(runs));
     this.on_busy();
-    $("stop").disabled = what === "";
     $("hands").hidden = what !== "live";
     $("player").classList.toggle("is-live", what === "live");
   }
-  say(words, bad = false) {
-    $("outcome").textContent = words;
+  say(words, bad = false, more = []) {
+    $("outcome").replaceChildren(...words ? [element("p", {}, ...with_code(words))] : [], ...more);
     $("outcome").className = bad ? "bad" : "";
   }
+  /** Nothing has run yet: the ball rests in the middle. */
+  rest() {
+    if (this.busy) {
+      this.finish();
+      this.machine.restart();
+    }
+    this.player.settle();
+    this.player.load(structuredClone(at_rest));
+    $("played").classList.add("idle");
+    this.say("");
+  }
   show(report, goes_on) {
-    $("nothing").hidden = true;
-    $("played").hidden = false;
+    $("played").classList.remove("idle");
     this.player.load(report, null, goes_on);
   }
 
@@ -50,45 +73,56 @@ export class Ball {
     if (!this.ready(asked)) return;
     this.set_busy("live");
     this.say("running");
-    this.last = null;
     this.on_begin();
     const run = this.run_number = {};
+    this.told = "";
     try {
-      await this.machine.call("start", asked);
+      const { report } = await this.machine.call("start", asked);
+      if (this.run_number !== run) return;
+      this.show(report, true);
+      this.say("running");
+      this.player.play();
+      this.expect_frame();
     } catch (error) {
       if (this.run_number === run) this.fail(error);
-      return;
-    }
-    while (this.busy === "live" && this.run_number === run) {
-      const began = performance.now();
-      try {
-        const report = await this.machine.call("report", {});
-        if (this.busy !== "live" || this.run_number !== run) return;
-        const first = !this.last;
-        this.last = report;
-        const words = $("outcome").textContent, look = $("outcome").className;
-        this.show(report, true);
-        $("outcome").textContent = words; // that of a run that goes on is no outcome
-        $("outcome").className = look;
-        if (first) this.player.play();
-      } catch (error) {
-        if (error.code === "stopped") return;
-      }
-      // A long run is looked at less often, so that most of the time is its own.
-      const cost = performance.now() - began;
-      await new Promise(done => setTimeout(done, Math.max(often, 4 * cost)));
     }
   }
-  take_frame({ waits_for, pose }) {
+  /** An engine that is silent is named. */
+  expect_frame() {
+    clearTimeout(this.silence);
+    this.silence = setTimeout(() => {
+      if (this.busy === "live") this.say("The engine has not answered for some seconds; Stop ends it.", true);
+    }, silent_ms);
+  }
+  take_frame({ ms, waits_for, pose, prints, faults, ended, more }) {
     if (this.busy !== "live") return;
+    this.expect_frame();
+    if (more) this.player.grow(more, ms * 1000);
     if (pose) this.heading = pose.heading;
+    if (prints) announce(prints);
+    const [fault] = faults ?? [];
+    if (fault) return this.tell_fault(fault, "The program has stopped");
+    if (ended && !this.told) {
+      this.told = ended;
+      this.say(`${ended}; the ball still rolls`);
+    }
     const waits = waits_for || "";
     if (waits === this.waits) return;
     this.waits = waits;
     $("number-words").textContent = waits ? `It waits for ${waits}` : "Number";
     $("number-form").classList.toggle("wanted", waits !== "");
-    this.say(waits ? `waits for ${waits}` : "running");
+    if (!this.told) this.say(waits ? `waits for ${waits}` : "running");
     if (waits && $("player").contains(document.activeElement)) $("number").focus();
+  }
+  /** All that is known of a fault: what happened where, with which values, and what helps. */
+  tell_fault(fault, words) {
+    this.told = fault.message;
+    const { file, line, message, seen, variables, finding, help } = fault;
+    const details = seen ? variables : finding;
+    this.say("", true, [
+      element("p", {}, ...with_code(`${words}: ${message}${seen ? `: ${seen}` : ""} `), line ? button(`line ${line}`, () => this.on_place(file, line), { class: "link" }) : ""),
+      ...[details, help].filter(Boolean).map(text => element("p", { class: "hint" }, ...with_code(text))),
+    ]);
   }
   end(answer) {
     if (this.busy !== "live") return;
@@ -96,6 +130,7 @@ export class Ball {
     this.conclude(answer, false);
   }
   finish() {
+    clearTimeout(this.silence);
     this.run_number = null;
     this.waits = "";
     this.set_busy("");
@@ -105,11 +140,11 @@ export class Ball {
   /** How a run ended, and why where that needs saying. */
   conclude({ ending, hint, report }, plays) {
     if (report) this.show(report, false);
-    const fault = ending?.faults?.[0];
-    const words = fault ? `${fault.message}${fault.help ? `: ${fault.help}` : ""} (line ${fault.line})` : [ending?.words, ending?.story].filter(Boolean).join("; ");
+    const words = [ending?.words, ending?.story, ending?.aborted].filter(Boolean).join("; ");
+    const [fault] = ending?.faults ?? [];
     // What it waited for is said with the option of a command line, which here is a button.
-    const waits = hint ? `. ${hint.split(";")[0]}: press Run and do it by hand, or put it under World` : "";
-    this.say(words + waits, !!fault);
+    if (fault) this.tell_fault(fault, words);
+    else this.say(words + (hint ? `. ${hint.split(";")[0]}: press Run and do it by hand, or put it under More` : ""));
     if (plays) this.player.play();
     else this.player.seek(this.player.end());
   }
@@ -121,12 +156,15 @@ export class Ball {
     this.set_busy("instant");
     this.say("running…");
     this.on_begin();
+    const run = this.run_number = {};
     try {
       const answer = await this.machine.call("run", { ...asked, for: this.workspace().run.for, report: true });
+      if (this.run_number !== run) return;
       this.finish();
       this.conclude(answer, true);
+      announce(answer.prints);
     } catch (error) {
-      this.fail(error);
+      if (this.run_number === run) this.fail(error);
     }
   }
   ready({ names }) {
@@ -138,8 +176,16 @@ export class Ball {
   fail(error) {
     if (error.code === "stopped") return; // stop() has said so
     this.finish();
+    this.player.settle();
     if (error.findings) this.on_mistakes(error.findings);
     this.say(error.findings ? "It has mistakes: see below the program." : error.message, true);
+  }
+  /** The engine is gone. */
+  give_up() {
+    if (!this.busy) return;
+    this.finish();
+    this.player.settle();
+    this.say("The engine of orb has stopped.", true);
   }
 
   /** At once, whatever the program does. */
@@ -153,7 +199,7 @@ export class Ball {
     }
     this.finish();
     this.machine.restart();
-    if (this.last) this.show(this.last, false);
+    this.player.settle();
     this.say("stopped");
   }
 

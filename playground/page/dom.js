@@ -21,6 +21,18 @@ export function say(words, look = "") {
   $("status").className = look;
 }
 
+let announced = 0, unsaid = "";
+/** Says it to screen readers, what comes quickly in one piece. */
+export function announce(words) {
+  unsaid = `${unsaid}${words}`.slice(-300);
+  if (announced) return;
+  announced = setTimeout(() => {
+    announced = 0;
+    $("announce").textContent = unsaid.trim();
+    unsaid = "";
+  }, 700);
+}
+
 export function download(name, content, type = "text/plain") {
   const link = element("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
   link.click();

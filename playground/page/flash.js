@@ -16,21 +16,29 @@ function unless(signal, promise, undo) {
 
 export function set_up_flash({ machine, workspace, on_mistakes }) {
   let running = null;
+  let held = null; // the link to a robot that has taken the program: { link, asked, over }
 
-  function open() {
+  async function open() {
     const { names } = request(workspace());
     const serial = can_serial(), bluetooth = can_bluetooth();
-    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a ball that is awake and near.` : "There is no program to write yet.";
+    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a robot that is awake and near.` : "There is no program to write yet.";
     $("flash-serial").disabled = !serial || !names[0];
     $("flash-bluetooth").disabled = !bluetooth || !names[0];
     $("flash-file").disabled = !names[0];
-    const lacks = !serial && !bluetooth ? "This browser can reach no ball. Chrome and Edge can; or take the file and write it with `orb upload`."
+    $("flash-lacks").textContent = !serial && !bluetooth ? "This browser can reach no robot. Chrome and Edge can; or take the file and write it with `orb upload`."
       : !serial ? "This browser knows no serial ports: classic balls need Chrome or Edge on a computer, or the file and `orb upload`."
       : !bluetooth ? "This browser knows no Bluetooth LE." : "";
-    $("flash-lacks").textContent = lacks;
-    $("flash-status").textContent = "";
-    $("flash-progress").hidden = true;
-    $("flash-dialog").showModal();
+    if (!held) {
+      $("flash-status").textContent = "";
+      $("flash-progress").hidden = true;
+    }
+    if (!$("flash-dialog").open) $("flash-dialog").showModal();
+    if (!bluetooth || !names[0]) return;
+    // A browser that knows it may be on a device that has none, or whose radio is off.
+    const there = await navigator.bluetooth.getAvailability?.().catch(() => true) ?? true;
+    if (there || running) return;
+    $("flash-bluetooth").disabled = true;
+    $("flash-lacks").textContent = "This device has no Bluetooth, or it is switched off; switch it on and open this again.";
   }
   function say(words, bad = false) {
     $("flash-status").textContent = words;
@@ -47,7 +55,8 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
   async function write(open_link) {
     const { files, names } = request(workspace());
     const controller = new AbortController();
-    let link = null;
+    let link = null, stays = false;
+    await let_go();
     set_running(controller);
     say("Choose the ball in the window of the browser.");
     try {
@@ -60,8 +69,10 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
           say(words || stage || "");
         },
       });
-      if (outcome.kind === "done") $("flash-progress").value = 1;
-      say(outcome.message || outcome.kind, outcome.kind !== "done");
+      stays = outcome.kind === "done";
+      if (stays) $("flash-progress").value = 1;
+      say(outcome.message || outcome.kind, !stays);
+      if (stays) hold(link, { files, names, area });
     } catch (error) {
       if (error.findings) {
         on_mistakes(error.findings);
@@ -70,8 +81,46 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
         say(error.name === "NotFoundError" ? "No ball was chosen." : error.message, error.name !== "NotFoundError");
       }
     } finally {
-      await link?.close().catch(() => {});
+      if (!stays) await link?.close().catch(() => {});
       set_running(null);
+    }
+  }
+  // -- a robot that has taken the program: it is started and stopped here, and what it prints is shown --
+  async function hold(link, asked) {
+    const mine = held = { link, asked, seq: 0, over: false };
+    $("robot").hidden = false;
+    $("robot-prints").textContent = "";
+    try {
+      while (!mine.over) {
+        const bytes = await link.read(250);
+        if (!bytes.length) continue;
+        const { prints, error } = await machine.call("hear_robot", { bytes });
+        $("robot-prints").append(prints + error);
+        $("robot-prints").scrollTop = $("robot-prints").scrollHeight;
+      }
+    } catch (error) {
+      if (mine.over) return;
+      say(error.message ?? "The robot is gone.", true);
+      await let_go();
+    }
+  }
+  async function let_go() {
+    const mine = held;
+    held = null;
+    $("robot").hidden = true;
+    if (!mine) return;
+    mine.over = true;
+    await mine.link.close().catch(() => {});
+  }
+  async function tell(what) {
+    if (!held) return;
+    try {
+      const { bytes } = await machine.call("tell_robot", { ...held.asked, what, seq: held.seq });
+      held.seq = (held.seq + 8) % 248;
+      await held.link.write(bytes);
+      say(what === "run" ? "It runs." : "It stops.");
+    } catch (error) {
+      say(error.message ?? "The robot does not answer.", true);
     }
   }
   async function as_file() {
@@ -86,6 +135,9 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
     }
   }
   $("flash").addEventListener("click", open);
+  $("robot-run").addEventListener("click", () => tell("run"));
+  $("robot-stop").addEventListener("click", () => tell("stop"));
+  window.addEventListener("pagehide", () => let_go());
   $("flash-serial").addEventListener("click", () => write(() => serial_link(machine)));
   $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link(machine)));
   $("flash-file").addEventListener("click", as_file);

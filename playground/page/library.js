@@ -10,6 +10,12 @@ export async function load_library() {
 }
 const lessons = () => (groups ?? []).flatMap(group => group.items).filter(item => item.readme);
 
+/** The lesson that comes after the one called `id`; undefined behind the last. */
+export function lesson_after(id) {
+  const all = lessons(), at = all.findIndex(lesson => lesson.id === id);
+  return at < 0 ? undefined : all[at + 1];
+}
+
 export function as_workspace({ id, files, main, run, readme }) {
   const { [main]: program, ...others } = files; // the program's tab comes first
   return { files: { [main]: program, ...others }, active: main, main, run: run ?? {}, lesson: readme ? id : "" };
@@ -29,15 +35,16 @@ export async function show_library(on_pick) {
   const show = () => {
     const wanted = $("search").value.trim().toLowerCase();
     const fits = item => `${item.id} ${item.title} ${item.summary ?? ""}`.toLowerCase().includes(wanted);
-    const ordered = [...groups].sort((a, b) => Number(b.items.some(item => item.readme)) - Number(a.items.some(item => item.readme)));
-    list.replaceChildren(...ordered.flatMap(({ title, items }) => {
+    list.replaceChildren(...groups.flatMap(({ title, items }) => {
       const found = items.filter(fits);
-      if (!found.length) return [];
-      return [element("h3", {}, title), element("ul", { class: "cards" }, ...found.map((item, i) =>
-        element("li", {}, button("", () => { dialog.close(); on_pick(item); }, { "data-id": item.id }))))].map((part, k) => {
-        if (k) [...part.children].forEach((child, i) => fill(child.firstChild, found[i], done));
-        return part;
-      });
+      const cards = found.filter(item => !found.some(other => is_better(other, item)));
+      if (!cards.length) return [];
+      return [element("h3", {}, title), element("ul", { class: "cards" }, ...cards.map(item => {
+        const others = found.filter(other => is_better(item, other));
+        const open = one => () => { dialog.close(); on_pick(one); };
+        return element("li", {}, card(item, open(item), done),
+          ...others.map(other => button(`in ${languages[other.language]}`, open(other), { "data-id": other.id, class: "link" })));
+      }))];
     }));
     if (!list.children.length) list.append(element("p", { class: "empty" }, "Nothing has these words."));
   };
@@ -46,10 +53,29 @@ export async function show_library(on_pick) {
   show();
   $("search").focus();
 }
-function fill(card, item, done) {
-  card.append(element("b", {}, item.title), element("span", {}, item.summary || first_words(item.readme) || ""));
-  const kind = item.readme ? done.has(item.id) ? "done" : "lesson" : item.main.split(".").pop();
-  card.append(element("i", { class: kind }, kind));
+const languages = { orb: "orb", bas: "orbBasic", macro: "a macro" };
+const order = Object.keys(languages);
+/** The same program in a language that comes first. */
+const is_better = (one, other) => stem(one.id) === stem(other.id) && !one.readme && order.indexOf(one.language) < order.indexOf(other.language);
+const stem = id => id.replace(/\.\w+$/, "");
+function card(item, on_click, done) {
+  const is_done = item.readme && done.has(item.id);
+  const made = button("", on_click, { "data-id": item.id });
+  made.append(picture(item), element("b", {}, item.title), element("span", {}, item.summary || first_words(item.readme) || ""));
+  if (is_done) made.append(element("i", { class: "done" }, "done"));
+  return made;
+}
+const svg = (name, attributes, ...children) => {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+};
+/** What the ball drives in it; where it stays, the ball in the last of its colours. */
+function picture({ path = [], color = "" }) {
+  const lines = path.map(([stroke, d]) => svg("path", { d, ...stroke ? { stroke } : { class: "unlit" } }));
+  const ball = lines.length ? [] : [svg("circle", { class: "mark-ball", cx: 60, cy: 36, r: 20 }), svg("circle", { cx: 60, cy: 36, r: 20, fill: color || "none", "fill-opacity": .75 })];
+  return svg("svg", { viewBox: "0 0 120 72", class: "drawn", "aria-hidden": "true" }, ...lines, ...ball);
 }
 const first_words = text => /\*\*Your job:\*\*\s*([^]+?)(?:\n\n|$)/.exec(text ?? "")?.[1].replace(/[*`]/g, "");
 
@@ -61,15 +87,8 @@ function kept_done() {
 export function mark_done(id) {
   try { localStorage.setItem(done_key, JSON.stringify([...kept_done().add(id)])); } catch { /* no storage */ }
 }
-/** What a lesson says to type into a terminal is a button here. */
-function suggest_button(block) {
-  const lines = block.textContent.trim().split("\n");
-  if (!lines.every(line => line.startsWith("orb "))) return;
-  const buttons = [["orb run", "Run"], ["orb test", "Am I done?"]].filter(([word]) => lines.some(line => line.startsWith(word)));
-  block.replaceWith(element("p", { class: "hint" }, `→ ${buttons.map(([, words]) => words).join(", then ")}`));
-}
 /** Shows the task of a lesson, or hides it where `id` is none. */
-export async function show_task(id, { on_pick, on_solution }) {
+export async function show_task(id, { on_pick, on_solution }, stays = false) {
   if (!id) { $("task").hidden = true; return; }
   await load_library().catch(() => {});
   const all = lessons(), at = all.findIndex(lesson => lesson.id === id), lesson = all[at];
@@ -77,8 +96,12 @@ export async function show_task(id, { on_pick, on_solution }) {
   if (!lesson) return;
   const [, title, rest] = /^#\s*([^\n]*)\n([^]*)$/.exec(lesson.readme) ?? [, lesson.title, lesson.readme];
   $("task-title").textContent = `Lesson ${title}`;
-  $("task-text").innerHTML = harmless(markdown(rest.replaceAll("../../", "")));
-  for (const block of $("task-text").querySelectorAll("pre")) suggest_button(block);
+  const done = kept_done();
+  $("dots").replaceChildren(...all.map((one, i) => button("", () => on_pick(one), {
+    "aria-label": `Lesson ${i + 1}, ${one.title}${done.has(one.id) ? ", done" : ""}`, title: one.title,
+    class: done.has(one.id) ? "done" : undefined, "aria-current": one === lesson ? "step" : undefined })));
+  if (stays) return;
+  $("task-text").innerHTML = harmless(markdown(rest));
   $("task-text").scrollTop = 0;
   for (const [id, other] of [["lesson-before", all[at - 1]], ["lesson-next", all[at + 1]]]) {
     $(id).disabled = !other;

@@ -16,12 +16,15 @@ export class Verdicts {
     const { files } = this.workspace();
     this.ball.set_busy("test");
     this.ball.say("testing…");
+    $("cheer").hidden = true;
+    const run = this.ball.run_number = {};
     try {
       const { results } = await this.machine.call("test", { files, names });
+      if (this.ball.run_number !== run) return;
       this.ball.finish();
       this.show(results, files);
     } catch (error) {
-      this.ball.fail(error);
+      if (this.ball.run_number === run) this.ball.fail(error);
     }
   }
   show({ tests, summary }, files) {
@@ -32,8 +35,14 @@ export class Verdicts {
     $("verdict-list").replaceChildren(...tests.map(test => this.row(test, files)));
     $("verdicts").hidden = false;
     this.ball.say(passed === all ? `${words}. Well done!` : words, passed !== all);
-    if (passed === all) this.on_passed();
-    else $("verdicts").scrollIntoView({ block: "nearest" });
+    if (passed === all) this.cheer(this.on_passed());
+    $("verdicts").scrollIntoView({ block: "nearest" });
+  }
+  /** A lesson is done: that deserves a moment, and leads on. */
+  cheer(next) {
+    $("cheer").hidden = next === null;
+    $("cheer-next").hidden = !next;
+    $("cheer-next").onclick = next ?? null;
   }
   row(test, files) {
     const failed = test.cases.find(one => one.verdict !== "passed");

@@ -1,6 +1,12 @@
 // The files that somebody works on: what may be one, and how they are kept and shared.
 
+/** `text`: letters of a file; `shared`: bytes of a program in an address, `link`: those bytes packed. */
 export const limits = { text: 256 * 1024, files: 24, shared: 1024 * 1024, link: 200 * 1024 };
+const thousands = number => number.toLocaleString("en");
+export const limit_words = {
+  text: `A file holds at most ${thousands(limits.text)} letters`,
+  files: `A program has at most ${limits.files} files`,
+};
 
 /** What the ending of a name says; `start` is what a new file begins with. */
 export const kinds = {
@@ -10,7 +16,12 @@ export const kinds = {
   macro: { words: "macro", program: true, start: "rgb 0, 255, 0\ndelay 1s\n" },
   test: { words: "test", start: "test \"does what it should\"\n  expect end within 10s\n" },
   stimulus: { words: "stimulus script", start: "at 2s shake\n" },
-  svg: { words: "course", start: "" },
+  svg: { words: "course", start: `<svg xmlns="http://www.w3.org/2000/svg" width="200cm" height="200cm" viewBox="0 0 200 200">
+  <style>.wall { fill: none; stroke: #14212b; stroke-width: 2 } .start { fill: none; stroke: #15803d }</style>
+  <path class="wall" d="M10 10H190V190H10Z"/>
+  <circle class="start" cx="100" cy="160" r="4"/>
+</svg>
+` },
 };
 export const kind_of = name => kinds[ending_of(name)] ?? null;
 export const ending_of = name => name.split(".").pop();
@@ -25,7 +36,7 @@ export function name_trouble(name) {
 }
 
 /** Files and how they are run; plain data, so that it can be kept and shared. */
-export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "" });
+export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "", document: "", title: "", before: "" });
 
 /** A workspace from data that anybody may have written: what does not fit is left out. */
 export function checked(data) {
@@ -46,7 +57,8 @@ export function checked(data) {
   made.run.input = Array.isArray(run.input) ? run.input.filter(Number.isFinite).join(", ") : typeof run.input === "string" ? run.input.slice(0, 500) : "";
   if (Number.isInteger(run.seed)) made.run.seed = run.seed;
   if (/^\d{1,4}(ms|s|min)$/.test(run.for)) made.run.for = run.for;
-  if (typeof data.lesson === "string") made.lesson = data.lesson.slice(0, 60);
+  for (const key of ["lesson", "document", "title", "before"])
+    if (typeof data[key] === "string") made[key] = data[key].slice(0, 80);
   return made;
 }
 
@@ -64,7 +76,7 @@ const store = { now: "orb-playground", before: "orb-playground-before" };
 const places = ["sessionStorage", "localStorage"];
 export function keep(workspace, where = "now") {
   for (const place of places)
-    try { window[place].setItem(store[where], JSON.stringify(workspace)); } catch { /* full, or not allowed: it is only a convenience */ }
+    try { window[place].setItem(store[where], JSON.stringify(workspace)); } catch { /* full, or not allowed, of which store.js tells */ }
 }
 export function kept(where = "now") {
   for (const place of places)
@@ -98,16 +110,29 @@ async function read_all(stream, most) {
 }
 const through = (bytes, transform) => new Blob([bytes]).stream().pipeThrough(transform);
 
+/** What can be said to somebody of why an address cannot be made, or opened. */
+export class AddressError extends Error {}
+const packs = () => {
+  if (typeof CompressionStream === "undefined")
+    throw new AddressError("This browser cannot pack programs into addresses: it is older than 2023. Save the files, or take another browser.");
+};
+
 /** The part of an address behind `#` that holds a workspace. */
 export async function to_fragment(workspace) {
   const { files, active, main, run, lesson } = workspace;
   const bytes = new TextEncoder().encode(JSON.stringify({ files, active, main, run, lesson }));
-  return "p=" + to_base64url(await read_all(through(bytes, new CompressionStream("deflate-raw")), limits.link));
+  packs();
+  if (bytes.length > limits.shared) throw new AddressError("That is too much for an address; save the files instead.");
+  return "p=" + to_base64url(await read_all(through(bytes, new CompressionStream("deflate-raw")), limits.link).catch(() => {
+    throw new AddressError("That is too much for an address; save the files instead.");
+  }));
 }
-/** The workspace that an address holds; null where it holds none. Throws where it is broken or too long. */
+/** The workspace that an address holds. Throws where it is broken or too long. */
 export async function from_fragment(fragment) {
   const found = /^#p=([\w-]+)$/.exec(fragment);
-  if (!found) return null;
+  if (!found) throw new AddressError("The address is damaged: part of it is missing, or something else is in it. Ask for it again.");
+  packs();
   const bytes = await read_all(through(from_base64url(found[1]), new DecompressionStream("deflate-raw")), limits.shared);
-  return checked(JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes)));
+  const { files, active, main, run, lesson } = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
+  return checked({ files, active, main, run, lesson });
 }

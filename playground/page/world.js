@@ -25,7 +25,7 @@ export function set_up_world({ workspace, keep }) {
   function show_button() {
     const { run } = workspace();
     const around = [run.course, ...run.stimuli, run.input && "numbers"].filter(Boolean);
-    $("world-button").textContent = around.length ? `World: ${around[0]}${around.length > 1 ? ", …" : ""}` : "World";
+    $("world-button").textContent = around.length ? `More: ${around[0]}${around.length > 1 ? ", …" : ""}` : "More";
   }
   function change() {
     const { run } = workspace();

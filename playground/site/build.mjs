@@ -52,7 +52,7 @@ function composed() {
   return read("playground/page.html").replace(/<!--\{(\w+)\}-->/g, (_, name) => parts[name]);
 }
 writeFileSync(join(out, "index.html"), composed());
-copyFileSync(join(root, "playground/icon.svg"), join(out, "icon.svg"));
+for (const name of ["icon.svg", "manifest.webmanifest"]) copyFileSync(join(root, "playground", name), join(out, name));
 writeFileSync(join(out, "LICENSES.txt"), licences(root, bundle.metafile));
 build_docs(root, join(out, "docs"));
 

@@ -26,7 +26,10 @@ events = "[...document.querySelectorAll('#events .words')].map(words => words.te
 outcome = f"{by_id('outcome')}.textContent"
 ready = "document.documentElement?.dataset.ready"
 coloured = "document.querySelector('.cm-line [class^=tok-]') !== null"
-idle = f"{by_id('stop')}.disabled"
+idle = f"!{by_id('run')}.classList.contains('stop')"
+stop = f"{by_id('run')}.classList.contains('stop') && {by_id('run')}.click()"
+played = f"!{by_id('played')}.classList.contains('idle')"
+wait = lambda ms: f"new Promise(done => setTimeout(done, {ms}))"
 
 
 def fragment(files, **more):
@@ -131,7 +134,291 @@ class Playground(unittest.TestCase):
 
     def instant(self, page):
         page.evaluate(click("instant"))
-        page.wait(f"!{by_id('played')}.hidden && {idle}", 60)
+        page.wait(f"{played} && {idle}", 60)
+
+    # -- nothing is lost --
+    def documents(self, page):
+        page.evaluate(click("mine"))
+        page.wait(f"{by_id('mine-dialog')}.open")
+        return page.evaluate("[...document.querySelectorAll('#mine-list [data-document]')].map(item => item.dataset.document)")
+
+    def test_a_lesson_is_as_it_was_left(self):
+        page = self.open("#lesson=lessons/01-traffic-light")
+        self.type(page, "' mine\nRGB blue\ndelay 1s\n")
+        page.evaluate(click("lesson-next"))
+        page.wait(f"{by_id('task-title')}.textContent.includes('One metre')")
+        page.evaluate(click("lesson-before"))
+        page.wait(f"({text}).includes('mine')")
+        page.evaluate("location.hash = '#lesson=lessons/01-traffic-light'")
+        page.wait("location.hash === ''")
+        page.evaluate(wait(200))
+        self.assertIn("mine", page.evaluate(text))
+        page.evaluate("[...document.querySelectorAll('#came button')].find(one => one.textContent === 'Begin it again').click()")
+        page.wait(f"({text}).includes('delay 2s') || !({text}).includes('mine')")
+
+    def test_back_is_there_after_the_page_is_loaded_again(self):
+        page = self.open(fragment({"a.bas": '10 print "first"\n'}))
+        page.evaluate("location.hash = '#example=square.macro'")
+        page.wait(f"({text}).includes('square') || {by_id('came')}.textContent.includes('Square')")
+        page.evaluate("location.hash = '#lesson=lessons/02-one-metre'")
+        page.wait(f"{by_id('task-title')}.textContent.includes('One metre')")
+        page.evaluate(wait(600))
+        page.go("about:blank")
+        page.go(self.server.url)
+        page.wait(ready)
+        page.wait(f"!{by_id('came')}.hidden")
+        page.evaluate("[...document.querySelectorAll('#came button')].find(one => one.textContent.startsWith('Back')).click()")
+        page.wait(f"{by_id('what')}.textContent.includes('square.macro')")
+        ids = self.documents(page)
+        self.assertIn("lessons/02-one-metre", ids)
+        self.assertIn("square.macro", ids)
+        self.assertEqual(len([one for one in ids if one.startswith("own:")]), 1)
+        page.evaluate("document.querySelector('#mine-list [data-document^=own] button').click()")
+        page.wait(f"({text}).includes('first')")
+
+    def test_earlier_states_of_a_program_come_back(self):
+        page = self.open(fragment({"a.bas": '10 print "one"\n'}))
+        for word in ("two", "three"):
+            self.instant(page)
+            self.type(page, f'10 print "{word}"\n')
+            page.evaluate(wait(500))
+        self.instant(page)
+        self.documents(page)
+        page.evaluate("document.querySelector('#mine-list details').open = true")
+        page.wait("document.querySelectorAll('#mine-list ol button').length >= 3")
+        page.evaluate("[...document.querySelectorAll('#mine-list ol button')].pop().click()")
+        page.wait(f"({text}).includes('one')")
+
+    def test_at_most_fifty_states_are_kept(self):
+        page = self.open(fragment({"a.bas": "10 end\n"}))
+        page.wait(coloured)
+        for number in range(53):
+            page.evaluate(f"document.querySelector('.cm-content').focus(); document.execCommand('selectAll'); document.execCommand('insertText', false, '10 print {number}')")
+            page.evaluate(click("mine"))
+            page.wait(f"{by_id('mine-dialog')}.open")
+            page.evaluate(f"{by_id('mine-dialog')}.close()")
+        self.documents(page)
+        page.evaluate("document.querySelector('#mine-list details').open = true")
+        page.wait("document.querySelectorAll('#mine-list ol button').length > 40")
+        self.assertEqual(page.evaluate("document.querySelectorAll('#mine-list ol button').length"), 50)
+
+    def test_a_browser_that_keeps_nothing_says_so(self):
+        blocked = "Object.defineProperty(window, 'indexedDB', { get() { throw new DOMException('denied', 'SecurityError'); } });"
+        page = self.open(fragment({"a.bas": "10 end\n"}), before=blocked)
+        self.type(page, "10 print 1\n")
+        page.wait(f"!{by_id('storage')}.hidden && {by_id('storage')}.textContent.includes('keeps nothing')")
+        full = "IDBObjectStore.prototype.put = () => { throw new DOMException('full', 'QuotaExceededError'); };"
+        page = self.open(fragment({"a.bas": "10 end\n"}), before=full)
+        self.type(page, "10 print 1\n")
+        page.wait(f"!{by_id('storage')}.hidden && {by_id('storage')}.textContent.includes('no room left')")
+
+    # -- an engine that does not answer --
+    def test_an_engine_that_is_missing_is_named_and_tried_again(self):
+        for missing in ("orb.wasm", "worker.js"):
+            server = site_server.Site(folder, without={missing})
+            page = self.browser.page(fresh=True)
+            self.addCleanup(page.close)
+            page.go(server.url + fragment({"a.bas": "10 rgb 1\n"}))
+            page.wait(f"!{by_id('engine')}.hidden", 30)
+            self.assertIn("does not run", page.evaluate(f"{by_id('engine')}.textContent"), missing)
+            self.assertEqual(page.evaluate(f"{by_id('count')}.textContent"), "not checked")
+            page.evaluate(click("run"))
+            page.wait(f"{idle} && {by_id('outcome')}.classList.contains('bad')")
+            server.without.clear()
+            page.evaluate(click("engine-again"))
+            page.wait(f"{by_id('engine')}.hidden && {by_id('count')}.textContent === '1 error'", 30)
+            server.close()
+
+    # -- what a live run says --
+    def test_a_fault_is_told_while_the_ball_still_drives(self):
+        page = self.open(fragment({"a.bas": "10 goroll 0,60,1\n20 delay 200\n30 A = 1 / B\n"}))
+        page.evaluate(click("run"))
+        page.wait(f"{by_id('outcome')}.classList.contains('bad')", 10)
+        self.assertFalse(page.evaluate(idle))  # it drives on
+        self.assertIn("line 3", page.evaluate(outcome))
+        page.evaluate(stop)
+        page.wait(idle)
+        self.assertIn("line 3", page.evaluate(outcome))
+        self.assertNotIn("0.000 s", page.evaluate(outcome))
+
+    def test_a_program_that_leaves_the_ball_driving_ends(self):
+        page = self.open(fragment({"a.bas": "10 goroll 0,60,1\n20 delay 500\n"}))
+        page.evaluate(click("run"))
+        page.wait(f"{outcome}.includes('still rolls')", 10)
+        page.wait(idle, 20)
+        self.assertIn("ended after 0.5", page.evaluate(outcome))
+        self.assertIn("still driving", page.evaluate(outcome))
+        page.evaluate(click("run"))
+        page.wait(f"{outcome}.includes('still rolls')", 10)
+        page.evaluate(stop)
+        page.wait(idle, 10)
+        self.assertIn("ended after 0.5", page.evaluate(outcome))
+
+    def test_a_lesson_brings_its_world(self):
+        page = self.open("#lesson=lessons/08-the-wall")
+        self.type(page, "goroll 0, 120, 1\ndelay 4s\ngoroll 0, 0, 0\n")
+        page.evaluate(click("run"))
+        page.wait("document.querySelector('#map .wall') !== null", 10)
+        page.wait("document.querySelector('#map [data-mark=bump]') !== null", 15)
+        page.evaluate(stop)
+        page.wait(idle)
+
+    def test_who_shakes_it_is_not_told_that_nobody_does(self):
+        page = self.open("#lesson=lessons/07-shake-me")
+        page.evaluate("document.querySelector('#scripts input').click()")  # nobody but the person
+        self.type(page, "while not dshake\n  delay 50ms\nend while\nprint \"hello\"\n")
+        page.evaluate(click("run"))
+        page.wait(played, 10)
+        page.evaluate("document.querySelector('[data-line=shake]').click()")
+        page.wait(f"{events}.includes('hello')", 10)
+        page.wait(idle, 10)
+        self.assertNotIn("nobody", page.evaluate(outcome))
+
+    def test_a_task_speaks_of_the_page(self):
+        page = self.open()
+        tasks = page.evaluate("fetch('examples.json').then(answer => answer.json()).then(({ groups }) => groups[0].items.map(item => item.readme))")
+        self.assertEqual(len(tasks), 10)
+        for task in tasks:
+            for words in ("orb run", "orb test", "orb new", "--", "page:", "A page opens"):
+                self.assertNotIn(words, task)
+
+    def test_the_first_program_is_three_steps(self):
+        page = self.open()
+        page.wait(coloured)
+        done = "document.querySelectorAll('#task-text .done').length"
+        self.assertEqual(page.evaluate(done), 0)
+        page.evaluate(click("run"))
+        page.wait(f"{done} === 1")
+        page.wait("document.querySelectorAll('#map .run').length > 0", 10)
+        page.evaluate(stop)
+        page.wait(idle)
+        page.evaluate("document.querySelector('[data-view=work]').click()")
+        self.type(page, page.evaluate(text).replace("corners = 4", "corners = 3"))
+        page.wait(f"{done} === 2")
+        self.instant(page)
+        page.wait(f"{done} === 3")
+        self.assertIn("3 corners", " ".join(page.evaluate(events)))
+        page.evaluate(click("first-lesson"))
+        page.wait(f"{by_id('task-title')}.textContent.includes('Traffic light')")
+
+    # -- a run of ten minutes --
+    def test_ten_minutes_are_shown_in_short_tasks(self):
+        program = "10 for A = 0 to 20000\n20 goroll A * 40 % 360, 90, 1\n30 RGB A % 200 + 20, 90, 200\n40 print A\n50 delay 400\n60 next A\n"
+        # Nine minutes pass quickly, the tenth as it is.
+        fast = """const post = Worker.prototype.postMessage;
+          Worker.prototype.postMessage = function (message, ...more) {
+            if (message.method === 'start') { message.params = { ...message.params, speed: 60 }; window.slower = () => post.call(this, { id: 1e9, method: 'speed', params: { factor: 1 } }); }
+            return post.call(this, message, ...more);
+          };"""
+        page = self.open(fragment({"a.bas": program}), before=fast)
+        page.evaluate(click("run"))
+        page.wait(f"Number({by_id('time')}.max) > 540e6", 120)
+        page.evaluate("window.slower()")
+        page.evaluate(wait(1500))
+        self.assertGreater(page.evaluate("document.querySelectorAll('#events li').length"), 400)
+        tasks = self.browser.longest_tasks(6)
+        print(f"longest tasks in the tenth minute: {', '.join(f'{task:.0f}' for task in tasks[:5])} ms of processor time")
+        self.assertGreater(len(tasks), 100)
+        self.assertLessEqual(tasks[0], 25)  # 100 ms at a quarter of the processor
+        page.evaluate(stop)
+        page.wait(idle)
+        page.wait(f"{outcome}.includes('stopped after')")
+
+    # -- keyboard and screen readers --
+    def test_the_focus_stays_on_run_and_test(self):
+        page = self.open(fragment({"a.bas": '10 print "said"\n20 delay 300\n', "a.test": 'test "t"\n  expect print "said"\n'}))
+        for name in ("run", "test"):
+            page.evaluate(f"{by_id(name)}.focus()")
+            page.key("Enter")
+            page.evaluate(click(name))
+            page.evaluate(wait(900))
+            page.wait(idle)
+            self.assertEqual(page.evaluate("document.activeElement.id"), name)
+        self.assertIn("said", page.evaluate(f"{by_id('announce')}.textContent"))
+        self.assertEqual(page.evaluate(f"{by_id('count')}.getAttribute('role')"), "status")
+
+    def test_limits_are_told_as_they_are(self):
+        page = self.open(fragment({"a.bas": "10 end\n"}))
+        page.evaluate("""(() => { const data = new DataTransfer();
+          for (let i = 0; i < 30; ++i) data.items.add(new File(['10 end'], `p${i}.bas`));
+          data.items.add(new File(['x'.repeat(300000)], 'long.bas'));
+          document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true })); })()""")
+        page.wait(f"{by_id('status')}.textContent.includes('at most 24 files')")
+        self.assertEqual(page.evaluate("document.querySelectorAll('[role=tab]').length"), 24)
+
+    def test_a_browser_that_cannot_pack_says_so(self):
+        page = self.open(fragment({"a.bas": "10 end\n"}), before="delete window.CompressionStream; delete window.DecompressionStream;")
+        page.wait(f"{by_id('status')}.textContent.includes('older than')")
+        page.evaluate(click("share"))
+        page.wait(f"{by_id('status')}.textContent.includes('cannot pack')")
+
+    def test_a_new_file_says_what_it_is_for(self):
+        page = self.open(fragment({"a.bas": "10 end\n"}))
+        for name, words in (("b.orb", "a program of its own"), ("a.test", "a.bas is tested"), ("c.svg", "under More")):
+            page.evaluate(click("new-file"))
+            page.evaluate(f"{by_id('name')}.value = '{name}'; document.querySelector('#name-form [value=ok]').click()")
+            page.wait(f"{by_id('status')}.textContent.includes('{words.replace('a program', 'program')}')" if name == "b.orb" else f"{by_id('status')}.textContent.includes('{words}')")
+
+    # -- phones and paper --
+    def test_run_and_test_are_in_reach_on_a_phone(self):
+        page = self.open("#lesson=lessons/01-traffic-light", 390, 844, mobile=True)
+        page.wait(f"!{by_id('task')}.hidden")
+        for view in ("work", "play"):
+            page.evaluate(f"document.querySelector('[data-view={view}]').click()")
+            for name in ("run", "test"):
+                box = page.evaluate(f"(({{top, bottom, height}}) => [top, bottom, height])({by_id(name)}.getBoundingClientRect())")
+                self.assertGreater(box[0], 0, (view, name))
+                self.assertLessEqual(box[1], 844, (view, name))
+                self.assertGreaterEqual(box[2], 40)
+
+    def test_a_lesson_begins_without_the_run_before(self):
+        page = self.open(fragment({"a.bas": '10 print "old"\n20 goroll 0,90,1\n30 delay 500\n40 goroll 0,0,0\n'}))
+        self.instant(page)
+        page.evaluate("location.hash = '#lesson=lessons/03-square'")
+        page.wait(f"{by_id('task-title')}.textContent.includes('Square')")
+        self.assertFalse(page.evaluate(played))
+        self.assertEqual(page.evaluate(outcome), "")
+        self.assertIsNotNone(page.evaluate("document.querySelector('#map #ball')"))  # it rests in the middle
+
+    def test_a_sheet_is_printed(self):
+        page = self.open("#lesson=lessons/03-square")
+        page.wait(f"{by_id('task-text')}.textContent.includes('Your job')")
+        page.evaluate(click("solution"))
+        self.instant(page)
+        page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        page.call("Emulation.setEmulatedMedia", media="print")
+        shown = lambda where: page.evaluate(f"(one => !!one && one.getClientRects().length > 0)(document.querySelector('{where}'))")
+        for where in (".sheet-head", "#task-text", "#sheet-program", "#map"):
+            self.assertTrue(shown(where), where)
+        for where in ("#run", "#pick", "#editor", ".transport"):
+            self.assertFalse(shown(where), where)
+        self.assertIn("repeat 4", page.evaluate(f"{by_id('sheet-program')}.textContent"))
+        self.assertGreater(page.evaluate("document.querySelectorAll('#map .ahead .run').length"), 0)
+
+    # -- the library, sharing --
+    def test_cards_show_a_path_and_no_program_twice(self):
+        page = self.open()
+        page.evaluate(click("pick"))
+        page.wait("document.querySelectorAll('.cards > li').length > 20")
+        names = page.evaluate("[...document.querySelectorAll('.cards > li')].map(card => card.firstChild.dataset.id)")
+        stems = [name.rsplit(".", 1)[0] for name in names if "/" not in name]
+        self.assertEqual(len(stems), len(set(stems)))
+        self.assertIn("flower.orb", names)
+        self.assertNotIn("flower.bas", names)
+        self.assertIsNotNone(page.evaluate("document.querySelector('[data-id=\"flower.bas\"]')"))
+        self.assertGreater(page.evaluate("document.querySelectorAll('.cards .drawn path').length"), 20)
+
+    def test_a_shared_program_has_a_code(self):
+        page = self.open(fragment({"a.bas": "10 end\n"}))
+        page.evaluate(click("share"))
+        page.wait("document.querySelector('#share-code svg') !== null")
+        self.assertGreater(page.evaluate("document.querySelector('#share-code path').getAttribute('d').length"), 200)
+
+    def test_it_can_be_installed(self):
+        page = self.open()
+        manifest = page.call("Page.getAppManifest")
+        self.assertEqual(manifest["errors"], [])
+        self.assertIn('"standalone"', manifest["data"])
 
     # -- writing --
     def test_a_mistake_is_underlined_and_fixed(self):
@@ -189,7 +476,7 @@ class Playground(unittest.TestCase):
         page.evaluate("""document.querySelector('.cm-content').focus();
           const data = new DataTransfer(); data.setData('text/plain', '20 print 2\\n'.repeat(200000));
           document.querySelector('.cm-content').dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true, cancelable: true }))""")
-        page.wait(f"{by_id('status')}.textContent.includes('256 KB')")
+        page.wait(f"{by_id('status')}.textContent.includes('262,144 letters')")
         self.assertEqual(page.evaluate(text).strip(), "10 print 1")
         self.type(page, "10 print 3\n")
         page.wait(f"({text}).includes('print 3')")
@@ -218,7 +505,7 @@ class Playground(unittest.TestCase):
         y = "Number(document.querySelector('[data-now=position]').textContent.split(', ')[1].split(' ')[0])"
         first = page.evaluate(y)
         page.wait(f"{y} > {first} + 5")
-        page.evaluate(click("stop"))
+        page.evaluate(stop)
         page.wait(idle)
         self.assertGreater(page.evaluate(f"{by_id('map')}.querySelectorAll('.run').length"), 0)
 
@@ -226,7 +513,7 @@ class Playground(unittest.TestCase):
         page = self.open(fragment({"a.bas": '10 if dshake = 0 then goto 10\n20 print "shaken"\n30 input A\n40 print "got " A\n'}))
         page.evaluate(click("run"))
         page.wait(f"!{by_id('hands')}.hidden")
-        page.wait(f"!{by_id('played')}.hidden", 30)
+        page.wait(played, 30)
         page.evaluate("document.querySelector('[data-line=shake]').click()")
         page.wait(f"{events}.includes('shaken')", 30)
         page.wait(f"{by_id('number-form')}.classList.contains('wanted')", 30)
@@ -241,7 +528,7 @@ class Playground(unittest.TestCase):
             page.evaluate(click(how))
             page.wait(f"!{idle}")
             page.evaluate("new Promise(done => setTimeout(done, 500))")
-            page.evaluate(click("stop"))
+            page.evaluate(stop)
             page.wait(idle, 3)
             self.assertIn("10 A = A + 1", page.evaluate(text))
         self.type(page, '10 print "again"\n')
@@ -267,7 +554,7 @@ class Playground(unittest.TestCase):
         page.wait("document.querySelector('#verdict-list [data-verdict=failed]') !== null", 30)
         self.assertIn("0 of 1 tests passed", page.evaluate(f"{by_id('verdicts-title')}.textContent"))
         page.evaluate("[...document.querySelectorAll('#verdict-list button')].find(one => one.textContent === 'Watch').click()")
-        page.wait(f"!{by_id('played')}.hidden && {events}.includes('no')", 30)
+        page.wait(f"{played} && {events}.includes('no')", 30)
         page.wait(idle)
         self.type(page, '10 print "yes"\n')
         page.evaluate(click("test"))
@@ -390,10 +677,8 @@ class Playground(unittest.TestCase):
     def test_damaged_addresses_are_told(self):
         bomb = zlib.compressobj(9, zlib.DEFLATED, -15)
         packed = bomb.compress(b'{"files":{"a.bas":"10 end"},"x":"' + b"x" * 50_000_000 + b'"}') + bomb.flush()
-        for broken in ("#p=AAAA", "#p=%%%", "#p=" + base64.urlsafe_b64encode(packed).decode().rstrip("="), "#lesson=none"):
+        for broken in ("#p=AAAA", "#p=%%%", "#p=AA&x=1", "#p=" + base64.urlsafe_b64encode(packed).decode().rstrip("="), "#lesson=none"):
             page = self.open(broken)
-            if broken == "#p=%%%":
-                continue  # not one of ours at all
             page.wait(f"{by_id('status')}.textContent.includes('damaged')")
 
     def test_it_works_without_a_network_once_loaded(self):
@@ -444,6 +729,23 @@ class Playground(unittest.TestCase):
         self.assertIn("nothing was sent", page.evaluate(f"{by_id('flash-status')}.textContent"))
         self.assertFalse(page.evaluate(f"{by_id('flash-serial')}.disabled"))
 
+    def test_a_robot_is_run_and_stopped_and_heard(self):
+        page, wire = self.flash("serial", mock_serial, files={"a.bas": '10 print "on the ball"\n20 delay 200\n30 goto 10\n'})
+        page.wait(f"!{by_id('robot')}.hidden")
+        page.evaluate(click("robot-run"))
+        page.wait(f"{by_id('robot-prints')}.textContent.includes('on the ball')", 20)
+        page.evaluate(click("robot-stop"))
+        page.evaluate(wait(1200))
+        heard = page.evaluate(f"{by_id('robot-prints')}.textContent")
+        page.evaluate(wait(900))
+        self.assertEqual(page.evaluate(f"{by_id('robot-prints')}.textContent"), heard)
+
+    def test_a_radio_that_is_off_is_told(self):
+        off = mock_bluetooth.replace("{ requestDevice: async () => device }", "{ requestDevice: async () => device, getAvailability: async () => false }")
+        page = self.open(fragment({"a.bas": "10 end\n"}), before=off)
+        page.evaluate(click("flash"))
+        page.wait(f"{by_id('flash-bluetooth')}.disabled && {by_id('flash-lacks')}.textContent.includes('switched off')")
+
     def test_a_cut_link_is_told(self):
         page, wire = self.flash("serial", mock_serial, cut=200)
         self.assertEqual(page.evaluate(f"{by_id('flash-status')}.className"), "bad")
@@ -454,7 +756,7 @@ class Playground(unittest.TestCase):
     def test_where_no_ball_can_be_reached_there_is_the_file(self):
         page = self.open(before="delete Navigator.prototype.serial; delete Navigator.prototype.bluetooth;")
         page.evaluate(click("flash"))
-        self.assertIn("can reach no ball", page.evaluate(f"{by_id('flash-lacks')}.textContent"))
+        self.assertIn("can reach no robot", page.evaluate(f"{by_id('flash-lacks')}.textContent"))
         self.assertTrue(page.evaluate(f"{by_id('flash-serial')}.disabled"))
         page.evaluate(click("flash-file"))
         page.wait(f"{by_id('flash-status')}.textContent.includes('orb upload')", 30)
@@ -496,7 +798,7 @@ class Playground(unittest.TestCase):
         for _ in range(80):
             page.call("Input.dispatchKeyEvent", type="keyDown", key="Tab", code="Tab", windowsVirtualKeyCode=9)
             seen.add(page.evaluate("document.activeElement.id || document.activeElement.className"))
-        for wanted in ("pick", "share", "flash", "tab-a.bas", "new-file", "format", "run", "instant", "test", "world-button", "play", "time"):
+        for wanted in ("pick", "mine", "share", "flash", "tab-a.bas", "new-file", "format", "run", "test", "world-button", "play", "time"):
             self.assertIn(wanted, seen)
         page.evaluate(f"{by_id('tab-a.bas')}.focus()")
         page.call("Input.dispatchKeyEvent", type="keyDown", key="ArrowRight", code="ArrowRight", windowsVirtualKeyCode=39)

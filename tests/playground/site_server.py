@@ -14,6 +14,10 @@ import urllib.parse
 class Handler(http.server.SimpleHTTPRequestHandler):
     wire = None  # what mocked ports of the browser lead to
 
+    def __init__(self, *arguments, without=frozenset(), **more):
+        self._without = without
+        super().__init__(*arguments, **more)
+
     def log_message(self, *_):
         pass
 
@@ -23,6 +27,8 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         self.end_headers()
 
     def do_GET(self):
+        if self.path.lstrip("/") in self._without:
+            return self.send_error(404)
         if self.path != "/wire/read":
             return super().do_GET()
         data = Handler.wire.read()
@@ -32,8 +38,11 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
 
 class Site:
-    def __init__(self, folder):
-        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=folder))
+    def __init__(self, folder, without=()):
+        """`without`: names of files that are not found, until they are taken out of the set."""
+        self.without = set(without)
+        handler = functools.partial(Handler, directory=folder, without=self.without)
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
         self._server.daemon_threads = True
         self.url = f"http://127.0.0.1:{self._server.server_port}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()

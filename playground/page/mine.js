@@ -1,0 +1,45 @@
+// The programs that somebody has in this browser, each with what it was before.
+
+import { $, element, button } from "./dom.js";
+import { new_id } from "./store.js";
+import { checked } from "./workspace.js";
+
+const when = new Intl.DateTimeFormat(undefined, { dateStyle: "medium", timeStyle: "short" });
+
+/** `on_open(workspace, words)`; `begin()` makes a new one. */
+export function set_up_mine({ store, workspace, on_open, begin }) {
+  const open = (row, id, title, words) => {
+    const found = checked(row.workspace);
+    $("mine-dialog").close();
+    if (found) on_open({ ...found, document: id, title, before: "" }, words);
+  };
+  /** The earlier states of a document, looked up when somebody asks for them. */
+  function earlier(id, title) {
+    const list = element("ol");
+    const fold = element("details", {}, element("summary", {}, "Earlier states"), list);
+    fold.addEventListener("toggle", async () => {
+      if (!fold.open || list.children.length) return;
+      const rows = await store.versions(id);
+      list.append(...rows.length ? rows.map(row => {
+        const { files, active } = row.workspace, text = files[row.workspace.main || active] ?? "";
+        return element("li", {}, button(when.format(row.changed), () => open(row, id, title, `“${title}”, as it was on ${when.format(row.changed)}.`), { class: "link" }),
+          element("span", { class: "hint" }, ` ${text.split("\n").length} lines`));
+      }) : [element("li", { class: "hint" }, "none")]);
+    });
+    return fold;
+  }
+  $("mine-new").addEventListener("click", () => {
+    $("mine-dialog").close();
+    on_open({ ...begin(), document: new_id() }, "A new program.");
+  });
+  return {
+    async show() {
+      const rows = await store.list();
+      $("mine-list").replaceChildren(element("ul", { class: "mine" }, ...rows.map(row => element("li", { "data-document": row.id },
+        button(row.title || "program", () => open(row, row.id, row.title, `“${row.title}”, as you left it.`), { class: row.id === workspace().document ? "strong" : undefined }),
+        element("span", { class: "hint" }, when.format(row.changed)), earlier(row.id, row.title)))));
+      if (!rows.length) $("mine-list").replaceChildren(element("p", { class: "empty" }, "Nothing is kept here yet."));
+      if (!$("mine-dialog").open) $("mine-dialog").showModal();
+    },
+  };
+}

@@ -1,0 +1,45 @@
+// The first program of somebody who was never here: three steps, each ticked when it is done.
+
+import { $, element, button } from "./dom.js";
+
+export const welcome = `' The ball drives a figure. How many corners shall it have?
+const corners = 4
+
+for side = 1 to corners
+  LEDC side % 5 + 1
+  goroll (side - 1) * 360 / corners, 80, 1
+  delay 1s
+next side
+
+goroll 0, 0, 0
+print corners, "corners"
+`;
+
+export function first_steps({ on_next }) {
+  let at = -1; // the step that is next; none
+  const words = [["Press ", element("b", {}, "Run"), ": the ball drives a square."],
+    ["Change the ", element("code", {}, "4"), " behind ", element("code", {}, "corners"), " into a ", element("code", {}, "3"), "."],
+    ["Run it again. What does it drive now?"]];
+  function draw() {
+    $("task").hidden = false;
+    $("task").classList.add("first");
+    $("task-title").textContent = at < 3 ? "Your first program" : "You can program a robot!";
+    const list = element("ol", { class: "steps" }, ...words.map((line, i) => element("li", { class: i < at ? "done" : i === at ? "now" : "", "aria-current": i === at ? "step" : undefined }, ...line)));
+    $("task-text").replaceChildren(list, ...at < 3 ? [] : [element("p", {}, button("On to the first lesson", on_next, { class: "strong", id: "first-lesson" }))]);
+  }
+  function done(step) {
+    if (at !== step) return;
+    ++at;
+    draw();
+  }
+  return {
+    /** Begins where the welcome program is open. */
+    show({ document }) {
+      at = document === "welcome" ? 0 : -1;
+      $("task").classList.toggle("first", at >= 0);
+      if (at >= 0) draw();
+    },
+    ran() { done(at === 2 ? 2 : 0); },
+    changed() { done(1); },
+  };
+}

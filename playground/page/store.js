@@ -1,0 +1,98 @@
+// What somebody wrote: every program that was opened has a place of its own in this browser, with what it was before.
+
+import { openDB } from "idb";
+import { checked } from "./workspace.js";
+
+/** How many earlier states of a document are kept. */
+export const most_versions = 50;
+
+const same = (one, other) => JSON.stringify([one?.files, one?.main, one?.run]) === JSON.stringify([other?.files, other?.main, other?.run]);
+const is_full = error => error?.name === "QuotaExceededError";
+
+export class Store {
+  #db = null;
+
+  /** `on_trouble(words)` is told, once, why nothing can be kept. */
+  constructor(on_trouble) {
+    let told = false;
+    this.trouble = error => {
+      if (told) return;
+      told = true;
+      on_trouble(is_full(error)
+        ? "This browser has no room left, so what you write from now on is not kept: save it on this computer."
+        : "This browser keeps nothing for this page, perhaps because its window is private: save what you write on this computer.");
+    };
+  }
+  async #open() {
+    this.#db ??= openDB("orb-playground", 1, {
+      upgrade(db) {
+        db.createObjectStore("documents", { keyPath: "id" });
+        db.createObjectStore("versions", { autoIncrement: true }).createIndex("document", "document");
+      },
+    });
+    return this.#db;
+  }
+  /** What `deed(db)` brings; nothing, and trouble is told, where the browser keeps nothing. */
+  async #within(deed) {
+    try {
+      return await deed(await this.#open());
+    } catch (error) {
+      this.trouble(error);
+      return undefined;
+    }
+  }
+
+  /** Keeps a workspace as the document that it says it is. Before something else is put in its place, and wherever
+   *  `mark` says so, what it was becomes a version of its own. */
+  keep(workspace, mark = false) {
+    const { document: id, title } = workspace, copy = structuredClone(workspace);
+    if (!id) return Promise.resolve();
+    return this.#within(async db => {
+      const before = await db.get("documents", id);
+      if (mark && before && !same(before.workspace, copy)) await this.#add_version(db, id, before);
+      const row = { id, title, changed: Date.now(), workspace: copy };
+      try {
+        await db.put("documents", row);
+        if (mark) await this.#add_version(db, id, row);
+      } catch (error) {
+        if (!is_full(error) || !await this.#make_room(db)) throw error;
+        await db.put("documents", row);
+      }
+    });
+  }
+  async #add_version(db, id, { changed, workspace }) {
+    const transaction = db.transaction("versions", "readwrite"), { store } = transaction;
+    const keys = await store.index("document").getAllKeys(id);
+    const last = keys.length ? await store.get(keys[keys.length - 1]) : null;
+    if (!same(last?.workspace, workspace)) {
+      await store.add({ document: id, changed, workspace });
+      for (const key of keys.slice(0, Math.max(0, keys.length + 1 - most_versions))) await store.delete(key);
+    }
+    await transaction.done;
+  }
+  /** The older half of the versions goes. */
+  async #make_room(db) {
+    const keys = await db.getAllKeys("versions");
+    for (const key of keys.slice(0, Math.ceil(keys.length / 2))) await db.delete("versions", key);
+    return keys.length > 0;
+  }
+
+  /** The workspace that a document was left with; null where there is none. */
+  async find(id) {
+    const row = await this.#within(db => db.get("documents", id));
+    const found = row && checked(row.workspace);
+    return found ? { ...found, document: id, title: row.title } : null;
+  }
+  /** All documents, the last changed first: id, title, when it was changed. */
+  async list() {
+    const rows = await this.#within(db => db.getAll("documents")) ?? [];
+    return rows.sort((a, b) => b.changed - a.changed).map(({ id, title, changed, workspace }) => ({ id, title, changed, workspace }));
+  }
+  /** What a document was, the newest first. */
+  async versions(id) {
+    return (await this.#within(db => db.getAllFromIndex("versions", "document", id)) ?? []).reverse();
+  }
+}
+
+/** A name for a document that nothing else has. */
+export const new_id = () => `own:${crypto.randomUUID?.() ?? `${Date.now()}-${Math.random()}`}`;
