@@ -139,10 +139,12 @@ TEST(Floors, AShelfIncludesOnlyFromThoseBelowIt) {
 TEST(Shelves, AFolderCanBeSeenAtAGlance) {
   constexpr std::ptrdiff_t most_files = 31;
   for (const auto& room : rooms)
-    for (const auto& entry : fs::recursive_directory_iterator(root / room.name))
-      if (entry.is_directory()) {
-        EXPECT_LE(std::distance(fs::directory_iterator(entry.path()), {}), most_files)
-            << entry.path() << " wants shelves";
+    for (fs::recursive_directory_iterator entry(root / room.name), end; entry != end; ++entry)
+      if (entry->path().filename() == "node_modules") {
+        entry.disable_recursion_pending(); // what npm has put there is not ours
+      } else if (entry->is_directory()) {
+        EXPECT_LE(std::distance(fs::directory_iterator(entry->path()), {}), most_files)
+            << entry->path() << " wants shelves";
       }
 }
 
