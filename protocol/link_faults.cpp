@@ -143,7 +143,14 @@ std::string to_string(const FaultPlan& plan) {
   return out + fmt::format("seed={}", plan.seed);
 }
 
-FaultPipe::FaultPipe(const FaultPlan& plan) : plan_(plan), random_{plan.seed} {
+FaultPipe::Side::Side(Direction which, spec::Packets packets)
+    : direction(which), decoder(Decoder(which)) {
+  if (packets == spec::Packets::V2)
+    decoder.emplace<DecoderV2>();
+}
+
+FaultPipe::FaultPipe(const FaultPlan& plan, spec::Packets packets)
+    : plan_(plan), packets_(packets), random_{plan.seed} {
   queue_stale(Instant{});
 }
 
@@ -168,34 +175,53 @@ void FaultPipe::push(Direction direction, ByteView bytes, Instant now) {
     return;
   }
   way.bits_in += bits;
-  way.decoder.feed(bytes);
+  std::visit([&](auto& decoder) { decoder.feed(bytes); }, way.decoder);
   find_packets(way, now);
-  way.held_until = way.decoder.pending() ? now + hold_time : never;
+  const bool pending =
+      std::visit([](const auto& decoder) -> bool { return decoder.pending(); }, way.decoder);
+  way.held_until = pending ? now + hold_time : never;
 }
 
 void FaultPipe::find_packets(Side& way, Instant now) {
-  while (const auto item = way.decoder.next()) {
-    switch (item->kind) {
-    case Item::Kind::Command:
-    case Item::Kind::Response:
-    case Item::Kind::Async: pass_packet(way, *item, now); break;
-    case Item::Kind::Noise: queue(way, item->raw, now); break;
-    case Item::Kind::BadChecksum:
-    case Item::Kind::Fragment:
-      queue(way, item->raw.first(1), now); // the decoder reports the rest once more
-      break;
-    }
+  std::visit(
+      [&](auto& decoder) {
+        while (const auto item = decoder.next())
+          pass_item(way, *item, now);
+      },
+      way.decoder);
+}
+
+void FaultPipe::pass_item(Side& way, const Item& item, Instant now) {
+  switch (item.kind) {
+  case Item::Kind::Command: pass_packet(way, item.raw, What::Request, now); break;
+  case Item::Kind::Response: pass_packet(way, item.raw, What::Answer, now); break;
+  case Item::Kind::Async: pass_packet(way, item.raw, What::Message, now); break;
+  case Item::Kind::Noise: queue(way, item.raw, now); break;
+  case Item::Kind::BadChecksum:
+  case Item::Kind::Fragment:
+    queue(way, item.raw.first(1), now); // the decoder reports the rest once more
+    break;
   }
 }
 
-void FaultPipe::pass_packet(Side& way, const Item& item, Instant now) {
-  const Bytes packet(item.raw.begin(), item.raw.end()); // the view dies with the next item
-  const auto is_answer = item.kind == Item::Kind::Response;
-  if (is_answer && random_.chance(plan_.storm))
+void FaultPipe::pass_item(Side& way, const ItemV2& item, Instant now) {
+  if (item.kind != ItemV2::Kind::Packet)
+    return queue(way, item.raw, now);
+  const bool is_answer = spec::has(item.packet.flags, spec::V2Flag::Response);
+  pass_packet(way, item.raw,
+              is_answer                            ? What::Answer
+              : way.direction == Direction::ToBall ? What::Request
+                                                   : What::Message,
+              now);
+}
+
+void FaultPipe::pass_packet(Side& way, ByteView bytes, What what, Instant now) {
+  const Bytes packet(bytes.begin(), bytes.end()); // the view dies with the next item
+  if (what == What::Answer && random_.chance(plan_.storm))
     queue_storm(way, now);
-  const auto rate = is_answer                          ? plan_.dup
-                    : item.kind == Item::Kind::Command ? plan_.dup_request
-                                                       : 0;
+  const auto rate = what == What::Answer    ? plan_.dup
+                    : what == What::Request ? plan_.dup_request
+                                            : 0;
   damage_and_queue(way, packet, now);
   if (random_.chance(rate))
     damage_and_queue(way, packet, now);
@@ -231,13 +257,35 @@ void FaultPipe::queue(Side& way, ByteView bytes, Instant now) {
   way.last_due = due;
 }
 
+/// A message of the ball that nobody asked for.
+Bytes FaultPipe::message() {
+  Bytes data(1 + random_.below(storm_most_payload));
+  for (auto& byte : data)
+    byte = static_cast<std::uint8_t>(random_.next());
+  if (packets_ == spec::Packets::V1)
+    return encode(Async{storm_message, std::move(data)});
+  PacketV2 packet;
+  packet.did = static_cast<int>(spec::V2Message::Sample) >> 8;
+  packet.cid = static_cast<std::uint8_t>(spec::V2Message::Sample);
+  packet.seq = spec::v2_message_seq;
+  packet.data = std::move(data);
+  return encode(packet);
+}
+
+/// The answer to a request of an earlier client.
+Bytes FaultPipe::old_answer() {
+  const auto seq = static_cast<std::uint8_t>(random_.next());
+  if (packets_ == spec::Packets::V1)
+    return encode(Response{static_cast<std::uint8_t>(spec::ResponseCode::Ok), seq, {}});
+  PacketV2 packet;
+  packet.flags = static_cast<std::uint8_t>(spec::V2Flag::Response);
+  packet.seq = seq;
+  return encode(packet);
+}
+
 void FaultPipe::queue_storm(Side& way, Instant now) {
-  for (auto left = 1 + random_.below(storm_most_messages); left > 0; --left) {
-    Async message{storm_message, Bytes(1 + random_.below(storm_most_payload))};
-    for (auto& byte : message.data)
-      byte = static_cast<std::uint8_t>(random_.next());
-    queue(way, encode(message), now);
-  }
+  for (auto left = 1 + random_.below(storm_most_messages); left > 0; --left)
+    queue(way, message(), now);
 }
 
 void FaultPipe::queue_stale(Instant now) {
@@ -246,16 +294,14 @@ void FaultPipe::queue_stale(Instant now) {
     for (auto& byte : stray)
       byte = static_cast<std::uint8_t>(random_.next());
     queue(from_ball_, stray, now);
-    const auto seq = static_cast<std::uint8_t>(random_.next());
-    queue(from_ball_, encode(Response{static_cast<std::uint8_t>(spec::ResponseCode::Ok), seq, {}}),
-          now);
+    queue(from_ball_, old_answer(), now);
   }
 }
 
 Bytes FaultPipe::take(Direction direction, Instant now) {
   auto& way = side(direction);
   if (now >= way.held_until) {
-    way.decoder.expire();
+    std::visit([](auto& decoder) { decoder.expire(); }, way.decoder);
     find_packets(way, now);
     way.held_until = never;
   }
@@ -287,8 +333,8 @@ Instant FaultPipe::next_due() const {
 }
 
 void FaultPipe::reconnect(Instant now) {
-  to_ball_ = Side(Direction::ToBall);
-  from_ball_ = Side(Direction::FromBall);
+  to_ball_ = Side(Direction::ToBall, packets_);
+  from_ball_ = Side(Direction::FromBall, packets_);
   if (cut_) {
     plan_.cut.reset();
     plan_.cut_answer.reset();
@@ -297,8 +343,9 @@ void FaultPipe::reconnect(Instant now) {
   queue_stale(now);
 }
 
-FaultTransport::FaultTransport(std::unique_ptr<Transport> inner, const FaultPlan& plan)
-    : inner_(std::move(inner)), pipe_(plan) {}
+FaultTransport::FaultTransport(std::unique_ptr<Transport> inner, const FaultPlan& plan,
+                               spec::Packets packets)
+    : inner_(std::move(inner)), pipe_(plan, packets) {}
 
 namespace {
 

@@ -2,13 +2,16 @@
 
 #include "base/random.h"
 #include "protocol/decoder.h"
+#include "protocol/packet_v2.h"
 #include "protocol/transport.h"
+#include "spec/robots.h"
 
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace orb::protocol {
 
@@ -43,7 +46,7 @@ std::string to_string(const FaultPlan& plan);
 /// pushes them in where they are sent and takes them out when they are due.
 class FaultPipe {
 public:
-  explicit FaultPipe(const FaultPlan& plan);
+  explicit FaultPipe(const FaultPlan& plan, spec::Packets packets = spec::Packets::V1);
 
   /// Bytes are sent at `now`; a packet may come in any number of pushes.
   void push(Direction direction, ByteView bytes, Instant now);
@@ -66,9 +69,9 @@ private:
     Bytes bytes;
   };
   struct Side {
-    explicit Side(Direction which) : direction(which), decoder(which) {}
+    Side(Direction which, spec::Packets packets);
     Direction direction;
-    Decoder decoder;
+    std::variant<Decoder, DecoderV2> decoder;
     Instant held_until = never; ///< when the first part of a packet is passed on without its rest
     std::deque<Piece> pieces;
     Instant last_due{};
@@ -78,23 +81,31 @@ private:
 
   Side& side(Direction direction);
   void find_packets(Side& side, Instant now);
-  void pass_packet(Side& side, const Item& item, Instant now);
+  void pass_item(Side& side, const Item& item, Instant now);
+  void pass_item(Side& side, const ItemV2& item, Instant now);
+  enum class What : std::uint8_t { Request, Answer, Message };
+  void pass_packet(Side& side, ByteView bytes, What what, Instant now);
   void damage_and_queue(Side& side, Bytes packet, Instant now);
   void queue(Side& side, ByteView bytes, Instant now);
   void queue_storm(Side& side, Instant now);
   void queue_stale(Instant now);
 
+  Bytes message();
+  Bytes old_answer();
+
   FaultPlan plan_;
+  spec::Packets packets_;
   Random random_;
-  Side to_ball_{Direction::ToBall};
-  Side from_ball_{Direction::FromBall};
+  Side to_ball_{Direction::ToBall, packets_};
+  Side from_ball_{Direction::FromBall, packets_};
   bool cut_ = false;
 };
 
 /// A Transport around a Transport, with a FaultPipe between.
 class FaultTransport : public Transport {
 public:
-  FaultTransport(std::unique_ptr<Transport> inner, const FaultPlan& plan);
+  FaultTransport(std::unique_ptr<Transport> inner, const FaultPlan& plan,
+                 spec::Packets packets = spec::Packets::V1);
 
   Instant now() const override { return inner_->now(); }
   tl::expected<void, LinkError> write(ByteView bytes) override;

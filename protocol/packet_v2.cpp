@@ -1,6 +1,7 @@
 #include "protocol/packet_v2.h"
 
 #include "protocol/packet.h"
+#include "protocol/payload_v2.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -157,8 +158,13 @@ std::string describe(const ItemV2& item) {
   case ItemV2::Kind::Packet: break;
   }
   const auto is_response = spec::has(packet.flags, spec::V2Flag::Response);
-  auto out = fmt::format("{}: flags {:02X} ({})", is_response ? "response" : "command",
-                         packet.flags, flag_names(packet.flags));
+  const auto name = name_of(packet);
+  const bool is_message = !is_response && packet.seq == spec::v2_message_seq;
+  auto out = fmt::format("{}{}{}: flags {:02X} ({})",
+                         is_response  ? "response"
+                         : is_message ? "message"
+                                      : "command",
+                         name.empty() ? "" : " ", name, packet.flags, flag_names(packet.flags));
   if (!packet.extended_flags.empty())
     out += fmt::format(", extended flags {}", to_hex(packet.extended_flags));
   if (spec::has(packet.flags, spec::V2Flag::HasTarget))
@@ -173,7 +179,9 @@ std::string describe(const ItemV2& item) {
     out += fmt::format(", err {:02X} ({})", packet.error,
                        error == nullptr ? "unknown" : error->meaning);
   }
-  if (!packet.data.empty())
+  if (const auto fields = fields_of(packet); !fields.empty())
+    out += ", " + fields;
+  else if (!packet.data.empty())
     out += fmt::format(", data {}", to_hex(packet.data));
   return out + fmt::format(", chk {:02X}", item.checksum);
 }

@@ -47,6 +47,8 @@ class DecoderV2 {
 public:
   void feed(ByteView bytes);
   std::optional<ItemV2> next();
+  /// Whether it holds bytes that are no whole packet yet.
+  bool pending() const { return at_ < kept_.size(); }
   /// Gives up waiting for the end of an incomplete packet.
   void expire() { expired_ = true; }
 

@@ -5,10 +5,13 @@
 #include "protocol/packet.h"
 #include "protocol/packet_v2.h"
 #include "protocol/payload.h"
+#include "protocol/payload_v2.h"
+#include "spec/robots.h"
 
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace orb::cli {
@@ -20,6 +23,7 @@ struct EncodeArguments {
   bool v2 = false;
   bool no_answer = false;
   unsigned seq = 0;
+  std::string robot;
 };
 
 void fail(Context& context, std::string_view message, ExitCode code) {
@@ -31,29 +35,56 @@ void print_bytes(ByteView bytes) {
   print_out(to_hex(bytes) + "\n");
 }
 
-void encode_v2(Context& context, const EncodeArguments& arguments) {
-  std::vector<Bytes> parts;
+constexpr std::string_view numbers_taken =
+    "a v2 packet takes a name, or DID CID [HEX], two hex digits each for DID and CID; write "
+    "`orb encode --v2 13 0D`";
+
+/// A command of the newer robots by its numbers; nothing where the words are not such.
+std::optional<protocol::PacketV2> numbered_v2(const EncodeArguments& arguments) {
+  const auto did = from_hex(arguments.name);
+  if (!did || did->size() != 1 || arguments.operands.empty())
+    return std::nullopt;
+  Bytes rest;
   for (const auto& word : arguments.operands) {
     const auto bytes = from_hex(word);
-    if (!bytes)
-      return fail(context, fmt::format("`{}` is not hex bytes", word), ExitCode::Usage);
-    parts.push_back(*bytes);
+    if (!bytes || (rest.empty() && bytes->size() != 1))
+      return std::nullopt;
+    rest.insert(rest.end(), bytes->begin(), bytes->end());
   }
-  const auto did = from_hex(arguments.name);
-  if (!did || did->size() != 1 || parts.empty() || parts[0].size() != 1)
-    return fail(context,
-                "a v2 packet takes DID CID [HEX], two hex digits each for DID and CID; "
-                "write `orb encode --v2 13 0D`",
-                ExitCode::Usage);
   protocol::PacketV2 packet;
-  const auto answer = arguments.no_answer ? 0 : static_cast<int>(spec::V2Flag::RequestResponse);
-  packet.flags = static_cast<std::uint8_t>(answer | static_cast<int>(spec::V2Flag::Activity));
   packet.did = did->front();
-  packet.cid = parts[0].front();
-  packet.seq = static_cast<std::uint8_t>(arguments.seq);
-  for (std::size_t i = 1; i < parts.size(); ++i)
-    packet.data.insert(packet.data.end(), parts[i].begin(), parts[i].end());
-  print_bytes(encode(packet));
+  packet.cid = rest.front();
+  packet.data.assign(rest.begin() + 1, rest.end());
+  return packet;
+}
+
+tl::expected<protocol::PacketV2, std::string> packet_v2(const EncodeArguments& arguments) {
+  if (const auto* row = spec::find_v2_command(arguments.name)) {
+    auto data = protocol::encode_operands(row->command, arguments.operands);
+    if (!data)
+      return tl::unexpected(data.error());
+    return protocol::make_request(row->command, *std::move(data), 0);
+  }
+  if (auto packet = numbered_v2(arguments))
+    return *std::move(packet);
+  if (from_hex(arguments.name))
+    return tl::unexpected(std::string(numbers_taken));
+  std::vector<std::string_view> names;
+  for (const auto& row : spec::v2_commands)
+    names.push_back(row.name);
+  return tl::unexpected(fmt::format("`{}` is not a v2 command; {}", arguments.name,
+                                    did_you_mean(arguments.name, names, numbers_taken)));
+}
+
+void encode_v2(Context& context, const EncodeArguments& arguments) {
+  auto packet = packet_v2(arguments);
+  if (!packet)
+    return fail(context, packet.error(), ExitCode::Usage);
+  const auto answer = arguments.no_answer ? 0 : static_cast<int>(spec::V2Flag::RequestResponse);
+  packet->flags = static_cast<std::uint8_t>(answer | static_cast<int>(spec::V2Flag::Activity));
+  packet->seq = static_cast<std::uint8_t>(arguments.seq);
+  const auto* robot = spec::find_robot(arguments.robot);
+  print_bytes(encode(robot == nullptr ? *packet : protocol::address(*packet, *robot)));
 }
 
 void encode_v1(Context& context, const EncodeArguments& arguments) {
@@ -81,11 +112,12 @@ void encode_v1(Context& context, const EncodeArguments& arguments) {
 } // namespace
 
 void add_encode(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "encode", "make the bytes of a packet",
-                              "orb encode ping\norb encode set-rgb-led 255 0 0 0\n"
-                              "orb encode append-orbbasic-fragment ram '10 print \"hi\"\\n\\0'\n"
-                              "orb encode configure-locator -- 1 -300 0 90\n"
-                              "orb encode --v2 13 0D");
+  auto* command =
+      add_command(app, "encode", "make the bytes of a packet",
+                  "orb encode ping\norb encode set-rgb-led 255 0 0 0\n"
+                  "orb encode append-orbbasic-fragment ram '10 print \"hi\"\\n\\0'\n"
+                  "orb encode configure-locator -- 1 -300 0 90\n"
+                  "orb encode --v2 13 0D\norb encode --robot bolt drive-with-heading 60 90");
   auto arguments = std::make_shared<EncodeArguments>();
   command->add_option("NAME", arguments->name, "a command of the API, or the DID of a v2 packet")
       ->required();
@@ -95,9 +127,20 @@ void add_encode(CLI::App& app, Context& context) {
       ->check(whole_number(0, std::numeric_limits<std::uint8_t>::max()))
       ->capture_default_str();
   command->add_flag("--no-answer", arguments->no_answer, "ask for no answer");
-  command->add_flag("--v2", arguments->v2, "a packet of the newer robots: DID CID [HEX]");
+  command->add_flag("--v2", arguments->v2,
+                    "a packet of the newer robots: a name and operands, or DID CID [HEX]");
+  std::vector<std::string> robots;
+  for (const auto& row : spec::robots)
+    if (row.packets == spec::Packets::V2)
+      robots.emplace_back(row.name);
+  command
+      ->add_option("--robot", arguments->robot,
+                   "the newer robot that it is for: some name a processor in each packet")
+      ->check(one_of(std::move(robots)));
   command->callback([&context, arguments] {
-    if (arguments->v2)
+    const bool only_v2 = spec::find_command(arguments->name) == nullptr &&
+                         spec::find_v2_command(arguments->name) != nullptr;
+    if (arguments->v2 || !arguments->robot.empty() || only_v2)
       encode_v2(context, *arguments);
     else
       encode_v1(context, *arguments);

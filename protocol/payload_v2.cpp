@@ -1,0 +1,222 @@
+#include "protocol/payload_v2.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+
+namespace orb::protocol {
+namespace {
+
+using spec::V2Type;
+
+constexpr std::size_t size_of(V2Type type) {
+  switch (type) {
+  case V2Type::U8: return 1;
+  case V2Type::U16:
+  case V2Type::S16: return 2;
+  case V2Type::U32:
+  case V2Type::F32: return 4;
+  case V2Type::Text:
+  case V2Type::Data: return 0;
+  }
+  return 0;
+}
+
+std::optional<std::int64_t> read_integer(std::string_view word) {
+  std::int64_t value = 0;
+  const bool is_hex = word.starts_with("0x") || word.starts_with("0X");
+  constexpr int hexadecimal = 16;
+  constexpr int decimal = 10;
+  const auto digits = word.substr(is_hex ? 2 : 0);
+  const auto* end = digits.data() + digits.size();
+  const auto [next, error] =
+      std::from_chars(digits.data(), end, value, is_hex ? hexadecimal : decimal);
+  return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> read_real(std::string_view word) {
+  double value = 0;
+  const auto* end = word.data() + word.size();
+  const auto [next, error] = std::from_chars(word.data(), end, value);
+  return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
+}
+
+std::string takes(const spec::V2Field& field) {
+  switch (field.type) {
+  case V2Type::Text:
+    return fmt::format("`{}` takes text of at most {} bytes", field.name, field.most);
+  case V2Type::Data:
+    return fmt::format("`{}` takes at most {} hex bytes such as FF0000", field.name, field.most);
+  case V2Type::F32:
+    return fmt::format("`{}` takes a number from {} to {}", field.name, field.least, field.most);
+  case V2Type::U8:
+  case V2Type::U16:
+  case V2Type::U32:
+  case V2Type::S16: break;
+  }
+  return fmt::format("`{}` takes a whole number from {} to {}", field.name, field.least,
+                     field.most);
+}
+
+bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
+  const auto most = static_cast<std::size_t>(std::max<std::int64_t>(field.most, 0));
+  if (field.type == V2Type::Text) {
+    const auto bytes = as_bytes(word);
+    if (bytes.size() > most)
+      return false;
+    out.insert(out.end(), bytes.begin(), bytes.end());
+    out.push_back(0);
+    return true;
+  }
+  if (field.type == V2Type::Data) {
+    const auto bytes = from_hex(word);
+    if (!bytes || bytes->size() > most)
+      return false;
+    out.insert(out.end(), bytes->begin(), bytes->end());
+    return true;
+  }
+  if (field.type == V2Type::F32) {
+    const auto value = read_real(word);
+    if (!value || !(*value >= static_cast<double>(field.least)) ||
+        !(*value <= static_cast<double>(field.most)))
+      return false;
+    append_f32(out, *value);
+    return true;
+  }
+  const auto value = read_integer(word);
+  if (!value || *value < field.least || *value > field.most)
+    return false;
+  switch (size_of(field.type)) {
+  case 1: out.push_back(static_cast<std::uint8_t>(*value)); break;
+  case 2: append_u16(out, static_cast<std::uint32_t>(*value)); break;
+  default: append_u32(out, static_cast<std::uint32_t>(*value)); break;
+  }
+  return true;
+}
+
+template <class Fields>
+std::string values(const Fields& fields, spec::V2Command command, ByteView data) {
+  std::string out;
+  std::size_t at = 0;
+  const auto add = [&](std::string_view name, const std::string& value) {
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
+  };
+  for (const spec::V2Field& field : fields) {
+    if (field.command != command)
+      continue;
+    const auto size = size_of(field.type);
+    if (data.size() - at < size || (size == 0 && at == data.size()))
+      break;
+    const auto rest = data.subspan(at);
+    switch (field.type) {
+    case V2Type::U8: add(field.name, std::to_string(rest[0])); break;
+    case V2Type::U16: add(field.name, std::to_string(read_u16(rest, 0))); break;
+    case V2Type::S16:
+      add(field.name, std::to_string(static_cast<std::int16_t>(read_u16(rest, 0))));
+      break;
+    case V2Type::U32: add(field.name, fmt::format("{:08X}h", read_u32(rest, 0))); break;
+    case V2Type::F32: add(field.name, fmt::format("{:g}", read_f32(rest, 0))); break;
+    case V2Type::Data: add(field.name, to_hex(rest)); break;
+    case V2Type::Text: {
+      const auto text = as_text(rest).substr(0, as_text(rest).find('\0'));
+      const bool is_plain = std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
+      add(field.name, is_plain ? fmt::format("`{}`", text) : to_hex(as_bytes(text)));
+      break;
+    }
+    }
+    at += size == 0 ? rest.size() : size;
+  }
+  return out;
+}
+
+} // namespace
+
+void append_f32(Bytes& out, double value) {
+  append_u32(out, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+}
+
+double read_f32(ByteView bytes, std::size_t offset) {
+  return std::bit_cast<float>(read_u32(bytes, offset));
+}
+
+tl::expected<Bytes, std::string> encode_operands(spec::V2Command command,
+                                                 std::span<const std::string> words) {
+  Bytes out;
+  std::size_t at = 0;
+  for (const auto& field : spec::v2_operands) {
+    if (field.command != command)
+      continue;
+    const bool may_be_absent = size_of(field.type) == 0 && field.type == V2Type::Data;
+    if (at == words.size() && may_be_absent)
+      continue;
+    const bool given = at < words.size();
+    if (!given && field.least > 0)
+      return tl::unexpected(takes(field));
+    static const std::string zero = "0";
+    static const std::string nothing;
+    if (!append(out, field, given ? words[at] : field.type == V2Type::Text ? nothing : zero))
+      return tl::unexpected(given ? fmt::format("unexpected `{}`; {}", words[at], takes(field))
+                                  : takes(field));
+    at += given ? 1 : 0;
+  }
+  if (at < words.size())
+    return tl::unexpected(fmt::format("unexpected `{}` after the last operand of {}; it takes {}",
+                                      words[at], spec::info(command).name,
+                                      at == 0 ? "none" : std::to_string(at)));
+  return out;
+}
+
+PacketV2 make_request(spec::V2Command command, Bytes data, std::uint8_t seq, std::uint8_t flags) {
+  PacketV2 packet;
+  packet.flags =
+      static_cast<std::uint8_t>(flags | static_cast<std::uint8_t>(spec::V2Flag::Activity));
+  packet.did = spec::info(command).did();
+  packet.cid = spec::info(command).cid();
+  packet.seq = seq;
+  packet.data = std::move(data);
+  return packet;
+}
+
+PacketV2 address(PacketV2 request, const spec::RobotInfo& robot) {
+  const auto* row = spec::find_v2_command(request.did, request.cid);
+  if (robot.processors < 2 || row == nullptr)
+    return request;
+  request.flags |= static_cast<std::uint8_t>(spec::V2Flag::HasTarget);
+  request.flags |= static_cast<std::uint8_t>(spec::V2Flag::HasSource);
+  request.target = spec::v2_target(row->processor);
+  request.source = spec::v2_client;
+  return request;
+}
+
+bool fits(spec::V2Command command, ByteView data) {
+  std::size_t least = 0;
+  std::size_t more = 0;
+  for (const auto& field : spec::v2_operands) {
+    if (field.command != command)
+      continue;
+    least += size_of(field.type);
+    if (size_of(field.type) == 0)
+      more = static_cast<std::size_t>(field.most) + 1; // the NUL of a text
+  }
+  return data.size() >= least && data.size() <= least + more;
+}
+
+std::string_view name_of(const PacketV2& packet) {
+  if (const auto* message = spec::find_v2_message(packet.did, packet.cid))
+    return message->name;
+  const auto* row = spec::find_v2_command(packet.did, packet.cid);
+  return row == nullptr ? std::string_view() : row->name;
+}
+
+std::string fields_of(const PacketV2& packet) {
+  const auto* row = spec::find_v2_command(packet.did, packet.cid);
+  if (row == nullptr || packet.error != 0)
+    return {};
+  return spec::has(packet.flags, spec::V2Flag::Response)
+             ? values(spec::v2_answers, row->command, packet.data)
+             : values(spec::v2_operands, row->command, packet.data);
+}
+
+} // namespace orb::protocol

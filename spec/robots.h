@@ -1,0 +1,306 @@
+#pragma once
+
+#include "spec/ball.h"
+#include "spec/ble.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+/// The robots, and what those of packets v2 understand and say. Source: LIB, PKT.
+namespace orb::spec {
+
+enum class V2Command : std::uint16_t {
+#define V2_COMMAND(enumerator, did, cid, ...) enumerator = (did) << 8 | (cid),
+#include "spec/robots.def"
+  None = 0xFFFF ///< no command
+};
+
+/// Which processor a command is for, or a message is from, in a robot that has two.
+enum class V2Processor : std::uint8_t { Any, Primary, Secondary };
+
+/// The TID of a processor: port 1, node 1 or 2.
+constexpr std::uint8_t v2_target(V2Processor processor) {
+  return processor == V2Processor::Secondary ? 0x12 : 0x11;
+}
+inline constexpr std::uint8_t v2_client = 0x01;      ///< SID of a client
+inline constexpr std::uint8_t v2_message_seq = 0xFF; ///< SEQ of what comes unasked
+inline constexpr std::uint8_t v2_last_seq = 0xFE;    ///< SEQ of requests counts 0 to this
+/// A robot stops by itself so long after the last drive command.
+inline constexpr std::chrono::milliseconds v2_drive_timeout{2000};
+/// Flags of drive-with-heading.
+inline constexpr std::uint8_t v2_drive_backward = 1;
+inline constexpr std::uint8_t v2_drive_turbo = 2;
+inline constexpr std::uint8_t v2_drive_fast_turn = 4;
+
+enum class V2Type : std::uint8_t { U8, U16, U32, S16, F32, Text, Data };
+
+/// Which robots know a command.
+enum class V2Robots : std::uint8_t {
+  All,
+  NotRvr,
+  Rvr,
+  MiniAndRvr,
+  Bolt,
+  Droids,        ///< BB-9E, R2-D2, R2-Q5
+  TwoProcessors, ///< those that have two
+  ByLamps,       ///< those whose lamps it sets
+};
+
+struct V2CommandInfo {
+  V2Command command;
+  std::string_view name;
+  V2Processor processor;
+  V2Robots robots;
+  std::string_view source;
+  std::string_view example; ///< operands as a shell gives them
+  std::string_view summary;
+
+  std::uint8_t did() const { return static_cast<std::uint8_t>(static_cast<int>(command) >> 8); }
+  std::uint8_t cid() const { return static_cast<std::uint8_t>(command); }
+};
+
+inline constexpr auto v2_commands = std::to_array<V2CommandInfo>({
+#define V2_COMMAND(enumerator, did, cid, name, processor, robots, source, example, summary)        \
+  {V2Command::enumerator, name, V2Processor::processor, V2Robots::robots, source, example, summary},
+#include "spec/robots.def"
+});
+
+/// The row of a command; null for one that no row names.
+constexpr const V2CommandInfo* find_v2_command(std::uint8_t did, std::uint8_t cid) {
+  for (const auto& row : v2_commands)
+    if (static_cast<int>(row.command) == (did << 8 | cid))
+      return &row;
+  return nullptr;
+}
+/// The same by name, with hyphens or underscores.
+constexpr const V2CommandInfo* find_v2_command(std::string_view name) {
+  for (const auto& row : v2_commands)
+    if (std::equal(row.name.begin(), row.name.end(), name.begin(), name.end(),
+                   [](char a, char b) { return a == b || (a == '-' && b == '_'); }))
+      return &row;
+  return nullptr;
+}
+constexpr const V2CommandInfo& info(V2Command command) {
+  for (const auto& row : v2_commands)
+    if (row.command == command)
+      return row;
+  return v2_commands.front();
+}
+
+struct V2Field {
+  V2Command command;
+  V2Type type;
+  std::string_view name;
+  std::int64_t least = 0;
+  std::int64_t most = 0; ///< of Text and Data: how many bytes
+};
+
+inline constexpr auto v2_operands = std::to_array<V2Field>({
+#define V2_OPERAND(enumerator, type, name, least, most)                                            \
+  {V2Command::enumerator, V2Type::type, name, least, most},
+#include "spec/robots.def"
+});
+
+inline constexpr auto v2_answers = std::to_array<V2Field>({
+#define V2_ANSWER(enumerator, type, name) {V2Command::enumerator, V2Type::type, name},
+#include "spec/robots.def"
+});
+
+enum class V2Message : std::uint16_t {
+#define V2_MESSAGE(enumerator, did, cid, ...) enumerator = (did) << 8 | (cid),
+#include "spec/robots.def"
+};
+
+struct V2MessageInfo {
+  V2Message message;
+  std::string_view name;
+  std::string_view source;
+  std::string_view summary;
+};
+
+inline constexpr auto v2_messages = std::to_array<V2MessageInfo>({
+#define V2_MESSAGE(enumerator, did, cid, name, source, summary)                                    \
+  {V2Message::enumerator, name, source, summary},
+#include "spec/robots.def"
+});
+
+constexpr const V2MessageInfo* find_v2_message(std::uint8_t did, std::uint8_t cid) {
+  for (const auto& row : v2_messages)
+    if (static_cast<int>(row.message) == (did << 8 | cid))
+      return &row;
+  return nullptr;
+}
+
+enum class V2Mask : std::uint8_t { Base, Extended };
+
+enum class V2Sensor : std::uint8_t {
+#define V2_SENSOR(enumerator, ...) enumerator,
+#include "spec/robots.def"
+};
+
+struct V2SensorInfo {
+  V2Sensor sensor;
+  std::uint32_t bit; ///< of its mask
+  V2Mask mask;
+  std::string_view name;
+  std::string_view unit;
+  std::string_view source;
+};
+
+/// In the order in which a sample has them.
+inline constexpr auto v2_sensors = std::to_array<V2SensorInfo>({
+#define V2_SENSOR(enumerator, bit, mask, name, unit, source)                                       \
+  {V2Sensor::enumerator, 1U << (bit), V2Mask::mask, name, unit, source},
+#include "spec/robots.def"
+});
+
+enum class V2Service : std::uint16_t {
+#define V2_SERVICE(enumerator, id, ...) enumerator = id,
+#include "spec/robots.def"
+};
+
+enum class V2Sign : std::uint8_t { Signed, Unsigned };
+
+struct V2ServiceInfo {
+  V2Service service;
+  V2Processor processor;
+  std::string_view name;
+  std::size_t values;
+  double greatest;
+  double second; ///< the greatest of its second value
+  V2Sign sign;
+  std::string_view source;
+
+  double most(std::size_t value) const { return value == 1 ? second : greatest; }
+  double least(std::size_t value) const { return sign == V2Sign::Signed ? -most(value) : 0; }
+};
+
+inline constexpr auto v2_services = std::to_array<V2ServiceInfo>({
+#define V2_SERVICE(enumerator, id, processor, name, values, greatest, second, sign, source)        \
+  {V2Service::enumerator,                                                                          \
+   V2Processor::processor,                                                                         \
+   name,                                                                                           \
+   values,                                                                                         \
+   greatest,                                                                                       \
+   second,                                                                                         \
+   V2Sign::sign,                                                                                   \
+   source},
+#include "spec/robots.def"
+});
+
+constexpr const V2ServiceInfo* find_v2_service(std::uint16_t id) {
+  for (const auto& row : v2_services)
+    if (row.service == static_cast<V2Service>(id))
+      return &row;
+  return nullptr;
+}
+
+enum class Packets : std::uint8_t { V1, V2 };
+enum class RobotSensors : std::uint8_t { None, Mask, Services };
+
+enum class Robot : std::uint8_t {
+#define ROBOT(enumerator, ...) enumerator,
+#include "spec/robots.def"
+};
+
+struct RobotInfo {
+  Robot robot;
+  std::string_view name;  ///< as the command line takes it
+  std::string_view title; ///< as people call it
+  BleModel ble;
+  Packets packets;
+  int processors;
+  std::chrono::milliseconds interval; ///< from one command to the next, at least
+  RobotSensors sensors;
+  V2Command lamps;
+  std::uint32_t body;   ///< the lamps that RGB and LEDC set
+  std::uint32_t aiming; ///< those that backLED sets
+  int slowest;          ///< what a drive command must say before it moves at all
+  std::string_view source;
+};
+
+inline constexpr auto robots = std::to_array<RobotInfo>({
+#define ROBOT(enumerator, name, title, ble, packets, processors, interval, sensors, lamps, body,   \
+              aiming, slowest, source)                                                             \
+  {Robot::enumerator,                                                                              \
+   name,                                                                                           \
+   title,                                                                                          \
+   BleModel::ble,                                                                                  \
+   Packets::packets,                                                                               \
+   processors,                                                                                     \
+   std::chrono::milliseconds{interval},                                                            \
+   RobotSensors::sensors,                                                                          \
+   V2Command::lamps,                                                                               \
+   body,                                                                                           \
+   aiming,                                                                                         \
+   slowest,                                                                                        \
+   source},
+#include "spec/robots.def"
+});
+
+constexpr const RobotInfo& info(Robot robot) {
+  return robots[static_cast<std::size_t>(robot)];
+}
+/// How it drives.
+constexpr Driving driving(Robot which) {
+  Driving numbers;
+#define DRIVING(robot, number, value, source)                                                      \
+  if (which == Robot::robot)                                                                       \
+    numbers.number = value;
+#include "spec/robots.def"
+  return numbers;
+}
+constexpr const RobotInfo* find_robot(std::string_view name) {
+  for (const auto& row : robots)
+    if (row.name == name)
+      return &row;
+  return nullptr;
+}
+
+/// Whether the robot knows the command.
+constexpr bool knows(const RobotInfo& robot, const V2CommandInfo& command) {
+  const bool is_rvr = robot.sensors == RobotSensors::Services;
+  switch (command.robots) {
+  case V2Robots::All: return true;
+  case V2Robots::NotRvr: return !is_rvr;
+  case V2Robots::Rvr: return is_rvr;
+  case V2Robots::MiniAndRvr: return is_rvr || robot.robot == Robot::Mini;
+  case V2Robots::Bolt: return robot.robot == Robot::Bolt;
+  case V2Robots::Droids:
+    return robot.robot == Robot::Bb9e || robot.robot == Robot::R2d2 || robot.robot == Robot::R2q5;
+  case V2Robots::TwoProcessors: return robot.processors > 1;
+  case V2Robots::ByLamps: return command.command == robot.lamps;
+  }
+  return false;
+}
+
+/// What a drive command says for a program's speed, 0 to 255, so that 1 moves it; and back.
+constexpr int speed_on_wire(const RobotInfo& robot, int speed) {
+  if (robot.slowest == 0 || speed == 0)
+    return speed;
+  const int offset = robot.slowest * 3 / 2;
+  return (speed + offset) * 2 / 3;
+}
+constexpr int speed_from_wire(const RobotInfo& robot, int wire) {
+  if (robot.slowest == 0)
+    return wire;
+  constexpr int greatest = 255;
+  const int offset = robot.slowest * 3 / 2;
+  return std::clamp((wire * 3 + 1) / 2 - offset, 0, greatest);
+}
+
+static_assert(
+    [] {
+      for (std::size_t i = 1; i < v2_commands.size(); ++i)
+        if (v2_commands[i - 1].command >= v2_commands[i].command)
+          return false;
+      return true;
+    }(),
+    "v2 commands are unique and ascending");
+
+} // namespace orb::spec
