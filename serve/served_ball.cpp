@@ -43,7 +43,9 @@ ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int in
     : io_(io), options_(options), index_(index), bluez_(bluez), ball_(ball_options(options, index)),
       timer_(io) {
   if (options.fault)
-    pipe_.emplace(*options.fault);
+    pipe_.emplace(*options.fault, spec::info(options.robot).packets);
+  if (spec::info(options.robot).packets == spec::Packets::V2)
+    robot_.emplace(ball_, options.robot, vm::bluetooth_address(ball_options(options, index).seed));
   ball_.schedule(options.stimulus);
 }
 
@@ -185,6 +187,8 @@ void ServedBall::enter(Link& link) {
   ++session_;
   ball_.advance_to(now());
   ball_.connect();
+  if (robot_)
+    robot_->connect();
   if (pipe_)
     pipe_->reconnect(now());
   await_input();
@@ -200,6 +204,8 @@ void ServedBall::leave() {
   backlog_.clear();
   writing_ = reading_ = false;
   ball_.advance_to(now());
+  if (robot_)
+    robot_->disconnect();
   ball_.disconnect();
   link.hang_up();
   step();
@@ -235,7 +241,7 @@ void ServedBall::on_input() {
   if (pipe_)
     pipe_->push(protocol::Direction::ToBall, bytes, now());
   else
-    ball_.receive(bytes);
+    hear(bytes);
   const auto session = session_;
   step();
   if (session == session_)
@@ -250,9 +256,11 @@ void ServedBall::step() {
   if (pipe_) {
     for (auto bytes = pipe_->take(protocol::Direction::ToBall, time); !bytes.empty();
          bytes = pipe_->take(protocol::Direction::ToBall, time))
-      ball_.receive(bytes);
+      hear(bytes);
     ball_.advance_to(time);
   }
+  while (robot_ && robot_->next_event() <= time)
+    robot_->run();
   if (!options_.state_file.empty() && ball_.dispatcher().revision() != saved_revision_)
     if (auto saved = save(); !saved)
       fail(saved.error()); // answers still go out: the ball itself has changed
@@ -269,7 +277,28 @@ void ServedBall::step() {
   arm();
 }
 
+void ServedBall::hear(ByteView bytes) {
+  if (!robot_)
+    return ball_.receive(bytes);
+  robot_->receive(bytes);
+}
+
+void ServedBall::take_v2_packets() {
+  robot_->run(); // a collision may wait
+  const auto session = session_;
+  while (const auto packet = robot_->take_packet()) {
+    if (client_ == nullptr || session != session_)
+      continue;
+    if (pipe_)
+      pipe_->push(protocol::Direction::FromBall, *packet, now());
+    else if (backlog_.size() <= backlog_most)
+      write(*packet);
+  }
+}
+
 void ServedBall::take_packets() {
+  if (robot_)
+    return take_v2_packets();
   while (auto packet = ball_.take_packet()) {
     if (client_ == nullptr)
       continue;
@@ -344,7 +373,8 @@ void ServedBall::on_writable() {
 /// Sleeps until something happens by itself.
 void ServedBall::arm() {
   auto wake = Clock::time_point::max();
-  const auto next = std::min(ball_.next_event(), pipe_ ? pipe_->next_due() : never);
+  const auto next = std::min({ball_.next_event(), pipe_ ? pipe_->next_due() : never,
+                              robot_ ? robot_->next_event() : never});
   if (next != never) {
     const auto real = static_cast<double>(next.time_since_epoch().count()) / options_.speed;
     constexpr double century = 3e18;

@@ -5,6 +5,7 @@
 #include "serve/link.h"
 #include "serve/packet_spacer.h"
 #include "serve/server.h"
+#include "vm/robot_v2.h"
 
 #include <asio/steady_timer.hpp>
 #include <chrono>
@@ -53,7 +54,9 @@ private:
   void await_input();
   void on_input();
   void step();
+  void hear(ByteView bytes);
   void take_packets();
+  void take_v2_packets();
   void send_faulty();
   void write(ByteView bytes);
   void write_backlog();
@@ -68,6 +71,7 @@ private:
   int index_;
   FakeBluez* bluez_;
   vm::Ball ball_;
+  std::optional<vm::RobotV2> robot_; ///< that the ball is, where it speaks packets v2
   std::optional<protocol::FaultPipe> pipe_;
   Clock::time_point start_;
   asio::steady_timer timer_;

@@ -3,6 +3,7 @@
 #include "base/io_error.h"
 #include "protocol/ble_faults.h"
 #include "protocol/link_faults.h"
+#include "spec/robots.h"
 #include "vm/ball.h"
 #include "vm/stimulus.h"
 
@@ -28,7 +29,8 @@ struct ServeOptions {
   /// Behind a Bluetooth LE that there is not, with these faults.
   std::optional<protocol::BleFaultPlan> bluez;
   int count = 1;
-  double speed = 1; ///< seconds of the ball per second
+  double speed = 1;                        ///< seconds of the ball per second
+  spec::Robot robot = spec::Robot::Sphero; ///< whose packets it speaks
   vm::BallOptions ball;
   std::vector<vm::TimedStimulus> stimulus;
   std::optional<protocol::FaultPlan> fault;

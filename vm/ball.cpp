@@ -30,7 +30,7 @@ ProgramOptions program_options(const BallOptions& options) {
 
 Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
-      body_(options.seed), link_(options.wire), drive_(body_, settings_), power_(settings_),
+      body_(options.seed, options.driving), link_(options.wire), drive_(body_, settings_), power_(settings_),
       programs_(program_options(options), options.seed), macros_(asks_->of_macro),
       dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
@@ -342,6 +342,30 @@ void Ball::apply(const Stimulus& stimulus) {
   settle();
   check_battery();
   watch_motion();
+}
+
+// Elsewhere.
+
+void Ball::become(Elsewhere& robot) {
+  body_.become(robot);
+  lamps_.become(robot);
+}
+
+void Ball::feel(const Sample& sample) {
+  body_.advance_to(now_);
+  body_.feel(sample);
+  watch_motion();
+}
+
+void Ball::feel(const event::Collision& collision) {
+  trace(collision);
+  macros_.collide(now_);
+  dispatcher_.on_collision();
+}
+
+void Ball::feel_battery(double volts) {
+  body_.set_battery(volts);
+  check_battery();
 }
 
 void Ball::detect_collision(const Impact& impact) {

@@ -28,6 +28,7 @@ namespace orb::vm {
 struct BallOptions : ProgramOptions {
   std::uint64_t seed = 1;
   spec::Firmware firmware = spec::default_firmware;
+  spec::Driving driving; ///< how it drives
   Wire wire = Wire::Paced;
   Observer* observer = nullptr;  ///< must outlive the ball
   StepObserver* steps = nullptr; ///< the same; sees every step of the body
@@ -88,6 +89,16 @@ public:
   void apply(const Stimulus& stimulus);
   /// Lets the events of a script happen, their times counted from now().
   void schedule(std::span<const TimedStimulus> script);
+
+  // Elsewhere.
+  /// From now on a robot that is elsewhere is its body and its lamps; it must outlive the ball. The
+  /// ball is the same otherwise: programs, who drives, whose colour shows, time.
+  void become(Elsewhere& robot);
+  /// What the robot says of itself, at now().
+  void feel(const Sample& sample);
+  /// The robot says that it ran into something.
+  void feel(const event::Collision& collision);
+  void feel_battery(double volts);
 
   // Asks, as a client has them.
   void drive(const Motion& motion) { drive(Actor::Client, motion); }

@@ -8,7 +8,15 @@ BallTransport::BallTransport(Ball& ball, const WireModel& wire) : ball_(ball), w
   ball_.connect();
 }
 
+BallTransport::BallTransport(Ball& ball, RobotV2& robot, const WireModel& wire)
+    : ball_(ball), robot_(&robot), wire_(wire) {
+  ball_.connect();
+  robot_->connect();
+}
+
 BallTransport::~BallTransport() {
+  if (robot_ != nullptr)
+    robot_->disconnect();
   ball_.disconnect();
 }
 
@@ -20,13 +28,26 @@ tl::expected<void, protocol::LinkError> BallTransport::write(ByteView bytes) {
   return {};
 }
 
+Bytes BallTransport::take_output() {
+  if (robot_ == nullptr)
+    return ball_.take_output();
+  Bytes out;
+  robot_->run();
+  while (const auto packet = robot_->take_packet())
+    out.insert(out.end(), packet->begin(), packet->end());
+  return out;
+}
+
 /// Moves what has arrived at either end by now.
 void BallTransport::exchange() {
   while (!to_ball_.empty() && to_ball_.front().due <= now()) {
-    ball_.receive(to_ball_.front().bytes);
+    if (robot_ != nullptr)
+      robot_->receive(to_ball_.front().bytes);
+    else
+      ball_.receive(to_ball_.front().bytes);
     to_ball_.pop_front();
   }
-  if (auto sent = ball_.take_output(); !sent.empty())
+  if (auto sent = take_output(); !sent.empty())
     to_client_.push_back({now() + wire_.round_trip / 2, std::move(sent)});
 }
 
@@ -41,6 +62,8 @@ tl::expected<Bytes, protocol::LinkError> BallTransport::read(Instant deadline) {
     if (now() >= deadline)
       return Bytes{};
     auto next = std::min(deadline, ball_.next_event());
+    if (robot_ != nullptr)
+      next = std::min(next, robot_->next_event());
     if (!to_ball_.empty())
       next = std::min(next, to_ball_.front().due);
     if (!to_client_.empty())

@@ -3,6 +3,7 @@
 #include "protocol/transport.h"
 #include "spec/ball.h"
 #include "vm/ball.h"
+#include "vm/robot_v2.h"
 
 #include <deque>
 
@@ -21,6 +22,8 @@ class BallTransport final : public protocol::Transport {
 public:
   /// Connects to the ball, which must outlive the transport.
   explicit BallTransport(Ball& ball, const WireModel& wire = {});
+  /// The same to a robot of packets v2 that the ball is.
+  BallTransport(Ball& ball, RobotV2& robot, const WireModel& wire = {});
   ~BallTransport() override;
   BallTransport(const BallTransport&) = delete;
   BallTransport& operator=(const BallTransport&) = delete;
@@ -37,8 +40,10 @@ private:
   };
 
   void exchange();
+  Bytes take_output();
 
   Ball& ball_;
+  RobotV2* robot_ = nullptr;
   WireModel wire_;
   Instant wire_free_{};
   std::deque<Lump> to_ball_;

@@ -22,10 +22,12 @@ double on_scale(double speed_cm_s) {
 Body::Body(std::uint64_t seed, const spec::Driving& numbers) : drive_(numbers), sensors_(seed) {}
 
 Instant Body::next_step() const {
-  return moving() ? grid_after(now_) : never;
+  return moving() && !felt_ ? grid_after(now_) : never;
 }
 
 Instant Body::advance_to(Instant now) {
+  if (felt_)
+    return now_ = std::max(now_, now);
   for (Instant next = grid_after(now_); next <= now && moving(); next += step) {
     if (goes_straight_on()) {
       go_straight_on((now - next) / step + 1);
@@ -125,7 +127,44 @@ void Body::power_on() {
 }
 
 Outcome Body::obey(const Motion& motion) {
-  return std::visit([&](const auto& one) { return obey_one(one); }, motion);
+  const auto outcome = std::visit([&](const auto& one) { return obey_one(one); }, motion);
+  if (robot_ != nullptr && outcome == Outcome::Done)
+    tell_robot(motion);
+  return outcome;
+}
+
+// A robot that is elsewhere.
+
+void Body::become(Elsewhere& robot) {
+  robot_ = &robot;
+  felt_.emplace();
+}
+
+bool Body::robot_moves() const {
+  constexpr double crawl = 1; // cm/s: less is the noise of the sensors
+  return drive_.strives() || std::hypot(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y) > crawl;
+}
+
+/// What renames headings is done here: the robot keeps its own.
+void Body::tell_robot(const Motion& motion) {
+  const auto own = [&](Roll roll) {
+    const auto heading = std::lround(wrap_360(roll.heading_deg + drive_.world_offset_deg()));
+    roll.heading_deg = static_cast<int>(heading % full_circle);
+    return roll;
+  };
+  if (const auto* roll = std::get_if<Roll>(&motion))
+    robot_->obey(own(*roll));
+  else if (const auto* change = std::get_if<SetSpeed>(&motion))
+    robot_->obey(own(drive_.roll_at(change->speed)));
+  else if (!std::holds_alternative<SetHeading>(motion))
+    robot_->obey(motion);
+}
+
+void Body::feel(const Sample& sample) {
+  const double way = std::hypot(sample.place_cm.x - world_.x, sample.place_cm.y - world_.y);
+  felt_ = sample;
+  drive_.face(wrap_360(sample.yaw_deg - drive_.world_offset_deg()));
+  move_to(sample.place_cm, way, std::hypot(sample.velocity_cm_s.x, sample.velocity_cm_s.y));
 }
 
 Outcome Body::obey_one(const SetHeading& name) {
@@ -150,6 +189,12 @@ Movement Body::movement() const {
 }
 
 Vector3 Body::velocity_cm_s() const {
+  if (felt_) {
+    const double turned = (tare_deg_ - drive_.world_offset_deg()) * to_radians;
+    const auto [x, y, z] = felt_->velocity_cm_s;
+    return {x * std::cos(turned) + y * std::sin(turned),
+            y * std::cos(turned) - x * std::sin(turned), z};
+  }
   if (tare_deg_ == drive_.world_offset_deg()) // the locator has the world's axes
     return {drive_.course().vx, drive_.course().vy, 0};
   const auto drift = drive_.drift_cm_s();
@@ -161,6 +206,8 @@ Vector3 Body::velocity_cm_s() const {
 }
 
 double Body::speed_cm_s() const {
+  if (felt_)
+    return std::hypot(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y);
   if (tare_deg_ == drive_.world_offset_deg())
     return drive_.course().speed;
   const auto velocity = velocity_cm_s();
@@ -173,7 +220,7 @@ Pose Body::pose() const {
 
 Pose Body::world_pose() const {
   return {world_.x, world_.y, wrap_360(drive_.yaw_deg() + drive_.world_offset_deg()),
-          drive_.course().speed};
+          felt_ ? speed_cm_s() : drive_.course().speed};
 }
 
 int Body::speed() const {

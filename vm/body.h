@@ -5,6 +5,7 @@
 #include "vm/ask.h"
 #include "vm/body/battery.h"
 #include "vm/body/drivetrain.h"
+#include "vm/body/elsewhere.h"
 #include "vm/body/motion.h"
 #include "vm/body/motion_sensors.h"
 #include "vm/body/place.h"
@@ -14,14 +15,6 @@
 #include <optional>
 
 namespace orb::vm {
-
-struct Color {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-
-  friend constexpr bool operator==(Color, Color) = default;
-};
 
 class Body;
 
@@ -54,12 +47,21 @@ public:
   /// The next step in which something moves; `never` at rest.
   Instant next_step() const;
   /// Whether it takes steps: it moves, or strives to.
-  bool moving() const { return drive_.moving() || sensors_.falls(); }
+  bool moving() const { return felt_ ? robot_moves() : drive_.moving() || sensors_.falls(); }
   /// Whether its steps can lead to nothing until somebody asks something of it: it goes on moving,
   /// there is nothing to run into, and nobody watches. Then it may be advanced late.
-  bool rolls_freely() const { return drive_.strives() && walls_.empty() && observer_ == nullptr; }
+  bool rolls_freely() const {
+    return drive_.strives() && walls_.empty() && observer_ == nullptr && !felt_;
+  }
   /// The blow of the last step, once.
   std::optional<Impact> take_impact();
+
+  // Elsewhere.
+  /// From now on a robot is this body: it gets the set-points, and sensors are what it says. It
+  /// must outlive the body. Time passes without steps then.
+  void become(Elsewhere& robot);
+  /// The robot has said this of itself, as of the instant reached.
+  void feel(const Sample& sample);
 
   /// Wakes up: at rest, heading 0, locator at 0,0, the control system on. The world stays.
   void power_on();
@@ -94,15 +96,25 @@ public:
 
   // Sensors, as of the instant reached.
   bool stabilized() const { return drive_.stabilized(); }
-  bool stopped() const { return drive_.stopped(); }
-  int speed() const;                                                  ///< 0..255
-  double yaw_deg() const { return drive_.yaw_deg(); }                 ///< 0 <= yaw < 360
-  double pitch_deg() const { return sensors_.pitch_deg(movement()); } ///< -90..90
-  double roll_deg() const { return sensors_.roll_deg(now_); }         ///< -180..180
-  Vector3 acceleration_g() const { return sensors_.acceleration_g(movement()); }
-  Vector3 rotation_deg_s() const { return sensors_.rotation_deg_s(movement()); }
+  bool stopped() const { return felt_ ? !robot_moves() : drive_.stopped(); }
+  int speed() const;                                  ///< 0..255
+  double yaw_deg() const { return drive_.yaw_deg(); } ///< 0 <= yaw < 360
+  double pitch_deg() const {                          ///< -90..90
+    return felt_ ? felt_->pitch_deg : sensors_.pitch_deg(movement());
+  }
+  double roll_deg() const {
+    return felt_ ? felt_->roll_deg : sensors_.roll_deg(now_);
+  } ///< -180..180
+  Vector3 acceleration_g() const {
+    return felt_ ? felt_->acceleration_g : sensors_.acceleration_g(movement());
+  }
+  Vector3 rotation_deg_s() const {
+    return felt_ ? felt_->rotation_deg_s : sensors_.rotation_deg_s(movement());
+  }
   double acceleration_total_g() const;
-  Quaternion attitude() const { return sensors_.attitude(movement()); }
+  Quaternion attitude() const {
+    return felt_ && felt_->attitude ? *felt_->attitude : sensors_.attitude(movement());
+  }
   Pose pose() const;
   /// The place of pose().
   Point locator_cm() const { return locator_; }
@@ -135,6 +147,8 @@ private:
     return drive_.obey(setpoint);
   }
   double speed_cm_s() const;
+  bool robot_moves() const;
+  void tell_robot(const Motion& motion);
   Movement movement() const;
   bool goes_straight_on() const;
   void go_straight_on(Duration::rep steps);
@@ -156,6 +170,9 @@ private:
   Point locator_;
   double rolled_cm_ = 0;
   std::optional<Impact> impact_;
+
+  Elsewhere* robot_ = nullptr;
+  std::optional<Sample> felt_; ///< of the robot, where there is one
 };
 
 } // namespace orb::vm

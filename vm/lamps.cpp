@@ -42,10 +42,16 @@ Color Lamps::deciding(const Situation& situation) const {
   return color_of(Actor::Client).value_or(situation.user_color);
 }
 
+void Lamps::become(Elsewhere& robot) {
+  robot_ = &robot;
+}
+
 std::optional<Color> Lamps::show(const Situation& situation) {
   const auto color = deciding(situation);
   if (std::exchange(shown_, color) == color)
     return std::nullopt;
+  if (robot_ != nullptr)
+    robot_->show(color);
   return color;
 }
 
@@ -53,6 +59,8 @@ std::optional<int> Lamps::show_back(const Situation& situation) {
   const int level = situation.asleep ? 0 : situation.tail_always_on ? brightest : back_level_;
   if (std::exchange(shown_back_, level) == level)
     return std::nullopt;
+  if (robot_ != nullptr)
+    robot_->show_back(level);
   return level;
 }
 

@@ -31,6 +31,8 @@ public:
   void release(Actor actor) { color_of(actor).reset(); }
 
   void fall_asleep();
+  /// From now on the lamps of a robot show the same; it must outlive these.
+  void become(Elsewhere& robot);
 
   /// The colour, or the level of the back LED, that shows from now on, where that is news.
   std::optional<Color> show(const Situation& situation);
@@ -57,6 +59,7 @@ private:
   int back_level_ = 0;
   Color shown_;
   int shown_back_ = 0;
+  Elsewhere* robot_ = nullptr;
 };
 
 } // namespace orb::vm

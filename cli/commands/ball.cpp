@@ -6,6 +6,7 @@
 
 #include "compiler/load.h"
 #include "spec/firmware.h"
+#include "spec/robots.h"
 
 #include <fmt/format.h>
 #include <limits>
@@ -25,6 +26,7 @@ struct BallArguments {
   double speed = 1;
   std::uint64_t seed = 1;
   std::string firmware{spec::info(spec::default_firmware).name};
+  std::string robot{spec::info(spec::Robot::Sphero).name};
   std::string fault;
   std::vector<std::string> stimuli;
   std::string course;
@@ -64,6 +66,17 @@ void run_ball(Context& context, const BallArguments& arguments) {
                                                 arguments.tcp)});
   }
   const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
+  options.robot = spec::find_robot(arguments.robot)->robot;        // checked, too
+  const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
+  if (is_v2 && arguments.bluez)
+    return fail(context, {ExitCode::Usage,
+                          fmt::format("`--bluez` serves robots of packets v1 only; write `orb ball "
+                                      "--robot {} --tcp :0`",
+                                      arguments.robot)});
+  if (is_v2 && !arguments.state.empty())
+    return fail(context, {ExitCode::Usage, fmt::format("a {} keeps no programs and no settings; "
+                                                       "leave `--state` out",
+                                                       spec::info(options.robot).title)});
   options.ball.seed = arguments.seed;
   options.ball.firmware = firmware.firmware;
   options.ball.ram_bytes = firmware.ram_bytes();
@@ -110,6 +123,13 @@ std::vector<std::string> firmware_names() {
   return names;
 }
 
+std::vector<std::string> robot_names() {
+  std::vector<std::string> names;
+  for (const auto& row : spec::robots)
+    names.emplace_back(row.name);
+  return names;
+}
+
 } // namespace
 
 void add_ball(CLI::App& app, Context& context) {
@@ -117,7 +137,8 @@ void add_ball(CLI::App& app, Context& context) {
                               "orb ball\norb ball --tcp 127.0.0.1:4242\n"
                               "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
                               "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7\n"
-                              "orb ball --bluez=pieces=1..20,drop-once@services");
+                              "orb ball --bluez=pieces=1..20,drop-once@services\n"
+                              "orb ball --robot bolt --tcp :4242");
   auto arguments = std::make_shared<BallArguments>();
   // A flag, because flags take a value only after `=`.
   command
@@ -147,6 +168,11 @@ void add_ball(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
       ->check(one_of(firmware_names()))
+      ->capture_default_str();
+  command
+      ->add_option("--robot", arguments->robot,
+                   "which robot it is; those after SPRK+ speak packets v2")
+      ->check(one_of(robot_names()))
       ->capture_default_str();
   command
       ->add_option("--fault", arguments->fault,

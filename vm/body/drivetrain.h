@@ -72,6 +72,8 @@ public:
 
   /// A step of the control system: turns, speeds up or slows down.
   void step();
+  /// It faces there, because somebody else turned it; the set-point stays.
+  void face(double yaw_deg) { yaw_deg_ = yaw_deg; }
   /// No step is taken: nothing accelerates.
   void rest() { yaw_rate_ = forward_acceleration_ = sideways_acceleration_ = 0; }
   /// Whether a step changes anything: it moves, or strives to.

@@ -1,0 +1,481 @@
+#include "vm/robot_v2.h"
+
+#include "protocol/packet.h"
+#include "protocol/payload_v2.h"
+#include "vm/body/angles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace orb::vm {
+namespace {
+
+using protocol::PacketV2;
+using spec::V2Command;
+using spec::V2Error;
+using spec::V2Flag;
+using spec::V2Processor;
+
+constexpr double cm_per_m = 100;   // streams are in metres
+constexpr double hundredths = 100; // of a volt, of the whole
+
+/// The device ids whose commands a sleeping robot obeys.
+bool serves_asleep(std::uint8_t did) {
+  const auto power = spec::info(V2Command::Wake).did();
+  return did <= power;
+}
+
+bool values_fit(V2Command command, ByteView data) {
+  std::size_t at = 0;
+  for (const auto& field : spec::v2_operands) {
+    if (field.command != command)
+      continue;
+    std::int64_t value = 0;
+    if (field.type == spec::V2Type::U8)
+      value = data[at++];
+    else if (field.type == spec::V2Type::U16) {
+      value = read_u16(data, at);
+      at += 2;
+    } else
+      return true; // what follows takes everything
+    if (value < field.least || value > field.most)
+      return false;
+  }
+  return true;
+}
+
+void append_text(Bytes& out, std::string_view text) {
+  const auto bytes = as_bytes(text);
+  out.insert(out.end(), bytes.begin(), bytes.end());
+  out.push_back(0);
+}
+
+} // namespace
+
+RobotV2::RobotV2(Ball& ball, spec::Robot robot, std::string address)
+    : ball_(ball), robot_(spec::info(robot)), address_(std::move(address)) {}
+
+void RobotV2::connect() {
+  decoder_ = {};
+  out_.clear();
+}
+
+void RobotV2::disconnect() {
+  stop_streams();
+  out_.clear();
+}
+
+std::optional<Bytes> RobotV2::take_packet() {
+  if (out_.empty())
+    return std::nullopt;
+  auto packet = std::move(out_.front());
+  out_.pop_front();
+  return packet;
+}
+
+void RobotV2::receive(ByteView bytes) {
+  decoder_.feed(bytes);
+  while (const auto item = decoder_.next())
+    if (item->kind == protocol::ItemV2::Kind::Packet &&
+        !spec::has(item->packet.flags, V2Flag::Response))
+      obey(item->packet);
+}
+
+void RobotV2::obey(const PacketV2& request) {
+  Bytes answer;
+  const auto error = perform(request, answer);
+  const bool only_errors = spec::has(request.flags, V2Flag::OnlyErrorResponse);
+  if (!spec::has(request.flags, V2Flag::RequestResponse) ||
+      (only_errors && error == V2Error::Success))
+    return;
+  PacketV2 response;
+  response.flags = static_cast<std::uint8_t>(static_cast<int>(V2Flag::Response) |
+                                             (request.flags & static_cast<int>(V2Flag::Activity)));
+  if (spec::has(request.flags, V2Flag::HasSource)) {
+    response.flags |= static_cast<std::uint8_t>(V2Flag::HasTarget);
+    response.target = request.source;
+  }
+  if (spec::has(request.flags, V2Flag::HasTarget)) {
+    response.flags |= static_cast<std::uint8_t>(V2Flag::HasSource);
+    response.source = request.target;
+  }
+  response.did = request.did;
+  response.cid = request.cid;
+  response.seq = request.seq;
+  response.error = static_cast<std::uint8_t>(error);
+  if (error == V2Error::Success)
+    response.data = std::move(answer);
+  out_.push_back(encode(response));
+  if (error != V2Error::Success)
+    return;
+  // What a command leads to follows its answer.
+  const auto* row = spec::find_v2_command(request.did, request.cid);
+  if (row->command == V2Command::Sleep || row->command == V2Command::DeepSleep)
+    say(spec::V2Message::DidSleep, V2Processor::Primary, {});
+  if (row->command == V2Command::GetSecondVersion) {
+    Bytes version;
+    for (const unsigned part : {5U, 1U, 0U})
+      append_u16(version, part);
+    say(spec::V2Message::SecondVersion, V2Processor::Secondary, std::move(version));
+  }
+}
+
+V2Error RobotV2::perform(const PacketV2& request, Bytes& answer) {
+  const bool targeted = spec::has(request.flags, V2Flag::HasTarget);
+  const auto first = spec::v2_target(V2Processor::Primary);
+  const auto second = spec::v2_target(V2Processor::Secondary);
+  if (targeted && request.target != first && (request.target != second || robot_.processors < 2))
+    return V2Error::BadTarget;
+  if (std::ranges::none_of(spec::v2_commands,
+                           [&](const auto& row) { return row.did() == request.did; }))
+    return V2Error::BadDevice;
+  const auto* row = spec::find_v2_command(request.did, request.cid);
+  if (row == nullptr || !spec::knows(robot_, *row))
+    return V2Error::BadCommand;
+  if (targeted && robot_.processors > 1 && row->processor != V2Processor::Any &&
+      request.target != spec::v2_target(row->processor))
+    return V2Error::BadCommand;
+  if (!protocol::fits(row->command, request.data))
+    return V2Error::BadLength;
+  if (!values_fit(row->command, request.data))
+    return V2Error::BadParameter;
+  if (!awake_ && !serves_asleep(request.did))
+    return V2Error::TargetUnavailable;
+  return perform(row->command, request, answer);
+}
+
+V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answer) {
+  const auto data = ByteView(request.data);
+  const auto& body = ball_.body();
+  const auto version = [&](unsigned major, unsigned minor, unsigned revision) {
+    for (const auto part : {major, minor, revision})
+      append_u16(answer, part);
+    return V2Error::Success;
+  };
+  switch (command) {
+  case V2Command::Ping: answer = request.data; break;
+  case V2Command::GetApiVersion: answer = {1, 3}; break;
+  case V2Command::Shell: return V2Error::NotImplemented;
+  case V2Command::GetDeviceIds:
+    for (const auto& row : spec::v2_commands)
+      if (spec::knows(robot_, row) && (answer.empty() || answer.back() != row.did()))
+        answer.push_back(row.did());
+    break;
+  case V2Command::GetCommandIds:
+    for (const auto& row : spec::v2_commands)
+      if (spec::knows(robot_, row) && row.did() == data[0])
+        answer.push_back(row.cid());
+    break;
+  case V2Command::GetMainVersion: return version(5, 1, 0);
+  case V2Command::GetBootVersion: return version(4, 1, 0);
+  case V2Command::GetBoardRevision: answer = {1}; break;
+  case V2Command::GetMac: append_text(answer, address_); break;
+  case V2Command::GetModel: append_text(answer, robot_.title); break;
+  case V2Command::GetSecondVersion: break;
+  case V2Command::DeepSleep:
+  case V2Command::Sleep: fall_asleep(); break;
+  case V2Command::GetVoltage:
+    append_u16(answer, static_cast<std::uint32_t>(std::lround(body.battery_v() * hundredths)));
+    break;
+  case V2Command::GetBatteryState: answer = {std::uint8_t(body.charging() ? 1 : 2)}; break;
+  case V2Command::Wake: awake_ = true; break;
+  case V2Command::GetPercent: {
+    constexpr double empty = 6.5;
+    constexpr double full = 7.8;
+    const double part = std::clamp((body.battery_v() - empty) / (full - empty), 0.0, 1.0);
+    answer = {static_cast<std::uint8_t>(std::lround(part * hundredths))};
+    break;
+  }
+  case V2Command::GetVoltageState: {
+    constexpr double low = 7.0;
+    constexpr double critical = 6.5;
+    answer = {std::uint8_t(body.battery_v() <= critical ? 3 : body.battery_v() <= low ? 2 : 1)};
+    break;
+  }
+  case V2Command::RawMotors: return set_motors(data);
+  case V2Command::ResetYaw: ball_.drive(SetHeading{0}); break;
+  case V2Command::DriveWithHeading: drive(data); break;
+  case V2Command::SetStabilization:
+    ball_.drive(data[0] == 0 ? Stabilization::Off : Stabilization::On);
+    break;
+  case V2Command::PlayAnimation:
+  case V2Command::LegAction:
+  case V2Command::SetHead: break; // neither moves the ball that it is
+  case V2Command::StreamMask:
+    interval_ = std::chrono::milliseconds{read_u16(data, 0)};
+    left_ = data[2];
+    mask_ = read_u32(data, 3);
+    start_mask();
+    break;
+  case V2Command::StreamExtended:
+    extended_ = read_u32(data, 0);
+    start_mask();
+    break;
+  case V2Command::CollisionDetection:
+    // In the order of API v1, where each threshold is followed by its part for speed.
+    ask_ball(spec::ApiCommand::ConfigureCollisionDetection,
+             {data[0], data[1], data[3], data[2], data[4], data[5]});
+    break;
+  case V2Command::ResetLocator: {
+    constexpr std::size_t operands = 7;
+    Bytes zero(operands, 0);
+    zero[0] = 1;
+    ask_ball(spec::ApiCommand::ConfigureLocator, std::move(zero));
+    break;
+  }
+  case V2Command::LocatorFlags: break;
+  case V2Command::StreamConfigure: return configure(request);
+  case V2Command::StreamStart: {
+    auto& stream = services_of(request);
+    stream.period = std::chrono::milliseconds{read_u16(data, 0)};
+    if (stream.services.empty())
+      return V2Error::Failed;
+    if (stream.period == Duration{})
+      return V2Error::BadParameter;
+    stream.next = ball_.now() + stream.period;
+    break;
+  }
+  case V2Command::StreamStop: services_of(request).next = never; break;
+  case V2Command::StreamClear: services_of(request) = {}; break;
+  case V2Command::SetLeds: return set_lamps(read_u16(data, 0), data.subspan(2));
+  case V2Command::SetLedsLong: return set_lamps(read_u32(data, 0), data.subspan(4));
+  case V2Command::SetLedsShort: return set_lamps(data[0], data.subspan(1));
+  case V2Command::MatrixPixel:
+  case V2Command::MatrixText:
+  case V2Command::MatrixCharacter: break;
+  case V2Command::MatrixColor: ball_.set_led({data[0], data[1], data[2]}); break;
+  case V2Command::None: return V2Error::BadCommand;
+  }
+  return V2Error::Success;
+}
+
+// What it is asked.
+
+/// Sends the ball a command of its own API that wants no answer.
+void RobotV2::ask_ball(spec::ApiCommand command, Bytes data) {
+  auto packet = protocol::make_command(command, data, 0);
+  packet.flags = static_cast<std::uint8_t>(packet.flags & ~spec::sop2_answer);
+  ball_.receive(encode(packet));
+  ball_.advance_to(ball_.now());
+}
+
+void RobotV2::drive(ByteView data) {
+  const int speed = spec::speed_from_wire(robot_, data[0]);
+  const int flags = data[3];
+  const int heading = read_u16(data, 1) +
+                      ((flags & spec::v2_drive_backward) != 0 ? spec::ball::full_circle / 2 : 0);
+  const auto go = speed == 0                                ? Go::Brake
+                  : (flags & spec::v2_drive_fast_turn) != 0 ? Go::FastTurn
+                                                            : Go::Drive;
+  ball_.drive(Roll{heading % spec::ball::full_circle, speed, go});
+  drives_until_ = speed == 0 ? never : ball_.now() + spec::v2_drive_timeout;
+}
+
+V2Error RobotV2::set_motors(ByteView data) {
+  const auto motor = [&](std::size_t at) {
+    constexpr MotorMode modes[] = {MotorMode::Off, MotorMode::Forward, MotorMode::Reverse};
+    return Motor{modes[data[at]], data[at + 1]};
+  };
+  ball_.drive(Motors{motor(0), motor(2)});
+  const bool off = data[0] == 0 && data[2] == 0;
+  drives_until_ = off ? never : ball_.now() + spec::v2_drive_timeout;
+  return V2Error::Success;
+}
+
+V2Error RobotV2::set_lamps(std::uint32_t mask, ByteView values) {
+  if (values.size() != static_cast<std::size_t>(std::popcount(mask)))
+    return V2Error::BadLength;
+  std::size_t at = 0;
+  for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
+    if ((mask >> lamp & 1U) != 0)
+      lamps_[lamp] = values[at++];
+  if ((mask & robot_.body) != 0) {
+    const auto red = static_cast<std::size_t>(std::countr_zero(robot_.body));
+    ball_.set_led({lamps_[red], lamps_[red + 1], lamps_[red + 2]});
+  }
+  if (robot_.aiming != 0 && (mask & robot_.aiming) != 0)
+    ask_ball(spec::ApiCommand::SetBackLed,
+             {lamps_[static_cast<std::size_t>(std::countr_zero(robot_.aiming))]});
+  return V2Error::Success;
+}
+
+void RobotV2::fall_asleep() {
+  ball_.drive(Stop{});
+  drives_until_ = never;
+  stop_streams();
+  ball_.set_led({});
+  awake_ = false;
+}
+
+// Streams.
+
+void RobotV2::stop_streams() {
+  next_sample_ = first_.next = second_.next = never;
+}
+
+void RobotV2::start_mask() {
+  const bool streams = interval_ > Duration{} && (mask_ != 0 || extended_ != 0);
+  next_sample_ = streams ? ball_.now() + interval_ : never;
+}
+
+RobotV2::Services& RobotV2::services_of(const PacketV2& request) {
+  const bool second = spec::has(request.flags, V2Flag::HasTarget) &&
+                      request.target == spec::v2_target(V2Processor::Secondary);
+  return second ? second_ : first_;
+}
+
+V2Error RobotV2::configure(const PacketV2& request) {
+  constexpr std::size_t entry = 3; // id and size
+  constexpr int largest = 2;
+  constexpr int bits[] = {8, 16, 32};
+  const auto list = ByteView(request.data).subspan(1);
+  if (list.empty() || list.size() % entry != 0)
+    return V2Error::BadLength;
+  auto& stream = services_of(request);
+  const auto processor = &stream == &second_ ? V2Processor::Secondary : V2Processor::Primary;
+  std::vector<Service> services;
+  for (std::size_t at = 0; at < list.size(); at += entry) {
+    const auto* row = spec::find_v2_service(read_u16(list, at));
+    if (row == nullptr || row->processor != processor || list[at + 2] > largest)
+      return V2Error::BadParameter;
+    services.push_back({row, bits[list[at + 2]]});
+  }
+  stream.token = request.data[0];
+  stream.services = std::move(services);
+  return V2Error::Success;
+}
+
+double RobotV2::sense(spec::V2Sensor sensor) const {
+  using spec::V2Sensor;
+  const auto& body = ball_.body();
+  switch (sensor) {
+  case V2Sensor::QuaternionX: return body.attitude().x;
+  case V2Sensor::QuaternionY: return body.attitude().y;
+  case V2Sensor::QuaternionZ: return body.attitude().z;
+  case V2Sensor::QuaternionW: return body.attitude().w;
+  case V2Sensor::Pitch: return body.pitch_deg();
+  case V2Sensor::Roll: return body.roll_deg();
+  case V2Sensor::Yaw: return shortest_turn(0, body.yaw_deg());
+  case V2Sensor::AccelX: return body.acceleration_g().x;
+  case V2Sensor::AccelY: return body.acceleration_g().y;
+  case V2Sensor::AccelZ: return body.acceleration_g().z;
+  case V2Sensor::LocatorX: return body.locator_cm().x / cm_per_m;
+  case V2Sensor::LocatorY: return body.locator_cm().y / cm_per_m;
+  case V2Sensor::VelocityX: return body.velocity_cm_s().x / cm_per_m;
+  case V2Sensor::VelocityY: return body.velocity_cm_s().y / cm_per_m;
+  case V2Sensor::Speed:
+    return std::hypot(body.velocity_cm_s().x, body.velocity_cm_s().y) / cm_per_m;
+  case V2Sensor::CoreTime:
+    return std::chrono::duration<double>(ball_.now().time_since_epoch()).count();
+  case V2Sensor::GyroX: return body.rotation_deg_s().x;
+  case V2Sensor::GyroY: return body.rotation_deg_s().y;
+  case V2Sensor::GyroZ: return body.rotation_deg_s().z;
+  case V2Sensor::Light: return 0;
+  }
+  return 0;
+}
+
+std::vector<double> RobotV2::sense(spec::V2Service service) const {
+  using spec::V2Sensor;
+  using spec::V2Service;
+  const auto of = [&](auto... sensors) { return std::vector<double>{sense(sensors)...}; };
+  switch (service) {
+  case V2Service::Quaternion:
+    return of(V2Sensor::QuaternionW, V2Sensor::QuaternionX, V2Sensor::QuaternionY,
+              V2Sensor::QuaternionZ);
+  case V2Service::Attitude: return of(V2Sensor::Pitch, V2Sensor::Roll, V2Sensor::Yaw);
+  case V2Service::Accel: return of(V2Sensor::AccelX, V2Sensor::AccelY, V2Sensor::AccelZ);
+  case V2Service::Gyro: return of(V2Sensor::GyroX, V2Sensor::GyroY, V2Sensor::GyroZ);
+  case V2Service::Locator: return of(V2Sensor::LocatorX, V2Sensor::LocatorY);
+  case V2Service::Velocity: return of(V2Sensor::VelocityX, V2Sensor::VelocityY);
+  case V2Service::Speed: return of(V2Sensor::Speed);
+  case V2Service::Light: return of(V2Sensor::Light);
+  case V2Service::Color: break;
+  }
+  return std::vector<double>(spec::find_v2_service(static_cast<std::uint16_t>(service))->values);
+}
+
+void RobotV2::say(spec::V2Message message, V2Processor processor, Bytes data) {
+  PacketV2 packet;
+  packet.flags = static_cast<std::uint8_t>(V2Flag::Activity);
+  if (robot_.processors > 1) {
+    packet.flags |= static_cast<std::uint8_t>(V2Flag::HasTarget);
+    packet.flags |= static_cast<std::uint8_t>(V2Flag::HasSource);
+    packet.target = spec::v2_client;
+    packet.source = spec::v2_target(processor);
+  }
+  packet.did = static_cast<std::uint8_t>(static_cast<int>(message) >> 8);
+  packet.cid = static_cast<std::uint8_t>(message);
+  packet.seq = spec::v2_message_seq;
+  packet.data = std::move(data);
+  out_.push_back(encode(packet));
+}
+
+void RobotV2::say_sample() {
+  Bytes data;
+  for (const auto& row : spec::v2_sensors)
+    if (((row.mask == spec::V2Mask::Base ? mask_ : extended_) & row.bit) != 0)
+      protocol::append_f32(data, sense(row.sensor));
+  say(spec::V2Message::Sample, V2Processor::Secondary, std::move(data));
+  next_sample_ += interval_;
+  if (left_ > 0 && --left_ == 0)
+    next_sample_ = never;
+}
+
+void RobotV2::say_services(Services& stream, V2Processor processor) {
+  Bytes data{stream.token};
+  for (const auto& [row, bits] : stream.services) {
+    const auto values = sense(row->service);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double most = row->most(i);
+      const double least = row->least(i);
+      const double whole = std::exp2(bits) - 1;
+      const double part = (std::clamp(values[i], least, most) - least) / (most - least);
+      const auto number = static_cast<std::uint32_t>(std::llround(part * whole));
+      for (int shift = bits - 8; shift >= 0; shift -= 8)
+        data.push_back(static_cast<std::uint8_t>(number >> shift));
+    }
+  }
+  say(spec::V2Message::ServiceSample, processor, std::move(data));
+  stream.next += stream.period;
+}
+
+/// What the ball says in its own packets: only collisions have a counterpart.
+void RobotV2::hear_ball() {
+  from_ball_.feed(ball_.take_output());
+  while (const auto item = from_ball_.next()) {
+    constexpr std::size_t v1_size = 16;
+    if (item->kind != protocol::Item::Kind::Async ||
+        item->code != static_cast<std::uint8_t>(spec::AsyncId::Collision) ||
+        item->data.size() != v1_size)
+      continue;
+    // x y z, axis and two powers are the same; then a third power.
+    constexpr std::ptrdiff_t same = 11;
+    Bytes data(item->data.begin(), item->data.begin() + same);
+    append_u16(data, 0);
+    data.insert(data.end(), item->data.begin() + same, item->data.end());
+    say(spec::V2Message::Collision, V2Processor::Secondary, std::move(data));
+  }
+}
+
+Instant RobotV2::next_event() const {
+  return std::min({drives_until_, next_sample_, first_.next, second_.next});
+}
+
+void RobotV2::run() {
+  const auto now = ball_.now();
+  if (drives_until_ <= now) {
+    drives_until_ = never;
+    ball_.drive(Stop{});
+  }
+  if (next_sample_ <= now)
+    say_sample();
+  if (first_.next <= now)
+    say_services(first_, V2Processor::Primary);
+  if (second_.next <= now)
+    say_services(second_, V2Processor::Secondary);
+  hear_ball();
+}
+
+} // namespace orb::vm
