@@ -9,6 +9,7 @@
 #include "uploader/ble.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
+#include "vm/bluetooth.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -34,16 +35,9 @@ std::uint8_t draw_first_seq() {
 
 } // namespace
 
-void add_port_options(CLI::App& command, PortOptions& options) {
-  command
-      .add_option(
-          "-p,--port", options.port,
-          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim: or @ball")
-      ->envname("ORB_PORT")
-      ->type_name("URL")
-      ->capture_default_str();
-  command.add_option("--record", options.record, "write what passes over the link to this file")
-      ->type_name("FILE");
+namespace {
+
+void add_waits(CLI::App& command, PortOptions& options) {
   const auto is_time = [](const std::string& text) {
     const auto time = parse_duration(text, 1s);
     return time && *time > Duration{} ? std::string()
@@ -59,6 +53,31 @@ void add_port_options(CLI::App& command, PortOptions& options) {
       ->type_name("TIME")
       ->check(is_time)
       ->capture_default_str();
+}
+
+} // namespace
+
+void add_port_options(CLI::App& command, PortOptions& options) {
+  command
+      .add_option(
+          "-p,--port", options.port,
+          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim: or @ball")
+      ->envname("ORB_PORT")
+      ->type_name("URL")
+      ->capture_default_str();
+  command.add_option("--record", options.record, "write what passes over the link to this file")
+      ->type_name("FILE");
+  add_waits(command, options);
+}
+
+void add_robot_port_options(CLI::App& command, PortOptions& options) {
+  options.port.clear();
+  command
+      .add_option("-p,--port", options.port,
+                  "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
+                  "pty://, sim: or @ball")
+      ->type_name("URL");
+  add_waits(command, options);
 }
 
 WireLog::~WireLog() {
@@ -118,6 +137,17 @@ uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& optio
   return uploader::ble_budgets(budgets);
 }
 
+/// The robot that a name such as `SB-1A2B` tells.
+std::optional<spec::Robot> named_robot(const Endpoint& endpoint) {
+  if (endpoint.scheme != Scheme::Ble || endpoint.name.empty())
+    return std::nullopt;
+  const auto* name = spec::find_ble_name(endpoint.name);
+  for (const auto& row : spec::robots)
+    if (name != nullptr && row.ble == name->model && row.robot != spec::Robot::Sphero)
+      return row.robot;
+  return std::nullopt;
+}
+
 /// Bluetooth delivers each packet once; what is behind other links, a relay perhaps, nobody knows.
 bool may_double(const Endpoint& endpoint) {
   switch (endpoint.scheme) {
@@ -144,12 +174,18 @@ tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
 
 namespace {
 
-void open_sim(Link& link) {
+void open_sim(Link& link, spec::Robot robot) {
   vm::BallOptions ball;
+  ball.driving = spec::driving(robot);
   ball.loader = compiler::load;
   link.first_seq = sim_first_seq;
   link.ball = std::make_unique<vm::Ball>(ball);
-  link.transport = std::make_unique<vm::BallTransport>(*link.ball);
+  if (spec::info(robot).packets == spec::Packets::V1) {
+    link.transport = std::make_unique<vm::BallTransport>(*link.ball);
+    return;
+  }
+  link.robot = std::make_unique<vm::RobotV2>(*link.ball, robot, vm::bluetooth_address(ball.seed));
+  link.transport = std::make_unique<vm::BallTransport>(*link.ball, *link.robot);
 }
 
 /// Plays a recording; the session must begin with the sequence number that was recorded.
@@ -198,10 +234,11 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.is_ble = endpoint->scheme == Scheme::Ble;
   link.may_double = may_double(*endpoint);
+  link.named = named_robot(*endpoint);
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
   if (link.is_sim)
-    open_sim(link);
+    open_sim(link, options.robot);
   else if (endpoint->scheme == Scheme::Replay)
     opened = open_replay(link, endpoint->path);
   else

@@ -7,6 +7,7 @@
 #include "uploader/budgets.h"
 #include "uploader/upload.h"
 #include "vm/ball.h"
+#include "vm/robot_v2.h"
 
 #include <cstdint>
 #include <functional>
@@ -24,10 +25,15 @@ namespace orb::cli {
 /// The options of every command that talks to a ball.
 struct PortOptions {
   std::string port = "sim:";
+  spec::Robot robot = spec::Robot::Sphero; ///< that `sim:` is
   std::string record;        ///< a file for the bytes of both directions; empty for none
   std::string answer = "2s"; ///< the wait for one answer
   std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE
 };
+
+/// Adds `--port`, which says where a robot is that serves as a program's body, `--timeout` and
+/// `--connect-timeout`. Without `--port` there is none, whatever the environment says.
+void add_robot_port_options(CLI::App& command, PortOptions& options);
 
 /// Adds `--port`, which the environment may give as ORB_PORT, `--record`, `--timeout` and
 /// `--connect-timeout`.
@@ -60,7 +66,9 @@ struct Link {
   uploader::Budgets budgets;
   std::uint8_t first_seq = 0;
   std::unique_ptr<WireLog> log;
-  std::unique_ptr<vm::Ball> ball; ///< of `sim:`
+  std::unique_ptr<vm::Ball> ball;     ///< of `sim:`
+  std::unique_ptr<vm::RobotV2> robot; ///< the same, where it speaks packets v2
+  std::optional<spec::Robot> named;   ///< the robot that its name in the URL tells
   std::unique_ptr<protocol::Transport> transport;
 
   /// Puts the recording into its place, if there is one; after a failure beside an older one. The

@@ -357,8 +357,12 @@ struct Live::State {
 };
 
 tl::expected<void, Failure> Live::State::begin() {
+  if (options.robot != nullptr)
+    ball.become(*options.robot);
   if (auto done = upload(load, options, ball, session); !done)
     return done;
+  if (options.robot != nullptr)
+    ball.feel(options.robot_sample);
   listener.on_start(ball);
   watcher.begin(ball, streams(load) ? Watcher::From::FirstCommand : Watcher::From::Now);
   if (journey != nullptr)
@@ -444,6 +448,19 @@ void Live::give(std::int32_t number) {
 
 void Live::apply(const vm::Stimulus& stimulus) {
   state_->ball.apply(stimulus);
+}
+
+void Live::feel(const vm::Sample& sample) {
+  state_->ball.feel(sample);
+}
+
+void Live::feel(const vm::event::Collision& collision) {
+  state_->ball.feel(collision);
+}
+
+Duration Live::next_event() const {
+  const auto next = state_->ball.next_event();
+  return next == never ? Duration::max() : next - state_->watcher.start();
 }
 
 Duration Live::time() const {

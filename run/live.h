@@ -33,7 +33,13 @@ public:
   void give(std::int32_t number); ///< for `input`
   void apply(const vm::Stimulus& stimulus);
 
+  /// What the robot elsewhere says, at time().
+  void feel(const vm::Sample& sample);
+  void feel(const vm::event::Collision& collision);
+
   Duration time() const; ///< since the start
+  /// When something happens next by itself, since the start; the greatest duration for never.
+  Duration next_event() const;
   const vm::Ball& ball() const;
   bool waits_for_number() const;
   /// Nothing runs any more, and the ball still rolls.

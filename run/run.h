@@ -8,6 +8,7 @@
 #include "run/cause.h"
 #include "run/input.h"
 #include "spec/firmware.h"
+#include "spec/robots.h"
 #include "vm/ball.h"
 
 #include <cstdint>
@@ -49,6 +50,7 @@ struct Options {
   Client client = Client::Connected;
   compiler::Target target; ///< its area is where the program lies
   spec::Firmware firmware = spec::default_firmware;
+  spec::Robot model = spec::Robot::Sphero;        ///< whose way of driving it has
   std::optional<std::size_t> ram_bytes;           ///< else what the firmware has
   spec::Ranges ranges = spec::Ranges::Documented; ///< Lenient also where the firmware is
   std::uint32_t lines_per_second =
@@ -61,8 +63,10 @@ struct Options {
   Duration slice = 1s; ///< how often the listener hears of the time
   std::vector<vm::TimedStimulus> stimuli;
   const report::Course* course = nullptr; ///< what it drives through; must outlive the run
-  std::string expect;                     ///< printed: the run stops well; empty for none
-  std::string fail_text;                  ///< printed: the run stops as a failure; empty for none
+  vm::Elsewhere* robot = nullptr; ///< what it drives instead of a body; must outlive the run
+  vm::Sample robot_sample;        ///< what that said of itself before the start
+  std::string expect;             ///< printed: the run stops well; empty for none
+  std::string fail_text;          ///< printed: the run stops as a failure; empty for none
 };
 
 /// A fault of the robot and where it is in the user's file.
@@ -109,6 +113,8 @@ public:
   virtual bool enough() const { return false; }
   /// `input` waits and no number is left; nothing when there will be none.
   virtual std::optional<std::int32_t> ask_number() { return std::nullopt; }
+  /// Whether ask_number() may have one later though it has none now.
+  virtual bool has_more_numbers() const { return false; }
 };
 
 /// Why a run is over. The words of the trace: to_string().
@@ -142,6 +148,7 @@ struct Ending {
   Sought seen = Sought::Nothing;
   Sight sight;
   std::string waits_for;             ///< `a number in line 20`; empty where it waits for nothing
+  std::optional<bool> robot_stopped; ///< the robot elsewhere has acknowledged the stop at the end
   std::string_view only_interpreted; ///< why there was no machine code though it was wanted
   std::vector<vm::NativeCode::Piece> machine_code; ///< where it was, for profilers
 };

@@ -1,10 +1,11 @@
 #include "run/run.h"
 #include "base/duration.h"
-#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/commands/monitor.h"
 #include "cli/inputs.h"
+#include "cli/on_robot.h"
 #include "cli/options.h"
+#include "cli/run_console.h"
 #include "cli/target.h"
 #include "cli/terminal/browser.h"
 #include "cli/terminal/watch.h"
@@ -12,7 +13,6 @@
 #include "report/page.h"
 #include "report/reload.h"
 #include "report/svg.h"
-#include "run/trace.h"
 #include "run/want.h"
 #include "run/why.h"
 #include "spec/firmware.h"
@@ -35,112 +35,6 @@
 namespace orb::cli {
 
 namespace {
-
-struct RunOptions {
-  std::vector<std::string> files;
-  std::string language;
-  std::string time = "60s";
-  std::string input;
-  std::string native = "auto";
-  std::string firmware = std::string(spec::info(spec::default_firmware).name);
-  std::vector<std::string> stimuli;
-  std::string course;
-  std::string trace;
-  std::string trace_out;
-  std::string report;
-  std::string compare;
-  std::string svg;
-  TargetOptions target;
-  bool disconnected = false;
-  bool realtime = false;
-  bool lenient = false;
-  bool watch = false;
-  bool open = false;
-  run::Options run;
-
-  /// The trace's format; nothing where there is no trace.
-  std::optional<report::TraceFormat> format() const {
-    if (trace.empty() && trace_out.empty())
-      return std::nullopt;
-    const bool csv = trace == "csv" || (trace.empty() && trace_out.ends_with(".csv"));
-    return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
-  }
-};
-
-constexpr std::string_view from_stdin = "@stdin";
-
-/// Prints what the program prints, or its trace, and waits where the robot would take its time.
-class Console final : public run::Listener {
-public:
-  Console(const RunOptions& options, const std::vector<run::Input>& inputs) : options_(options) {
-    if (const auto format = options.format())
-      trace_.emplace(*format,
-                     options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
-                     inputs, [this](std::string_view text) { put(text); });
-  }
-
-  void on_event(Duration t, const vm::Event& event) override {
-    if (const auto* print = std::get_if<vm::event::Print>(&event);
-        print != nullptr && (!trace_ || !options_.trace_out.empty()))
-      print_out(print->text);
-    if (trace_)
-      trace_->add(t, event);
-  }
-
-  void on_fault(Duration t, const run::ProgramError& fault) override {
-    if (trace_)
-      trace_->add(t, fault);
-  }
-
-  void on_time(Duration t) override {
-    if (!options_.realtime)
-      return;
-    std::this_thread::sleep_until(start_ + t);
-  }
-
-  /// Who types gets another try; what comes out of a file or a program is wrong for good.
-  std::optional<std::int32_t> ask_number() override {
-    std::string word;
-    while (options_.input == from_stdin && no_number_.empty() && std::cin >> word) {
-      const auto digits = std::string_view(word).substr(word.starts_with('+') ? 1 : 0);
-      if (const auto value = parse_number<std::int32_t>(digits))
-        return value;
-      const auto message = fmt::format("`{}` is not a whole number from {} to {}, which `input` "
-                                       "takes",
-                                       word, std::numeric_limits<std::int32_t>::min(),
-                                       std::numeric_limits<std::int32_t>::max());
-      if (::isatty(STDIN_FILENO) == 0)
-        no_number_ = "on standard input " + message;
-      else
-        print_err(message + "; again\n");
-    }
-    return std::nullopt;
-  }
-
-  /// What came instead of a number, for a message; empty for nothing.
-  const std::string& no_number() const { return no_number_; }
-
-  tl::expected<void, IoError> finish(const run::Ending& ending) {
-    if (trace_)
-      trace_->finish(ending);
-    return options_.trace_out.empty() ? tl::expected<void, IoError>()
-                                      : disk::write(options_.trace_out, as_bytes(text_));
-  }
-
-private:
-  void put(std::string_view text) {
-    if (options_.trace_out.empty())
-      print_out(text);
-    else
-      text_ += text;
-  }
-
-  const RunOptions& options_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<run::Trace> trace_;
-  std::string no_number_;
-  std::string text_; ///< of a trace that goes to a file, which appears whole at the end
-};
 
 /// `1,2,-3`; nothing where that is not a list of 32-bit numbers.
 std::optional<std::vector<std::int32_t>> read_numbers(std::string_view text) {
@@ -182,7 +76,9 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
           fmt::format("`--input {}` is not a list of numbers such as 1,2,3", given.input));
     options.numbers = *std::move(numbers);
   }
-  options.firmware = spec::find_firmware(given.firmware)->firmware; // the option is checked
+  options.firmware = spec::find_firmware(given.firmware)->firmware; // the options are checked
+  if (!given.robot.empty())
+    options.model = spec::find_robot(given.robot)->robot;
   options.native = given.native == "on"    ? vm::Native::On
                    : given.native == "off" ? vm::Native::Off
                                            : vm::Native::Auto;
@@ -311,6 +207,9 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   auto options = read_options(context, given);
   if (!options)
     return tl::unexpected(options.error());
+  if (!given.port.port.empty())
+    if (auto fits = check_for_robot(given, *options); !fits)
+      return fits;
   const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
   if (!inputs)
     return tl::unexpected(inputs.error());
@@ -333,7 +232,17 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   std::optional<report::Journey> journey;
   if (!given.report.empty() || !given.svg.empty())
     journey.emplace();
-  const auto ending = run::run(*inputs, *options, console, journey ? &*journey : nullptr);
+  auto* const notes = journey ? &*journey : nullptr;
+  std::optional<Failure> broken; // why a run on a robot could not go on
+  const auto ending = [&]() -> tl::expected<run::Ending, Failure> {
+    if (given.port.port.empty())
+      return run::run(*inputs, *options, console, notes);
+    auto driven = run_on_robot(context, given, *options, *inputs, console, notes);
+    if (!driven)
+      return tl::unexpected(driven.error());
+    broken = std::move(driven->failure);
+    return std::move(driven->ending);
+  }();
   if (!ending)
     return tl::unexpected(ending.error());
   auto written = console.finish(*ending);
@@ -344,11 +253,15 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
   tell(context, given, *ending, run::why(*inputs, *options, *ending));
+  if (ending->robot_stopped)
+    print_note(context, stop_note(*ending));
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
     print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
   write_perf_map(context, ending->machine_code);
   if (given.open && !given.watch && written)
     show(context, given);
+  if (broken)
+    return tl::unexpected(*std::move(broken));
   if (auto good = judge(given, *ending); !good)
     return good;
   if (!ending->aborted.empty())
@@ -359,6 +272,8 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     context.exit = ExitCode::BadInput;
   else if (!written)
     context.exit = ExitCode::File;
+  else if (!ending->robot_stopped.value_or(true))
+    context.exit = ExitCode::LinkLost;
   return {};
 }
 
@@ -398,6 +313,9 @@ void run_with_report(Context& context, RunOptions& options) {
   if (options.open && options.report == "-")
     return fail(context,
                 {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` out"});
+  if (options.watch && !options.port.port.empty())
+    return fail(context, {ExitCode::Usage, "`--watch` would drive the robot at every change; leave "
+                                           "it out with `--port`"});
   const bool temporary = options.open && options.report.empty();
   if (temporary) {
     auto report = temporary_report(options.files.front());
@@ -440,7 +358,15 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
   std::vector<std::string> names;
   for (const auto& row : spec::firmwares)
     names.emplace_back(row.name);
-  command.add_option("--firmware", options.firmware, "the firmware that is simulated")
+  command
+      .add_option_function<std::string>(
+          "--firmware",
+          [&options](const std::string& name) {
+            options.firmware = name;
+            options.firmware_given = true;
+          },
+          "the firmware that is simulated")
+      ->default_str(options.firmware)
       ->check(one_of(std::move(names)))
       ->capture_default_str();
   command.add_flag("--lenient", options.lenient,
@@ -460,6 +386,19 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
       ->check(one_of({"auto", "on", "off"}))
       ->capture_default_str();
   command.add_flag("--realtime", options.realtime, "takes as long as the robot would");
+}
+
+void add_tether_options(CLI::App& command, RunOptions& options) {
+  add_robot_port_options(command, options.port);
+  std::vector<std::string> names;
+  for (const auto& row : spec::robots)
+    names.emplace_back(row.name);
+  command
+      .add_option("--robot", options.robot,
+                  "which robot it is; the virtual one drives like it, a real one tells by its name")
+      ->check(one_of(std::move(names)));
+  command.add_flag("--no-aim", options.keep_aim,
+                   "leaves heading and place of the robot as they are; else both begin at 0");
 }
 
 void add_output_options(CLI::App& command, RunOptions& options) {
@@ -486,10 +425,11 @@ void add_run(CLI::App& app, Context& context) {
                   "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
                   "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
                   "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
-                  "waltz.sphero --expect done");
+                  "waltz.sphero --expect done\norb run square.orb --port ble://SB-1A2B");
   auto options = std::make_shared<RunOptions>();
   add_program_options(*command, *options);
   add_robot_options(*command, *options);
+  add_tether_options(*command, *options);
   add_output_options(*command, *options);
   command->callback([&context, options] { run_with_report(context, *options); });
 }

@@ -1,0 +1,134 @@
+#include "protocol/decoder.h"
+#include "protocol/packet.h"
+#include "protocol/payload.h"
+#include "protocol/payload_v2.h"
+#include "run/tether/run_tethered.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace orb::run {
+namespace {
+
+using protocol::LinkError;
+
+Failure lost(const LinkError& error) {
+  if (error.kind == LinkError::Kind::Interrupted)
+    return {ExitCode::Interrupted, "interrupted; the robot is unchanged"};
+  return {ExitCode::NoBall, error.message};
+}
+
+/// Asks until something answers.
+class Question {
+public:
+  Question(protocol::Transport& link, Instant until) : link_(link), until_(until) {}
+
+  /// The first answer to either of two pings.
+  tl::expected<spec::Packets, Failure> packets() {
+    while (link_.now() < until_) {
+      for (const auto& bytes :
+           {protocol::encode(protocol::make_command(spec::ApiCommand::Ping, {})),
+            protocol::encode(protocol::make_request(spec::V2Command::Ping, {}, 0))}) {
+        if (auto sent = link_.write(bytes); !sent)
+          return tl::unexpected(lost(sent.error()));
+        protocol::Decoder v1(protocol::Direction::FromBall);
+        protocol::DecoderV2 v2;
+        for (const auto wait = link_.now() + patience; link_.now() < wait;) {
+          const auto heard = link_.read(wait);
+          if (!heard)
+            return tl::unexpected(lost(heard.error()));
+          v1.feed(*heard);
+          v2.feed(*heard);
+          while (const auto item = v1.next())
+            if (item->kind == protocol::Item::Kind::Response)
+              return spec::Packets::V1;
+          while (const auto item = v2.next())
+            if (is_answer(*item))
+              return spec::Packets::V2;
+        }
+      }
+    }
+    return tl::unexpected(Failure{
+        ExitCode::NoBall, "no robot answers; wake it, bring it nearer, and see `orb doctor`"});
+  }
+
+  /// Which commands of a device it says that it knows; nothing where it does not say.
+  tl::expected<std::optional<Bytes>, Failure> commands(std::uint8_t did) {
+    ++seq_;
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      const auto request =
+          protocol::encode(protocol::make_request(spec::V2Command::GetCommandIds, {did}, seq_));
+      if (auto sent = link_.write(request); !sent)
+        return tl::unexpected(lost(sent.error()));
+      protocol::DecoderV2 decoder;
+      for (const auto wait = link_.now() + patience; link_.now() < wait;) {
+        const auto heard = link_.read(wait);
+        if (!heard)
+          return tl::unexpected(lost(heard.error()));
+        decoder.feed(*heard);
+        while (const auto item = decoder.next())
+          if (is_answer(*item) && item->packet.seq == seq_)
+            return item->packet.error == 0 ? std::optional(item->packet.data) : std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+private:
+  static constexpr Duration patience = 300ms;
+
+  static bool is_answer(const protocol::ItemV2& item) {
+    return item.kind == protocol::ItemV2::Kind::Packet &&
+           spec::has(item.packet.flags, spec::V2Flag::Response);
+  }
+
+  protocol::Transport& link_;
+  Instant until_;
+  std::uint8_t seq_ = 0;
+};
+
+/// Whether a robot that knows these commands of a device can be that one.
+bool fits(const spec::RobotInfo& robot, std::uint8_t did, const Bytes& commands) {
+  return std::ranges::all_of(spec::v2_commands, [&](const spec::V2CommandInfo& row) {
+    const bool listed = std::ranges::find(commands, row.cid()) != commands.end();
+    return row.did() != did || row.robots == spec::V2Robots::All ||
+           listed == spec::knows(robot, row);
+  });
+}
+
+} // namespace
+
+tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Duration patience) {
+  Question question(transport, transport.now() + patience);
+  const auto packets = question.packets();
+  if (!packets)
+    return tl::unexpected(packets.error());
+  if (*packets == spec::Packets::V1)
+    return spec::Robot::Sphero;
+  std::vector<const spec::RobotInfo*> left;
+  for (const auto& row : spec::robots)
+    if (row.packets == spec::Packets::V2)
+      left.push_back(&row);
+  for (const auto did :
+       {std::uint8_t{0x13}, std::uint8_t{0x17}, std::uint8_t{0x18}, std::uint8_t{0x1A}}) {
+    const auto commands = question.commands(did);
+    if (!commands)
+      return tl::unexpected(commands.error());
+    if (*commands)
+      std::erase_if(left, [&](const auto* row) { return !fits(*row, did, **commands); });
+  }
+  if (left.empty())
+    return tl::unexpected(Failure{ExitCode::NoBall,
+                                  "the robot speaks packets v2, but knows other commands than any "
+                                  "that orb knows; name one that it resembles with `--robot`"});
+  if (left.size() == 1)
+    return left.front()->robot;
+  std::string names;
+  for (const auto* row : left)
+    names += fmt::format("{}`--robot {}`", names.empty() ? "" : " or ", row->name);
+  return tl::unexpected(Failure{
+      ExitCode::Usage,
+      fmt::format("the robot speaks packets v2 and does not say which it is; add {}", names)});
+}
+
+} // namespace orb::run

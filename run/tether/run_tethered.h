@@ -1,0 +1,46 @@
+#pragma once
+
+#include "run/run.h"
+#include "run/tether/tether.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+// A run on a robot: the program runs here, the robot is its body (docs/robots.md).
+
+namespace orb::run {
+
+/// Whether a run begins with the robot's heading and place set to 0.
+enum class Aim : std::uint8_t { Zero, Keep };
+
+/// What a run on a robot needs beyond its program.
+struct TetherOptions {
+  spec::Robot robot = spec::Robot::Sphero;
+  Aim aim = Aim::Zero;
+  TetherBudgets budgets;
+  /// Opens the link once more after it was lost; null where it cannot be.
+  std::function<std::unique_ptr<protocol::Transport>()> reopen;
+  /// Hears sentences for people while it goes on.
+  std::function<void(const std::string&)> note;
+};
+
+struct TetheredEnding {
+  Ending ending;
+  std::optional<Failure> failure; ///< why the run could not go on to its end
+};
+
+/// Runs the first program here, with the robot at the other end of `transport` as its body and the
+/// time of the link as its time. However the run ends, the robot has been told to stop; whether it
+/// has acknowledged that is in the ending. Fails where the run never began.
+tl::expected<TetheredEnding, Failure>
+run_tethered(std::span<const Input> inputs, const Options& options, Listener& listener,
+             report::Journey* journey, protocol::Transport& transport, const TetherOptions& tether);
+
+/// Which robot answers, where its name does not tell: of packets v1 or v2 and, of those, which by
+/// the commands that it knows. The failure says what helps.
+tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Duration patience);
+
+} // namespace orb::run

@@ -1,0 +1,126 @@
+#pragma once
+
+#include "base/exit_code.h"
+#include "protocol/transport.h"
+#include "run/tether/wire.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <tl/expected.hpp>
+
+namespace orb::run {
+
+/// Waits and repetitions of a run on a robot that is elsewhere.
+struct TetherBudgets {
+  Duration answer = 400ms;    ///< for one answer; then the request is sent again
+  Duration setup = 6s;        ///< for an answer to each request before the run
+  Duration repeat = 800ms;    ///< a drive command is repeated so often while the robot drives
+  Duration stale = 500ms;     ///< without a sample for so long the robot is stopped
+  Duration gone = 5s;         ///< without one for so long the run ends
+  Duration first_sample = 3s; ///< for the first one
+  Duration stop = 4s;         ///< for a stop to be acknowledged at the end
+  Duration rest = 1500ms;     ///< for the robot to come to rest then
+  Duration busy = 5s;         ///< for a robot that says that it is busy
+  Duration teardown = 400ms;  ///< for each of the last answers
+};
+
+/// A robot at the other end of a link, as the body of a ball. Set-points wait here, the latest of a
+/// kind wins; they leave no faster than the robot takes them. A stop is never dropped, overtakes
+/// what waits and is repeated until it is acknowledged. However it is left, the robot is told to
+/// stop.
+class Tether final : public vm::Elsewhere {
+public:
+  Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets);
+  /// Stops the robot where finish() has not been called.
+  ~Tether() override;
+  Tether(const Tether&) = delete;
+  Tether& operator=(const Tether&) = delete;
+
+  /// Readies the robot and waits for its first sample. `aim`: its heading and place become 0.
+  /// The failure says which step failed; the robot has been stopped then.
+  tl::expected<vm::Sample, Failure> begin(bool aim);
+
+  void obey(const vm::Motion& motion) override;
+  void show(vm::Color color) override;
+  void show_back(int level) override;
+
+  /// Sends what is due and waits for news until `deadline` at the latest. What the robot has said
+  /// goes to `hear`. The failure is why the run cannot go on.
+  tl::expected<void, Failure> pump(Instant deadline, const std::function<void(const Said&)>& hear);
+  Instant now() const { return transport_->now(); }
+  /// How long ago the newest sample came.
+  Duration sample_age() const { return now() - sample_at_; }
+  bool is_stale() const { return stale_; }
+  /// How often samples stayed away.
+  int stalls() const { return stalls_; }
+
+  /// From now on the link is this one: the old one was lost.
+  void relink(protocol::Transport& transport);
+  /// Brakes the robot, watches it until it rests, puts it back as it was. Whether the brake was
+  /// acknowledged. What it says meanwhile goes to `hear`.
+  bool finish(const std::function<void(const Said&)>& hear = {});
+
+private:
+  /// What a request is about: of a kind the latest wins. The most urgent first.
+  enum class Kind : std::uint8_t {
+    Stop,
+    Stabilization,
+    Drive,
+    Rate,
+    Lamp,
+    Matrix,
+    BackLamp,
+    Other
+  };
+  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::Other);
+  struct Pending {
+    Request request;
+    std::uint8_t seq = 0;
+    Instant sent{};
+    Kind kind = Kind::Other;
+  };
+
+  std::optional<Request>& waiting(Kind kind) { return waiting_[static_cast<std::size_t>(kind)]; }
+  bool waits(Kind kind) const { return waiting_[static_cast<std::size_t>(kind)].has_value(); }
+  bool may_leave(Kind kind) const { return kind != Kind::Drive || !stale_; }
+  tl::expected<Bytes, Failure> ask(const Request& request, Duration budget);
+  tl::expected<void, protocol::LinkError> send(const Request& request, Kind kind);
+  tl::expected<void, protocol::LinkError> send_due();
+  Instant next_due() const;
+  void send_again(const Pending& pending);
+  void give_up_waiting();
+  void take(const Said::Answer& answer);
+  bool brake(const std::function<void(const Said&)>& hear);
+  void await_rest(const std::function<void(const Said&)>& hear);
+  void watch_samples();
+  void want_stop();
+  Failure lost(const protocol::LinkError& error) const;
+
+  protocol::Transport* transport_;
+  spec::Robot robot_;
+  TetherBudgets budgets_;
+  std::unique_ptr<RobotWire> wire_;
+  std::uint8_t seq_ = 0;
+
+  std::array<std::optional<Request>, kinds> waiting_; ///< to leave
+  std::array<std::uint8_t, kinds> newest_{};          ///< sequence number of the newest sent
+  std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
+  Instant driven_at_{};
+  int heading_ = 0;
+  std::deque<Pending> open_; ///< sent, not answered
+  std::optional<Instant> busy_since_;
+  std::optional<Failure> refused_;
+
+  Instant next_send_{};
+  Instant sample_at_{};
+  bool stale_ = false;
+  int stalls_ = 0;
+  bool began_ = false;
+  bool finished_ = false;
+};
+
+} // namespace orb::run

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "spec/robots.h"
+#include "vm/body/elsewhere.h"
+#include "vm/observer.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace orb::run {
+
+/// What a robot has said.
+struct Said {
+  /// To a request.
+  struct Answer {
+    std::uint8_t seq = 0;
+    std::uint8_t error = 0; ///< 0: done
+    Bytes data;
+  };
+  std::variant<Answer, vm::Sample, vm::event::Collision> what;
+};
+
+/// A request, but for its sequence number.
+struct Request {
+  std::uint8_t did = 0;
+  std::uint8_t cid = 0;
+  Bytes data;
+};
+
+/// The packets of a robot: what is wanted of it as requests, what it sends as values. It holds no
+/// time and sends nothing.
+class RobotWire {
+public:
+  virtual ~RobotWire() = default;
+
+  virtual Bytes encode(const Request& request, std::uint8_t seq) const = 0;
+  virtual std::uint8_t next_seq(std::uint8_t seq) const = 0;
+  virtual void feed(ByteView bytes) = 0;
+  virtual std::optional<Said> next() = 0;
+
+  /// What readies it for a run, in order. Answers go to hear_setup(), with the number of the
+  /// request.
+  virtual std::vector<Request> setup(bool aim) const = 0;
+  virtual void hear_setup(std::size_t, const Bytes&) {}
+  /// What is sent once setup() has been answered and depends on the answers.
+  virtual std::vector<Request> setup_more() const { return {}; }
+  /// What undoes it, after the robot has been stopped.
+  virtual std::vector<Request> teardown() const = 0;
+
+  /// Nothing for what it cannot do.
+  virtual std::optional<Request> drive(const vm::Motion& motion) const = 0;
+  virtual Request brake(int heading_deg) const = 0;
+  virtual std::vector<Request> show(vm::Color color) const = 0;
+  virtual std::optional<Request> show_back(int level) const = 0;
+
+  virtual Duration interval() const = 0;
+  /// `busy`, `bad length`, as the robot's tables say it.
+  virtual std::string describe(std::uint8_t error) const = 0;
+  virtual bool means_later(std::uint8_t error) const = 0;
+};
+
+std::unique_ptr<RobotWire> make_wire(spec::Robot robot);
+
+} // namespace orb::run

@@ -1,0 +1,201 @@
+#include "run/tether/wire_v1.h"
+
+#include "protocol/decoder.h"
+#include "protocol/packet.h"
+#include "spec/api.h"
+#include "uploader/session.h"
+
+#include <cmath>
+
+namespace orb::run {
+namespace {
+
+using spec::ApiCommand;
+
+constexpr std::uint32_t motion_timeout_flag = spec::permanent_option_flags::motion_timeout;
+constexpr int default_motion_timeout_ms = 2000;
+constexpr double full_turn = 360;
+
+// What is streamed, in the order of samples.
+constexpr std::uint32_t mask_first = 0x0007FC00;               // attitude, accelerometer, gyro
+constexpr std::uint32_t mask_second = 0x0D800000 | 0xF0000000; // quaternion, odometer, velocity
+
+constexpr std::size_t at_attitude = 0;
+constexpr std::size_t at_acceleration = 3;
+constexpr std::size_t at_gyro = 6;
+constexpr std::size_t at_quaternion = 9;
+constexpr std::size_t at_place = 13;
+constexpr std::size_t at_velocity = 15;
+constexpr std::size_t values = 17;
+
+Request request(ApiCommand command, Bytes data) {
+  return {spec::did(command), spec::cid(command), std::move(data)};
+}
+
+class WireV1 final : public RobotWire {
+public:
+  Bytes encode(const Request& request, std::uint8_t seq) const override {
+    return protocol::encode(
+        protocol::Command{request.did, request.cid, seq, spec::sop2_default, request.data});
+  }
+  std::uint8_t next_seq(std::uint8_t seq) const override {
+    return static_cast<std::uint8_t>(seq + 1);
+  }
+  void feed(ByteView bytes) override { decoder_.feed(bytes); }
+  std::optional<Said> next() override;
+
+  std::vector<Request> setup(bool aim) const override;
+  void hear_setup(std::size_t which, const Bytes& answer) override {
+    if (which == 0 && answer.size() == sizeof(std::uint32_t))
+      flags_ = read_u32(answer, 0);
+  }
+  std::vector<Request> setup_more() const override;
+  std::vector<Request> teardown() const override;
+
+  std::optional<Request> drive(const vm::Motion& motion) const override;
+  Request brake(int heading_deg) const override { return roll({heading_deg, 0, vm::Go::Brake}); }
+  std::vector<Request> show(vm::Color color) const override {
+    return {request(ApiCommand::SetRgbLed, {color.red, color.green, color.blue, 0})};
+  }
+  std::optional<Request> show_back(int level) const override {
+    return request(ApiCommand::SetBackLed, {static_cast<std::uint8_t>(level)});
+  }
+  Duration interval() const override { return spec::info(spec::Robot::Sphero).interval; }
+  std::string describe(std::uint8_t error) const override { return uploader::describe_code(error); }
+  bool means_later(std::uint8_t error) const override { return uploader::comes_round(error); }
+
+private:
+  static Request roll(const vm::Roll& roll) {
+    Bytes data{static_cast<std::uint8_t>(roll.speed)};
+    append_u16(data, static_cast<std::uint32_t>(roll.heading_deg));
+    data.push_back(static_cast<std::uint8_t>(roll.go));
+    return request(ApiCommand::Roll, std::move(data));
+  }
+  static Request flags(std::uint32_t flags) {
+    Bytes data;
+    append_u32(data, flags);
+    return request(ApiCommand::SetPermanentOptionFlags, std::move(data));
+  }
+  static Request timeout() {
+    Bytes data;
+    append_u16(data, default_motion_timeout_ms);
+    return request(ApiCommand::SetMotionTimeout, std::move(data));
+  }
+
+  protocol::Decoder decoder_{protocol::Direction::FromBall};
+  std::optional<std::uint32_t> flags_; ///< as the robot had them
+};
+
+std::optional<Said> WireV1::next() {
+  while (const auto item = decoder_.next()) {
+    if (item->kind == protocol::Item::Kind::Response)
+      return Said{Said::Answer{item->seq, item->code, {item->data.begin(), item->data.end()}}};
+    if (item->kind != protocol::Item::Kind::Async)
+      continue;
+    const auto at = [&](std::size_t i) {
+      return static_cast<double>(static_cast<std::int16_t>(read_u16(item->data, 2 * i)));
+    };
+    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData) &&
+        item->data.size() == 2 * values) {
+      constexpr double per_g = 4096;
+      constexpr double per_degree_s = 10;
+      constexpr double per_unit = 10000;
+      constexpr double per_cm_s = 10;
+      vm::Sample sample;
+      sample.pitch_deg = at(at_attitude);
+      sample.roll_deg = at(at_attitude + 1);
+      const double yaw = at(at_attitude + 2);
+      sample.yaw_deg = yaw < 0 ? yaw + full_turn : yaw;
+      sample.acceleration_g = {at(at_acceleration) / per_g, at(at_acceleration + 1) / per_g,
+                               at(at_acceleration + 2) / per_g};
+      sample.rotation_deg_s = {at(at_gyro) / per_degree_s, at(at_gyro + 1) / per_degree_s,
+                               at(at_gyro + 2) / per_degree_s};
+      sample.attitude = {at(at_quaternion) / per_unit, at(at_quaternion + 1) / per_unit,
+                         at(at_quaternion + 2) / per_unit, at(at_quaternion + 3) / per_unit};
+      sample.place_cm = {at(at_place), at(at_place + 1)};
+      sample.velocity_cm_s = {at(at_velocity) / per_cm_s, at(at_velocity + 1) / per_cm_s, 0};
+      return Said{sample};
+    }
+    constexpr std::size_t collision_size = 16;
+    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
+        item->data.size() == collision_size) {
+      const auto word = [&](std::size_t i) {
+        return static_cast<std::int16_t>(read_u16(item->data, i));
+      };
+      constexpr std::size_t axis = 6;
+      constexpr std::size_t powers = 7;
+      constexpr std::size_t speed = 11;
+      return Said{vm::event::Collision{word(0), word(2), item->data[axis], word(powers),
+                                       word(powers + 2), item->data[speed]}};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Request> WireV1::setup(bool aim) const {
+  std::vector<Request> all{request(ApiCommand::GetPermanentOptionFlags, {}),
+                           request(ApiCommand::SetStabilization, {1})};
+  if (aim) {
+    all.push_back(request(ApiCommand::SetHeading, {0, 0}));
+    constexpr std::size_t operands = 7;
+    Bytes origin(operands, 0);
+    all.push_back(request(ApiCommand::ConfigureLocator, std::move(origin)));
+  }
+  return all;
+}
+
+std::vector<Request> WireV1::setup_more() const {
+  constexpr unsigned samples_per_second = 33;
+  constexpr unsigned rate = 400;
+  Bytes stream;
+  append_u16(stream, rate / samples_per_second);
+  append_u16(stream, 1);
+  append_u32(stream, mask_first);
+  stream.push_back(0);
+  append_u32(stream, mask_second);
+  return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag),
+          request(ApiCommand::SetDataStreaming, std::move(stream))};
+}
+
+std::vector<Request> WireV1::teardown() const {
+  Bytes nothing;
+  append_u16(nothing, 1);
+  append_u16(nothing, 1);
+  append_u32(nothing, 0);
+  nothing.push_back(0);
+  append_u32(nothing, 0);
+  return {request(ApiCommand::SetDataStreaming, std::move(nothing)),
+          request(ApiCommand::SetStabilization, {1}),
+          request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
+          request(ApiCommand::SetBackLed, {0}),
+          timeout(),
+          flags(flags_.value_or(0))};
+}
+
+std::optional<Request> WireV1::drive(const vm::Motion& motion) const {
+  if (const auto* to = std::get_if<vm::Roll>(&motion))
+    return roll(*to);
+  if (const auto* motors = std::get_if<vm::Motors>(&motion))
+    return request(ApiCommand::SetRawMotorValues, {static_cast<std::uint8_t>(motors->left.mode),
+                                                   static_cast<std::uint8_t>(motors->left.power),
+                                                   static_cast<std::uint8_t>(motors->right.mode),
+                                                   static_cast<std::uint8_t>(motors->right.power)});
+  if (const auto* mode = std::get_if<vm::Stabilization>(&motion))
+    return request(ApiCommand::SetStabilization,
+                   {std::uint8_t(*mode == vm::Stabilization::Off ? 0 : 1)});
+  if (const auto* rate = std::get_if<vm::RotationRate>(&motion)) {
+    constexpr double unit = 0.784;
+    constexpr double most = 255;
+    const auto value = std::lround(std::min(rate->deg_per_s / unit, most));
+    return request(ApiCommand::SetRotationRate, {static_cast<std::uint8_t>(value)});
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::unique_ptr<RobotWire> make_wire_v1() {
+  return std::make_unique<WireV1>();
+}
+
+} // namespace orb::run

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "run/tether/wire.h"
+
+#include <memory>
+
+namespace orb::run {
+
+/// The packets of API v1.
+std::unique_ptr<RobotWire> make_wire_v1();
+
+} // namespace orb::run

@@ -1,0 +1,344 @@
+#include "run/tether/wire_v2.h"
+
+#include "protocol/payload_v2.h"
+#include "run/tether/wire_v1.h"
+
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace orb::run {
+namespace {
+
+using protocol::PacketV2;
+using spec::V2Command;
+using spec::V2Sensor;
+using spec::V2Service;
+
+constexpr double cm_per_m = 100;
+constexpr double full_turn = 360;
+
+/// What a run wants to know; the order does not matter.
+constexpr V2Sensor wanted[] = {V2Sensor::Pitch,     V2Sensor::Roll,     V2Sensor::Yaw,
+                               V2Sensor::AccelX,    V2Sensor::AccelY,   V2Sensor::AccelZ,
+                               V2Sensor::LocatorX,  V2Sensor::LocatorY, V2Sensor::VelocityX,
+                               V2Sensor::VelocityY, V2Sensor::GyroX,    V2Sensor::GyroY,
+                               V2Sensor::GyroZ};
+constexpr V2Service wanted_services[] = {V2Service::Attitude, V2Service::Accel, V2Service::Gyro,
+                                         V2Service::Locator, V2Service::Velocity};
+constexpr std::uint8_t token = 1;
+constexpr unsigned sample_interval_ms = 50;
+
+bool is_wanted(V2Sensor sensor) {
+  return std::ranges::find(wanted, sensor) != std::end(wanted);
+}
+
+std::uint32_t wanted_mask(spec::V2Mask mask) {
+  std::uint32_t bits = 0;
+  for (const auto& row : spec::v2_sensors)
+    if (row.mask == mask && is_wanted(row.sensor))
+      bits |= row.bit;
+  return bits;
+}
+
+Request request(V2Command command, Bytes data = {}) {
+  const auto& row = spec::info(command);
+  return {row.did(), row.cid(), std::move(data)};
+}
+
+void take(vm::Sample& sample, V2Sensor sensor, double value) {
+  switch (sensor) {
+  case V2Sensor::Pitch: sample.pitch_deg = value; break;
+  case V2Sensor::Roll: sample.roll_deg = value; break;
+  case V2Sensor::Yaw: sample.yaw_deg = std::fmod(value + 2 * full_turn, full_turn); break;
+  case V2Sensor::AccelX: sample.acceleration_g.x = value; break;
+  case V2Sensor::AccelY: sample.acceleration_g.y = value; break;
+  case V2Sensor::AccelZ: sample.acceleration_g.z = value; break;
+  case V2Sensor::LocatorX: sample.place_cm.x = value * cm_per_m; break;
+  case V2Sensor::LocatorY: sample.place_cm.y = value * cm_per_m; break;
+  case V2Sensor::VelocityX: sample.velocity_cm_s.x = value * cm_per_m; break;
+  case V2Sensor::VelocityY: sample.velocity_cm_s.y = value * cm_per_m; break;
+  case V2Sensor::GyroX: sample.rotation_deg_s.x = value; break;
+  case V2Sensor::GyroY: sample.rotation_deg_s.y = value; break;
+  case V2Sensor::GyroZ: sample.rotation_deg_s.z = value; break;
+  case V2Sensor::QuaternionX:
+  case V2Sensor::QuaternionY:
+  case V2Sensor::QuaternionZ:
+  case V2Sensor::QuaternionW:
+  case V2Sensor::Speed:
+  case V2Sensor::CoreTime:
+  case V2Sensor::Light: break; // not asked for
+  }
+}
+
+/// Which values a service has, of those that are wanted.
+std::vector<V2Sensor> values_of(V2Service service) {
+  switch (service) {
+  case V2Service::Attitude: return {V2Sensor::Pitch, V2Sensor::Roll, V2Sensor::Yaw};
+  case V2Service::Accel: return {V2Sensor::AccelX, V2Sensor::AccelY, V2Sensor::AccelZ};
+  case V2Service::Gyro: return {V2Sensor::GyroX, V2Sensor::GyroY, V2Sensor::GyroZ};
+  case V2Service::Locator: return {V2Sensor::LocatorX, V2Sensor::LocatorY};
+  case V2Service::Velocity: return {V2Sensor::VelocityX, V2Sensor::VelocityY};
+  case V2Service::Quaternion:
+  case V2Service::Color:
+  case V2Service::Speed:
+  case V2Service::Light: break;
+  }
+  return {};
+}
+
+bool is_sane(const vm::Sample& sample) {
+  for (const double value :
+       {sample.place_cm.x, sample.place_cm.y, sample.velocity_cm_s.x, sample.velocity_cm_s.y,
+        sample.yaw_deg, sample.pitch_deg, sample.roll_deg, sample.acceleration_g.x,
+        sample.acceleration_g.y, sample.acceleration_g.z, sample.rotation_deg_s.x,
+        sample.rotation_deg_s.y, sample.rotation_deg_s.z}) {
+    constexpr double far = 1e7;
+    if (!(std::abs(value) < far))
+      return false;
+  }
+  return true;
+}
+
+class WireV2 final : public RobotWire {
+public:
+  explicit WireV2(spec::Robot robot) : robot_(spec::info(robot)) {}
+
+  Bytes encode(const Request& request, std::uint8_t seq) const override;
+  std::uint8_t next_seq(std::uint8_t seq) const override {
+    return seq >= spec::v2_last_seq ? 0 : static_cast<std::uint8_t>(seq + 1);
+  }
+  void feed(ByteView bytes) override { decoder_.feed(bytes); }
+  std::optional<Said> next() override;
+
+  std::vector<Request> setup(bool aim) const override;
+  std::vector<Request> teardown() const override;
+
+  std::optional<Request> drive(const vm::Motion& motion) const override;
+  Request brake(int heading_deg) const override { return roll(heading_deg, 0, 0); }
+  std::vector<Request> show(vm::Color color) const override;
+  std::optional<Request> show_back(int level) const override {
+    if (robot_.aiming == 0)
+      return std::nullopt;
+    return lamps(robot_.aiming, {static_cast<std::uint8_t>(level)});
+  }
+  Duration interval() const override { return robot_.interval; }
+  std::string describe(std::uint8_t error) const override {
+    const auto* row = spec::find_v2_error(error);
+    return fmt::format("{:02X}h {}", error,
+                       row == nullptr ? "that no document names" : row->meaning);
+  }
+  bool means_later(std::uint8_t error) const override {
+    return error == static_cast<std::uint8_t>(spec::V2Error::Busy);
+  }
+
+private:
+  static Request roll(int heading_deg, int speed, std::uint8_t flags) {
+    Bytes data{static_cast<std::uint8_t>(speed)};
+    append_u16(data, static_cast<std::uint32_t>(heading_deg));
+    data.push_back(flags);
+    return request(V2Command::DriveWithHeading, std::move(data));
+  }
+  Request lamps(std::uint32_t mask, Bytes values) const;
+  std::optional<vm::Sample> sample(const Bytes& data) const;
+  std::optional<vm::Sample> services(const Bytes& data) const;
+
+  const spec::RobotInfo& robot_;
+  protocol::DecoderV2 decoder_;
+};
+
+Bytes WireV2::encode(const Request& request, std::uint8_t seq) const {
+  PacketV2 packet;
+  packet.flags = static_cast<std::uint8_t>(static_cast<int>(spec::V2Flag::RequestResponse) |
+                                           static_cast<int>(spec::V2Flag::Activity));
+  packet.did = request.did;
+  packet.cid = request.cid;
+  packet.seq = seq;
+  packet.data = request.data;
+  packet = protocol::address(std::move(packet), robot_);
+  // The streams of a robot with services are those of its second processor.
+  constexpr std::uint8_t sensors = 0x18;
+  if (robot_.sensors == spec::RobotSensors::Services && request.did == sensors)
+    packet.target = spec::v2_target(spec::V2Processor::Secondary);
+  return protocol::encode(packet);
+}
+
+std::optional<vm::Sample> WireV2::sample(const Bytes& data) const {
+  vm::Sample sample;
+  std::size_t at = 0;
+  for (const auto& row : spec::v2_sensors) {
+    if (!is_wanted(row.sensor))
+      continue;
+    if (data.size() < at + sizeof(float)) {
+      if (row.mask == spec::V2Mask::Extended)
+        break; // a robot may have no gyroscope to tell of
+      return std::nullopt;
+    }
+    take(sample, row.sensor, protocol::read_f32(data, at));
+    at += sizeof(float);
+  }
+  if (at != data.size() || !is_sane(sample))
+    return std::nullopt;
+  return sample;
+}
+
+std::optional<vm::Sample> WireV2::services(const Bytes& data) const {
+  vm::Sample sample;
+  if (data.empty() || data[0] != token)
+    return std::nullopt;
+  std::size_t at = 1;
+  for (const auto service : wanted_services) {
+    const auto& row = *spec::find_v2_service(static_cast<std::uint16_t>(service));
+    const auto sensors = values_of(service);
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      if (data.size() < at + sizeof(std::uint32_t))
+        return std::nullopt;
+      constexpr double whole = 4294967295.0;
+      const double part = read_u32(data, at) / whole;
+      take(sample, sensors[i], row.least(i) + part * (row.most(i) - row.least(i)));
+      at += sizeof(std::uint32_t);
+    }
+  }
+  return at == data.size() ? std::optional(sample) : std::nullopt;
+}
+
+std::optional<Said> WireV2::next() {
+  while (const auto item = decoder_.next()) {
+    if (item->kind != protocol::ItemV2::Kind::Packet)
+      continue;
+    const auto& packet = item->packet;
+    if (spec::has(packet.flags, spec::V2Flag::Response))
+      return Said{Said::Answer{packet.seq, packet.error, packet.data}};
+    if (packet.seq != spec::v2_message_seq)
+      continue;
+    const auto* row = spec::find_v2_message(packet.did, packet.cid);
+    if (row == nullptr)
+      continue;
+    std::optional<vm::Sample> felt;
+    if (row->message == spec::V2Message::Sample)
+      felt = sample(packet.data);
+    if (row->message == spec::V2Message::ServiceSample)
+      felt = services(packet.data);
+    if (felt)
+      return Said{*felt};
+    constexpr std::size_t collision_size = 18;
+    if (row->message == spec::V2Message::Collision && packet.data.size() == collision_size) {
+      const auto word = [&](std::size_t at) {
+        return static_cast<std::int16_t>(read_u16(packet.data, at));
+      };
+      constexpr std::size_t axis = 6;
+      constexpr std::size_t powers = 7;
+      constexpr std::size_t speed = 13;
+      return Said{vm::event::Collision{word(0), word(2), packet.data[axis], word(powers),
+                                       word(powers + 2), packet.data[speed]}};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Request> WireV2::setup(bool aim) const {
+  std::vector<Request> all{request(V2Command::Wake)};
+  const bool services = robot_.sensors == spec::RobotSensors::Services;
+  if (!services)
+    all.push_back(request(V2Command::SetStabilization, {1}));
+  if (robot_.robot == spec::Robot::R2d2 || robot_.robot == spec::Robot::R2q5)
+    all.push_back(request(V2Command::LegAction, {1})); // it drives on three legs
+  if (aim) {
+    all.push_back(request(V2Command::ResetYaw));
+    all.push_back(request(V2Command::ResetLocator));
+  }
+  if (services) {
+    Bytes list{token};
+    for (const auto service : wanted_services) {
+      append_u16(list, static_cast<std::uint32_t>(service));
+      list.push_back(2); // 32 bits
+    }
+    Bytes period;
+    append_u16(period, sample_interval_ms);
+    all.push_back(request(V2Command::StreamConfigure, std::move(list)));
+    all.push_back(request(V2Command::StreamStart, std::move(period)));
+    return all;
+  }
+  Bytes extended;
+  append_u32(extended, wanted_mask(spec::V2Mask::Extended));
+  Bytes mask;
+  append_u16(mask, sample_interval_ms);
+  mask.push_back(0);
+  append_u32(mask, wanted_mask(spec::V2Mask::Base));
+  all.push_back(request(V2Command::StreamExtended, std::move(extended)));
+  all.push_back(request(V2Command::StreamMask, std::move(mask)));
+  return all;
+}
+
+std::vector<Request> WireV2::teardown() const {
+  std::vector<Request> all;
+  if (robot_.sensors == spec::RobotSensors::Services) {
+    all.push_back(request(V2Command::StreamStop));
+    all.push_back(request(V2Command::StreamClear));
+  } else {
+    constexpr std::size_t operands = 7;
+    all.push_back(request(V2Command::StreamMask, Bytes(operands, 0)));
+    all.push_back(request(V2Command::StreamExtended, Bytes(sizeof(std::uint32_t), 0)));
+    all.push_back(request(V2Command::SetStabilization, {1}));
+  }
+  for (auto& one : show({}))
+    all.push_back(std::move(one));
+  if (auto back = show_back(0))
+    all.push_back(*std::move(back));
+  return all;
+}
+
+Request WireV2::lamps(std::uint32_t mask, Bytes values) const {
+  Bytes data;
+  if (robot_.lamps == V2Command::SetLedsShort)
+    data.push_back(static_cast<std::uint8_t>(mask));
+  else if (robot_.lamps == V2Command::SetLedsLong)
+    append_u32(data, mask);
+  else
+    append_u16(data, mask);
+  data.insert(data.end(), values.begin(), values.end());
+  return request(robot_.lamps, std::move(data));
+}
+
+std::vector<Request> WireV2::show(vm::Color color) const {
+  Bytes values;
+  for (int lamp = 0; lamp < std::popcount(robot_.body) / 3; ++lamp)
+    values.insert(values.end(), {color.red, color.green, color.blue});
+  std::vector<Request> all{lamps(robot_.body, std::move(values))};
+  if (robot_.robot == spec::Robot::Bolt)
+    all.push_back(request(V2Command::MatrixColor, {color.red, color.green, color.blue}));
+  return all;
+}
+
+std::optional<Request> WireV2::drive(const vm::Motion& motion) const {
+  if (const auto* to = std::get_if<vm::Roll>(&motion))
+    return roll(to->heading_deg, spec::speed_on_wire(robot_, to->speed),
+                to->go == vm::Go::FastTurn ? spec::v2_drive_fast_turn : std::uint8_t{0});
+  if (const auto* motors = std::get_if<vm::Motors>(&motion)) {
+    const auto mode = [](const vm::Motor& motor) {
+      return static_cast<std::uint8_t>(motor.mode == vm::MotorMode::Forward   ? 1
+                                       : motor.mode == vm::MotorMode::Reverse ? 2
+                                                                              : 0);
+    };
+    return request(V2Command::RawMotors,
+                   {mode(motors->left), static_cast<std::uint8_t>(motors->left.power),
+                    mode(motors->right), static_cast<std::uint8_t>(motors->right.power)});
+  }
+  if (const auto* mode = std::get_if<vm::Stabilization>(&motion);
+      mode != nullptr && robot_.sensors != spec::RobotSensors::Services)
+    return request(V2Command::SetStabilization,
+                   {std::uint8_t(*mode == vm::Stabilization::Off ? 0 : 1)});
+  return std::nullopt; // it has no rate of turns
+}
+
+} // namespace
+
+std::unique_ptr<RobotWire> make_wire_v2(spec::Robot robot) {
+  return std::make_unique<WireV2>(robot);
+}
+
+std::unique_ptr<RobotWire> make_wire(spec::Robot robot) {
+  return spec::info(robot).packets == spec::Packets::V2 ? make_wire_v2(robot) : make_wire_v1();
+}
+
+} // namespace orb::run
