@@ -201,14 +201,19 @@ tl::expected<void, Failure> open_replay(Link& link, const std::string& path) {
   return {};
 }
 
+ExitCode exit_code_of(protocol::LinkError::Kind kind) {
+  return kind == protocol::LinkError::Kind::Interrupted ? ExitCode::Interrupted
+         : kind == protocol::LinkError::Kind::Unfit     ? ExitCode::Refused
+                                                        : ExitCode::NoBall;
+}
+
 tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
+                                      const PortOptions& options,
                                       const uploader::OnBleStep& on_step) {
-  auto opened = uploader::open(endpoint, link.budgets, InterruptGuard::asked, on_step);
+  auto opened =
+      uploader::open(endpoint, link.budgets, InterruptGuard::asked, on_step, options.accepts);
   if (!opened)
-    return failure(opened.error().kind == protocol::LinkError::Kind::Interrupted
-                       ? ExitCode::Interrupted
-                       : ExitCode::NoBall,
-                   opened.error().message);
+    return failure(exit_code_of(opened.error().kind), opened.error().message);
   link.first_seq = draw_first_seq();
   link.transport = std::move(*opened);
   return {};
@@ -242,7 +247,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   else if (endpoint->scheme == Scheme::Replay)
     opened = open_replay(link, endpoint->path);
   else
-    opened = open_real(link, *endpoint, on_step);
+    opened = open_real(link, *endpoint, options, on_step);
   if (!opened)
     return tl::unexpected(opened.error());
   if (recording || context.verbosity >= 2) {

@@ -5,6 +5,7 @@
 #include "protocol/recording.h"
 #include "uploader/ble_error.h"
 #include "uploader/budgets.h"
+#include "uploader/endpoint.h"
 #include "uploader/upload.h"
 #include "vm/ball.h"
 #include "vm/robot_v2.h"
@@ -26,6 +27,7 @@ namespace orb::cli {
 struct PortOptions {
   std::string port = "sim:";
   spec::Robot robot = spec::Robot::Sphero; ///< that `sim:` is
+  uploader::Accepts accepts = uploader::Accepts::V1;
   std::string record;        ///< a file for the bytes of both directions; empty for none
   std::string answer = "2s"; ///< the wait for one answer
   std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE

@@ -40,6 +40,7 @@ run_on_robot(const Context& context, const RunOptions& given, const run::Options
   const InterruptGuard guard;
   auto port = given.port;
   port.robot = options.model;
+  port.accepts = uploader::Accepts::All;
   auto link = open_link(context, port);
   if (!link)
     return tl::unexpected(link.error());

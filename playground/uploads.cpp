@@ -97,13 +97,16 @@ ordered_json place_json(spec::BleCharacteristic characteristic) {
 ordered_json ble_json(const uploader::Budgets& budgets) {
   auto services = ordered_json::array();
   for (const auto& row : spec::ble_services)
-    services.push_back(row.uuid);
+    if (row.protocol == spec::BleProtocol::V1)
+      services.push_back(row.uuid);
   auto names = ordered_json::array();
   for (const auto& row : spec::ble_names)
     if (row.protocol == spec::BleProtocol::V1)
       names.push_back(row.prefix);
   auto greeting = ordered_json::array();
   for (const auto& row : spec::ble_greeting) {
+    if (spec::protocol_of(row.characteristic) != spec::BleProtocol::V1)
+      continue;
     greeting.push_back(place_json(row.characteristic));
     greeting.back()["bytes"] = bytes_json(as_bytes(row.bytes));
   }

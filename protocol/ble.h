@@ -47,10 +47,12 @@ constexpr const BleStepInfo& info(BleStep step) {
 /// The step in which a characteristic is written to; none for the others.
 constexpr std::optional<BleStep> step_of(spec::BleCharacteristic characteristic) {
   switch (characteristic) {
-  case spec::BleCharacteristic::AntiDos: return BleStep::AntiDos;
+  case spec::BleCharacteristic::AntiDos:
+  case spec::BleCharacteristic::AntiDosV2: return BleStep::AntiDos;
   case spec::BleCharacteristic::TxPower: return BleStep::TxPower;
   case spec::BleCharacteristic::Wake: return BleStep::Wake;
   case spec::BleCharacteristic::Commands:
+  case spec::BleCharacteristic::PacketsV2:
   case spec::BleCharacteristic::Answers: break;
   }
   return std::nullopt;

@@ -12,6 +12,7 @@ namespace orb::protocol {
 struct LinkError {
   enum class Kind {
     CannotOpen, ///< the node is missing, busy, refused or not permitted
+    Unfit,      ///< the robot is there, but cannot do what is wanted of it
     Closed,     ///< the other side hung up
     Broken,     ///< the operating system reported an error
     Mismatch,   ///< a replayed recording saw other bytes than it holds

@@ -78,7 +78,8 @@ public:
   ~Computer() override { socket_.release(); }
 
   tl::expected<void, IoError> open() override;
-  std::unique_ptr<Link> make_robot(std::string name, std::string address) override;
+  std::unique_ptr<Link> make_robot(std::string name, std::string address,
+                                   spec::BleModel model) override;
   std::string bus() const { return bus_.address(); }
 
   void add(Robot& robot) { robots_.push_back(&robot); }
@@ -119,9 +120,11 @@ private:
 /// A robot: its device and characteristics on the bus, and the client's end of a link to the ball.
 class Robot final : public Link {
 public:
-  Robot(Computer& computer, std::string name, const std::string& address)
-      : Link(computer.io()), computer_(computer), name_(std::move(name)), peer_(computer.io()),
-        drop_once_(computer.plan().drop_once), balk_once_(computer.plan().balk_once) {
+  Robot(Computer& computer, std::string name, const std::string& address, spec::BleModel model)
+      : Link(computer.io()), computer_(computer), name_(std::move(name)), model_(model),
+        protocol_(computer.plan().newer ? spec::BleProtocol::V2 : spec::info(model).protocol),
+        peer_(computer.io()), drop_once_(computer.plan().drop_once),
+        balk_once_(computer.plan().balk_once) {
     for (std::size_t i = 0; i + 1 < address.size(); i += 2)
       address_ += (i > 0 ? ":" : "") + address.substr(i, 2);
     path_ = fmt::format("{}/dev_{}", adapter_path, address_);
@@ -182,6 +185,8 @@ private:
 
   Computer& computer_;
   std::string name_;
+  spec::BleModel model_;
+  spec::BleProtocol protocol_;
   std::string address_;
   std::string path_;
   Door* door_ = nullptr;
@@ -394,7 +399,9 @@ void Robot::publish_device() {
 }
 
 bool Robot::publishes(const spec::BleCharacteristicInfo& row) const {
-  return !computer_.plan().newer || row.service != spec::BleService::Robot;
+  const bool greets = row.characteristic != BleCharacteristic::AntiDosV2 ||
+                      model_ != spec::BleModel::Rvr; // it is open to commands
+  return spec::protocol_of(row.characteristic) == protocol_ && greets;
 }
 
 /// They stay when the link ends, as BlueZ keeps them.
@@ -402,8 +409,11 @@ void Robot::publish_services() {
   if (!services_.empty())
     return;
   for (const auto& row : spec::ble_services) {
-    auto object = sdbus::createObject(computer_.connection(),
-                                      fmt::format("{}/service{:04x}", path_, services_.size()));
+    if (row.protocol != protocol_)
+      continue;
+    auto object = sdbus::createObject(
+        computer_.connection(),
+        fmt::format("{}/service{:04x}", path_, static_cast<std::size_t>(row.service)));
     constant(*object, service_interface, "UUID", std::string(row.uuid));
     constant(*object, service_interface, "Device", sdbus::ObjectPath(path_));
     constant(*object, service_interface, "Primary", true);
@@ -424,12 +434,14 @@ void Robot::publish_characteristic(const spec::BleCharacteristicInfo& row, std::
   auto object = sdbus::createObject(computer_.connection(),
                                     fmt::format("{}/char{:04x}", service, first_handle + number));
   const auto which = row.characteristic;
-  const auto notifies = which == BleCharacteristic::Answers;
+  const auto notifies = which == spec::sends_packets(protocol_);
+  const auto takes = which != BleCharacteristic::Answers;
   constant(*object, characteristic_interface, "UUID", std::string(row.uuid));
   constant(*object, characteristic_interface, "Service", sdbus::ObjectPath(service));
   constant(*object, characteristic_interface, "Flags",
-           notifies ? std::vector<std::string>{"notify"}
-                    : std::vector<std::string>{"write", "write-without-response"});
+           !notifies ? std::vector<std::string>{"write", "write-without-response"}
+           : takes   ? std::vector<std::string>{"notify", "write", "write-without-response"}
+                     : std::vector<std::string>{"notify"});
   object->registerProperty("Notifying")
       .onInterface(characteristic_interface)
       .withGetter([this, which] { return !characteristics_[which].notified.empty(); });
@@ -520,7 +532,7 @@ void Robot::connect(Result&& result) {
   stream_.assign(ends[0]);
   peer_.assign(ends[1]);
   connected_ = true;
-  admitted_ = false;
+  admitted_ = model_ == spec::BleModel::Rvr;
   ++session_;
   tell(*device_, device_interface, {{"Connected", true}}); // before it is answered, as BlueZ does
   result.returnResults();
@@ -575,7 +587,7 @@ void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Resul
     return result.returnError(bluez_error("NotPermitted", "Write not permitted"));
   if (value.size() > spec::ble_piece_bytes) // a robot does not know long writes
     return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x06"));
-  if (characteristic == BleCharacteristic::Commands &&
+  if (characteristic == spec::takes_packets(protocol_) &&
       computer_.random().chance(computer_.plan().refuse)) {
     if (computer_.random().chance(half))
       take(characteristic, value);
@@ -597,10 +609,11 @@ void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Resul
 /// What the robot does with what was written, after the receipt has left.
 void Robot::take(BleCharacteristic characteristic, const Bytes& value) {
   for (const auto& row : spec::ble_greeting)
-    if (row.characteristic == characteristic && characteristic == BleCharacteristic::AntiDos)
+    if (row.characteristic == characteristic &&
+        protocol::step_of(characteristic) == BleStep::AntiDos)
       admitted_ = as_text(value) == row.bytes;
   // A wrong word is answered by silence.
-  if (characteristic == BleCharacteristic::Commands && admitted_ && !computer_.plan().mute)
+  if (characteristic == spec::takes_packets(protocol_) && admitted_ && !computer_.plan().mute)
     static_cast<void>(::write(peer_.native_handle(), value.data(), value.size()));
 }
 
@@ -613,7 +626,7 @@ void Robot::start_notify(BleCharacteristic characteristic, Result&& result) {
     return result.returnError(bluez_error("NotPermitted", "Notify acquired"));
   if (balks(BleStep::Subscribe))
     return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x0e"));
-  if (characteristic != BleCharacteristic::Answers)
+  if (characteristic != spec::sends_packets(protocol_))
     return result.returnError(bluez_error("NotSupported", "Operation is not supported"));
   result.returnResults();
   if (connected_) // else it is answered, and nothing comes
@@ -639,7 +652,7 @@ void Robot::await_packets() {
 }
 
 void Robot::notify(ByteView bytes) {
-  auto& answers = characteristics_[BleCharacteristic::Answers];
+  auto& answers = characteristics_[spec::sends_packets(protocol_)];
   const auto& plan = computer_.plan();
   while (!bytes.empty()) {
     const auto most =
@@ -652,8 +665,9 @@ void Robot::notify(ByteView bytes) {
   }
 }
 
-std::unique_ptr<Link> Computer::make_robot(std::string name, std::string address) {
-  return std::make_unique<Robot>(*this, std::move(name), address);
+std::unique_ptr<Link> Computer::make_robot(std::string name, std::string address,
+                                           spec::BleModel model) {
+  return std::make_unique<Robot>(*this, std::move(name), address, model);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "base/io_error.h"
 #include "protocol/ble_faults.h"
 #include "serve/link.h"
+#include "spec/ble.h"
 
 #include <memory>
 #include <string>
@@ -19,7 +20,8 @@ public:
   virtual tl::expected<void, IoError> open() = 0;
 
   /// A robot near it that advertises `name`; the link must not outlive this.
-  virtual std::unique_ptr<Link> make_robot(std::string name, std::string address) = 0;
+  virtual std::unique_ptr<Link> make_robot(std::string name, std::string address,
+                                           spec::BleModel model) = 0;
 };
 
 /// What is wrong with it says `plan`, which must outlive it. An error where this program has no

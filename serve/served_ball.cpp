@@ -110,12 +110,13 @@ tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place)
 /// Under the name that such a robot has: its kind, and the end of its address.
 void ServedBall::open_ble(FakeBluez& bluez) {
   const auto options = ball_options(options_, index_);
-  const auto model =
-      options.firmware == spec::Firmware::Bb8 ? spec::BleModel::Bb8 : spec::BleModel::SprkPlus;
+  const auto model = options.firmware == spec::Firmware::Bb8 ? spec::BleModel::Bb8
+                                                             : spec::info(options_.robot).ble;
   const auto address = vm::bluetooth_address(options.seed);
   constexpr std::size_t told = 4; // digits of the address
-  links_.push_back(bluez.make_robot(
-      std::string(spec::info(model).prefix) + address.substr(address.size() - told), address));
+  links_.push_back(bluez.make_robot(std::string(spec::info(model).prefix) +
+                                        address.substr(address.size() - told),
+                                    address, model));
 }
 
 tl::expected<void, IoError> ServedBall::open() {

@@ -5,24 +5,28 @@
 #include <cstdint>
 #include <string_view>
 
-/// API v1 over Bluetooth LE: which characteristics there are and what opens a robot to commands.
+/// Robots over Bluetooth LE: which characteristics there are and what opens a robot to commands.
 namespace orb::spec {
 
 /// The most bytes that a robot takes at once; it has no larger MTU. Source: LIB
 inline constexpr std::size_t ble_piece_bytes = 20;
 
 enum class BleService : std::uint8_t {
-#define BLE_SERVICE(enumerator, uuid, source, summary) enumerator,
+#define BLE_SERVICE(enumerator, protocol, uuid, source, summary) enumerator,
 #include "spec/ble.def"
 };
 
+enum class BleProtocol : std::uint8_t { V1, V2 };
+
 struct BleServiceInfo {
   BleService service;
+  BleProtocol protocol;
   std::string_view uuid;
 };
 
 inline constexpr auto ble_services = std::to_array<BleServiceInfo>({
-#define BLE_SERVICE(enumerator, uuid, source, summary) {BleService::enumerator, uuid},
+#define BLE_SERVICE(enumerator, protocol, uuid, source, summary)                                   \
+  {BleService::enumerator, BleProtocol::protocol, uuid},
 #include "spec/ble.def"
 });
 
@@ -48,6 +52,17 @@ constexpr const BleCharacteristicInfo& info(BleCharacteristic characteristic) {
   return ble_characteristics[static_cast<std::size_t>(characteristic)];
 }
 
+constexpr BleProtocol protocol_of(BleCharacteristic characteristic) {
+  return ble_services[static_cast<std::size_t>(info(characteristic).service)].protocol;
+}
+/// Where a robot takes packets, and where it notifies of packets.
+constexpr BleCharacteristic takes_packets(BleProtocol protocol) {
+  return protocol == BleProtocol::V1 ? BleCharacteristic::Commands : BleCharacteristic::PacketsV2;
+}
+constexpr BleCharacteristic sends_packets(BleProtocol protocol) {
+  return protocol == BleProtocol::V1 ? BleCharacteristic::Answers : BleCharacteristic::PacketsV2;
+}
+
 struct BleGreetingInfo {
   BleCharacteristic characteristic;
   std::string_view bytes;
@@ -60,8 +75,6 @@ inline constexpr auto ble_greeting = std::to_array<BleGreetingInfo>({
   {BleCharacteristic::characteristic, bytes, summary},
 #include "spec/ble.def"
 });
-
-enum class BleProtocol : std::uint8_t { V1, V2 };
 
 enum class BleModel : std::uint8_t {
 #define BLE_NAME(enumerator, prefix, protocol, robot, source) enumerator,

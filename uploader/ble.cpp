@@ -31,7 +31,8 @@ constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::Ambiguous,    "name one by its address; `orb ports` lists them", false},
     {BleFailure::NotConnected, "shake the robot awake, hold it near, and end the app or the phone that may hold it", true},
     {BleFailure::NotResolved,  "hold the robot near and try again; `bluetoothctl remove ADDRESS` lets the computer ask afresh", true},
-    {BleFailure::Newer,        "orb flashes robots of API v1: SPRK+, BB-8, Ollie, and Sphero over rfcomm://", false},
+    {BleFailure::Newer,        "drive it from here: `orb run PROGRAM --port ble://ADDRESS`", false},
+    {BleFailure::NoRobot,      "`orb ports` lists robots", false},
     {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` lets the computer ask afresh", true},
     {BleFailure::Held,         "end that program; `bluetoothctl disconnect ADDRESS` lets go of the robot", false},
     {BleFailure::Lost,         "hold the robot near, charge it, and try again", true},
@@ -54,8 +55,10 @@ static_assert(failures_are_in_order());
 /// Pieces out, notifications in.
 class BleTransport final : public protocol::Transport {
 public:
-  BleTransport(std::unique_ptr<Gatt> gatt, const Budgets& budgets, Stop stop)
-      : gatt_(std::move(gatt)), budgets_(budgets), stop_(std::move(stop)) {}
+  BleTransport(std::unique_ptr<Gatt> gatt, spec::BleProtocol protocol, const Budgets& budgets,
+               Stop stop)
+      : gatt_(std::move(gatt)), commands_(spec::takes_packets(protocol)), budgets_(budgets),
+        stop_(std::move(stop)) {}
 
   Instant now() const override { return gatt_->now(); }
 
@@ -64,7 +67,7 @@ public:
                             [this, asked = stop_()] { return stop_() > asked ? 1 : 0; }};
     while (!packet.empty()) {
       const auto piece = packet.first(std::min(packet.size(), budgets_.piece));
-      if (const auto written = gatt_->write(BleCharacteristic::Commands, piece, patience); !written)
+      if (const auto written = gatt_->write(commands_, piece, patience); !written)
         return lose(written.error());
       packet = packet.subspan(piece.size());
     }
@@ -96,6 +99,7 @@ private:
   }
 
   std::unique_ptr<Gatt> gatt_;
+  BleCharacteristic commands_;
   Budgets budgets_;
   Stop stop_;
 };
@@ -103,8 +107,9 @@ private:
 /// The steps to one robot, each within its budget.
 class Opening {
 public:
-  Opening(Gatt& gatt, const Budgets& budgets, const Stop& stop, const OnBleStep& on_step)
-      : gatt_(gatt), budgets_(budgets), stop_(stop), on_step_(on_step) {}
+  Opening(Gatt& gatt, const Budgets& budgets, const Stop& stop, const OnBleStep& on_step,
+          Accepts accepts)
+      : gatt_(gatt), budgets_(budgets), stop_(stop), on_step_(on_step), accepts_(accepts) {}
 
   tl::expected<void, BleError> run() {
     for (const auto step : {BleStep::Bus, BleStep::Adapter, BleStep::Find})
@@ -121,6 +126,9 @@ public:
     }
   }
 
+  /// What the robot speaks, after run().
+  spec::BleProtocol protocol() const { return protocol_; }
+
 private:
   Patience patience(Duration budget) const { return {gatt_.now() + budget, stop_}; }
 
@@ -131,9 +139,12 @@ private:
     if (auto known = check_characteristics(); !known)
       return known;
     // Noticed before a word is written: it would reach the robot in the middle of their talk.
-    if (gatt_.held())
+    const auto answers = spec::sends_packets(protocol_);
+    if (gatt_.held(answers))
       return tl::unexpected(BleError{BleFailure::Held, std::string(held_by_another)});
     for (const auto& row : spec::ble_greeting) {
+      if (spec::protocol_of(row.characteristic) != protocol_ || !gatt_.has(row.characteristic))
+        continue;
       step_ = *protocol::step_of(row.characteristic);
       if (auto written =
               gatt_.write(row.characteristic, as_bytes(row.bytes), patience(budgets_.ble_answer));
@@ -142,7 +153,7 @@ private:
       tell(std::string(row.summary));
     }
     step_ = BleStep::Subscribe;
-    if (auto subscribed = gatt_.subscribe(patience(budgets_.ble_answer)); !subscribed)
+    if (auto subscribed = gatt_.subscribe(answers, patience(budgets_.ble_answer)); !subscribed)
       return subscribed;
     tell("its answers are subscribed to");
     return {};
@@ -172,13 +183,18 @@ private:
     return budgets_.ble_answer;
   }
 
-  tl::expected<void, BleError> check_characteristics() const {
+  tl::expected<void, BleError> check_characteristics() {
+    const bool is_v2 = gatt_.has(BleCharacteristic::PacketsV2);
+    protocol_ = is_v2 ? spec::BleProtocol::V2 : spec::BleProtocol::V1;
+    if (is_v2 && accepts_ == Accepts::V1)
+      return tl::unexpected(
+          BleError{BleFailure::Newer, "this robot keeps no programs and speaks packets v2"});
     for (const auto& row : spec::ble_characteristics)
-      if (!gatt_.has(row.characteristic))
-        return tl::unexpected(
-            BleError{BleFailure::Newer,
-                     fmt::format("this robot speaks the newer protocol: it lacks characteristic {}",
-                                 row.uuid)});
+      if (!is_v2 && spec::protocol_of(row.characteristic) == spec::BleProtocol::V1 &&
+          !gatt_.has(row.characteristic))
+        return tl::unexpected(BleError{
+            BleFailure::NoRobot,
+            fmt::format("it is no robot that orb knows: it lacks characteristic {}", row.uuid)});
     return {};
   }
 
@@ -202,6 +218,8 @@ private:
   const Budgets& budgets_;
   const Stop& stop_;
   const OnBleStep& on_step_;
+  Accepts accepts_;
+  spec::BleProtocol protocol_ = spec::BleProtocol::V1;
   BleStep step_{};
   std::optional<BleStep> told_;
 };
@@ -216,19 +234,19 @@ std::string remedy(const BleError& error) {
   return text;
 }
 
-tl::expected<std::unique_ptr<protocol::Transport>, BleError> open_ble(std::unique_ptr<Gatt> gatt,
-                                                                      const Budgets& budgets,
-                                                                      const Stop& stop,
-                                                                      const OnBleStep& on_step) {
-  if (const auto opened = Opening(*gatt, budgets, stop, on_step).run(); !opened)
+tl::expected<std::unique_ptr<protocol::Transport>, BleError>
+open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
+         const OnBleStep& on_step, Accepts accepts) {
+  Opening opening(*gatt, budgets, stop, on_step, accepts);
+  if (const auto opened = opening.run(); !opened)
     return tl::unexpected(opened.error());
-  return std::make_unique<BleTransport>(std::move(gatt), budgets, stop);
+  return std::make_unique<BleTransport>(std::move(gatt), opening.protocol(), budgets, stop);
 }
 
 LinkError describe_open_error(const Endpoint& endpoint, const BleError& error) {
   if (error.failure == BleFailure::Interrupted)
     return {LinkError::Kind::Interrupted, error.seen};
-  return {LinkError::Kind::CannotOpen,
+  return {error.failure == BleFailure::Newer ? LinkError::Kind::Unfit : LinkError::Kind::CannotOpen,
           fmt::format("cannot open {}: {}; {}", endpoint.text, error.seen, remedy(error))};
 }
 

@@ -9,10 +9,9 @@ namespace orb::uploader {
 /// Finds the robot, connects and opens it to commands; where a later try can help, it connects
 /// Budgets::opens times. The transport writes packets in pieces; a packet of which a piece is not
 /// acknowledged counts as lost.
-tl::expected<std::unique_ptr<protocol::Transport>, BleError> open_ble(std::unique_ptr<Gatt> gatt,
-                                                                      const Budgets& budgets,
-                                                                      const Stop& stop,
-                                                                      const OnBleStep& on_step);
+tl::expected<std::unique_ptr<protocol::Transport>, BleError>
+open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
+         const OnBleStep& on_step, Accepts accepts = Accepts::V1);
 
 /// A failure in the words of a link that cannot be opened.
 protocol::LinkError describe_open_error(const Endpoint& endpoint, const BleError& error);

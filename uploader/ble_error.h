@@ -25,6 +25,7 @@ enum class BleFailure : std::uint8_t {
   NotConnected,
   NotResolved,
   Newer,
+  NoRobot,
   Refused,
   Held,
   Lost,

@@ -73,8 +73,8 @@ public:
     return !path_of(characteristic).empty();
   }
 
-  bool held() const override {
-    const auto path = path_of(BleCharacteristic::Answers);
+  bool held(BleCharacteristic answers) const override {
+    const auto path = path_of(answers);
     const auto is = [&](const char* property) {
       return bus_->get<bool>(path, bluez::characteristic_interface, property).value_or(false);
     };
@@ -103,12 +103,13 @@ public:
     return {};
   }
 
-  tl::expected<void, BleError> subscribe(const Patience& patience) override {
+  tl::expected<void, BleError> subscribe(BleCharacteristic answers,
+                                         const Patience& patience) override {
     step_ = BleStep::Subscribe;
-    const auto path = path_of(BleCharacteristic::Answers);
+    const auto path = path_of(answers);
     const BleError taken{BleFailure::Held, std::string(held_by_another)};
     // Two programs at once would each read the answers to both.
-    if (held())
+    if (held(answers))
       return tl::unexpected(taken);
     bus_->collect(path);
     const auto started = bus_->call(path, bluez::characteristic_interface, "StartNotify", patience);

@@ -32,8 +32,8 @@ public:
   /// Whether the robot has it; known after the step Services.
   virtual bool has(spec::BleCharacteristic characteristic) const = 0;
 
-  /// Whether another program has the robot's answers; known after the step Services.
-  virtual bool held() const = 0;
+  /// Whether another program has the answers that come there; known after the step Services.
+  virtual bool held(spec::BleCharacteristic answers) const = 0;
 
   /// The robot's address, for what helps; empty where it is not known yet.
   virtual std::string address() const = 0;
@@ -46,8 +46,9 @@ public:
   virtual tl::expected<void, BleError> write(spec::BleCharacteristic characteristic, ByteView bytes,
                                              const Patience& patience) = 0;
 
-  /// From now on read() has what the robot sends.
-  virtual tl::expected<void, BleError> subscribe(const Patience& patience) = 0;
+  /// From now on read() has what the robot sends there.
+  virtual tl::expected<void, BleError> subscribe(spec::BleCharacteristic answers,
+                                                 const Patience& patience) = 0;
 
   /// Lets time pass.
   virtual void rest(const Patience& patience) = 0;

@@ -16,13 +16,15 @@ public:
     return tl::unexpected(why_);
   }
   bool has(spec::BleCharacteristic) const override { return false; }
-  bool held() const override { return false; }
+  bool held(spec::BleCharacteristic) const override { return false; }
   std::string address() const override { return {}; }
   void let_go() override {}
   tl::expected<void, BleError> write(spec::BleCharacteristic, ByteView, const Patience&) override {
     return tl::unexpected(why_);
   }
-  tl::expected<void, BleError> subscribe(const Patience&) override { return tl::unexpected(why_); }
+  tl::expected<void, BleError> subscribe(spec::BleCharacteristic, const Patience&) override {
+    return tl::unexpected(why_);
+  }
   void rest(const Patience&) override {}
   tl::expected<Bytes, BleError> read(Instant) override { return tl::unexpected(why_); }
 

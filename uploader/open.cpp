@@ -296,9 +296,9 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
 } // namespace
 
 Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
-            const OnBleStep& on_step) {
+            const OnBleStep& on_step, Accepts accepts) {
   if (endpoint.scheme == Scheme::Ble) {
-    auto opened = open_ble(make_bluez_gatt(endpoint), budgets, stop, on_step);
+    auto opened = open_ble(make_bluez_gatt(endpoint), budgets, stop, on_step, accepts);
     if (!opened)
       return tl::unexpected(describe_open_error(endpoint, opened.error()));
     return *std::move(opened);

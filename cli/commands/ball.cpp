@@ -68,11 +68,6 @@ void run_ball(Context& context, const BallArguments& arguments) {
   const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
   options.robot = spec::find_robot(arguments.robot)->robot;        // checked, too
   const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
-  if (is_v2 && arguments.bluez)
-    return fail(context, {ExitCode::Usage,
-                          fmt::format("`--bluez` serves robots of packets v1 only; write `orb ball "
-                                      "--robot {} --tcp :0`",
-                                      arguments.robot)});
   if (is_v2 && !arguments.state.empty())
     return fail(context, {ExitCode::Usage, fmt::format("a {} keeps no programs and no settings; "
                                                        "leave `--state` out",

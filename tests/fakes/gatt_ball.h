@@ -43,10 +43,13 @@ public:
   }
 
   bool has(spec::BleCharacteristic characteristic) const override {
-    return !plan_.newer || spec::info(characteristic).service != spec::BleService::Robot;
+    return spec::protocol_of(characteristic) ==
+           (plan_.newer ? spec::BleProtocol::V2 : spec::BleProtocol::V1);
   }
 
-  bool held() const override { return false; } // it shows when it is subscribed to
+  bool held(spec::BleCharacteristic) const override {
+    return false;
+  } // it shows when it is subscribed to
 
   std::string address() const override { return "68:86:E7:00:00:01"; }
 
@@ -79,7 +82,8 @@ public:
     return {};
   }
 
-  tl::expected<void, uploader::BleError> subscribe(const uploader::Patience&) override {
+  tl::expected<void, uploader::BleError> subscribe(spec::BleCharacteristic,
+                                                   const uploader::Patience&) override {
     if (strikes(protocol::BleStep::Subscribe))
       return tl::unexpected(lost());
     if (balks(protocol::BleStep::Subscribe))

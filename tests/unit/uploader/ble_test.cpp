@@ -20,19 +20,22 @@ constexpr auto interval = Duration(30ms);
 /// A ball behind a GATT, and what was told of the steps to it.
 struct Robot {
   explicit Robot(
-      const BleFaultPlan& plan = {}, const Stop& stop = [] { return 0; }) {
+      const BleFaultPlan& plan = {}, const Stop& stop = [] { return 0; },
+      Accepts accepts = Accepts::V1) {
     vm::BallOptions options;
     options.loader = compiler::load;
     ball = std::make_unique<vm::Ball>(options);
     auto made = std::make_unique<test::GattBall>(std::make_unique<vm::BallTransport>(*ball), plan,
                                                  interval);
     gatt = made.get();
-    auto opened =
-        open_ble(std::move(made), ble_budgets({}), stop, [&](BleStep step, const auto& found) {
+    auto opened = open_ble(
+        std::move(made), ble_budgets({}), stop,
+        [&](BleStep step, const auto& found) {
           told.push_back(step);
           if (!found)
             error = found.error();
-        });
+        },
+        accepts);
     if (opened)
       link = *std::move(opened);
     else
@@ -53,6 +56,15 @@ TEST(Ble, WritesTheWordsOfTheTableInTheirOrderBeforeAnythingElse) {
   ASSERT_EQ(robot.told.size(), protocol::ble_steps.size());
   for (std::size_t i = 0; i < robot.told.size(); ++i)
     EXPECT_EQ(robot.told[i], protocol::ble_steps[i].step);
+}
+
+TEST(Ble, ANewerRobotHearsItsOwnWord) {
+  BleFaultPlan plan;
+  plan.newer = true;
+  const Robot robot(
+      plan, [] { return 0; }, Accepts::All);
+  ASSERT_TRUE(robot.link);
+  EXPECT_EQ(robot.gatt->greeting, "usetheforce...band|");
 }
 
 TEST(Ble, NoPieceIsLongerThanARobotTakes) {
