@@ -1,9 +1,11 @@
 #include "cli/on_robot.h"
 
 #include "cli/terminal/interrupt.h"
+#include "disk/disk.h"
 
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace orb::cli {
 namespace {
@@ -37,6 +39,13 @@ tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::
 tl::expected<run::TetheredEnding, Failure>
 run_on_robot(const Context& context, const RunOptions& given, const run::Options& options,
              const std::vector<run::Input>& inputs, Console& console, report::Journey* journey) {
+  std::optional<disk::Draft> record;
+  if (!given.record.empty()) { // what cannot be written is told before anything moves
+    auto draft = disk::Draft::of(given.record);
+    if (!draft)
+      return tl::unexpected(Failure{ExitCode::File, draft.error().message});
+    record = *std::move(draft);
+  }
   const InterruptGuard guard;
   auto port = given.port;
   port.robot = options.model;
@@ -64,7 +73,30 @@ run_on_robot(const Context& context, const RunOptions& given, const run::Options
     tether.robot = *found;
   else
     return tl::unexpected(found.error());
-  return run::run_tethered(inputs, options, console, journey, *link->transport, tether);
+  run::DriveRecording recording;
+  if (record)
+    tether.recording = &recording;
+  auto driven = run::run_tethered(inputs, options, console, journey, *link->transport, tether);
+  if (!driven || !record)
+    return driven;
+  record->append(as_bytes(run::to_text(recording)));
+  if (auto written = record->publish(); !written && !driven->failure)
+    driven->failure = Failure{ExitCode::File, written.error().message};
+  return driven;
+}
+
+tl::expected<run::TetheredEnding, Failure>
+replay_drive(const RunOptions& given, const run::Options& options,
+             const std::vector<run::Input>& inputs, Console& console, report::Journey* journey) {
+  const auto text = disk::read(given.replay);
+  if (!text)
+    return tl::unexpected(Failure{ExitCode::File, text.error().message});
+  const auto recording = run::parse_drive_recording(*text);
+  if (!recording)
+    return tl::unexpected(Failure{ExitCode::BadInput, fmt::format("{} cannot be replayed: {}",
+                                                                  disk::display_name(given.replay),
+                                                                  recording.error())});
+  return run::run_replayed(inputs, options, console, journey, *recording);
 }
 
 std::string_view stop_note(const run::Ending& ending) {

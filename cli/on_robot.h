@@ -19,6 +19,12 @@ tl::expected<run::TetheredEnding, Failure>
 run_on_robot(const Context& context, const RunOptions& given, const run::Options& options,
              const std::vector<run::Input>& inputs, Console& console, report::Journey* journey);
 
+/// Runs the program with the recording `given.replay` in place of a robot.
+tl::expected<run::TetheredEnding, Failure> replay_drive(const RunOptions& given,
+                                                        const run::Options& options,
+                                                        const std::vector<run::Input>& inputs,
+                                                        Console& console, report::Journey* journey);
+
 /// What became of the stop at the end, for people.
 std::string_view stop_note(const run::Ending& ending);
 

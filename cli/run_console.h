@@ -37,6 +37,8 @@ struct RunOptions {
   TargetOptions target;
   PortOptions port; ///< of a robot; empty for the virtual ball
   std::string robot;
+  std::string record; ///< the file for a recording of the drive; empty for none
+  std::string replay;
   bool keep_aim = false;
   bool firmware_given = false;
   bool disconnected = false;

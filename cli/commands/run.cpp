@@ -207,7 +207,7 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   auto options = read_options(context, given);
   if (!options)
     return tl::unexpected(options.error());
-  if (!given.port.port.empty())
+  if (!given.port.port.empty() || !given.replay.empty())
     if (auto fits = check_for_robot(given, *options); !fits)
       return fits;
   const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
@@ -235,12 +235,16 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   auto* const notes = journey ? &*journey : nullptr;
   std::optional<Failure> broken; // why a run on a robot could not go on
   const auto ending = [&]() -> tl::expected<run::Ending, Failure> {
-    if (given.port.port.empty())
+    if (given.port.port.empty() && given.replay.empty())
       return run::run(*inputs, *options, console, notes);
-    auto driven = run_on_robot(context, given, *options, *inputs, console, notes);
+    auto driven = given.replay.empty()
+                      ? run_on_robot(context, given, *options, *inputs, console, notes)
+                      : replay_drive(given, *options, *inputs, console, notes);
     if (!driven)
       return tl::unexpected(driven.error());
     broken = std::move(driven->failure);
+    if (!driven->left.empty())
+      broken = Failure{ExitCode::BadInput, driven->left};
     return std::move(driven->ending);
   }();
   if (!ending)
@@ -313,6 +317,10 @@ void run_with_report(Context& context, RunOptions& options) {
   if (options.open && options.report == "-")
     return fail(context,
                 {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` out"});
+  if (!options.record.empty() && options.port.port.empty())
+    return fail(context, {ExitCode::Usage, "`--record` records a run on a robot; add `--port`"});
+  if (!options.replay.empty() && !options.port.port.empty())
+    return fail(context, {ExitCode::Usage, "`--replay` needs no robot; leave `--port` out"});
   if (options.watch && !options.port.port.empty())
     return fail(context, {ExitCode::Usage, "`--watch` would drive the robot at every change; leave "
                                            "it out with `--port`"});
@@ -397,6 +405,10 @@ void add_tether_options(CLI::App& command, RunOptions& options) {
       .add_option("--robot", options.robot,
                   "which robot it is; the virtual one drives like it, a real one tells by its name")
       ->check(one_of(std::move(names)));
+  command.add_option("--record", options.record,
+                     "writes what the robot says and is told to this file");
+  command.add_option("--replay", options.replay,
+                     "runs with such a recording in place of a robot: the same run again");
   command.add_flag("--no-aim", options.keep_aim,
                    "leaves heading and place of the robot as they are; else both begin at 0");
 }

@@ -14,6 +14,46 @@ constexpr Duration longest_nap = 20ms;
 /// A program that is further behind, because the computer slept, does not hurry after.
 constexpr Duration most_behind = 500ms;
 
+/// Hands everything on, and notes the numbers that were given.
+class Tap final : public Listener {
+public:
+  Tap(Listener& inner, std::function<void(std::int32_t)> on_number)
+      : inner_(inner), on_number_(std::move(on_number)) {}
+
+  void on_start(const vm::Ball& ball) override { inner_.on_start(ball); }
+  void on_event(Duration t, const vm::Event& event) override { inner_.on_event(t, event); }
+  void on_fault(Duration t, const ProgramError& fault) override { inner_.on_fault(t, fault); }
+  void on_step(Duration t, const vm::Body& body) override { inner_.on_step(t, body); }
+  void on_time(Duration t) override { inner_.on_time(t); }
+  void on_end(const Ending& ending) override { inner_.on_end(ending); }
+  bool enough() const override { return inner_.enough(); }
+  bool has_more_numbers() const override { return inner_.has_more_numbers(); }
+  std::optional<std::int32_t> ask_number() override {
+    const auto number = on_number_ ? inner_.ask_number() : std::nullopt;
+    if (number)
+      on_number_(*number);
+    return number;
+  }
+
+private:
+  Listener& inner_;
+  std::function<void(std::int32_t)> on_number_; ///< empty: numbers come from elsewhere
+};
+
+/// Lets a run know what the robot says; its time is that of the link.
+void feel(Live& live, const Said& said) {
+  if (const auto* sample = std::get_if<vm::Sample>(&said.what))
+    live.feel(*sample);
+  else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
+    live.feel(*collision);
+}
+
+/// Brings a run to `t`, whatever it waits for.
+void bring(Live& live, Duration t) {
+  live.advance(t);
+  live.wait(t);
+}
+
 /// A run and the robot that it drives.
 class Driven {
 public:
@@ -24,17 +64,19 @@ public:
   tl::expected<void, Failure> drive() {
     auto driven = drive_on();
     over_ = true;
+    note(DriveLine::Over{});
     return driven;
   }
 
   std::function<void(const Said&)> hear() {
     return [this](const Said& said) {
       if (!over_) // the time of the program ends with it
-        live_.wait(elapsed());
+        bring(live_, elapsed());
       if (const auto* sample = std::get_if<vm::Sample>(&said.what))
-        live_.feel(*sample);
+        note(*sample);
       else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
-        live_.feel(*collision);
+        note(*collision);
+      feel(live_, said);
     };
   }
 
@@ -63,6 +105,11 @@ private:
 
   Duration elapsed() const { return robot_.now() - origin_; }
 
+  void note(decltype(DriveLine::what) what) {
+    if (options_.recording != nullptr)
+      options_.recording->lines.push_back({live_.time(), std::move(what)});
+  }
+
   /// Waits for samples; the program waits with it.
   tl::expected<void, Failure> sit_out() {
     const auto paused_at = elapsed();
@@ -87,6 +134,19 @@ private:
   bool over_ = false;
 };
 
+/// `roll 90 60 1` at 0.400 s
+std::string in_words(const DriveLine& told) {
+  return fmt::format("`{}` at {:.6f} s", std::get<DriveLine::Told>(told.what).words,
+                     std::chrono::duration<double>(told.at).count());
+}
+
+Ending finished(Ending ending, bool stopped) {
+  ending.robot_stopped = stopped;
+  if (stopped)
+    ending.sight.motion = Sight::Motion::Still;
+  return ending;
+}
+
 } // namespace
 
 tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs,
@@ -98,20 +158,37 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   const auto first = robot.begin(tether.aim == Aim::Zero);
   if (!first)
     return tl::unexpected(first.error());
+  Live* running = nullptr;
+  const auto note = [&](auto what) {
+    if (tether.recording != nullptr)
+      tether.recording->lines.push_back({running == nullptr ? Duration{} : running->time(), what});
+  };
+  bool over = false; // what the lamps show afterwards is not the program's
+  Witness witness(&robot, [&](std::string words) {
+    if (!over)
+      note(DriveLine::Told{std::move(words)});
+  });
+  Tap tap(listener, [&](std::int32_t number) { note(DriveLine::Number{number}); });
+  if (tether.recording != nullptr) {
+    tether.recording->robot = tether.robot;
+    tether.recording->first = *first;
+  }
   auto options = given;
-  options.robot = &robot;
+  options.robot = &witness;
   options.robot_sample = *first;
-  const auto live = Live::start(inputs, options, listener, journey);
+  const auto live = Live::start(inputs, options, tap, journey);
   if (!live) {
     robot.finish();
     return tl::unexpected(live.error());
   }
+  running = live->get();
   if (options.asks == Asks::Yes)
     (*live)->keep_waiting();
-  Driven run(**live, robot, listener, tether);
+  Driven run(**live, robot, tap, tether);
   std::optional<Failure> failure;
   if (auto driven = run.drive(); !driven)
     failure = driven.error();
+  over = true;
   bool stopped = robot.finish(run.hear());
   std::unique_ptr<protocol::Transport> second;
   if (!stopped && tether.reopen && failure && failure->code == ExitCode::LinkLost) {
@@ -124,10 +201,86 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   auto ending = (*live)->finish();
   if (!ending)
     return tl::unexpected(ending.error());
-  ending->robot_stopped = stopped;
-  if (stopped)
-    ending->sight.motion = Sight::Motion::Still;
-  return TetheredEnding{*std::move(ending), std::move(failure)};
+  if (tether.recording != nullptr) {
+    tether.recording->stopped = stopped;
+    tether.recording->failure = failure;
+  }
+  return TetheredEnding{finished(*std::move(ending), stopped), std::move(failure), {}};
+}
+
+tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs,
+                                                   const Options& given, Listener& listener,
+                                                   report::Journey* journey,
+                                                   const DriveRecording& recording) {
+  Live* running = nullptr;
+  std::string left;
+  auto next = recording.lines.begin();
+  const auto is_told = [](const DriveLine& line) {
+    return std::holds_alternative<DriveLine::Told>(line.what);
+  };
+  const auto differ = [&](const std::string& asked, const std::string& recorded) {
+    if (!left.empty())
+      return;
+    const auto* first = first_with_program(inputs);
+    const auto line = running == nullptr
+                          ? 0
+                          : static_cast<std::uint32_t>(running->ball().machine().asking_line());
+    const auto where =
+        first == nullptr || line == 0 ? std::string("the start") : first->program->where(line);
+    left = fmt::format("the program leaves the recording at {}: it asks for {}, and the "
+                       "recording has {}",
+                       where, asked, recorded);
+    if (running != nullptr)
+      running->stop();
+  };
+  bool over = false;
+  Witness witness(nullptr, [&](const std::string& words) {
+    if (over)
+      return;
+    next = std::find_if(next, recording.lines.end(), is_told);
+    const auto at = running == nullptr ? Duration{} : running->time();
+    const auto said = next == recording.lines.end() ? std::string("nothing more") : in_words(*next);
+    if (const auto asked = in_words({at, DriveLine::Told{words}}); asked != said)
+      differ(asked, said);
+    if (next != recording.lines.end())
+      ++next;
+  });
+  Tap tap(listener, {});
+  auto options = given;
+  options.robot = &witness;
+  options.robot_sample = recording.first;
+  const auto live = Live::start(inputs, options, tap, journey);
+  if (!live)
+    return tl::unexpected(live.error());
+  running = live->get();
+  for (const auto& [at, what] : recording.lines) {
+    if (!left.empty())
+      break;
+    if (const auto* number = std::get_if<DriveLine::Number>(&what)) {
+      running->wait(at);
+      running->give(number->value);
+    } else if (std::holds_alternative<DriveLine::Over>(what)) {
+      running->advance(at);
+      over = true;
+    } else if (!is_told({at, what})) {
+      if (!over)
+        bring(*running, at);
+      if (const auto* sample = std::get_if<vm::Sample>(&what))
+        running->feel(*sample);
+      else
+        running->feel(std::get<vm::event::Collision>(what));
+    }
+  }
+  if (left.empty())
+    if (const auto more = std::find_if(next, recording.lines.end(), is_told);
+        more != recording.lines.end())
+      left =
+          fmt::format("the program ends before the recording, which has {} next", in_words(*more));
+  auto ending = running->finish();
+  if (!ending)
+    return tl::unexpected(ending.error());
+  return TetheredEnding{finished(*std::move(ending), recording.stopped), recording.failure,
+                        std::move(left)};
 }
 
 } // namespace orb::run

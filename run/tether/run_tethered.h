@@ -1,6 +1,7 @@
 #pragma once
 
 #include "run/run.h"
+#include "run/tether/recording.h"
 #include "run/tether/tether.h"
 
 #include <functional>
@@ -23,6 +24,8 @@ struct TetherOptions {
   TetherBudgets budgets;
   /// Opens the link once more after it was lost; null where it cannot be.
   std::function<std::unique_ptr<protocol::Transport>()> reopen;
+  /// What happens is noted here; null for nobody.
+  DriveRecording* recording = nullptr;
   /// Hears sentences for people while it goes on.
   std::function<void(const std::string&)> note;
 };
@@ -30,6 +33,7 @@ struct TetherOptions {
 struct TetheredEnding {
   Ending ending;
   std::optional<Failure> failure; ///< why the run could not go on to its end
+  std::string left; ///< of a replay: where the program asked for something else; empty where not
 };
 
 /// Runs the first program here, with the robot at the other end of `transport` as its body and the
@@ -38,6 +42,13 @@ struct TetheredEnding {
 tl::expected<TetheredEnding, Failure>
 run_tethered(std::span<const Input> inputs, const Options& options, Listener& listener,
              report::Journey* journey, protocol::Transport& transport, const TetherOptions& tether);
+
+/// Runs the first program here with what was recorded as its robot: prints, trace and report are
+/// those of the recorded run. Where the program asks for something else, it ends.
+tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs,
+                                                   const Options& options, Listener& listener,
+                                                   report::Journey* journey,
+                                                   const DriveRecording& recording);
 
 /// Which robot answers, where its name does not tell: of packets v1 or v2 and, of those, which by
 /// the commands that it knows. The failure says what helps.
