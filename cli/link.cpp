@@ -172,6 +172,11 @@ tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
   return budgets_for(*endpoint, options);
 }
 
+std::optional<spec::Robot> named_robot(const Context& context, const PortOptions& options) {
+  const auto endpoint = find_endpoint(context, options);
+  return endpoint ? named_robot(*endpoint) : std::nullopt;
+}
+
 namespace {
 
 void open_sim(Link& link, spec::Robot robot) {

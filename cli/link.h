@@ -82,6 +82,9 @@ struct Link {
 tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
                                                       const PortOptions& options);
 
+/// The robot that the name in the port tells, as `ble://SB-1A2B` does; nothing where none is there.
+std::optional<spec::Robot> named_robot(const Context& context, const PortOptions& options);
+
 /// Opens the link that the options name: a URL, a bare path or `@ball`. `on_step` hears of the
 /// steps of Bluetooth LE.
 tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options,

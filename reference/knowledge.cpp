@@ -51,7 +51,9 @@ std::vector<Section> knowledge() {
           responses_section(),
           streams_section(),
           firmwares_section(),
-          ball_section()};
+          ball_section(),
+          robots_section(),
+          robot_commands_section()};
 }
 
 std::string print_entry(const Section& section, const Entry& entry, Style style) {

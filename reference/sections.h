@@ -36,5 +36,7 @@ Section responses_section();
 Section streams_section();
 Section firmwares_section();
 Section ball_section();
+Section robots_section();
+Section robot_commands_section();
 
 } // namespace orb::reference

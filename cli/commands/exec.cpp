@@ -2,9 +2,11 @@
 #include "cli/commands.h"
 #include "cli/commands/monitor.h"
 #include "cli/json.h"
+#include "cli/newer_robot.h"
 #include "cli/terminal/interrupt.h"
 #include "protocol/describe.h"
 #include "protocol/payload.h"
+#include "protocol/payload_v2.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,8 +21,44 @@ struct Options {
   std::string name;
   std::vector<std::string> arguments;
   std::string format = "text";
+  std::string robot;
   bool monitor = false;
 };
+
+/// Sends a command of packets v2 and prints the answer. A robot that sleeps is woken for it.
+void run_v2(Context& context, const Options& options, const spec::RobotInfo& robot) {
+  const auto* row = spec::find_v2_command(options.name);
+  if (row == nullptr) {
+    std::vector<std::string_view> names;
+    for (const auto& one : spec::v2_commands)
+      if (spec::knows(robot, one))
+        names.push_back(one.name);
+    return fail(context,
+                {ExitCode::Usage,
+                 fmt::format("`{}` is not a command of the {}; {}", options.name, robot.title,
+                             did_you_mean(options.name, names, "`orb spec robots` lists them"))});
+  }
+  const auto data = protocol::encode_operands(row->command, options.arguments);
+  if (!data)
+    return fail(context, {ExitCode::Usage, data.error()});
+  with_newer_robot(context, options.port, robot,
+                   [&](run::TalkV2& talk) -> tl::expected<void, Failure> {
+                     const auto power = spec::info(spec::V2Command::Wake).did();
+                     if (row->did() > power)
+                       if (const auto awake = talk.request(spec::V2Command::Wake); !awake)
+                         return tl::unexpected(awake.error());
+                     const auto answer = talk.ask(row->command, *data);
+                     if (!answer)
+                       return tl::unexpected(answer.error());
+                     const auto bytes = encode(*answer);
+                     protocol::DecoderV2 decoder;
+                     decoder.feed(bytes);
+                     print_out(describe(*decoder.next()) + "\n");
+                     if (answer->error != 0)
+                       context.exit = ExitCode::Refused;
+                     return {};
+                   });
+}
 
 const spec::CommandInfo* find(const Context& context, const std::string& name) {
   if (const auto* row = spec::find_command(name))
@@ -119,6 +157,13 @@ ExitCode print_answer(const Context& context, const Options& options, spec::ApiC
 }
 
 void run(Context& context, const Options& options) {
+  if (const auto* robot = newer_robot(context, options.port, options.robot))
+    return run_v2(context, options, *robot);
+  if (spec::find_command(options.name) == nullptr && spec::find_v2_command(options.name) != nullptr)
+    return fail(context, {ExitCode::Usage,
+                          fmt::format("`{}` is a command of the newer robots; say which one "
+                                      "answers, as in `--robot mini`",
+                                      options.name)});
   const auto* row = find(context, options.name);
   if (row == nullptr) {
     context.exit = ExitCode::Usage;
@@ -150,12 +195,14 @@ void add_exec(CLI::App& app, Context& context) {
                               "orb exec --port /dev/rfcomm0 set-rgb-led 255 0 0\n"
                               "orb exec --port @red get-power-state\n"
                               "orb exec perform-level-1-diagnostics\n"
-                              "orb exec get-power-state --format json");
+                              "orb exec get-power-state --format json\n"
+                              "orb exec --port ble://SB-1A2B get-battery-voltage");
   auto options = std::make_shared<Options>();
   command->add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
       ->required();
   command->add_option("ARGS", options->arguments, "its operands");
   add_port_options(*command, options->port);
+  add_newer_robot_option(*command, options->robot);
   add_format_option(*command, options->format);
   command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
   command->callback([&context, options] { run(context, *options); });

@@ -2,7 +2,9 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/link.h"
+#include "cli/newer_robot.h"
 #include "protocol/payload.h"
+#include "protocol/payload_v2.h"
 #include "spec/firmware.h"
 
 #include <fmt/format.h>
@@ -149,7 +151,77 @@ void ask_for_programs(uploader::Session& session, std::string& text, Json& json)
     json["takes"]["macros"] = *macros;
 }
 
-void run(Context& context, const PortOptions& options, const std::string& format) {
+/// An answer of a robot of packets v2, for people; empty where it refuses.
+tl::expected<std::string, Failure> told(run::TalkV2& talk, spec::V2Command command) {
+  const auto answer = talk.ask(command);
+  if (!answer)
+    return tl::unexpected(answer.error());
+  const ByteView data = answer->data;
+  constexpr std::size_t version = 6;
+  if (answer->error != 0 || data.empty())
+    return std::string();
+  if (data.size() == version &&
+      (command == spec::V2Command::GetMainVersion || command == spec::V2Command::GetBootVersion))
+    return fmt::format("{}.{}.{}", read_u16(data, 0), read_u16(data, 2), read_u16(data, 4));
+  if (command == spec::V2Command::GetVoltage && data.size() == 2)
+    return fmt::format("{:.2f} V", read_u16(data, 0) / 100.0);
+  if (command == spec::V2Command::GetPercent)
+    return fmt::format("{} %", data[0]);
+  if (command == spec::V2Command::GetVoltageState)
+    return std::string(data[0] == 1   ? "ok"
+                       : data[0] == 2 ? "low"
+                       : data[0] == 3 ? "critical"
+                                      : "unknown");
+  if (command == spec::V2Command::GetBoardRevision)
+    return std::to_string(data[0]);
+  const auto text = as_text(data);
+  return to_printable(text.substr(0, text.find('\0')));
+}
+
+/// What a robot of packets v2 says of itself, a line or a key each.
+void run_v2(Context& context, const PortOptions& options, const std::string& format,
+            const spec::RobotInfo& robot) {
+  struct Line {
+    std::string_view word;
+    spec::V2Command command;
+  };
+  constexpr Line lines[] = {{"firmware", spec::V2Command::GetMainVersion},
+                            {"bootloader", spec::V2Command::GetBootVersion},
+                            {"board", spec::V2Command::GetBoardRevision},
+                            {"model", spec::V2Command::GetModel},
+                            {"address", spec::V2Command::GetMac},
+                            {"battery", spec::V2Command::GetVoltage},
+                            {"charge", spec::V2Command::GetPercent},
+                            {"power", spec::V2Command::GetVoltageState}};
+  with_newer_robot(context, options, robot, [&](run::TalkV2& talk) -> tl::expected<void, Failure> {
+    Json json{{"schema", "orb.info/1"}, {"port", options.port}, {"robot", robot.name}};
+    auto text = fmt::format("{:<11}{}\n{:<11}{}\n", "port", options.port, "robot", robot.title);
+    for (const auto& line : lines) {
+      if (!spec::knows(robot, spec::info(line.command)))
+        continue;
+      const auto said = told(talk, line.command);
+      if (!said)
+        return tl::unexpected(said.error());
+      if (said->empty())
+        continue;
+      text += fmt::format("{:<11}{}\n", line.word, *said);
+      json[std::string(line.word)] = *said;
+    }
+    text += fmt::format("{:<11}keeps none; `orb run PROGRAM --port {}` drives it from here\n",
+                        "programs", options.port);
+    json["programs"] = false;
+    if (format == "json")
+      print_json(json);
+    else
+      print_out(text);
+    return {};
+  });
+}
+
+void run(Context& context, const PortOptions& options, const std::string& format,
+         const std::string& robot) {
+  if (const auto* row = newer_robot(context, options, robot))
+    return run_v2(context, options, format, *row);
   with_ball(context, options,
             [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
               auto json = info_json(link.name, greeting);
@@ -183,12 +255,16 @@ void add_info(CLI::App& app, Context& context) {
   auto* command = add_command(app, "info", "show a ball's model, versions, battery and name",
                               "orb info --port /dev/rfcomm0\n"
                               "orb info --port rfcomm://68:86:E7:00:11:22\n"
-                              "orb info --port ble://SK-1A2B");
+                              "orb info --port ble://SK-1A2B\n"
+                              "orb info --port ble://SB-1A2B");
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
+  auto robot = std::make_shared<std::string>();
+  add_newer_robot_option(*command, *robot);
   auto format = std::make_shared<std::string>("text");
   add_format_option(*command, *format);
-  command->callback([&context, options, format] { run(context, *options, *format); });
+  command->callback(
+      [&context, options, format, robot] { run(context, *options, *format, *robot); });
 }
 
 } // namespace orb::cli

@@ -1,0 +1,98 @@
+// What the tables of the robots know, and of the packets of the newer ones.
+
+#include "reference/sections.h"
+#include "spec/robots.h"
+
+#include <fmt/format.h>
+
+namespace orb::reference {
+namespace {
+
+std::string_view type_name(spec::V2Type type) {
+  switch (type) {
+  case spec::V2Type::U8: return "u8";
+  case spec::V2Type::U16: return "u16";
+  case spec::V2Type::U32: return "u32";
+  case spec::V2Type::S16: return "s16";
+  case spec::V2Type::F32: return "f32";
+  case spec::V2Type::Text: return "text";
+  case spec::V2Type::Data: return "bytes";
+  }
+  return "";
+}
+
+template <class Fields>
+std::string fields_of(const Fields& fields, spec::V2Command command) {
+  std::string out;
+  for (const spec::V2Field& field : fields) {
+    if (field.command != command)
+      continue;
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", type_name(field.type), field.name);
+    if (field.least < field.most && field.type != spec::V2Type::Text &&
+        field.type != spec::V2Type::Data)
+      out += fmt::format(" {} to {}", field.least, field.most);
+  }
+  return out.empty() ? "none" : out;
+}
+
+std::string robots_with(const spec::V2CommandInfo& command) {
+  if (command.robots == spec::V2Robots::All)
+    return "all";
+  std::string out;
+  for (const auto& robot : spec::robots)
+    if (robot.packets == spec::Packets::V2 && spec::knows(robot, command))
+      out += fmt::format("{}{}", out.empty() ? "" : ", ", robot.title);
+  return out;
+}
+
+} // namespace
+
+Section robots_section() {
+  Section section{"robots", "Robots", "robot", {}};
+  for (const auto& row : spec::robots) {
+    const auto& ble = spec::info(row.ble);
+    const auto driving = spec::driving(row.robot);
+    Entry entry;
+    entry.name = row.name;
+    entry.aliases = {std::string(row.title)};
+    entry.summary =
+        fmt::format("{}, packets {}", row.title, row.packets == spec::Packets::V1 ? "v1" : "v2");
+    entry.facts.emplace_back("name over Bluetooth LE", row.robot == spec::Robot::Sphero
+                                                           ? "none"
+                                                           : fmt::format("{}…", ble.prefix));
+    entry.facts.emplace_back("a command each", fmt::format("{} ms at least", row.interval.count()));
+    entry.facts.emplace_back("processors", std::to_string(row.processors));
+    entry.facts.emplace_back("speed 60", fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 60)));
+    entry.facts.emplace_back("speed 255",
+                             fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 255)));
+    entry.facts.emplace_back("source", row.source);
+    section.entries.push_back(std::move(entry));
+  }
+  return section;
+}
+
+Section robot_commands_section() {
+  Section section{"robot-commands", "Commands of the newer robots", "command of packets v2", {}};
+  for (const auto& row : spec::v2_commands) {
+    Entry entry;
+    entry.name = row.name;
+    entry.aliases = {fmt::format("v2 {:02X}h {:02X}h", row.did(), row.cid())};
+    entry.summary = row.summary;
+    entry.facts.emplace_back("ids", fmt::format("{:02X}h {:02X}h", row.did(), row.cid()));
+    entry.facts.emplace_back("operands", fields_of(spec::v2_operands, row.command));
+    entry.facts.emplace_back("answer", fields_of(spec::v2_answers, row.command));
+    entry.facts.emplace_back("robots", robots_with(row));
+    if (row.processor != spec::V2Processor::Any)
+      entry.facts.emplace_back("of two processors", row.processor == spec::V2Processor::Primary
+                                                        ? "the first"
+                                                        : "the second");
+    if (!row.example.empty())
+      entry.facts.emplace_back("example",
+                               fmt::format("`orb encode --v2 {} {}`", row.name, row.example));
+    entry.facts.emplace_back("source", row.source);
+    section.entries.push_back(std::move(entry));
+  }
+  return section;
+}
+
+} // namespace orb::reference
