@@ -1,0 +1,226 @@
+// Programs that drive a robot over bad links, many times and in virtual time: is the robot ever
+// left driving, is what was said of the stop at the end the truth, and how soon does a program
+// react? Prints a section of docs/reliability.md; exits with 1 when a robot was left driving.
+//
+//   driven [--runs N]        N runs per robot and fault profile (default 100)
+//   driven --runs 1000 | tests/reliability/section docs/reliability.md
+
+#include "compiler/load.h"
+#include "protocol/link_faults.h"
+#include "run/tether/run_tethered.h"
+#include "vm/ball_transport.h"
+#include "vm/bluetooth.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace orb;
+
+constexpr std::string_view square =
+    "10 for I = 0 to 3\n20 RGB 60 * I,0,255\n30 goroll I * 90,60,1\n"
+    "40 delay 700\n50 goroll I * 90,0,0\n60 delay 300\n70 next I\n";
+
+constexpr auto profiles = std::to_array<std::string_view>(
+    {"", "drop=1%", "drop=10%", "dup=10%", "dup-request=10%", "flip=1%", "flip=10%",
+     "drop=4%,dup=2%,flip=4%", "delay=50..300ms,drop=1%", "split,flip=1%", "merge,stale=8,dup=1%",
+     "storm=30%,drop=1%,flip=1%", "cut@150", "cut-answer@1500"});
+
+constexpr auto robots = std::to_array<spec::Robot>(
+    {spec::Robot::Sphero, spec::Robot::Mini, spec::Robot::Bolt, spec::Robot::Rvr});
+
+struct Nobody final : run::Listener {
+  void on_event(Duration, const vm::Event&) override {}
+  void on_fault(Duration, const run::ProgramError&) override {}
+};
+
+/// A virtual robot behind a bad link.
+struct Robot {
+  Robot(spec::Robot which, std::string_view plan, std::uint64_t seed) {
+    vm::BallOptions options;
+    options.seed = seed;
+    options.loader = compiler::load;
+    options.driving = spec::driving(which);
+    ball = std::make_unique<vm::Ball>(options);
+    const auto packets = spec::info(which).packets;
+    constexpr vm::WireModel model{20ms};
+    std::unique_ptr<protocol::Transport> wire;
+    if (packets == spec::Packets::V2) {
+      v2 = std::make_unique<vm::RobotV2>(*ball, which, vm::bluetooth_address(seed));
+      wire = std::make_unique<vm::BallTransport>(*ball, *v2, model);
+    } else
+      wire = std::make_unique<vm::BallTransport>(*ball, model);
+    auto faults = *protocol::parse_fault_plan(plan.empty() ? "seed=1" : plan);
+    faults.seed = seed;
+    link = std::make_unique<protocol::FaultTransport>(std::move(wire), faults, packets);
+  }
+
+  bool drives() const { return ball->body().speed_setpoint() != 0; }
+  void live_on(Duration time) {
+    constexpr Duration glance = 10ms;
+    for (const auto end = ball->now() + time; ball->now() < end;) {
+      ball->advance_to(ball->now() + glance);
+      if (v2)
+        v2->run();
+    }
+  }
+
+  std::unique_ptr<vm::Ball> ball;
+  std::unique_ptr<vm::RobotV2> v2;
+  std::unique_ptr<protocol::Transport> link;
+};
+
+struct Tally {
+  int whole = 0;    ///< the program came to its end, the stop was acknowledged
+  int reported = 0; ///< the run says why it could not
+  int wrong = 0;    ///< the stop was said to be acknowledged, and the robot drives
+  int left = 0;     ///< it drives though nobody has said anything for 2.1 s
+  Duration longest{};
+};
+
+std::vector<run::Input> inputs_of(std::string_view text) {
+  structured::NoFiles files;
+  std::vector<run::Input> inputs;
+  inputs.push_back(
+      *run::read_input("square.bas", std::string(text), {}, {}, run::Lint::Off, files));
+  return inputs;
+}
+
+void run_once(Tally& tally, spec::Robot which, std::string_view plan, std::uint64_t seed) {
+  static const auto inputs = inputs_of(square);
+  Robot robot(which, plan, seed);
+  Nobody listener;
+  run::TetherOptions options;
+  options.robot = which;
+  const auto start = robot.ball->now();
+  const auto driven = run::run_tethered(inputs, {}, listener, nullptr, *robot.link, options);
+  tally.longest = std::max(tally.longest, robot.ball->now() - start);
+  const bool stopped = driven && driven->ending.robot_stopped.value_or(false);
+  if (stopped && robot.drives())
+    ++tally.wrong;
+  if (stopped && !driven->failure)
+    ++tally.whole;
+  else
+    ++tally.reported;
+  robot.live_on(2100ms); // by itself it stops 2 s after the last command
+  if (robot.drives())
+    ++tally.left;
+}
+
+/// When the last sample came before the stop that answers it left.
+struct Watch final : protocol::Transport {
+  explicit Watch(protocol::Transport& link)
+      : inner(link), wire(run::make_wire(spec::Robot::Bolt)) {}
+  Instant now() const override { return inner.now(); }
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    if (heard && !answered && is_stop(bytes))
+      answered = now();
+    return inner.write(bytes);
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    auto bytes = inner.read(deadline);
+    if (bytes)
+      wire->feed(*bytes);
+    while (const auto said = wire->next())
+      if (std::holds_alternative<vm::Sample>(said->what) && !answered)
+        heard = now();
+    return bytes;
+  }
+  static bool is_stop(ByteView bytes) {
+    protocol::DecoderV2 reader;
+    reader.feed(bytes);
+    const auto item = reader.next();
+    return item && item->packet.did == 0x16 && item->packet.cid == 0x07 &&
+           item->packet.data.front() == 0;
+  }
+
+  protocol::Transport& inner;
+  std::unique_ptr<run::RobotWire> wire;
+  std::optional<Instant> heard;
+  std::optional<Instant> answered;
+};
+
+double milliseconds(Duration time) {
+  return static_cast<double>(time.count()) / 1e6;
+}
+
+/// The times from a sample to the command that answers it, of many runs that begin at odd moments.
+std::vector<double> reactions(int runs) {
+  std::vector<double> all;
+  for (int i = 1; i <= runs; ++i) {
+    const auto inputs = inputs_of(fmt::format(
+        "10 delay {}\n20 goroll 0,60,1\n30 if ypos > 20 then goto 50\n40 goto 30\n50 goroll 0,0,0\n"
+        "60 delay 500\n",
+        i % 97 + 1));
+    Robot robot(spec::Robot::Bolt, "", static_cast<std::uint64_t>(i));
+    Watch watch(*robot.link);
+    Nobody listener;
+    run::TetherOptions options;
+    options.robot = spec::Robot::Bolt;
+    if (run::run_tethered(inputs, {}, listener, nullptr, watch, options) && watch.answered)
+      all.push_back(milliseconds(*watch.answered - *watch.heard));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::string section(int runs, bool& bad) {
+  std::string page =
+      fmt::format("## Programs that drive a robot\n\n"
+                  "{} runs each of a square (`orb run square.bas --port …`) on a virtual robot; "
+                  "the link loses, damages, doubles,\n"
+                  "delays and cuts packets as the profile says. *Whole*: the program came to its "
+                  "end and the robot acknowledged the\n"
+                  "stop. *Reported*: it could not, and the run says why. *Wrong*: the stop was "
+                  "said to be acknowledged, and the robot\n"
+                  "drives. *Left driving*: it drives though for 2.1 s nobody has said anything. "
+                  "`driven --runs 1000` repeats it.\n\n"
+                  "| profile | robot | whole | reported | wrong | left driving | longest |\n"
+                  "|---|---|--:|--:|--:|--:|--:|\n",
+                  runs);
+  for (const auto profile : profiles)
+    for (const auto robot : robots) {
+      Tally tally;
+      for (int i = 1; i <= runs; ++i)
+        run_once(tally, robot, profile, static_cast<std::uint64_t>(i));
+      bad |= tally.wrong + tally.left > 0;
+      page += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} s |\n",
+                          profile.empty() ? "none" : fmt::format("`{}`", profile),
+                          spec::info(robot).title, tally.whole, tally.reported, tally.wrong,
+                          tally.left, milliseconds(tally.longest) / 1000);
+    }
+  const auto times = reactions(runs);
+  page += "\nFrom the arrival of a sample to the command of a program that reacts to it, in the "
+          "link's time "
+          "(a BOLT, which\ntakes a command every 75 ms):\n\n| within | share |\n|---|--:|\n";
+  for (const double limit : {1.0, 2.0, 3.0, 5.0, 20.0, 75.0})
+    page +=
+        fmt::format("| {} ms | {:.1f} % |\n", limit,
+                    100.0 *
+                        static_cast<double>(std::upper_bound(times.begin(), times.end(), limit) -
+                                            times.begin()) /
+                        static_cast<double>(std::max<std::size_t>(times.size(), 1)));
+  return page + "\n";
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int runs = 100;
+  if (argc == 3 && std::string_view(argv[1]) == "--runs") {
+    const std::string_view value = argv[2];
+    std::from_chars(value.data(), value.data() + value.size(), runs);
+  }
+  bool bad = false;
+  std::fputs(section(runs, bad).c_str(), stdout);
+  if (bad)
+    std::fputs("FAILED: a robot was left driving\n", stderr);
+  return bad ? 1 : 0;
+}
