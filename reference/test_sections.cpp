@@ -57,10 +57,18 @@ Section test_lines_section() {
     auto entry = entry_of(row, "");
     if (row.operands.starts_with("WHAT"))
       entry.facts.emplace_back("what", words_of_expectations());
+    if (&row == &testing::info(testing::LineWord::For)) {
+      const auto& lasts = testing::info(testing::JoinWord::Lasts);
+      entry.facts.emplace_back("after a state", lasts.summary);
+      entry.facts.emplace_back("then", lasts.example);
+    }
     section.entries.push_back(std::move(entry));
   }
   for (const auto& row : testing::when_words)
     section.entries.push_back(entry_of(row, "expect WHAT "));
+  for (const auto& row : testing::join_words)
+    if (&row != &testing::info(testing::JoinWord::Lasts)) // `for` is there as a line
+      section.entries.push_back(entry_of(row, "expect WHAT "));
   return section;
 }
 

@@ -2,11 +2,9 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
-#include "base/utf8.h"
+#include "testing/sighting.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -16,133 +14,6 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Lines that are kept to find the nearest among; a longer list helps nobody.
 constexpr std::size_t most_kept = 50;
-constexpr std::size_t longest_quoted = 80;
-
-/// A number without zeros at its end.
-std::string plain(double value, int decimals) {
-  auto text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.'))
-      text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
-
-/// A number with one decimal, or as many as show that it is greater than `bound`.
-std::string above(double value, double bound) {
-  for (int decimals = 1; decimals < 6; ++decimals) {
-    auto text = fmt::format("{:.{}f}", value, decimals);
-    if (std::stod(text) > bound || value <= bound)
-      return text;
-  }
-  return fmt::format("{}", value);
-}
-
-std::string quote(std::string_view text) {
-  const auto shown = to_printable(text.substr(0, longest_quoted));
-  return fmt::format("\"{}{}\"", shown, text.size() <= longest_quoted ? "" : "…");
-}
-
-std::string color_words(vm::Color color) {
-  for (const auto& row : spec::led_colours)
-    if (color == vm::Color{row.red, row.green, row.blue})
-      return std::string(row.name);
-  return fmt::format("#{:02X}{:02X}{:02X}", color.red, color.green, color.blue);
-}
-
-double difference(vm::Color a, vm::Color b) {
-  return std::max(
-      {std::abs(a.red - b.red), std::abs(a.green - b.green), std::abs(a.blue - b.blue)});
-}
-
-double outside(double value, double least, double most) {
-  return std::max({least - value, value - most, 0.0});
-}
-
-/// The angle between two headings.
-double turn(double from, double to) {
-  const double way = std::abs(std::fmod(from - to, double{spec::ball::full_circle}));
-  return std::min(way, spec::ball::full_circle - way);
-}
-
-/// How far a sighting is from what is expected of it; 0 where it is met.
-double off(const Expectation& one, const Meaning& meaning, const Sighting& s) {
-  switch (one.word) {
-  case Word::Near: return std::max(0.0, std::hypot(s.x - one.x, s.y - one.y) - one.by);
-  case Word::Beyond:
-    switch (one.side) {
-    case Side::AboveX: return s.x > one.most ? 0 : std::max(one.most - s.x, 1e-12);
-    case Side::BelowX: return s.x < one.most ? 0 : std::max(s.x - one.most, 1e-12);
-    case Side::AboveY: return s.y > one.most ? 0 : std::max(one.most - s.y, 1e-12);
-    case Side::BelowY: return s.y < one.most ? 0 : std::max(s.y - one.most, 1e-12);
-    }
-    return 0;
-  case Word::Inside:
-  case Word::Stay: return meaning.zone->distance_cm({s.x, s.y});
-  case Word::Heading: return std::max(0.0, turn(s.heading, one.most) - one.by);
-  case Word::Speed: return outside(s.speed, one.least, one.most);
-  case Word::Moving: return s.moving ? 0 : 1;
-  case Word::Resting: return s.moving ? 1 + s.speed : 0;
-  case Word::Color: {
-    double nearest = infinite;
-    for (const auto color : one.colors)
-      nearest = std::min(nearest, difference(s.color, color));
-    return std::max(0.0, nearest - one.by);
-  }
-  case Word::BackLed: return outside(s.back, one.least, one.most);
-  case Word::Asleep: return s.asleep ? 0 : 1;
-  case Word::Print:
-  case Word::Prints:
-  case Word::Distance:
-  case Word::Marker:
-  case Word::Collision:
-  case Word::Error:
-  case Word::End:
-  case Word::Lines:
-  case Word::Bytes:
-  case Word::Variable: break;
-  }
-  return 0;
-}
-
-/// A sighting in the words of what is expected of it.
-std::string describe(const Expectation& one, const Meaning& meaning, const Sighting& s) {
-  switch (one.word) {
-  case Word::Near:
-    return fmt::format("{} cm from {},{}", above(std::hypot(s.x - one.x, s.y - one.y), one.by),
-                       plain(one.x, 2), plain(one.y, 2));
-  case Word::Beyond: {
-    const bool x = one.side == Side::AboveX || one.side == Side::BelowX;
-    return fmt::format("{} {:.1f}", x ? 'x' : 'y', x ? s.x : s.y);
-  }
-  case Word::Inside:
-  case Word::Stay: {
-    const double away = meaning.zone->distance_cm({s.x, s.y});
-    return away == 0 ? fmt::format("in {}", one.name.text)
-                     : fmt::format("{} cm from {}", above(away, 0), one.name.text);
-  }
-  case Word::Heading: return fmt::format("heading {}", plain(s.heading, 1));
-  case Word::Speed: return fmt::format("{:.1f} cm/s", s.speed);
-  case Word::Moving:
-  case Word::Resting:
-    return s.moving ? fmt::format("moving at {:.1f} cm/s", s.speed) : std::string("resting");
-  case Word::Color: return color_words(s.color);
-  case Word::BackLed: return fmt::format("back LED {}", s.back);
-  case Word::Asleep: return s.asleep ? "asleep" : "awake";
-  case Word::Print:
-  case Word::Prints:
-  case Word::Distance:
-  case Word::Marker:
-  case Word::Collision:
-  case Word::Error:
-  case Word::End:
-  case Word::Lines:
-  case Word::Bytes:
-  case Word::Variable: break;
-  }
-  return {};
-}
 
 /// Words that are true or not at a moment.
 class StateJudge final : public Judge {
@@ -150,30 +21,29 @@ public:
   StateJudge(const Expectation& one, const Meaning& meaning) : one_(one), meaning_(meaning) {}
 
   void see(const Moment& from, Duration to, const Sighting& s) override {
-    using Kind = When::Kind;
     if (certain())
       return;
-    const auto& when = one_.when;
-    switch (when.kind) {
-    case Kind::AnyTime: look_for(from, s, never_ends); break;
-    case Kind::Within: look_for(from, s, when.to); break;
-    case Kind::At:
-      if (from.t <= when.to && when.to < to)
-        decide_at(Moment{when.to, from.running}, s, fmt::format("at {}", words(when.to)));
-      break;
-    case Kind::AtEnd:
-      if (to == never_ends)
-        decide_at(from, s, fmt::format("at the end, {}", words(from.t)));
-      break;
-    case Kind::During:
-      if (from.t <= when.to && to > when.from && to > from.t)
-        check_during({std::max(from.t, when.from), from.running}, s);
-      if (!certain() && to > when.to)
-        meet();
-      break;
+    const bool is_true = off(one_, meaning_, s) == 0;
+    if (one_.lasts == Duration{})
+      return look(from, to, s, is_true);
+    if (!is_true) {
+      since_.reset();
+      return look(from, to, s, false);
     }
-    if (!certain() && when.kind == Kind::Within && to > when.to)
-      conclude();
+    if (!since_)
+      since_ = from.t;
+    const auto long_enough = *since_ + one_.lasts;
+    if (to != never_ends && to - *since_ > longest_) {
+      longest_ = to - *since_;
+      longest_from_ = {*since_, from.running};
+    }
+    // What comes after the end is no time in which it lasts.
+    if (long_enough > to || (to == never_ends && one_.when.kind == When::Kind::AtEnd))
+      return look(from, to, s, long_enough <= from.t);
+    if (long_enough > from.t)
+      look(from, long_enough, s, false);
+    if (!certain())
+      look({std::max(from.t, long_enough), from.running}, to, s, true);
   }
 
   void on_end(const Moment&, const Outcome&) override {
@@ -184,46 +54,83 @@ public:
   static constexpr Duration never_ends = Duration::max();
 
 private:
+  /// It was true, or not, from `from.t` until `to`.
+  void look(const Moment& from, Duration to, const Sighting& s, bool is_true) {
+    using Kind = When::Kind;
+    const auto& when = one_.when;
+    switch (when.kind) {
+    case Kind::AnyTime: look_for(from, s, never_ends, is_true); break;
+    case Kind::Within: look_for(from, s, when.to, is_true); break;
+    case Kind::At:
+      if (from.t <= when.to && when.to < to)
+        decide_at(Moment{when.to, from.running}, s, fmt::format("at {}", words(when.to)), is_true);
+      break;
+    case Kind::AtEnd:
+      if (to == never_ends)
+        decide_at(from, s, fmt::format("at the end, {}", words(from.t)), is_true);
+      break;
+    case Kind::During:
+      if (from.t <= when.to && to > when.from && to > from.t)
+        check_during({std::max(from.t, when.from), from.running}, s, is_true);
+      if (!certain() && to > when.to)
+        meet();
+      break;
+    }
+    if (!certain() && when.kind == Kind::Within && to > when.to)
+      conclude();
+  }
+
   /// A moment at which it is true, until `last`.
-  void look_for(const Moment& at, const Sighting& s, Duration last) {
+  void look_for(const Moment& at, const Sighting& s, Duration last, bool is_true) {
     if (at.t > last)
       return;
-    const double away = off(one_, meaning_, s);
-    if (away == 0) {
+    if (is_true) {
       if (one_.never)
-        miss(fmt::format("{} at {}", describe(one_, meaning_, s), words(at.t)), at);
+        miss(fmt::format("{} at {}", seen_of(s, at.t), words(at.t)), at);
       else
-        meet();
-    } else if (away < nearest_) {
+        meet(at);
+    } else if (const double away = off(one_, meaning_, s); away < nearest_ || best_.empty()) {
       nearest_ = away;
-      best_ = s;
+      best_ = describe(one_, meaning_, s);
       best_at_ = at;
     }
   }
 
-  void decide_at(const Moment& at, const Sighting& s, std::string_view moment) {
-    if ((off(one_, meaning_, s) == 0) != one_.never)
-      return meet();
-    miss(fmt::format("{} {}", describe(one_, meaning_, s), moment), at);
+  void decide_at(const Moment& at, const Sighting& s, std::string_view moment, bool is_true) {
+    if (is_true != one_.never)
+      return meet(at);
+    miss(fmt::format("{} {}", seen_of(s, at.t), moment), at);
   }
 
-  void check_during(const Moment& at, const Sighting& s) {
-    if ((off(one_, meaning_, s) == 0) == one_.never)
-      miss(fmt::format("{} at {}", describe(one_, meaning_, s), words(at.t)), at);
+  void check_during(const Moment& at, const Sighting& s, bool is_true) {
+    if (is_true == one_.never)
+      miss(fmt::format("{} at {}", seen_of(s, at.t), words(at.t)), at);
+  }
+
+  /// What was seen, and of what has to last since when.
+  std::string seen_of(const Sighting& s, Duration t) const {
+    const auto text = describe(one_, meaning_, s);
+    return since_ ? fmt::format("{} for {}", text, words(t - *since_)) : text;
   }
 
   /// It was true at no moment.
   void conclude() {
     if (one_.never || one_.when.kind == When::Kind::During)
       return meet();
-    miss(fmt::format("nearest {} at {}", describe(one_, meaning_, best_), words(best_at_.t)),
-         best_at_);
+    if (longest_ > Duration{} && nearest_ == 0)
+      return miss(
+          fmt::format("{} for {} only, from {} on", best_, words(longest_), words(longest_from_.t)),
+          longest_from_);
+    miss(fmt::format("nearest {} at {}", best_, words(best_at_.t)), best_at_);
   }
 
   const Expectation& one_;
   const Meaning& meaning_;
+  std::optional<Duration> since_; ///< where it has to last: true without a break from here on
+  Duration longest_{};
+  Moment longest_from_;
   double nearest_ = infinite;
-  Sighting best_;
+  std::string best_;
   Moment best_at_;
 };
 
@@ -256,6 +163,8 @@ private:
 class EventJudge final : public Judge {
 public:
   EventJudge(const Expectation& one, const Meaning& meaning) : one_(one), meaning_(meaning) {}
+
+  void see(const Moment&, Duration, const Sighting& s) override { sighting_ = s; }
 
   void on_print(const Moment& at, const PrintedLine& line) override {
     if (one_.word != Word::Print || certain() || !in_time(at.t))
@@ -327,6 +236,11 @@ private:
   }
 
   void happen(const Moment& at, std::string text) {
+    if (!one_.joined.empty() && off(one_, meaning_, sighting_) > 0) {
+      if (!apart_)
+        apart_ = {fmt::format("{} while {}", text, describe(one_, meaning_, sighting_)), at};
+      return;
+    }
     ++count_;
     if (one_.never)
       return miss(fmt::format("{} at {}", text, words(at.t)), at);
@@ -336,7 +250,7 @@ private:
     if (count_ > one_.times.most)
       miss(count_words(), at);
     else if (count_ >= one_.times.least && one_.times.most == UINT64_MAX)
-      meet();
+      meet(at);
   }
 
   void near(const Moment& at, std::string_view text) {
@@ -360,6 +274,8 @@ private:
       return meet();
     if (count_ > 0)
       return miss(count_words(), last_);
+    if (apart_)
+      return miss(fmt::format("{} at {}", apart_->text, words(apart_->at.t)), apart_->at);
     const Kept* best = nearest();
     if (best == nullptr)
       return miss(nothing() + until());
@@ -415,6 +331,8 @@ private:
   std::uint64_t count_ = 0;
   std::vector<std::string> listed_;
   std::vector<Kept> kept_;
+  Sighting sighting_;         ///< what was seen last
+  std::optional<Kept> apart_; ///< it happened while what is joined was not true
   std::optional<Moment> last_;
 };
 
@@ -515,6 +433,8 @@ public:
 std::unique_ptr<Judge> make_judge(const Expectation& one, const Meaning& meaning) {
   if (!meaning.problem.empty())
     return std::make_unique<ProblemJudge>(meaning);
+  if (one.order != Order::Free)
+    return make_order_judge(one, meaning);
   switch (info(one.word).kind) {
   case Kind::State: return std::make_unique<StateJudge>(one, meaning);
   case Kind::Stay: return std::make_unique<StayJudge>(one, meaning);
@@ -530,7 +450,8 @@ bool watches_steps(const Expectation& one) {
   const auto kind = info(one.word).kind;
   return (kind == Kind::State && one.word != Word::Color && one.word != Word::BackLed &&
           one.word != Word::Asleep) ||
-         kind == Kind::Stay;
+         kind == Kind::Stay || std::any_of(one.joined.begin(), one.joined.end(), watches_steps) ||
+         (one.other && watches_steps(*one.other));
 }
 
 std::string words(Duration t) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 // Judges: one for each expectation of a run. They are told what the ball is like, what happens and
 // how it ended, and keep their verdict, whether it is certain already, and how near it was.
@@ -21,6 +22,8 @@ struct Meaning {
   std::optional<std::size_t> variable; ///< of vm::Machine::variable()
   std::size_t packed_bytes = 0;        ///< of the program's image
   std::string problem; ///< why it can never be met: the program has no such name; else empty
+  std::vector<Meaning> joined;          ///< of Expectation::joined
+  std::shared_ptr<const Meaning> other; ///< of Expectation::other
 };
 
 /// What can be seen of a ball, in the world in which it woke up at 0,0 facing +Y.
@@ -30,6 +33,8 @@ struct Sighting {
   double heading = 0;
   double speed = 0;
   bool moving = false;
+  bool has_moved = false; ///< now or before
+  bool over = false;      ///< nothing runs any more
   bool asleep = false;
   vm::Color color;
   int back = 0;
@@ -83,11 +88,14 @@ public:
   bool certain() const { return verdict_ != Verdict::Open; }
   /// What was seen instead, for an expectation that was missed.
   const std::string& seen() const { return seen_; }
-  /// And where in the run; nothing where that is no one moment.
+  /// Where in the run it was met or missed; nothing where that is no one moment.
   const std::optional<Moment>& moment() const { return moment_; }
 
 protected:
-  void meet() { verdict_ = Verdict::Met; }
+  void meet(std::optional<Moment> moment = std::nullopt) {
+    verdict_ = Verdict::Met;
+    moment_ = moment;
+  }
   void miss(std::string seen, std::optional<Moment> moment = std::nullopt) {
     verdict_ = Verdict::Missed;
     seen_ = std::move(seen);
@@ -102,6 +110,9 @@ private:
 
 /// The judge of an expectation; both arguments must outlive it.
 std::unique_ptr<Judge> make_judge(const Expectation& expectation, const Meaning& meaning);
+
+/// The judge of an expectation that is After or Before another.
+std::unique_ptr<Judge> make_order_judge(const Expectation& expectation, const Meaning& meaning);
 
 /// Whether its judge looks at where the ball is at every step.
 bool watches_steps(const Expectation& expectation);

@@ -63,6 +63,7 @@ public:
     if (!line_.empty())
       print_line(ending.lasted);
     move_on(std::max(ending.seen_to, since_));
+    sighting_.over = ending.reason != run::Reason::TimeLimit && ending.reason != run::Reason::Input;
     const auto at = moment(since_, 0);
     for (const auto& judge : judges_)
       judge->see(at, Duration::max(), sighting_);
@@ -123,6 +124,7 @@ private:
     sighting_.heading = pose.heading_deg;
     sighting_.speed = pose.speed_cm_s;
     sighting_.moving = !body.stopped();
+    sighting_.has_moved = sighting_.has_moved || sighting_.moving;
   }
 
   /// Tells what was seen until `t`.
@@ -141,6 +143,9 @@ private:
     uncertain_states_ = open;
     since_ = t;
     running_ = running();
+    const bool runs = ball_->basic_running() || ball_->macros().running();
+    started_ = started_ || runs;
+    sighting_.over = started_ && !runs;
     if (sighting_.asleep && t > slept_at_)
       sighting_.asleep = ball_->asleep();
   }
@@ -181,6 +186,7 @@ private:
   bool keeps_on_;
   bool enough_ = false;
   bool uncertain_states_ = true;
+  bool started_ = false; ///< something has run
   Sighting sighting_;
   Duration since_{};
   Running running_;

@@ -60,6 +60,7 @@ public:
     return at->second;
   }
   std::string obstacle(const std::string& path) override { return files_.obstacle(path); }
+  std::string identity(const std::string& path) override { return files_.identity(path); }
 
 private:
   structured::Files& files_;
@@ -269,7 +270,8 @@ void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
   found.help = meant(name, known, "zone");
 }
 
-Lookup look_up(const Expectation& one, const SuiteFile& file, const Prepared& program) {
+/// One word of an expectation.
+Lookup look_up_alone(const Expectation& one, const SuiteFile& file, const Prepared& program) {
   Lookup found;
   found.meaning.packed_bytes = program.packed_bytes;
   if (one.word == Word::Inside || one.word == Word::Stay)
@@ -279,6 +281,32 @@ Lookup look_up(const Expectation& one, const SuiteFile& file, const Prepared& pr
   else if (one.word == Word::Variable)
     find_variable(one, program, found);
   return found;
+}
+
+/// All that an expectation speaks of: itself, what is joined, and the other one.
+std::vector<const Expectation*> parts_of(const Expectation& one) {
+  std::vector<const Expectation*> parts{&one};
+  for (const auto& other : one.joined)
+    parts.push_back(&other);
+  if (one.other)
+    for (const auto* part : parts_of(*one.other))
+      parts.push_back(part);
+  return parts;
+}
+
+Meaning look_up(const Expectation& one, const SuiteFile& file, const Prepared& program) {
+  auto meaning = look_up_alone(one, file, program).meaning;
+  const auto add_problem = [&](const Meaning& part) {
+    if (meaning.problem.empty())
+      meaning.problem = part.problem;
+  };
+  for (const auto& part : one.joined)
+    add_problem(meaning.joined.emplace_back(look_up(part, file, program)));
+  if (one.other) {
+    meaning.other = std::make_shared<const Meaning>(look_up(*one.other, file, program));
+    add_problem(*meaning.other);
+  }
+  return meaning;
 }
 
 /// Says so where a test does not run the very program that is flashed.
@@ -302,16 +330,17 @@ void check_names(SuiteFile& file, const Suite& suite, Reader& reader,
         named ? &suite.programs[reader.program_of(test, *named, file)] : nullptr;
     if (own != nullptr && own->problem.empty())
       tell_of_kept(file, test, *own);
-    for (const auto& one : test.expectations) {
-      const bool of_course = one.word == Word::Inside || one.word == Word::Stay;
-      if (of_course ? file.file.course && !file.course // told of the course already
-                    : own == nullptr || !own->problem.empty())
-        continue;
-      const auto found = look_up(one, file, own == nullptr ? none : *own);
-      if (found.rule != nullptr)
-        file.file.diagnostics.push_back(
-            finding(*found.rule, one.name.span, found.meaning.problem, found.help));
-    }
+    for (const auto& whole : test.expectations)
+      for (const auto* one : parts_of(whole)) {
+        const bool of_course = one->word == Word::Inside || one->word == Word::Stay;
+        if (of_course ? file.file.course && !file.course // told of the course already
+                      : own == nullptr || !own->problem.empty())
+          continue;
+        const auto found = look_up_alone(*one, file, own == nullptr ? none : *own);
+        if (found.rule != nullptr)
+          file.file.diagnostics.push_back(
+              finding(*found.rule, one->name.span, found.meaning.problem, found.help));
+      }
   }
   sort_by_place(file.file.diagnostics);
 }
@@ -361,7 +390,7 @@ void add_groups(Suite& suite, Reader& reader, std::size_t index, const SuiteOpti
       const auto program = reader.program_of(test, given, file);
       Group group{index, t, program, options.seeds.value_or(test.seeds), suite.cases, {}};
       for (const auto& one : test.expectations)
-        group.meanings.push_back(look_up(one, file, suite.programs[program]).meaning);
+        group.meanings.push_back(look_up(one, file, suite.programs[program]));
       suite.cases += group.seeds.count();
       suite.groups.push_back(std::move(group));
     }

@@ -71,6 +71,8 @@ bool wants_zone(const Spot& spot) {
     if (spot.before.size() == 1)
       if (const auto* row = row_of(testing::line_words, spot.before[0]))
         return row->operands;
+    if (spot.before.back() == testing::info(testing::LineWord::Reach).word)
+      return testing::info(testing::LineWord::Reach).operands;
     if (spot.before.size() == 2 && is_expectation(spot.before[0]))
       if (const auto* row = row_of(testing::expectations, spot.before[1]))
         return row->operands;
@@ -95,8 +97,12 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
   } else if (spot.before.back() == testing::info(testing::Word::Color).word) {
     for (const auto& row : spec::led_colours)
       out.items.push_back({std::string(row.name), SuggestionKind::Value, "", ""});
+  } else if (const auto* join = row_of(testing::join_words, spot.before.back());
+             join != nullptr && join->operands != "TIME") {
+    suggest_rows(out, testing::expectations, reference::expectations_section(), test_language_id);
   } else if (is_expectation(spot.before[0]) || spot.before[0] == "reach") {
     suggest_rows(out, testing::when_words, reference::test_lines_section(), test_language_id);
+    suggest_rows(out, testing::join_words, reference::test_lines_section(), test_language_id);
   } else if (spot.before.size() == 1) {
     suggest_values(out, spot.before[0]);
   }

@@ -16,7 +16,8 @@ constexpr auto joints =
 void color_test_word(Palette& palette, Span span, std::string_view text, bool is_first) {
   const bool joins = std::find(joints.begin(), joints.end(), text) != joints.end();
   if ((is_first && row_of(testing::line_words, text) != nullptr) ||
-      row_of(testing::when_words, text) != nullptr || joins)
+      row_of(testing::when_words, text) != nullptr ||
+      row_of(testing::join_words, text) != nullptr || joins)
     palette.add(span, Color::Keyword);
   else if (row_of(testing::expectations, text) != nullptr ||
            row_of(vm::stimulus_words, text) != nullptr)

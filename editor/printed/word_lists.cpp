@@ -85,6 +85,9 @@ Words test_words() {
   auto words = words_of(testing::line_words);
   for (const auto word : words_of(testing::when_words))
     words.push_back(word);
+  for (const auto word : words_of(testing::join_words))
+    if (std::find(words.begin(), words.end(), word) == words.end()) // `for` begins a line, too
+      words.push_back(word);
   for (const auto* word : {"by", "to", "times", "points", "end", "macro"})
     words.emplace_back(word);
   return words;

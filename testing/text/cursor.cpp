@@ -88,6 +88,15 @@ std::string_view Cursor::color_word() {
   return is_color ? rest : peek();
 }
 
+Span Cursor::hash_span() {
+  const auto from = offset();
+  if (peek_char() != '#')
+    return {from, from};
+  const auto end = std::find_if(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.end(),
+                                [](char c) { return is_blank(c); });
+  return {from, begin_ + static_cast<std::uint32_t>(end - text_.begin())};
+}
+
 bool Cursor::take(char wanted) {
   if (peek_char() != wanted)
     return false;

@@ -34,6 +34,11 @@ public:
   std::string_view word();
   /// What stands here up to the next blank, where `#` and six hexadecimal digits are a colour.
   std::string_view color_word();
+  /// From a `#` that stands here up to the next blank; else empty.
+  Span hash_span();
+  std::string_view text_of(Span span) const {
+    return text_.substr(span.begin - begin_, span.size());
+  }
   /// Takes so many bytes.
   void skip(std::size_t bytes) { at_ += bytes; }
   /// Takes the character, or tells that it is missing.

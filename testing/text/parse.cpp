@@ -30,6 +30,7 @@ const Row* find_word(std::span<const Row> rows, std::string_view word) {
 struct Said {
   Span when{};  ///< empty: nothing
   Span times{}; ///< empty: nothing
+  Span order{}; ///< empty: nothing
 };
 
 class FileReader {
@@ -226,9 +227,15 @@ private:
                   cursor.at_end() ? std::string("the seeds are missing")
                                   : fmt::format("`{}` are not seeds", cursor.peek()),
                   "write them like `1..20`");
-    else
+    else if (found->count() > most_seeds)
+      cursor.fail(rules::Value, fmt::format("{} seeds are too many", found->count()),
+                  fmt::format("a test takes up to {}; write `{}..{}`", most_seeds, found->first,
+                              found->first + most_seeds - 1));
+    else {
       cursor.word();
-    return found;
+      return found;
+    }
+    return std::nullopt;
   }
 
   static std::optional<Duration> read_bound(Cursor& cursor) {
@@ -288,8 +295,9 @@ private:
     }
     bool speaks_of_errors = false;
     for (const auto& one : test.expectations) {
-      speaks_of_errors =
-          speaks_of_errors || (one.word == Word::Error && (!one.never || !one.error));
+      speaks_of_errors = speaks_of_errors ||
+                         (one.word == Word::Error && (!one.never || !one.error)) ||
+                         (one.other && one.other->word == Word::Error);
       if ((one.when.kind == When::Kind::Within || one.when.kind == When::Kind::At ||
            one.when.kind == When::Kind::During) &&
           one.when.to > test.bound)
@@ -321,15 +329,8 @@ private:
                             fmt::format("what can be expected: {}", words_of(expectations)));
     const auto word_span = cursor.peek_span();
     const auto word = std::string(cursor.peek());
-    if (begins_variable(cursor)) {
-      one.word = Word::Variable;
-    } else {
-      const auto* row = find_word<ExpectationInfo>(expectations, word);
-      if (row == nullptr || row == &info(Word::Variable))
-        return unknown_expectation(cursor, word);
-      one.word = static_cast<Word>(row - expectations.data());
-      cursor.word();
-    }
+    if (!read_what(cursor, one))
+      return;
     if (never && info(one.word).never == Never::No)
       return cursor.fail_at(word_span, rules::When, fmt::format("`never {}` has no meaning", word),
                             fmt::format("`{}` takes only `expect`", word));
@@ -337,7 +338,26 @@ private:
     finish(cursor, one, span, line);
   }
 
-  void unknown_expectation(Cursor& cursor, std::string_view word) {
+  /// The word of what is expected; false, and a finding, where it is none.
+  static bool read_what(Cursor& cursor, Expectation& one) {
+    if (begins_variable(cursor)) {
+      one.word = Word::Variable;
+      return true;
+    }
+    const auto word = std::string(cursor.peek());
+    const auto* row = find_word<ExpectationInfo>(expectations, word);
+    if (word == info(LineWord::Reach).word)
+      row = &info(Word::Inside);
+    if (row == nullptr || row == &info(Word::Variable)) {
+      unknown_expectation(cursor, word);
+      return false;
+    }
+    one.word = static_cast<Word>(row - expectations.data());
+    cursor.word();
+    return true;
+  }
+
+  static void unknown_expectation(Cursor& cursor, std::string_view word) {
     std::vector<std::string_view> known;
     for (const auto& row : expectations)
       if (&row != &info(Word::Variable))
@@ -480,6 +500,8 @@ private:
       if (const auto rgb = structured::find_colour(one.text))
         one.colors.push_back(color_of(*rgb));
     }
+    if (one.colors.empty() && cursor.hash_span().size() > 1)
+      return read_bad_hex(cursor);
     if (one.colors.empty()) {
       std::vector<std::string_view> known;
       for (const auto& row : spec::led_colours)
@@ -495,8 +517,18 @@ private:
                                       "`off`"));
     }
     cursor.skip(one.text.size());
-    if (cursor.take_word("by"))
+    auto ahead = cursor;
+    ahead.word();
+    if (!parse_duration(ahead.word()) && cursor.take_word("by")) // `by 200ms` is of `after`
       one.by = static_cast<double>(cursor.whole("difference", 0, spec::ball::greatest));
+  }
+
+  /// `#` without six digits: a comment may follow a colour, but here the colour itself is missing.
+  static void read_bad_hex(Cursor& cursor) {
+    const auto span = cursor.hash_span();
+    const auto text = cursor.text_of(span);
+    cursor.fail_at(span, rules::Value, fmt::format("`{}` is not a colour", text),
+                   "after `#` stand six hexadecimal digits, as in `#FF8000`: red, green, blue");
   }
 
   static void read_marker(Cursor& cursor, Expectation& one) {
@@ -507,13 +539,17 @@ private:
 
   void read_error(Cursor& cursor, Expectation& one) {
     const auto from = cursor.offset();
-    if (cursor.at_end() || is_when(cursor.peek()))
+    const auto ends = [&] {
+      return cursor.at_end() || is_when(cursor.peek()) || is_join(cursor.peek()) ||
+             is_times(cursor) || is_lag(cursor);
+    };
+    if (ends())
       return;
     std::string text;
     if (cursor.peek_char() == '"')
       text = cursor.quoted("name of the error");
     else
-      while (!cursor.at_end() && !is_when(cursor.peek()) && !is_times(cursor))
+      while (!ends())
         text += fmt::format("{}{}", text.empty() ? "" : " ", cursor.word());
     one.text = text;
     const auto span = cursor.span_from(from);
@@ -553,6 +589,16 @@ private:
 
   static bool is_when(std::string_view word) {
     return find_word<WordInfo>(when_words, word) != nullptr;
+  }
+
+  static bool is_join(std::string_view word) {
+    return find_word<WordInfo>(join_words, word) != nullptr;
+  }
+
+  /// Whether `TIME after` stands here.
+  static bool is_lag(Cursor& cursor) {
+    auto ahead = cursor;
+    return parse_duration(ahead.word()) && ahead.peek() == info(JoinWord::After).word;
   }
 
   /// Whether `N times` or `A to B times` stands here.
@@ -595,28 +641,137 @@ private:
     said.when = cursor.span_from(from);
   }
 
+  /// `and STATE`.
+  void read_joined(Cursor& cursor, Expectation& one, const Said& said) {
+    const auto span = cursor.peek_span();
+    cursor.word();
+    if (said.when.size() > 0 || one.lasts > Duration{})
+      return cursor.fail_at(span, rules::Syntax, "`and` stands after a time",
+                            "write all that is joined first, then `for` and the time");
+    if (info(one.word).kind != Kind::State && info(one.word).kind != Kind::Event)
+      return cursor.fail_at(span, rules::When,
+                            fmt::format("`{}` cannot be joined", info(one.word).word),
+                            "write it into a line of its own");
+    Expectation state;
+    const auto word_span = cursor.peek_span();
+    if (!read_what(cursor, state))
+      return;
+    if (info(state.word).kind != Kind::State)
+      return cursor.fail_at(word_span, rules::When,
+                            fmt::format("`{}` is not a state", info(state.word).word),
+                            "after `and` stands what is true at a moment, such as `color red` or "
+                            "`resting`; what happens stands before it");
+    read_operands(cursor, state);
+    one.joined.push_back(std::move(state));
+  }
+
+  /// `for TIME`.
+  static void read_lasts(Cursor& cursor, Expectation& one) {
+    const auto from = cursor.offset();
+    cursor.word();
+    const auto time = cursor.time();
+    if (cursor.failed())
+      return;
+    const auto span = cursor.span_from(from);
+    const auto& row = info(one.word);
+    if (row.kind != Kind::State)
+      return cursor.fail_at(span, rules::When, fmt::format("`{}` does not last", row.word),
+                            "leave `for` and its time out");
+    if (one.lasts > Duration{} || time == Duration{})
+      return cursor.fail_at(span, rules::Value, "`for` takes one time, longer than none",
+                            "write it like `for 2s`");
+    one.lasts = time;
+  }
+
+  /// `after WHAT` and `before WHAT`.
+  void read_order(Cursor& cursor, Expectation& one, Said& said) {
+    const auto from = cursor.offset();
+    const bool is_after = cursor.word() == info(JoinWord::After).word;
+    one.order = is_after ? Order::After : Order::Before;
+    Expectation other;
+    if (cursor.at_end())
+      return cursor.fail(
+          rules::Syntax, fmt::format("`{}` what?", is_after ? "after" : "before"),
+          "write what happens, or a state: `print \"2\"`, `color red`, `reach goal`");
+    const auto word_span = cursor.peek_span();
+    if (!read_what(cursor, other))
+      return;
+    if (const auto& row = info(other.word); row.kind != Kind::State && row.kind != Kind::Event)
+      return cursor.fail_at(
+          word_span, rules::When, fmt::format("nothing comes after or before `{}`", row.word),
+          "write what happens, or a state: `print \"2\"`, `color red`, `reach goal`");
+    read_operands(cursor, other);
+    while (!cursor.failed() && cursor.peek() == info(JoinWord::And).word)
+      read_joined(cursor, other, {});
+    if (!cursor.failed() && cursor.peek() == info(JoinWord::Lasts).word)
+      read_lasts(cursor, other);
+    if (!cursor.failed() && is_when(cursor.peek()))
+      return cursor.fail(rules::When, "the time stands at the wrong place",
+                         is_after ? "write it before `after`; it counts from there"
+                                  : "`before` takes no time; write that into a line of its own");
+    if (!cursor.failed() && one.lag) {
+      if (!cursor.take_word("by"))
+        return cursor.fail(rules::Syntax, "`by` is missing: how exact the time must be",
+                           "write it like `by 200ms`");
+      one.lag_by = cursor.time();
+    }
+    said.order = cursor.span_from(from);
+    one.other = std::make_shared<const Expectation>(std::move(other));
+  }
+
   void finish(Cursor& cursor, Expectation& one, Span span, std::uint32_t line) {
     Said said;
     while (!cursor.failed() && !cursor.at_end()) {
-      if (is_when(cursor.peek()) && said.when.size() == 0)
+      const auto word = cursor.peek();
+      if (said.order.size() > 0)
+        left_over(cursor, one);
+      else if (is_when(word) && said.when.size() == 0)
         read_when(cursor, one, said);
       else if (is_digit(cursor.peek_char()) && said.times.size() == 0 && is_times(cursor))
         read_times(cursor, one, said);
+      else if (word == info(JoinWord::And).word)
+        read_joined(cursor, one, said);
+      else if (word == info(JoinWord::Lasts).word)
+        read_lasts(cursor, one);
+      else if (word == info(JoinWord::After).word || word == info(JoinWord::Before).word)
+        read_order(cursor, one, said);
+      else if (is_lag(cursor) && said.when.size() == 0)
+        one.lag = cursor.time();
       else
         left_over(cursor, one);
     }
     one.line = line;
     one.span = cursor.span_from(span.begin);
     check_when(cursor, one, said, span);
+    check_order(cursor, one, said);
     if (cursor.failed())
       prints_ = false;
     else
       current().expectations.push_back(std::move(one));
   }
 
+  /// Whether `after` and `before` fit the rest.
+  static void check_order(Cursor& cursor, const Expectation& one, const Said& said) {
+    if (one.order == Order::Free)
+      return;
+    const auto& row = info(one.word);
+    if (row.kind != Kind::State && row.kind != Kind::Event)
+      return cursor.fail_at(said.order, rules::When,
+                            fmt::format("`{}` comes neither after nor before something", row.word),
+                            "leave that out");
+    if (one.order == Order::Before && said.when.size() > 0)
+      return cursor.fail_at(said.when, rules::When, "`before` takes no time",
+                            "write that into a line of its own");
+    if (one.lag && (one.never || said.when.size() > 0 || one.order == Order::Before))
+      cursor.fail_at(said.order, rules::When, "an exact time after something is expected alone",
+                     "write it like `expect print \"3\" 1s after print \"2\" by 200ms`");
+  }
+
   static void left_over(Cursor& cursor, const Expectation& one) {
     std::vector<std::string_view> known{"times"};
     for (const auto& row : when_words)
+      known.push_back(row.word);
+    for (const auto& row : join_words)
       known.push_back(row.word);
     const auto& row = info(one.word);
     cursor.fail(rules::Syntax, fmt::format("`{}` is left over", cursor.peek()),
@@ -693,6 +848,8 @@ std::vector<std::string_view> all_words() {
     words.push_back(row.word);
   for (const auto& row : when_words)
     words.push_back(row.word);
+  for (const auto& row : join_words)
+    words.push_back(row.word);
   for (const auto& row : vm::stimulus_words)
     words.push_back(row.word);
   const auto colours = structured::colour_names();
@@ -729,7 +886,7 @@ std::optional<Seeds> parse_seeds(std::string_view text) {
   const auto first = parse_number<std::uint64_t>(text.substr(0, dots));
   const auto last =
       dots == std::string_view::npos ? first : parse_number<std::uint64_t>(text.substr(dots + 2));
-  if (!first || !last || *first > *last || *last - *first >= UINT32_MAX)
+  if (!first || !last || *first > *last || *last - *first == UINT64_MAX)
     return std::nullopt;
   return Seeds{*first, *last};
 }

@@ -54,6 +54,9 @@ struct Times {
 /// How a printed line is compared.
 enum class Match : std::uint8_t { Whole, Part, Pattern };
 
+/// How an expectation stands to something else that happens.
+enum class Order : std::uint8_t { Free, After, Before };
+
 /// The side of `beyond`.
 enum class Side : std::uint8_t { AboveX, BelowX, AboveY, BelowY };
 
@@ -80,7 +83,17 @@ struct Expectation {
   int number = 0;                ///< Marker
   std::optional<spec::BasicError> error; ///< Error: nothing for any
   Named name; ///< of a zone, a macro or a variable; empty where none is given
+
+  std::vector<Expectation> joined; ///< states that are true at the same moment
+  Duration lasts{};                ///< states: true for so long without a break
+  Order order = Order::Free;
+  std::shared_ptr<const Expectation> other; ///< null where it is Free
+  std::optional<Duration> lag;              ///< After: how long after the other one …
+  Duration lag_by{};                        ///< … more or less
 };
+
+/// A test has no more seeds than this: their results are kept until all are known.
+inline constexpr std::uint64_t most_seeds = 1'000'000;
 
 /// First and last, both included.
 struct Seeds {
@@ -115,7 +128,8 @@ struct TestFile {
 /// Reads a test file. Any text will do; lines that cannot be read are left out and told.
 TestFile parse(const Source& source);
 
-/// `2..5` or `7`; nothing where the text is something else, or runs backwards.
+/// `2..5` or `7`; nothing where the text is something else, or runs backwards. They may be more
+/// than `most_seeds`.
 std::optional<Seeds> parse_seeds(std::string_view text);
 
 } // namespace orb::testing

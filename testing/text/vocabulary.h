@@ -84,11 +84,27 @@ inline constexpr auto when_words = std::to_array<WordInfo>({
 #undef ORB_TEST_WHEN
 });
 
+/// What joins several of them.
+enum class JoinWord : std::uint8_t {
+#define ORB_TEST_JOIN(name, ...) name,
+#include "testing/text/vocabulary.def"
+#undef ORB_TEST_JOIN
+};
+
+inline constexpr auto join_words = std::to_array<WordInfo>({
+#define ORB_TEST_JOIN(name, word, operands, summary, example) {word, operands, summary, example},
+#include "testing/text/vocabulary.def"
+#undef ORB_TEST_JOIN
+});
+
 constexpr const LineInfo& info(LineWord word) {
   return line_words[static_cast<std::size_t>(word)];
 }
 constexpr const ExpectationInfo& info(Word word) {
   return expectations[static_cast<std::size_t>(word)];
+}
+constexpr const WordInfo& info(JoinWord word) {
+  return join_words[static_cast<std::size_t>(word)];
 }
 
 } // namespace orb::testing

@@ -1,0 +1,172 @@
+#include "testing/sighting.h"
+
+#include "base/utf8.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace orb::testing {
+
+std::string plain(double value, int decimals) {
+  auto text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.'))
+      text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// A number with one decimal, or as many as show that it is greater than `bound`.
+std::string above(double value, double bound) {
+  for (int decimals = 1; decimals < 6; ++decimals) {
+    auto text = fmt::format("{:.{}f}", value, decimals);
+    if (std::stod(text) > bound || value <= bound)
+      return text;
+  }
+  return fmt::format("{}", value);
+}
+
+std::string color_words(vm::Color color) {
+  for (const auto& row : spec::led_colours)
+    if (color == vm::Color{row.red, row.green, row.blue})
+      return std::string(row.name);
+  return fmt::format("#{:02X}{:02X}{:02X}", color.red, color.green, color.blue);
+}
+
+double difference(vm::Color a, vm::Color b) {
+  return std::max(
+      {std::abs(a.red - b.red), std::abs(a.green - b.green), std::abs(a.blue - b.blue)});
+}
+
+double outside(double value, double least, double most) {
+  return std::max({least - value, value - most, 0.0});
+}
+
+/// The angle between two headings.
+double turn(double from, double to) {
+  const double way = std::abs(std::fmod(from - to, double{spec::ball::full_circle}));
+  return std::min(way, spec::ball::full_circle - way);
+}
+
+/// How far a sighting is from what is expected of it; 0 where it is met.
+double off_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
+  switch (one.word) {
+  case Word::Near: return std::max(0.0, std::hypot(s.x - one.x, s.y - one.y) - one.by);
+  case Word::Beyond:
+    switch (one.side) {
+    case Side::AboveX: return s.x > one.most ? 0 : std::max(one.most - s.x, 1e-12);
+    case Side::BelowX: return s.x < one.most ? 0 : std::max(s.x - one.most, 1e-12);
+    case Side::AboveY: return s.y > one.most ? 0 : std::max(one.most - s.y, 1e-12);
+    case Side::BelowY: return s.y < one.most ? 0 : std::max(s.y - one.most, 1e-12);
+    }
+    return 0;
+  case Word::Inside:
+  case Word::Stay: return meaning.zone->distance_cm({s.x, s.y});
+  case Word::Heading: return std::max(0.0, turn(s.heading, one.most) - one.by);
+  case Word::Speed: return outside(s.speed, one.least, one.most);
+  case Word::Moving: return s.moving ? 0 : 1;
+  case Word::Resting: return s.moving ? 1 + s.speed : s.has_moved || s.over ? 0 : infinite;
+  case Word::Color: {
+    double nearest = infinite;
+    for (const auto color : one.colors)
+      nearest = std::min(nearest, difference(s.color, color));
+    return std::max(0.0, nearest - one.by);
+  }
+  case Word::BackLed: return outside(s.back, one.least, one.most);
+  case Word::Asleep: return s.asleep ? 0 : 1;
+  case Word::Print:
+  case Word::Prints:
+  case Word::Distance:
+  case Word::Marker:
+  case Word::Collision:
+  case Word::Error:
+  case Word::End:
+  case Word::Lines:
+  case Word::Bytes:
+  case Word::Variable: break;
+  }
+  return 0;
+}
+
+/// A sighting in the words of what is expected of it.
+std::string describe_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
+  switch (one.word) {
+  case Word::Near:
+    return fmt::format("{} cm from {},{}", above(std::hypot(s.x - one.x, s.y - one.y), one.by),
+                       plain(one.x, 2), plain(one.y, 2));
+  case Word::Beyond: {
+    const bool x = one.side == Side::AboveX || one.side == Side::BelowX;
+    return fmt::format("{} {:.1f}", x ? 'x' : 'y', x ? s.x : s.y);
+  }
+  case Word::Inside:
+  case Word::Stay: {
+    const double away = meaning.zone->distance_cm({s.x, s.y});
+    return away == 0 ? fmt::format("in {}", one.name.text)
+                     : fmt::format("{} cm from {}", above(away, 0), one.name.text);
+  }
+  case Word::Heading: return fmt::format("heading {}", plain(s.heading, 1));
+  case Word::Speed: return fmt::format("{:.1f} cm/s", s.speed);
+  case Word::Resting:
+    if (!s.moving && !s.has_moved && !s.over)
+      return "not moved yet";
+    [[fallthrough]];
+  case Word::Moving:
+    return s.moving ? fmt::format("moving at {:.1f} cm/s", s.speed) : std::string("resting");
+  case Word::Color: return color_words(s.color);
+  case Word::BackLed: return fmt::format("back LED {}", s.back);
+  case Word::Asleep: return s.asleep ? "asleep" : "awake";
+  case Word::Print:
+  case Word::Prints:
+  case Word::Distance:
+  case Word::Marker:
+  case Word::Collision:
+  case Word::Error:
+  case Word::End:
+  case Word::Lines:
+  case Word::Bytes:
+  case Word::Variable: break;
+  }
+  return {};
+}
+
+bool is_state(const Expectation& one) {
+  return info(one.word).kind == Kind::State || info(one.word).kind == Kind::Stay;
+}
+
+/// Between 0 and 1, so that centimetres and shades of colour can be added.
+double share(double off) {
+  return off == infinite ? 1 : off / (1 + off);
+}
+
+} // namespace
+
+double off(const Expectation& one, const Meaning& meaning, const Sighting& s) {
+  if (one.joined.empty())
+    return off_alone(one, meaning, s);
+  double sum = is_state(one) ? share(off_alone(one, meaning, s)) : 0;
+  for (std::size_t i = 0; i < one.joined.size(); ++i)
+    sum += share(off_alone(one.joined[i], meaning.joined[i], s));
+  return sum;
+}
+
+std::string describe(const Expectation& one, const Meaning& meaning, const Sighting& s) {
+  auto text = is_state(one) ? describe_alone(one, meaning, s) : std::string();
+  for (std::size_t i = 0; i < one.joined.size(); ++i)
+    text += (text.empty() ? "" : ", ") + describe_alone(one.joined[i], meaning.joined[i], s);
+  return text;
+}
+
+std::string quote(std::string_view text) {
+  constexpr std::size_t longest_quoted = 80;
+  const auto shown = to_printable(text.substr(0, longest_quoted));
+  return fmt::format("\"{}{}\"", shown, text.size() <= longest_quoted ? "" : "…");
+}
+
+} // namespace orb::testing

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "testing/judge.h"
+
+#include <string>
+#include <string_view>
+
+// What states make of a sighting: how far it is from what is expected, and in which words.
+
+namespace orb::testing {
+
+/// How far a sighting is from what is expected of it and of all that is joined; 0 where it is met.
+/// Of what happens only the joined states count.
+double off(const Expectation& one, const Meaning& meaning, const Sighting& s);
+
+/// The sighting in the words of the same.
+std::string describe(const Expectation& one, const Meaning& meaning, const Sighting& s);
+
+/// A printed line in quotes, cut where it is long.
+std::string quote(std::string_view text);
+
+/// A number without zeros at its end.
+std::string plain(double value, int decimals);
+
+} // namespace orb::testing
