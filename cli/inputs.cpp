@@ -35,6 +35,13 @@ std::string DiskFiles::obstacle(const std::string& path) {
   return std::string(disk::what_else(path));
 }
 
+std::string DiskFiles::trouble(const std::string& path) {
+  if (const auto other = disk::what_else(path); !other.empty())
+    return fmt::format("cannot read {}: it is {}", path, other);
+  const auto text = disk::read(path == "-" ? "./-" : path);
+  return text ? std::string() : text.error().message;
+}
+
 std::string DiskFiles::identity(const std::string& path) {
   std::error_code unknown; // a file that is not there
   const auto real = std::filesystem::canonical(path, unknown);

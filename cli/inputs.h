@@ -27,6 +27,7 @@ class DiskFiles final : public structured::Files {
 public:
   std::optional<std::string> read(const std::string& path) override;
   std::string obstacle(const std::string& path) override;
+  std::string trouble(const std::string& path) override;
   std::string identity(const std::string& path) override;
 };
 

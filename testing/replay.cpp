@@ -11,6 +11,16 @@ namespace {
 // With more of them the command is longer than what it repeats.
 constexpr std::size_t most_stimuli = 6;
 
+/// A file's name as a shell and a command line take it: never as an option.
+std::string path_word(std::string_view path) {
+  return shell_word(path.starts_with('-') ? "./" + std::string(path) : std::string(path));
+}
+
+/// An option whose value may begin with a dash.
+std::string option(std::string_view name, std::string_view value) {
+  return fmt::format(" {}{}{}", name, value.starts_with('-') ? "=" : " ", shell_word(value));
+}
+
 std::string seconds(Duration t) {
   const auto ms = std::chrono::ceil<std::chrono::milliseconds>(t).count();
   return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000) : fmt::format("{}ms", ms);
@@ -61,14 +71,13 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   const auto& test = suite.test_of(group);
   const auto& program = suite.programs[group.program];
   if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
-    auto command =
-        fmt::format("orb test {} --only {} --seeds {}..{}", shell_word(file.source->name()),
-                    shell_word(test.name.text), seed, seed);
-    return fmt::format("{} --program {} --report report", command, shell_word(program.name));
+    auto command = fmt::format("orb test {}{} --seeds {}..{}", path_word(file.source->name()),
+                               option("--only", test.name.text), seed, seed);
+    return fmt::format("{} --program {} --report report", command, path_word(program.name));
   }
-  std::string command = "orb run " + shell_word(program.name);
+  std::string command = "orb run " + path_word(program.name);
   for (const auto& with : file.file.with)
-    command += " " + shell_word(structured::resolve_path(file.source->name(), with.text));
+    command += " " + path_word(structured::resolve_path(file.source->name(), with.text));
   if (test.bound != default_bound)
     command += " --for " + seconds(test.bound);
   if (seed != 1)
@@ -81,11 +90,11 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
     command += fmt::format(" --firmware {}", spec::info(file.file.firmware).name);
   if (file.file.course)
     command += " --course " +
-               shell_word(structured::resolve_path(file.source->name(), file.file.course->text));
+               path_word(structured::resolve_path(file.source->name(), file.file.course->text));
   for (const auto& line : test.stimulus_lines)
     command += " --stimulus " + shell_word(line);
   return command +
-         fmt::format(" --report {}", shell_word(fmt::format("{}.html", stem(program.name))));
+         fmt::format(" --report {}", path_word(fmt::format("{}.html", stem(program.name))));
 }
 
 } // namespace orb::testing

@@ -13,6 +13,20 @@ std::string_view to_string(Verdict verdict) {
   return {};
 }
 
+void omit(CaseResult& one) {
+  one.misses = {};
+  one.problem = {};
+  one.again = {};
+  one.omitted = true;
+}
+
+void keep_first(GroupResult& group) {
+  std::size_t told = 0;
+  for (auto& one : group.cases)
+    if (one.verdict != Verdict::Passed && ++told > most_told)
+      omit(one);
+}
+
 Verdict GroupResult::verdict() const {
   auto worst = Verdict::Passed;
   for (const auto& one : cases)

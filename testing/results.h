@@ -37,8 +37,9 @@ struct CaseResult {
   Duration lasted{}; ///< robot time
   std::uint64_t lines = 0;
   std::vector<Miss> misses;
-  std::string problem; ///< with Verdict::Error
-  std::string again;   ///< the command that shows a failure
+  std::string problem;  ///< with Verdict::Error
+  std::string again;    ///< the command that shows a failure
+  bool omitted = false; ///< it did not pass, and these three are not kept
 };
 
 /// One test with one program.
@@ -56,6 +57,14 @@ struct GroupResult {
   Verdict verdict() const;
 };
 
+/// Of the cases of a test that did not pass the first so many are kept whole; the others are
+/// counted.
+inline constexpr std::size_t most_told = 100;
+/// Forgets what a case failed at.
+void omit(CaseResult& one);
+/// omit() of all but the first `most_told` that did not pass.
+void keep_first(GroupResult& group);
+
 /// A share of the cases: every `count`-th, beginning with number `index` of 1 to `count`.
 struct Shard {
   std::uint64_t index = 1;
@@ -68,6 +77,7 @@ struct Results {
   std::uint64_t cases = 0;   ///< of the whole, wherever they ran
   std::vector<Shard> shards; ///< what is here; empty for all
   std::vector<GroupResult> groups;
+  std::vector<std::string> missing; ///< programs that were not handed in
 };
 
 struct Totals {

@@ -1,6 +1,9 @@
 #include "testing/run_suite.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -12,6 +15,29 @@ namespace {
 struct Task {
   const Group* group;
   CaseResult* result;
+};
+
+/// Keeps the first failures of each group whole, whichever are known first.
+class FirstFailures {
+public:
+  /// A task is done; `number` counts over all.
+  void add(const std::vector<Task>& tasks, std::size_t number) {
+    const auto& task = tasks[number];
+    if (task.result->verdict == Verdict::Passed)
+      return;
+    const std::lock_guard lock(mutex_);
+    auto& known = of_group_[task.group];
+    known.insert(number);
+    if (known.size() <= most_told)
+      return;
+    const auto last = std::prev(known.end());
+    omit(*tasks[*last].result);
+    known.erase(last);
+  }
+
+private:
+  std::mutex mutex_;
+  std::map<const Group*, std::set<std::size_t>> of_group_;
 };
 
 /// The groups as they will be told, with an empty result for each case that runs here.
@@ -39,7 +65,11 @@ std::vector<GroupResult> empty_results(const Suite& suite, const Shard& shard) {
 } // namespace
 
 Results run_suite(const Suite& suite, const RunOptions& options, Progress& progress) {
-  Results results{suite.cases, {}, empty_results(suite, options.shard)};
+  Results results{suite.cases, {}, empty_results(suite, options.shard), {}};
+  for (const auto& program : suite.programs)
+    if (program.missing && std::find(results.missing.begin(), results.missing.end(),
+                                     program.name) == results.missing.end())
+      results.missing.push_back(program.name);
   if (options.shard.count > 1)
     results.shards.push_back(options.shard);
   std::vector<Task> tasks;
@@ -48,6 +78,7 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
       tasks.push_back({&suite.groups[i], &one});
 
   vm::NativePrograms native;
+  FirstFailures failures;
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> done{0};
   // Runs the next task; false where none is left.
@@ -57,6 +88,7 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
       return false;
     const auto& task = tasks[index];
     *task.result = run_case(suite, *task.group, task.result->seed, &native, nullptr);
+    failures.add(tasks, index);
     done.fetch_add(1);
     return true;
   };

@@ -60,6 +60,7 @@ public:
     return at->second;
   }
   std::string obstacle(const std::string& path) override { return files_.obstacle(path); }
+  std::string trouble(const std::string& path) override { return files_.trouble(path); }
   std::string identity(const std::string& path) override { return files_.identity(path); }
 
 private:
@@ -69,8 +70,8 @@ private:
 
 class Reader {
 public:
-  Reader(Suite& suite, structured::Files& files, structured::Shape shape)
-      : suite_(suite), files_(files), shape_(shape) {}
+  Reader(Suite& suite, structured::Files& files, const SuiteOptions& options)
+      : suite_(suite), files_(files), options_(options) {}
 
   /// The index of a program with the files of `file`; an unreadable one is a problem of its own.
   std::size_t program(const std::string& path, const SuiteFile& file) {
@@ -115,6 +116,11 @@ private:
     Prepared made;
     made.name = path;
     made.target = file.file.target;
+    if (const auto trouble = options_.troubles.find(path); trouble != options_.troubles.end()) {
+      made.problem = trouble->second + "\n";
+      made.missing = options_.missing.contains(path);
+      return made;
+    }
     std::vector<run::Input> rest;
     read(path, made, made.inputs, kept);
     for (const auto& with : file.file.with)
@@ -136,11 +142,15 @@ private:
             const std::vector<std::string>& kept) {
     auto text = files_.read(path);
     if (!text) {
-      made.problem += fmt::format("cannot read {}\n", path);
+      made.problem += files_.trouble(path) + "\n";
+      return;
+    }
+    if (text->find('\0') != std::string::npos) {
+      made.problem += fmt::format("{} is no text; a program is saved as plain text\n", path);
       return;
     }
     auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_,
-                                 kept, shape_);
+                                 kept, options_.shape);
     if (!input) {
       made.problem += run::content_of(path, "")
                           ? input.error().message + "\n"
@@ -154,7 +164,7 @@ private:
 
   Suite& suite_;
   structured::Files& files_;
-  structured::Shape shape_;
+  const SuiteOptions& options_;
   std::map<std::string, std::size_t> known_;
 };
 
@@ -423,11 +433,12 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
                                         structured::Files& from) {
   Suite suite;
   EachOnce files(from);
+  std::vector<std::string> wanted;
+  std::set<std::string> known;
   for (const auto& path : options.programs)
-    if (!files.read(path))
-      return tl::unexpected(Failure{
-          ExitCode::File, fmt::format("cannot read {}; check the name and the folder", path)});
-  Reader reader(suite, files, options.shape);
+    if (known.insert(files.identity(path)).second)
+      wanted.push_back(path);
+  Reader reader(suite, files, options);
   std::vector<std::vector<std::size_t>> programs;
   for (auto& one : given) {
     SuiteFile file;
@@ -439,7 +450,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
     if (options.programs.empty())
       if (const auto path = program_path(file, files))
         own.push_back(reader.program(*path, file));
-    for (const auto& path : options.programs)
+    for (const auto& path : wanted)
       own.push_back(reader.program(path, file));
     const bool named = options.programs.empty() && !own.empty();
     check_names(file, suite, reader, named ? std::optional(own.front()) : std::nullopt);

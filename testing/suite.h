@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ struct Prepared {
   std::vector<run::Input> inputs;
   compiler::Target target;
   std::string problem;          ///< why it cannot be run: its findings, or a sentence; else empty
+  bool missing = false;         ///< it was not handed in
   std::size_t packed_bytes = 0; ///< of the image that is flashed
   std::size_t tested_bytes = 0; ///< of the one that runs: more where it keeps variables
   std::map<std::string, int> macros; ///< ids by name
@@ -61,9 +63,11 @@ struct Suite {
 };
 
 struct SuiteOptions {
-  std::vector<std::string> programs; ///< in place of those that the files name
-  std::optional<Seeds> seeds;        ///< in place of theirs
-  std::string only;                  ///< the one test to run, by its exact name; empty for all
+  std::vector<std::string> programs; ///< in place of those that the files name; each file once
+  std::map<std::string, std::string> troubles; ///< why some of these cannot be read: sentences
+  std::set<std::string> missing;               ///< those of these that were not handed in
+  std::optional<Seeds> seeds;                  ///< in place of theirs
+  std::string only; ///< the one test to run, by its exact name; empty for all
   structured::Shape shape = structured::Shape::Shortest; ///< of structured programs
 };
 
@@ -74,8 +78,8 @@ struct GivenFile {
 };
 
 /// Reads test files and what they name, through `files`. A file that does not name a program is
-/// tested with the one beside it. Fails where no test has the name `only`, and where one of the
-/// programs of `options` cannot be read.
+/// tested with the one beside it; one that cannot be read fails its tests. Fails where no test has
+/// the name `only`.
 tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
                                         structured::Files& files);
 

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/options.h"
+#include "cli/programs.h"
 #include "cli/terminal/progress_bar.h"
 #include "disk/disk.h"
 #include "testing/run_suite.h"
@@ -21,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned most_jobs = 1000;
+// The result of a run takes some 150 bytes until all are known.
+constexpr std::uint64_t most_runs = 2'000'000;
 /// Where tests are looked for if no place is given.
 const std::vector<std::string> test_paths{"."};
 
@@ -178,10 +181,15 @@ tl::expected<void, Failure> write_report(const std::string& folder, const testin
 }
 
 tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& options) {
-  testing::SuiteOptions wanted{options.programs, {}, options.only};
+  testing::SuiteOptions wanted;
+  wanted.only = options.only;
   if (options.seeds.empty())
     return wanted;
   wanted.seeds = testing::parse_seeds(options.seeds);
+  if (wanted.seeds && wanted.seeds->count() > testing::most_seeds)
+    return tl::unexpected(
+        Failure{ExitCode::Usage, fmt::format("`--seeds {}` are too many; a test takes up to {}",
+                                             options.seeds, testing::most_seeds)});
   if (!wanted.seeds)
     return tl::unexpected(
         Failure{ExitCode::Usage,
@@ -259,12 +267,28 @@ tl::expected<void, Failure> check_programs(const TestOptions& options) {
   return {};
 }
 
+/// What `--program` names, as far as it can be read.
+tl::expected<void, Failure> add_programs(const TestOptions& options,
+                                         const std::vector<testing::GivenFile>& tests,
+                                         testing::SuiteOptions& wanted) {
+  std::set<std::string> stems;
+  for (const auto& file : tests)
+    stems.insert(std::string(stem(file.name)));
+  auto found = read_programs(options.programs, stems);
+  if (!found)
+    return tl::unexpected(found.error());
+  wanted.programs = std::move(found->programs);
+  wanted.troubles = std::move(found->troubles);
+  wanted.missing = std::move(found->missing);
+  return {};
+}
+
 tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
   if (options.merge)
     return join(context, options);
   if (auto programs = check_programs(options); !programs)
     return programs;
-  const auto wanted = suite_options(options);
+  auto wanted = suite_options(options);
   if (!wanted)
     return tl::unexpected(wanted.error());
   const auto shard = read_shard(options.shard);
@@ -273,12 +297,19 @@ tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
   auto files = read_tests(options.paths);
   if (!files)
     return tl::unexpected(files.error());
+  if (auto programs = add_programs(options, *files, *wanted); !programs)
+    return programs;
   DiskFiles disk;
   const auto suite = testing::make_suite(*std::move(files), *wanted, disk);
   if (!suite)
     return tl::unexpected(suite.error());
   if (are_wrong(context, *suite))
     return {};
+  if (const auto runs = suite->cases / shard->count; runs > most_runs)
+    return tl::unexpected(Failure{
+        ExitCode::Usage,
+        fmt::format("these are {} runs, and one command does up to {}; `--shard` divides them",
+                    runs, most_runs)});
   testing::RunOptions run;
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
   run.shard = *shard;
@@ -307,8 +338,10 @@ void add_test(CLI::App& app, Context& context) {
       ->add_option("FILE", options->paths,
                    "test files, and folders to search for them; with --merge, results")
       ->capture_default_str();
-  command->add_option("--program", options->programs,
-                      "programs to test, each with every test, in place of those the tests name");
+  command->add_option(
+      "--program", options->programs,
+      "programs to test, each with every test, in place of those the tests name; of a "
+      "folder those in it, and one of each folder in it");
   command->add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
       ->check(whole_number(0, most_jobs))
       ->capture_default_str();

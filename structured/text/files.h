@@ -17,6 +17,9 @@ public:
   /// What `path` is that it is not read: `a pipe`, `a device`; empty for a file, and for nothing.
   virtual std::string obstacle(const std::string& path);
 
+  /// Why `path` cannot be read, as a sentence.
+  virtual std::string trouble(const std::string& path);
+
   /// What two paths of one file have in common.
   virtual std::string identity(const std::string& path);
 };

@@ -204,6 +204,10 @@ std::string Files::obstacle(const std::string&) {
   return {};
 }
 
+std::string Files::trouble(const std::string& path) {
+  return "cannot read " + path;
+}
+
 std::string Files::identity(const std::string& path) {
   return resolve_path({}, path);
 }

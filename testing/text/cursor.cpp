@@ -334,9 +334,25 @@ Cursor::Range Cursor::numbers(std::string_view what, std::int64_t least, std::in
   return found;
 }
 
+namespace {
+
+/// Whether a time has a number and a unit, and is only too much of it.
+bool is_too_long(std::string_view text) {
+  const auto digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  return digits > 0 && parse_duration("1" + std::string(text.substr(digits))).has_value() &&
+         text.find('.') == text.rfind('.');
+}
+
+} // namespace
+
 Duration Cursor::time() {
   const auto text = peek();
   const auto found = parse_duration(text);
+  if (!found && is_too_long(text)) {
+    fail(rules::Value, fmt::format("`{}` is longer than a year", text),
+         "a run lasts a year at most: write it like `60s` or `10min`");
+    return {};
+  }
   if (!found) {
     fail(rules::Value,
          at_end() ? std::string("the time is missing")

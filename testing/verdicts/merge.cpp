@@ -40,6 +40,11 @@ public:
     const auto& found = member(json, name, Json::value_t::string);
     return found.is_string() ? found.get<std::string>() : std::string();
   }
+  /// A text that is no member.
+  std::string is_text(const Json& json) {
+    good_ = good_ && json.is_string();
+    return json.is_string() ? json.get<std::string>() : std::string();
+  }
   std::string text_or_none(const Json& json, const char* name) {
     return json.is_object() && json.contains(name) ? text(json, name) : std::string();
   }
@@ -62,7 +67,8 @@ public:
     if (good_ && json.contains("misses"))
       for (const auto& entry : member(json, "misses", Json::value_t::array))
         one.misses.push_back(miss(entry));
-    good_ = good_ && (one.verdict != Verdict::Failed || !one.misses.empty());
+    one.omitted = good_ && json.value("omitted", Json()) == true;
+    good_ = good_ && (one.verdict != Verdict::Failed || one.omitted || !one.misses.empty());
     return one;
   }
 
@@ -133,6 +139,9 @@ tl::expected<Part, Failure> read_results(std::string name, std::string_view text
       results.shards.push_back({reader.count(shard, "index"), reader.count(shard, "count")});
   for (const auto& group : reader.member(json, "tests", Json::value_t::array))
     results.groups.push_back(reader.group(group));
+  if (json.contains("missing"))
+    for (const auto& one : reader.member(json, "missing", Json::value_t::array))
+      results.missing.push_back(reader.is_text(one));
   if (!reader.good())
     return wrong();
   return Part{std::move(name), std::move(results)};
@@ -162,6 +171,7 @@ tl::expected<Results, Failure> merge(std::vector<Part> parts) {
       return refuse(fmt::format("\"{}\" with {}, seed {}, is in two files", group.test,
                                 group.program, twice->seed));
     there += group.cases.size();
+    keep_first(group);
   }
   if (there != joined.cases)
     return refuse(missing(joined, joined.cases - std::min(there, joined.cases)));

@@ -7,7 +7,8 @@ namespace orb::testing {
 namespace {
 
 // In the order of Format.
-constexpr std::array<std::string_view, 5> names{"text", "json", "junit", "github", "markdown"};
+constexpr std::array<std::string_view, 6> names{"text",   "json",     "junit",
+                                                "github", "markdown", "csv"};
 
 } // namespace
 
@@ -26,6 +27,7 @@ std::string render(const Results& results, Format format, Listing listing, Style
   case Format::JUnit: return render_junit(results);
   case Format::GitHub: return render_github(results);
   case Format::Markdown: return render_markdown(results);
+  case Format::Csv: return render_csv(results);
   }
   return {};
 }

@@ -11,7 +11,7 @@
 
 namespace orb::testing {
 
-enum class Format : std::uint8_t { Text, Json, JUnit, GitHub, Markdown };
+enum class Format : std::uint8_t { Text, Json, JUnit, GitHub, Markdown, Csv };
 
 /// The formats by name, in the order in which help lists them.
 std::span<const std::string_view> format_names();
@@ -33,6 +33,10 @@ std::string render_junit(const Results& results);
 std::string render_github(const Results& results);
 /// For a summary page of a forge.
 std::string render_markdown(const Results& results);
+
+/// For spreadsheets (RFC 4180): a program in each line, the points of each test, their sum, and why
+/// a program could not be run.
+std::string render_csv(const Results& results);
 
 std::string render(const Results& results, Format format, Listing listing, Style style);
 

@@ -18,6 +18,8 @@ std::string seconds(Duration t) {
 
 /// What a case failed at, a line for each expectation.
 std::string story(const GroupResult& group, const CaseResult& one) {
+  if (one.omitted)
+    return fmt::format("not kept: the first {} failures of a test are\n", most_told);
   if (one.verdict == Verdict::Error)
     return one.problem;
   std::string out;
@@ -40,6 +42,8 @@ std::string first_line(std::string_view text) {
 
 /// What a case failed at, in a few words.
 std::string short_story(const CaseResult& one) {
+  if (one.omitted)
+    return std::string(to_string(one.verdict));
   if (one.verdict == Verdict::Error)
     return first_line(one.problem);
   return fmt::format("{}: {}", one.misses.front().expected, one.misses.front().seen);
@@ -172,13 +176,15 @@ std::string render_junit(const Results& results) {
 
 std::string render_github(const Results& results) {
   std::string out;
+  ToldOnce told;
   for (const auto& group : results.groups) {
     const auto* one = first_failure(group);
-    if (one == nullptr)
+    if (one == nullptr || !told.is_new(group, *one))
       continue;
     const auto line = one->misses.empty() ? group.line : one->misses.front().line;
-    auto title = fmt::format("{} ({})", group.test, group.program);
-    if (group.count > 1)
+    const bool of_program = one->verdict == Verdict::Error;
+    auto title = of_program ? group.program : fmt::format("{} ({})", group.test, group.program);
+    if (group.count > 1 && !of_program)
       title += fmt::format(", seed {}", failed_seeds(group));
     out += fmt::format("::error file={},line={},title={}::{}\n", github(group.file, In::Property),
                        line, github(title, In::Property),
@@ -191,12 +197,16 @@ std::string render_markdown(const Results& results) {
   const auto table = table_of(results);
   auto out = fmt::format("### {}\n\n", render_summary(results));
   out += table.rows.empty() ? markdown_list(results) : markdown_table(table);
+  ToldOnce told;
   for (const auto& group : results.groups) {
     const auto* one = first_failure(group);
-    if (one == nullptr)
+    if (one == nullptr || !told.is_new(group, *one))
       continue;
-    out += fmt::format("<details><summary>{}, {}", markdown(group.test), markdown(group.program));
-    if (group.count > 1)
+    const bool of_program = one->verdict == Verdict::Error;
+    out += of_program ? fmt::format("<details><summary>{}", markdown(group.program))
+                      : fmt::format("<details><summary>{}, {}", markdown(group.test),
+                                    markdown(group.program));
+    if (group.count > 1 && !of_program)
       out += fmt::format(", seed {}", failed_seeds(group));
     out += fmt::format("</summary>\n\n```\n{}```\n\n</details>\n\n",
                        to_terminal_text(story(group, *one)));

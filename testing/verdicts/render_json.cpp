@@ -31,6 +31,8 @@ Json case_json(const CaseResult& one) {
   }
   if (!one.again.empty())
     json["again"] = one.again;
+  if (one.omitted)
+    json["omitted"] = true;
   return json;
 }
 
@@ -60,6 +62,8 @@ std::string render_json(const Results& results) {
       shards.push_back({{"index", shard.index}, {"count", shard.count}});
     out += fmt::format("\"shards\":{},\n", dump(shards));
   }
+  if (!results.missing.empty())
+    out += fmt::format("\"missing\":{},\n", dump(Json(results.missing)));
   out += "\"tests\":[";
   for (std::size_t i = 0; i < results.groups.size(); ++i) {
     const auto& group = results.groups[i];

@@ -37,21 +37,21 @@ std::string verdict_words(Verdict verdict, Style style) {
 std::string details(const GroupResult& group, const CaseResult& one, Style style) {
   std::string out;
   if (one.verdict == Verdict::Error)
-    return indented(one.problem, "  ");
+    return indented(to_terminal_text(one.problem), "  ");
   for (const auto& miss : one.misses) {
-    out +=
-        fmt::format("  {}:{}: {}\n", group.file, miss.line, style.paint(Role::Bold, miss.expected));
+    out += fmt::format("  {}:{}: {}\n", shown_name(group.file), miss.line,
+                       style.paint(Role::Bold, miss.expected));
     out += fmt::format("    seen:  {}\n", miss.seen);
     if (!miss.where.empty())
-      out += fmt::format("    ran:   {}\n", miss.where);
+      out += fmt::format("    ran:   {}\n", to_printable(miss.where));
   }
-  out += fmt::format("    again: {}\n", one.again);
+  out += fmt::format("    again: {}\n", shown_name(one.again));
   return out;
 }
 
 /// What is said after the name of a test: which program, how many of its runs, which seeds.
 std::string about(const GroupResult& group, bool with_program) {
-  std::string out = with_program ? fmt::format(", {}", group.program) : std::string();
+  std::string out = with_program ? fmt::format(", {}", shown_name(group.program)) : std::string();
   const auto failed = static_cast<std::uint64_t>(
       std::count_if(group.cases.begin(), group.cases.end(),
                     [](const CaseResult& one) { return one.verdict != Verdict::Passed; }));
@@ -89,8 +89,10 @@ std::string padded(std::string_view text, std::size_t width) {
 std::string draw(const Table& table, Style style) {
   std::size_t first = std::string_view("program").size();
   for (const auto& row : table.rows)
-    first = std::max(first, code_points(row.program));
+    first = std::max(first, code_points(shown_name(row.program)));
   auto heads = table.tests;
+  for (auto& head : heads)
+    head = to_printable(head);
   std::size_t width = first;
   for (const auto& head : heads)
     width += 2 + std::max<std::size_t>(code_points(head), 5);
@@ -103,7 +105,7 @@ std::string draw(const Table& table, Style style) {
     out += "  " + style.paint(Role::Bold, padded(head, 5));
   out += "  " + style.paint(Role::Bold, "points") + "\n";
   for (const auto& row : table.rows) {
-    out += padded(row.program, first);
+    out += padded(shown_name(row.program), first);
     for (std::size_t i = 0; i < heads.size(); ++i) {
       const auto text =
           padded(cell_text(row.cells[i]), std::max<std::size_t>(5, code_points(heads[i])));
@@ -113,8 +115,16 @@ std::string draw(const Table& table, Style style) {
     out += fmt::format("  {}/{}\n", row.points, row.points_of);
   }
   for (std::size_t i = 0; numbered && i < heads.size(); ++i)
-    out += fmt::format("{}: {}\n", i + 1, table.tests[i]);
+    out += fmt::format("{}: {}\n", i + 1, to_printable(table.tests[i]));
   return out;
+}
+
+/// Who handed in nothing.
+std::string missing_words(const Results& results) {
+  std::string text = "without a program: ";
+  for (std::size_t i = 0; i < results.missing.size(); ++i)
+    text += (i == 0 ? "" : ", ") + shown_name(results.missing[i]);
+  return text;
 }
 
 } // namespace
@@ -123,19 +133,30 @@ std::string render_text(const Results& results, Listing listing, Style style) {
   const auto table = table_of(results);
   const bool many = !table.rows.empty();
   std::string out;
+  ToldOnce told;
   for (const auto& group : results.groups) {
     if (group.cases.empty())
       continue;
     const auto* failure = first_failure(group);
     if (failure == nullptr && (listing == Listing::Failures || many))
       continue;
-    out += fmt::format("{} {}:{}: {}{}\n", verdict_words(group.verdict(), style), group.file,
-                       group.line, group.test, about(group, many));
-    if (failure != nullptr)
+    const bool is_new = failure == nullptr || told.is_new(group, *failure);
+    const auto verdict = verdict_words(group.verdict(), style);
+    if (many && failure != nullptr && failure->verdict == Verdict::Error) {
+      if (is_new)
+        out += fmt::format("{} {}\n", verdict, shown_name(group.program)) +
+               details(group, *failure, style);
+      continue;
+    }
+    out += fmt::format("{} {}:{}: {}{}\n", verdict, shown_name(group.file), group.line,
+                       to_printable(group.test), about(group, many));
+    if (failure != nullptr && is_new)
       out += details(group, *failure, style);
   }
   if (many)
     out += (out.empty() ? "" : "\n") + draw(table, style);
+  if (!results.missing.empty())
+    out += missing_words(results) + "\n";
   return out + render_summary(results) + "\n";
 }
 

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <vector>
 
 namespace orb::testing {
 
@@ -31,9 +33,20 @@ table{border-collapse:collapse;margin:1rem 0;display:block;overflow-x:auto}td,th
 .run{background:var(--card);border-radius:.6rem;padding:.7rem;overflow-wrap:anywhere}
 .run img{width:100%;height:auto;display:block;border-radius:.4rem}
 .run p{margin:.4rem 0 0}.seen,.dim{color:var(--dim)}code{font-size:.85em}
-.passed{color:var(--good)}.failed,.error{color:var(--bad)}.run.failed,.run.error{outline:2px solid var(--bad);color:inherit}
+.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(10rem,1fr));gap:.8rem}
+.pupil{background:var(--card);border-radius:.6rem;padding:.5rem;overflow-wrap:anywhere;border-left:.3rem solid var(--good)}
+.pupil.failed{border-left-color:var(--bad)}.pupil img,.pupil .none{width:100%;aspect-ratio:1;object-fit:contain;display:block;border-radius:.4rem}
+.pupil .none{display:grid;place-items:center;color:var(--dim);margin:0}.pupil p{margin:.3rem 0 0}
+.marks span{margin-right:.5rem}.marks a{text-decoration:none}summary{cursor:pointer;font-weight:600;margin:2rem 0 0}
+.passed{color:var(--good)}.failed,.error{color:var(--bad)}.run.failed{outline:2px solid var(--bad)}.run,.pupil,.run.failed,.pupil.failed,.run.passed,.pupil.passed{color:inherit}
 a{color:inherit}pre{white-space:pre-wrap;font-size:.85em;margin:.4rem 0 0}
 )css";
+
+/// How a program did in all of its tests.
+struct Pupil {
+  std::string picture; ///< of its first run that failed, else of its first
+  std::string page;    ///< what a click leads to
+};
 
 class Report {
 public:
@@ -41,16 +54,27 @@ public:
       : suite_(suite), results_(results), pages_(pages) {}
 
   bool write() {
-    std::string body;
-    for (std::size_t i = 0; i < results_.groups.size(); ++i)
-      if (!results_.groups[i].cases.empty() && !add_group(i, body))
-        return false;
+    std::string failed;
+    std::string passed;
+    std::size_t passes = 0;
+    for (const auto wanted : {Verdict::Error, Verdict::Failed, Verdict::Passed})
+      for (std::size_t i = 0; i < results_.groups.size(); ++i) {
+        const auto& group = results_.groups[i];
+        if (group.cases.empty() || group.verdict() != wanted)
+          continue;
+        passes += wanted == Verdict::Passed ? 1 : 0;
+        if (!add_group(i, wanted == Verdict::Passed ? passed : failed))
+          return false;
+      }
     auto page = fmt::format("{}<html lang=\"en\"><head><meta charset=\"utf-8\">"
                             "<meta name=\"viewport\" content=\"width=device-width\">"
                             "<title>{}</title><style>{}</style></head>\n<body>\n<h1>{}</h1>\n",
                             report_mark, escape_markup(render_summary(results_)), style,
                             escape_markup(render_summary(results_)));
-    page += table() + body;
+    page += table() + failed;
+    if (!passed.empty())
+      page += fmt::format("<details{}><summary>{} passed</summary>\n{}</details>\n",
+                          failed.empty() ? " open" : "", plural(passes, "test"), passed);
     if (left_out_ > 0)
       page +=
           fmt::format("<p class=\"dim\">Without a picture: {}.</p>\n", plural(left_out_, "run"));
@@ -58,27 +82,68 @@ public:
   }
 
 private:
+  /// A pupil in each field, who has the fewest points first; below it who did what.
   std::string table() const {
     const auto table = table_of(results_);
     if (table.rows.empty())
       return {};
-    std::string out = "<table>\n<tr><th>program</th>";
+    std::vector<const Table::Row*> rows;
+    for (const auto& row : table.rows)
+      rows.push_back(&row);
+    std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) {
+      const bool one = failed(*a);
+      const bool other = failed(*b);
+      return one != other ? one : a->points * b->points_of < b->points * a->points_of;
+    });
+    std::string out = "<div class=\"grid\">\n";
+    for (const auto* row : rows)
+      out += field(*row);
+    out += "</div>\n<table>\n<tr><th>program</th>";
     for (const auto& test : table.tests)
       out += fmt::format("<th>{}</th>", escape_markup(test));
     out += "<th>points</th></tr>\n";
-    for (const auto& row : table.rows) {
-      out += fmt::format("<tr><td>{}</td>", escape_markup(row.program));
-      for (const auto* cell : row.cells) {
-        if (cell == nullptr || cell->cases.empty()) {
-          out += "<td></td>";
-          continue;
-        }
-        const auto word = to_string(cell->verdict());
-        out += fmt::format("<td class=\"{0}\"><a href=\"#g{1}\">{0}</a></td>", word, cell->first);
-      }
-      out += fmt::format("<td>{}/{}</td></tr>\n", row.points, row.points_of);
+    for (const auto* row : rows) {
+      out += fmt::format("<tr><td>{}</td>", escape_markup(row->program));
+      for (const auto* cell : row->cells)
+        out += mark(cell, "td", cell == nullptr ? "" : to_string(cell->verdict()));
+      out += fmt::format("<td>{}/{}</td></tr>\n", row->points, row->points_of);
     }
     return out + "</table>\n";
+  }
+
+  static bool failed(const Table::Row& row) {
+    return std::any_of(row.cells.begin(), row.cells.end(), [](const auto* cell) {
+      return cell != nullptr && !cell->cases.empty() && cell->verdict() != Verdict::Passed;
+    });
+  }
+
+  /// A result that leads to where it is told.
+  static std::string mark(const GroupResult* cell, std::string_view element,
+                          std::string_view text) {
+    if (cell == nullptr || cell->cases.empty())
+      return fmt::format("<{0}></{0}>", element);
+    return fmt::format("<{0} class=\"{1}\"><a href=\"#g{2}\" title=\"{3}\">{4}</a></{0}>", element,
+                       to_string(cell->verdict()), cell->first, escape_markup(cell->test), text);
+  }
+
+  std::string field(const Table::Row& row) const {
+    const auto found = pupils_.find(row.program);
+    const auto pupil = found == pupils_.end() ? Pupil{} : found->second;
+    auto out = fmt::format("<div class=\"pupil {}\">", failed(row) ? "failed" : "passed");
+    if (pupil.picture.empty())
+      out += "<p class=\"none\">no run</p>";
+    else
+      out +=
+          fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"the way of {}\" loading=\"lazy\"></a>",
+                      pupil.page, pupil.picture, escape_markup(row.program));
+    out += fmt::format("<p><b>{}</b> {}/{}</p><p class=\"marks\">", escape_markup(row.program),
+                       row.points, row.points_of);
+    for (const auto* cell : row.cells)
+      out +=
+          mark(cell, "span",
+               cell != nullptr && !cell->cases.empty() && cell->verdict() == Verdict::Passed ? "✓"
+                                                                                             : "✗");
+    return out + "</p></div>\n";
   }
 
   bool add_group(std::size_t index, std::string& body) {
@@ -86,13 +151,29 @@ private:
     const auto word = to_string(told.verdict());
     body +=
         fmt::format("<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
-                    "</span></h2>\n<div class=\"runs\">\n",
+                    "</span></h2>\n",
                     told.first, word, word, escape_markup(told.test), escape_markup(told.program),
                     escape_markup(told.file), told.line);
-    for (const auto& one : told.cases)
-      if (!add_case(suite_.groups[index], told, one, body))
-        return false;
+    // Each run of a program that cannot run would say the same.
+    const auto* failure = first_failure(told);
+    if (failure != nullptr && failure->verdict == Verdict::Error) {
+      body += once_.is_new(told, *failure)
+                  ? fmt::format("<pre>{}</pre>\n", escape_markup(failure->problem))
+                  : std::string("<p class=\"dim\">as above</p>\n");
+      return true;
+    }
+    body += "<div class=\"runs\">\n";
+    std::uint64_t omitted = 0;
+    for (const bool passed : {false, true})
+      for (const auto& one : told.cases) {
+        omitted += !passed && one.omitted ? 1 : 0;
+        if ((one.verdict == Verdict::Passed) == passed && !one.omitted &&
+            !add_case(suite_.groups[index], told, one, body))
+          return false;
+      }
     body += "</div>\n";
+    if (omitted > 0)
+      body += fmt::format("<p class=\"dim\">{} more failed.</p>\n", plural(omitted, "run"));
     return true;
   }
 
@@ -101,27 +182,30 @@ private:
     const auto number = told.first + one.seed - group.seeds.first;
     const auto name = fmt::format("runs/{:06}", number);
     const bool failed = one.verdict == Verdict::Failed;
-    const bool pictured = one.verdict != Verdict::Error &&
-                          (pictures_ < most_pictures || (failed && replays_ < most_replays));
-    std::string replay;
-    if (pictured) {
-      report::Journey journey;
-      run_case(suite_, group, one.seed, nullptr, &journey);
-      ++pictures_;
-      if (!pages_.write(name + ".svg", report::path_svg(journey)))
-        return false;
-      if (failed && replays_ < most_replays) {
-        ++replays_;
-        replay = name + ".html";
-        const auto title = fmt::format("{}: {}, seed {}", told.program, told.test, one.seed);
-        if (!pages_.write(replay, report::report_page(journey, title)))
-          return false;
-      }
-    } else if (!failed && one.verdict != Verdict::Error) {
+    if (pictures_ >= most_pictures && !(failed && replays_ < most_replays)) {
       ++left_out_;
+      if (failed)
+        body += card(one, {}, {});
       return true;
     }
-    body += card(one, pictured ? name + ".svg" : std::string(), replay);
+    report::Journey journey;
+    run_case(suite_, group, one.seed, nullptr, &journey);
+    ++pictures_;
+    const auto picture = name + ".svg";
+    if (!pages_.write(picture, report::path_svg(journey)))
+      return false;
+    std::string replay;
+    if (failed && replays_ < most_replays) {
+      ++replays_;
+      replay = name + ".html";
+      const auto title = fmt::format("{}: {}, seed {}", told.program, told.test, one.seed);
+      if (!pages_.write(replay, report::report_page(journey, title)))
+        return false;
+    }
+    auto& pupil = pupils_[told.program];
+    if (pupil.picture.empty())
+      pupil = {picture, replay.empty() ? fmt::format("#g{}", told.first) : replay};
+    body += card(one, picture, replay);
     return true;
   }
 
@@ -150,6 +234,8 @@ private:
   const Suite& suite_;
   const Results& results_;
   Pages& pages_;
+  std::map<std::string, Pupil> pupils_; ///< by their programs
+  ToldOnce once_;
   std::size_t pictures_ = 0;
   std::size_t replays_ = 0;
   std::uint64_t left_out_ = 0;

@@ -7,7 +7,12 @@
 
 namespace orb::testing {
 
-Table table_of(const Results& results) {
+bool ToldOnce::is_new(const GroupResult& group, const CaseResult& failure) {
+  return failure.verdict != Verdict::Error ||
+         programs_.insert(group.program + "\n" + failure.problem).second;
+}
+
+Table whole_table(const Results& results) {
   using Key = std::pair<std::string, std::string>;
   Table table;
   std::map<Key, std::size_t> columns;
@@ -39,8 +44,13 @@ Table table_of(const Results& results) {
         row.points += cell->verdict() == Verdict::Passed ? cell->points : 0;
       }
   }
-  const auto groups = static_cast<std::size_t>(results.groups.size());
-  if (table.rows.size() < 2 || groups <= table.tests.size()) // each test has one program
+  return table;
+}
+
+Table table_of(const Results& results) {
+  auto table = whole_table(results);
+  if (table.rows.size() < 2 ||
+      results.groups.size() <= table.tests.size()) // each test has one program
     table.rows.clear();
   return table;
 }

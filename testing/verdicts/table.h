@@ -2,6 +2,7 @@
 
 #include "testing/results.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,18 @@ struct Table {
 
 /// The table of results in which a test ran with more than one program; else it has no rows.
 Table table_of(const Results& results);
+/// The table of any results.
+Table whole_table(const Results& results);
+
+/// Why programs cannot be run: told once for each, not with each test.
+class ToldOnce {
+public:
+  /// Whether this failure of a group is still to be told.
+  bool is_new(const GroupResult& group, const CaseResult& failure);
+
+private:
+  std::set<std::string> programs_;
+};
 
 /// `17, 40 to 52`: seeds that failed, in few words.
 std::string failed_seeds(const GroupResult& group);

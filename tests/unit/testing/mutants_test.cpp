@@ -62,7 +62,7 @@ constexpr auto mutants = std::to_array<Mutant>({
     {"end", "expect end within 1s\n", "10 delay 900\n", "10 delay 1100\n", "it ended at 1.1 s"},
     {"lines", "expect lines < 3\n", "10 A = 1\n20 A = 2\n", "10 A = 1\n20 A = 2\n30 A = 3\n", "3 lines"},
     {"bytes", "expect bytes < 9\n", "10 A=1\n", "10 A=1000\n", "11 bytes"},
-    {"resting", "expect resting at 500ms\n", "10 goroll 0,100,1\n20 delay 100\n30 goroll 0,0,2\n40 delay 1000\n", "10 delay 1000\n", "not moved yet at 0.5 s"},
+    {"resting", "expect resting at 900ms\n", "10 goroll 0,100,1\n20 delay 100\n30 goroll 0,0,2\n40 delay 1000\n", "10 delay 1000\n", "not moved yet at 0.9 s"},
     {"color", "expect color yellow and resting for 1s\n", "10 RGB 255,255,0\n20 goroll 0,50,1\n30 delay 500\n40 goroll 0,0,0\n50 delay 2000\n", "10 RGB 255,255,0\n20 goroll 0,50,1\n30 delay 500\n40 goroll 0,0,0\n50 delay 1000\n60 RGB 255,0,0\n70 delay 3000\n", "yellow, resting for 0."},
     {"color", "expect color red for 900ms at end\n", "10 RGB 255,0,0\n20 delay 1000\n", "10 RGB 255,0,0\n20 delay 800\n", "red for 0.8 s at the end, 0.8 s"},
     {"color", "expect color red for 900ms during 1s..1500ms\n", "10 RGB 255,0,0\n20 delay 2000\n", "10 delay 300\n20 RGB 255,0,0\n30 delay 2000\n", "red for 0.7 s at 1 s"},
@@ -74,10 +74,10 @@ constexpr auto mutants = std::to_array<Mutant>({
     {"print", "expect print \"a\" 1s after print \"a\" by 200ms\n", "10 print \"a\"\n20 delay 1000\n30 print \"a\"\n", "10 print \"a\"\n20 delay 1000\n", "nothing was printed"},
     {"print", "expect print \"2\" after print \"3\"\n", "10 print 3\n20 print 2\n", "10 print 2\n20 delay 10\n", "what comes first never came: nearest \"2\" at 0.3 ms"},
     {"print", "never print \"2\" after color red\n", "10 print 2\n20 RGB 255,0,0\n", "10 RGB 255,0,0\n20 print 2\n", "\"2\" at 0.7 ms"},
-    {"print", "expect print \"x\" and color red and resting\n", "10 goroll 0,50,1\n20 delay 500\n30 goroll 0,0,2\n40 delay 1000\n50 RGB 255,0,0\n60 print \"x\"\n", "10 goroll 0,50,1\n20 RGB 255,0,0\n30 delay 500\n40 print \"x\"\n50 goroll 0,0,0\n60 delay 1000\n", "\"x\" while red, moving at 39.2 cm/s at 0.5 s"},
-    {"inside", "expect reach goal before print \"x\"\n", "10 goroll 90,100,1\n20 delay 1200\n30 goroll 90,0,0\n40 print \"x\"\n", "10 goroll 90,100,1\n20 print \"x\"\n30 delay 1200\n40 goroll 90,0,0\n", "the other came first, at 0.7 ms"},
-    {"inside", "never reach goal before print \"x\"\n", "10 print \"x\"\n20 goroll 90,100,1\n30 delay 1200\n40 goroll 90,0,0\n", "10 goroll 90,100,1\n20 delay 1200\n30 goroll 90,0,0\n40 print \"x\"\n", "it came first, at "},
-    {"inside", "never reach goal during 0s..500ms\n", drive, "10 goroll 90,255,1\n20 delay 1200\n", "in goal at "},
+    {"print", "expect print \"x\" and color red and resting\n", "10 goroll 0,50,1\n20 delay 500\n30 goroll 0,0,0\n40 delay 1000\n50 RGB 255,0,0\n60 print \"x\"\n", "10 goroll 0,50,1\n20 RGB 255,0,0\n30 delay 500\n40 print \"x\"\n50 goroll 0,0,0\n60 delay 1000\n", "\"x\" while red, moving at 41.5 cm/s at 0.5 s"},
+    {"inside", "expect reach goal before print \"x\"\n", "10 goroll 90,100,1\n20 delay 1500\n30 goroll 90,0,0\n40 print \"x\"\n", "10 goroll 90,100,1\n20 print \"x\"\n30 delay 1500\n40 goroll 90,0,0\n", "the other came first, at 0.7 ms"},
+    {"inside", "never reach goal before print \"x\"\n", "10 print \"x\"\n20 goroll 90,100,1\n30 delay 1200\n40 goroll 90,0,0\n", "10 goroll 90,100,1\n20 delay 1500\n30 goroll 90,0,0\n40 print \"x\"\n", "it came first, at "},
+    {"inside", "never reach goal during 0s..2s\n", "10 goroll 90,50,1\n20 delay 500\n30 goroll 90,0,0\n", "10 goroll 90,255,1\n20 delay 1200\n", "in goal at "},
     {"variable", "expect A = 5 at end\n", "10 A = 5\n", "10 A = 6\n", "A = 6"},
 });
 // clang-format on

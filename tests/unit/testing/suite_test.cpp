@@ -26,10 +26,12 @@ public:
 
 Suite make() {
   TwoFiles files;
+  SuiteOptions options;
+  options.programs = {"a.bas", "b.bas"};
   auto suite = make_suite({{"a.test", "test \"one\" seeds 1..30\nexpect print \"side 3\"\n"
                                       "test \"two\" seeds 5..25\nexpect near 10,10 by 20cm\n"},
                            {"b.test", "seeds 1..7\nnever beyond x>10\n"}},
-                          {{"a.bas", "b.bas"}, {}, {}}, files);
+                          options, files);
   EXPECT_TRUE(suite.has_value() && !suite->has_errors());
   return *std::move(suite);
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "base/exit_code.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace orb::cli {
+
+/// The programs of a class.
+struct HandedIn {
+  std::vector<std::string> programs;           ///< what stands for each pupil: a file, or a folder
+  std::map<std::string, std::string> troubles; ///< why some of these cannot be read
+  std::set<std::string> missing;               ///< folders without a program
+};
+
+/// What `--program` names, files and folders. A folder holds the program that is called like one of
+/// `stems`, else programs, and folders with one program each. What is wrong with one of several is
+/// its own trouble; fails where a name is wrong, and where a folder holds none at all.
+tl::expected<HandedIn, Failure> read_programs(const std::vector<std::string>& paths,
+                                              const std::set<std::string>& stems);
+
+} // namespace orb::cli

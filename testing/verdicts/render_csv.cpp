@@ -1,0 +1,57 @@
+// Results for spreadsheets.
+
+#include "base/utf8.h"
+#include "testing/verdicts/render.h"
+#include "testing/verdicts/table.h"
+
+#include <fmt/format.h>
+
+namespace orb::testing {
+namespace {
+
+/// A field that holds whatever a file may be called. Spreadsheets compute what begins with one of
+/// these signs, unless an apostrophe stands before it.
+std::string field(std::string_view text) {
+  auto out = to_valid_utf8(text);
+  if (!out.empty() && std::string_view("=+-@\t\r").find(out.front()) != std::string_view::npos)
+    out.insert(0, "'");
+  if (out.find_first_of(",\"\r\n") == std::string::npos)
+    return out;
+  for (std::size_t at = 0; (at = out.find('"', at)) != std::string::npos; at += 2)
+    out.insert(at, "\"");
+  return "\"" + out + "\"";
+}
+
+std::string points(const GroupResult* cell) {
+  if (cell == nullptr || cell->cases.empty())
+    return {};
+  return std::to_string(cell->verdict() == Verdict::Passed ? cell->points : 0);
+}
+
+/// Why a program could not be run, in a line.
+std::string problem(const Table::Row& row) {
+  for (const auto* cell : row.cells)
+    if (cell != nullptr)
+      if (const auto* one = first_failure(*cell); one != nullptr && !one->problem.empty())
+        return one->problem.substr(0, one->problem.find('\n'));
+  return {};
+}
+
+} // namespace
+
+std::string render_csv(const Results& results) {
+  const auto table = whole_table(results);
+  std::string out = "program";
+  for (const auto& test : table.tests)
+    out += "," + field(test);
+  out += ",points,of,problem\r\n";
+  for (const auto& row : table.rows) {
+    out += field(row.program);
+    for (const auto* cell : row.cells)
+      out += "," + points(cell);
+    out += fmt::format(",{},{},{}\r\n", row.points, row.points_of, field(problem(row)));
+  }
+  return out;
+}
+
+} // namespace orb::testing
