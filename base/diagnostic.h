@@ -27,6 +27,15 @@ struct Rule {
   std::uint8_t robot_error = 0; ///< the error number that the robot would report, 0 for none
 };
 
+/// A row as a program carries it. Where ORB_BRIEF_RULES is defined it is without what only explains
+/// the rule, for a program that every visitor of a page loads.
+constexpr Rule carried(Rule row) {
+#ifdef ORB_BRIEF_RULES
+  row.explanation = row.bad = row.good = {};
+#endif
+  return row;
+}
+
 struct Edit {
   Span span;
   std::string text;

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "editor/language_server.h"
+#include "playground/request.h"
+#include "playground/robot.h"
+#include "playground/runs.h"
+#include "playground/uploads.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace orb::playground {
+
+/// What answers requests. What lives from one to the next (the language server, a live run, an
+/// upload) is kept here.
+class Engine {
+public:
+  /// The answer to a request, both whole messages: `{"result":…}` or `{"error":…}`. Throws what the
+  /// JSON library throws where the request, or a member of it, is not what it should be.
+  [[gnu::noinline]] std::string answer(const char* request);
+
+private:
+  Answer call(const std::string& method, const ordered_json& params);
+  using Method = Answer (Engine::*)(Request&);
+  struct Row {
+    std::string_view name;
+    Method method;
+  };
+  static const Row rows[];
+
+  Answer version(Request&) { return print({{"version", ORB_VERSION}}); }
+  Answer files(Request& request);
+  Answer lsp(Request& request);
+  Answer run(Request& request);
+  Answer live_start(Request& request);
+  Answer live_advance(Request& request);
+  Answer live_end(Request& request);
+  Answer stimulus(Request& request);
+  Answer input(Request& request);
+  Answer report(Request& request);
+  Answer deliver_start(Request& request);
+  Answer deliver_step(Request& request);
+  Answer hear_robot(Request& request) { return ear_.hear(request); }
+  template <Answer (*function)(Request&)>
+  Answer plain(Request& request) {
+    return function(request);
+  }
+
+  MemoryFiles folder_;
+  editor::LanguageServer server_{&folder_, &folder_};
+  std::unique_ptr<Run> live_;
+  std::optional<Upload> upload_;
+  RobotEar ear_;
+};
+
+/// A message that says why there is no answer.
+std::string refusal(const Problem& problem);
+
+} // namespace orb::playground
