@@ -88,16 +88,24 @@ export function look_at(state) {
   view.x = right - area.box.middle_x;
   view.y = up - area.box.middle_y;
 }
+/** How much of the height of an element lies under what is laid over it: under the numbers above and the key below; 0
+ *  where these stand beside it. */
+function covered(map, { top, bottom }) {
+  const stage = map.closest(".stage"), box = name => stage.querySelector(name).getBoundingClientRect();
+  const head = box(".stage-head"), key = box(".key");
+  return [head.bottom - top, key.height ? bottom - key.top : 0].map(height => Math.max(0, Math.round(height)));
+}
 /** Fits what is looked at into the element, whatever size that has now. */
 export function measure(chart) {
   const size = chart.map.getBoundingClientRect();
   const width = Math.max(size.width, 50), height = Math.max(size.height, 50);
+  const [above, below] = covered(chart.map, size), free = Math.max(height - above - below, 50);
   const wide = Math.max(area.box.right - area.box.left, 20), tall = Math.max(area.box.high - area.box.low, 20);
-  const fitting = Math.min((width - 96) / wide, (height - 84) / tall);
+  const fitting = Math.min((width - 96) / wide, (free - (above || below ? 48 : 84)) / tall);
   const scale = Math.max(fitting, .02) * view.zoom;
   const state = chart.one.state_at(playback.now);
   const [right, up] = view.follow ? place(state.x, state.y) : [area.box.middle_x + view.x, area.box.middle_y + view.y];
-  Object.assign(chart, { width, height, scale, left: width / 2 - right * scale, top: height / 2 + up * scale });
+  Object.assign(chart, { width, height, scale, left: width / 2 - right * scale, top: above + free / 2 + up * scale });
 }
 
 const far = 1e5; // centimetres: beyond what any map shows

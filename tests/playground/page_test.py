@@ -547,6 +547,14 @@ class Playground(unittest.TestCase):
         self.instant(page)
         page.wait("document.querySelectorAll('#map .wall').length > 0 && document.querySelector('#map [data-zone=goal]') !== null")
 
+    def test_the_numbers_do_not_lie_over_what_is_drawn(self):
+        for where, width in (("#example=hall.orb", 1366), ("#example=star.orb", 390)):
+            page = self.open(where, width, 768, mobile=width < 500)
+            self.instant(page)
+            edges = page.evaluate("""[document.querySelector('.stage-head').getBoundingClientRect().bottom,
+              Math.min(...[...document.querySelectorAll('#map .run, #map .wall')].map(one => one.getBoundingClientRect().top))]""")
+            self.assertLessEqual(edges[0], edges[1], where)
+
     # -- testing --
     def test_a_test_fails_and_then_passes(self):
         page = self.open(fragment({"a.bas": '10 print "no"\n', "a.test": 'test "says yes"\n  expect print "yes"\n'}))
