@@ -1,8 +1,10 @@
 #include "protocol/payload_v2.h"
 
+#include "base/text.h"
+
 #include <algorithm>
-#include <bit>
 #include <charconv>
+#include <cstring>
 #include <fmt/format.h>
 #include <optional>
 
@@ -33,13 +35,6 @@ std::optional<std::int64_t> read_integer(std::string_view word) {
   const auto* end = digits.data() + digits.size();
   const auto [next, error] =
       std::from_chars(digits.data(), end, value, is_hex ? hexadecimal : decimal);
-  return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
-}
-
-std::optional<double> read_real(std::string_view word) {
-  double value = 0;
-  const auto* end = word.data() + word.size();
-  const auto [next, error] = std::from_chars(word.data(), end, value);
   return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
 }
 
@@ -78,7 +73,7 @@ bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
     return true;
   }
   if (field.type == V2Type::F32) {
-    const auto value = read_real(word);
+    const auto value = parse_real(word);
     if (!value || !(*value >= static_cast<double>(field.least)) ||
         !(*value <= static_cast<double>(field.most)))
       return false;
@@ -121,7 +116,8 @@ std::string values(const Fields& fields, spec::V2Command command, ByteView data)
     case V2Type::Data: add(field.name, to_hex(rest)); break;
     case V2Type::Text: {
       const auto text = as_text(rest).substr(0, as_text(rest).find('\0'));
-      const bool is_plain = std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
+      const bool is_plain =
+          std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
       add(field.name, is_plain ? fmt::format("`{}`", text) : to_hex(as_bytes(text)));
       break;
     }
@@ -134,11 +130,18 @@ std::string values(const Fields& fields, spec::V2Command command, ByteView data)
 } // namespace
 
 void append_f32(Bytes& out, double value) {
-  append_u32(out, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+  const auto number = static_cast<float>(value);
+  static_assert(sizeof number == sizeof(std::uint32_t));
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &number, sizeof bits);
+  append_u32(out, bits);
 }
 
 double read_f32(ByteView bytes, std::size_t offset) {
-  return std::bit_cast<float>(read_u32(bytes, offset));
+  const auto bits = read_u32(bytes, offset);
+  float number = 0;
+  std::memcpy(&number, &bits, sizeof number);
+  return number;
 }
 
 tl::expected<Bytes, std::string> encode_operands(spec::V2Command command,

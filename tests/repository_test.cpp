@@ -104,6 +104,20 @@ TEST(Floors, EachRoomIncludesOnlyWhatItMay) {
   }
 }
 
+/// The library of the compiler that builds the playground is older than that of all others.
+TEST(Floors, WhatThePlaygroundIsBuiltOfUsesNothingThatItsLibraryLacks) {
+  const std::regex lacking(R"(std::(ranges::\w+\(|bit_cast<))");
+  const std::set<std::string> elsewhere = {"bluez.cpp"}; // what asks an operating system
+  for (const auto& name : reach(room_called("playground")))
+    for (const auto& file : files_below(root / name, {".h", ".cpp"}))
+      if (file.parent_path().filename() != "native" &&
+          !elsewhere.contains(file.filename().string())) {
+        const auto text = read_all(file);
+        EXPECT_FALSE(std::regex_search(text, lacking))
+            << file << " has `std::ranges` or `bit_cast`";
+      }
+}
+
 /// The shelves of a room whose files lie in folders, in floor order: a file includes from its own
 /// folder and from those before it. The room's own folder is `.`.
 const std::vector<std::pair<std::string, std::vector<std::string>>> shelves = {

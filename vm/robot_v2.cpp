@@ -127,8 +127,8 @@ V2Error RobotV2::perform(const PacketV2& request, Bytes& answer) {
   const auto second = spec::v2_target(V2Processor::Secondary);
   if (targeted && request.target != first && (request.target != second || robot_.processors < 2))
     return V2Error::BadTarget;
-  if (std::ranges::none_of(spec::v2_commands,
-                           [&](const auto& row) { return row.did() == request.did; }))
+  if (std::none_of(spec::v2_commands.begin(), spec::v2_commands.end(),
+                   [&](const auto& row) { return row.did() == request.did; }))
     return V2Error::BadDevice;
   const auto* row = spec::find_v2_command(request.did, request.cid);
   if (row == nullptr || !spec::knows(robot_, *row))

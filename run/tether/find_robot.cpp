@@ -89,11 +89,13 @@ private:
 
 /// Whether a robot that knows these commands of a device can be that one.
 bool fits(const spec::RobotInfo& robot, std::uint8_t did, const Bytes& commands) {
-  return std::ranges::all_of(spec::v2_commands, [&](const spec::V2CommandInfo& row) {
-    const bool listed = std::ranges::find(commands, row.cid()) != commands.end();
-    return row.did() != did || row.robots == spec::V2Robots::All ||
-           listed == spec::knows(robot, row);
-  });
+  return std::all_of(spec::v2_commands.begin(), spec::v2_commands.end(),
+                     [&](const spec::V2CommandInfo& row) {
+                       const bool listed =
+                           std::find(commands.begin(), commands.end(), row.cid()) != commands.end();
+                       return row.did() != did || row.robots == spec::V2Robots::All ||
+                              listed == spec::knows(robot, row);
+                     });
 }
 
 } // namespace

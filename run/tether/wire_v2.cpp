@@ -3,9 +3,11 @@
 #include "protocol/payload_v2.h"
 #include "run/tether/wire_v1.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace orb::run {
 namespace {
@@ -30,7 +32,7 @@ constexpr std::uint8_t token = 1;
 constexpr unsigned sample_interval_ms = 50;
 
 bool is_wanted(V2Sensor sensor) {
-  return std::ranges::find(wanted, sensor) != std::end(wanted);
+  return std::find(std::begin(wanted), std::end(wanted), sensor) != std::end(wanted);
 }
 
 std::uint32_t wanted_mask(spec::V2Mask mask) {
