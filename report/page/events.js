@@ -73,8 +73,11 @@ function add_row(event) {
   const item = element("li", { class: event.kind });
   const button = element("button", { type: "button", "data-t": event.t, "data-kind": event.kind });
   const words = element("span", { class: "words" }, event.text.replace(/\n$/, "") || "(empty line)");
-  button.append(element("span", { class: "t" }, seconds(event.t)), icon(event.kind), words);
-  button.setAttribute("aria-label", `${seconds(event.t)} seconds, ${event.kind}: ${event.text}`);
+  const sign = icon(event.kind);
+  sign.removeAttribute("aria-hidden");
+  sign.setAttribute("role", "img");
+  sign.setAttribute("aria-label", event.kind);
+  button.append(element("span", { class: "t" }, seconds(event.t)), sign, words);
   button.addEventListener("click", () => seek(event.t));
   item.append(button);
   $("events").append(item);

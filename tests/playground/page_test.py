@@ -782,6 +782,27 @@ class Playground(unittest.TestCase):
         nameless = [value(node, "role") for node in focusable if not value(node, "name").strip() and value(node, "role") not in ("RootWebArea", "generic")]
         self.assertEqual(nameless, [])
 
+    def test_axe_finds_nothing(self):
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../playground/node_modules/axe-core/axe.min.js"), encoding="utf-8") as file:
+            axe = file.read()
+        play = "document.querySelector('[data-view=play]').click()"
+        for where, width, deeds in (("", 1366, []), ("", 1366, ["pick"]), ("", 1366, ["mine"]), ("", 1366, ["share"]), ("", 1366, ["flash"]),
+                                    ("#example=hall.orb", 1366, ["instant", "world-button"]), ("#lesson=lessons/01-traffic-light", 1366, ["solution", "test"]),
+                                    ("#lesson=lessons/03-square", 390, ["instant"]), ("#p=AAAA", 1366, [])):
+            for colours in ("light", "dark"):
+                page = self.open(where, width, 800, mobile=width < 500)
+                page.prefer(colours)
+                page.wait(coloured)
+                for name in deeds:
+                    page.evaluate(click(name))
+                    page.evaluate(wait(700))
+                    page.wait(idle, 30)
+                if width < 500:
+                    page.evaluate(play)
+                page.evaluate(axe + ";0")
+                found = page.evaluate("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes[0].target}`))")
+                self.assertEqual(found, [], (where, deeds, colours))
+
     def test_a_phone_scrolls_only_down(self):
         for where in ("", "#lesson=lessons/08-the-wall"):
             page = self.open(where, 360, 740, mobile=True)
