@@ -29,6 +29,7 @@ tl::expected<std::unique_ptr<debug::Launched>, Problem> launch(Request& request)
   launch.numbers =
       request.value<std::vector<std::int32_t>>("input").value_or(std::vector<std::int32_t>{});
   launch.client = request.flag("connected", true) ? run::Client::Connected : run::Client::Absent;
+  launch.shape = structured::Shape::Shortest; // the lines that the robot would run
   auto launched = debug::read(launch, request.files);
   if (!launched)
     return tl::unexpected(
