@@ -19,6 +19,7 @@ def load(browser, server):
     page.resize(1280, 860)
     page.go(server.url)
     page.wait("document.documentElement?.dataset.ready")
+    page.wait("performance.getEntriesByName('first-contentful-paint').length")
     paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
     return page, paint, float(page.evaluate("document.documentElement.dataset.ready"))
 
