@@ -182,7 +182,8 @@ bool straighten(Code& code) {
     // A loop stays in one piece, and what is in it stays there.
     const bool cuts =
         std::any_of(lines.begin() + first, lines.begin() + last, [&](const auto& line) {
-          return line.kind == LineKind::Next && loops[first] == loops[&line - lines.data()];
+          return line.kind == LineKind::Next &&
+                 loops[first] == loops[static_cast<std::size_t>(&line - lines.data())];
         });
     if (cuts || loops[first] != loops[last] || loops[first] != loops[i])
       continue;
