@@ -223,13 +223,13 @@ void add_new(CLI::App& app, Context& context) {
       ->check([](const std::string& name) {
         return name.empty() ? std::string("a name is needed") : std::string();
       });
-  auto* numbered = command->add_flag("--numbered", options->numbered,
-                                     "the program has line numbers (.bas), as the robot itself "
-                                     "has them");
+  auto* with_numbers = command->add_flag("--numbered", options->numbered,
+                                         "the program has line numbers (.bas), as the robot itself "
+                                         "has them");
   command
       ->add_flag("--structured", options->structured,
                  "the program has names and blocks (.orb), which is the default")
-      ->excludes(numbered);
+      ->excludes(with_numbers);
   command->add_flag("--course", options->course,
                     "also a course: a drawing of walls, zones and a start");
   command->callback([&context, options] { make(context, *options); });
