@@ -24,11 +24,19 @@ InterruptGuard::InterruptGuard() {
   sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  // The terminal is gone, the robot is not. Under nohup nobody minds.
+  struct sigaction before {};
+  ::sigaction(SIGHUP, nullptr, &before);
+  hears_hangup_ = before.sa_handler != SIG_IGN;
+  if (hears_hangup_)
+    ::sigaction(SIGHUP, &action, nullptr);
 }
 
 InterruptGuard::~InterruptGuard() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  if (hears_hangup_)
+    std::signal(SIGHUP, SIG_DFL);
 }
 
 int InterruptGuard::asked() {

@@ -6,7 +6,7 @@
 
 namespace orb::cli {
 
-/// Makes SIGINT and SIGTERM a request to stop instead of a death, as long as it lives.
+/// Makes SIGINT, SIGTERM and SIGHUP a request to stop instead of a death, as long as it lives.
 class InterruptGuard {
 public:
   InterruptGuard();
@@ -16,6 +16,9 @@ public:
 
   /// How often the user asked to stop since the guard was made.
   static int asked();
+
+private:
+  bool hears_hangup_ = false;
 };
 
 /// A Transport around a Transport whose waits end when the user asks to stop: the next read or
