@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned most_jobs = 1000;
-// The result of a run takes some 150 bytes until all are known.
+// The result of a run takes some 350 bytes until all are known.
 constexpr std::uint64_t most_runs = 2'000'000;
 /// Where tests are looked for if no place is given.
 const std::vector<std::string> test_paths{"."};
