@@ -5,11 +5,8 @@
 //   driven [--runs N]        N runs per robot and fault profile (default 100)
 //   driven --runs 1000 | tests/reliability/section docs/reliability.md
 
-#include "compiler/load.h"
-#include "protocol/link_faults.h"
 #include "run/tether/run_tethered.h"
-#include "vm/ball_transport.h"
-#include "vm/bluetooth.h"
+#include "tests/fakes/far_robot.h"
 
 #include <algorithm>
 #include <array>
@@ -42,40 +39,11 @@ struct Nobody final : run::Listener {
 };
 
 /// A virtual robot behind a bad link.
-struct Robot {
-  Robot(spec::Robot which, std::string_view plan, std::uint64_t seed) {
-    vm::BallOptions options;
-    options.seed = seed;
-    options.loader = compiler::load;
-    options.driving = spec::driving(which);
-    ball = std::make_unique<vm::Ball>(options);
-    const auto packets = spec::info(which).packets;
-    constexpr vm::WireModel model{20ms};
-    std::unique_ptr<protocol::Transport> wire;
-    if (packets == spec::Packets::V2) {
-      v2 = std::make_unique<vm::RobotV2>(*ball, which, vm::bluetooth_address(seed));
-      wire = std::make_unique<vm::BallTransport>(*ball, *v2, model);
-    } else
-      wire = std::make_unique<vm::BallTransport>(*ball, model);
-    auto faults = *protocol::parse_fault_plan(plan.empty() ? "seed=1" : plan);
-    faults.seed = seed;
-    link = std::make_unique<protocol::FaultTransport>(std::move(wire), faults, packets);
-  }
-
-  bool drives() const { return ball->body().speed_setpoint() != 0; }
-  void live_on(Duration time) {
-    constexpr Duration glance = 10ms;
-    for (const auto end = ball->now() + time; ball->now() < end;) {
-      ball->advance_to(ball->now() + glance);
-      if (v2)
-        v2->run();
-    }
-  }
-
-  std::unique_ptr<vm::Ball> ball;
-  std::unique_ptr<vm::RobotV2> v2;
-  std::unique_ptr<protocol::Transport> link;
-};
+test::FarRobot robot_behind(spec::Robot which, std::string_view plan, std::uint64_t seed) {
+  auto faults = *protocol::parse_fault_plan(plan.empty() ? "seed=1" : plan);
+  faults.seed = seed;
+  return {which, faults, 20ms};
+}
 
 struct Tally {
   int whole = 0;    ///< the program came to its end, the stop was acknowledged
@@ -85,17 +53,9 @@ struct Tally {
   Duration longest{};
 };
 
-std::vector<run::Input> inputs_of(std::string_view text) {
-  structured::NoFiles files;
-  std::vector<run::Input> inputs;
-  inputs.push_back(
-      *run::read_input("square.bas", std::string(text), {}, {}, run::Lint::Off, files));
-  return inputs;
-}
-
 void run_once(Tally& tally, spec::Robot which, std::string_view plan, std::uint64_t seed) {
-  static const auto inputs = inputs_of(square);
-  Robot robot(which, plan, seed);
+  static const auto inputs = test::program_of(square);
+  auto robot = robot_behind(which, plan, seed);
   Nobody listener;
   run::TetherOptions options;
   options.robot = which;
@@ -155,11 +115,11 @@ double milliseconds(Duration time) {
 std::vector<double> reactions(int runs) {
   std::vector<double> all;
   for (int i = 1; i <= runs; ++i) {
-    const auto inputs = inputs_of(fmt::format(
+    const auto inputs = test::program_of(fmt::format(
         "10 delay {}\n20 goroll 0,60,1\n30 if ypos > 20 then goto 50\n40 goto 30\n50 goroll 0,0,0\n"
         "60 delay 500\n",
         i % 97 + 1));
-    Robot robot(spec::Robot::Bolt, "", static_cast<std::uint64_t>(i));
+    auto robot = robot_behind(spec::Robot::Bolt, "", static_cast<std::uint64_t>(i));
     Watch watch(*robot.link);
     Nobody listener;
     run::TetherOptions options;

@@ -1,9 +1,6 @@
 #include "run/tether/run_tethered.h"
 
-#include "compiler/load.h"
-#include "protocol/link_faults.h"
-#include "vm/ball_transport.h"
-#include "vm/bluetooth.h"
+#include "tests/fakes/far_robot.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -17,48 +14,18 @@ constexpr std::string_view square = "10 for I = 0 to 3\n20 RGB 255,0,0\n30 gorol
                                     "40 delay 1000\n50 goroll I * 90,0,0\n60 delay 1500\n"
                                     "70 print xpos, ypos\n80 next I\n";
 
-/// What the robot is told, and the world, as the virtual robot has them.
-struct Robot {
-  explicit Robot(spec::Robot which, std::string_view plan = "seed=1") {
-    vm::BallOptions options;
-    options.loader = compiler::load;
-    options.driving = spec::driving(which);
-    options.observer = &told;
-    ball = std::make_unique<vm::Ball>(options);
-    const auto packets = spec::info(which).packets;
-    std::unique_ptr<protocol::Transport> wire;
-    constexpr vm::WireModel model{10ms};
-    if (packets == spec::Packets::V2) {
-      v2 = std::make_unique<vm::RobotV2>(*ball, which, vm::bluetooth_address(1));
-      wire = std::make_unique<vm::BallTransport>(*ball, *v2, model);
-    } else
-      wire = std::make_unique<vm::BallTransport>(*ball, model);
-    link = std::make_unique<protocol::FaultTransport>(std::move(wire),
-                                                      *protocol::parse_fault_plan(plan), packets);
+/// What the robot was told.
+struct Told : vm::Observer {
+  void on_event(Instant, const vm::Event& event) override {
+    if (const auto* led = std::get_if<vm::event::Led>(&event))
+      colors.push_back(led->color);
   }
+  std::vector<vm::Color> colors;
+};
 
-  /// Nobody says anything any more.
-  void live_on(Duration time) {
-    for (const auto end = ball->now() + time; ball->now() < end;) {
-      ball->advance_to(ball->now() + 10ms);
-      if (v2)
-        v2->run();
-    }
-  }
-
-  struct Told final : vm::Observer {
-    void on_event(Instant, const vm::Event& event) override {
-      if (const auto* drive = std::get_if<vm::event::Drive>(&event))
-        rolls.push_back(drive->roll);
-      if (const auto* led = std::get_if<vm::event::Led>(&event))
-        colors.push_back(led->color);
-    }
-    std::vector<vm::Roll> rolls;
-    std::vector<vm::Color> colors;
-  } told;
-  std::unique_ptr<vm::Ball> ball;
-  std::unique_ptr<vm::RobotV2> v2;
-  std::unique_ptr<protocol::Transport> link;
+struct Robot : Told, test::FarRobot {
+  explicit Robot(spec::Robot which, std::string_view plan = "seed=1")
+      : FarRobot(which, *protocol::parse_fault_plan(plan), 10ms, this) {}
 };
 
 struct Heard final : Listener {
@@ -74,16 +41,9 @@ struct Heard final : Listener {
   int faults = 0;
 };
 
-std::vector<Input> inputs_of(std::string_view text) {
-  structured::NoFiles files;
-  std::vector<Input> inputs;
-  inputs.push_back(*read_input("p.bas", std::string(text), {}, {}, Lint::Off, files));
-  return inputs;
-}
-
 tl::expected<TetheredEnding, Failure> run_on(Robot& robot, spec::Robot which,
                                              std::string_view program, Heard& heard) {
-  const auto inputs = inputs_of(program);
+  const auto inputs = test::program_of(program);
   TetherOptions options;
   options.robot = which;
   return run_tethered(inputs, {}, heard, nullptr, *robot.link, options);
@@ -91,7 +51,7 @@ tl::expected<TetheredEnding, Failure> run_on(Robot& robot, spec::Robot which,
 
 TEST(Tether, DrivesEachRobotAsTheVirtualBallDrives) {
   for (const auto& row : spec::robots) {
-    const auto inputs = inputs_of(square);
+    const auto inputs = test::program_of(square);
     Heard here;
     Options options;
     options.model = row.robot;
@@ -112,7 +72,7 @@ TEST(Tether, DrivesEachRobotAsTheVirtualBallDrives) {
         << row.name << ": " << a.x_cm << "," << a.y_cm << " and " << b.x_cm << "," << b.y_cm;
     EXPECT_EQ(here.rolls, there.rolls) << row.name;
     EXPECT_EQ(robot.ball->body().speed_setpoint(), 0) << row.name;
-    EXPECT_EQ(robot.told.colors.front().red, 255) << row.name;
+    EXPECT_EQ(robot.colors.front().red, 255) << row.name;
     EXPECT_EQ(robot.ball->led(), vm::Color{}) << row.name << " is left shining";
   }
 }
