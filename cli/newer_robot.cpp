@@ -9,12 +9,9 @@
 namespace orb::cli {
 
 void add_newer_robot_option(CLI::App& command, std::string& robot) {
-  std::vector<std::string> names;
-  for (const auto& row : spec::robots)
-    names.emplace_back(row.name);
   command
       .add_option("--robot", robot, "which robot answers there; over Bluetooth LE its name tells")
-      ->check(one_of(std::move(names)));
+      ->check(one_of(names_of(spec::robots)));
 }
 
 const spec::RobotInfo* newer_robot(const Context& context, const PortOptions& options,

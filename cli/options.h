@@ -16,6 +16,15 @@ namespace orb::cli {
 /// "; did you mean `…`?" for a word that is none of `names`, or nothing.
 std::string meant_instead(const std::string& word, const std::vector<std::string>& names);
 
+/// The names of the rows of a table.
+template <class Rows>
+std::vector<std::string> names_of(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows)
+    names.emplace_back(row.name);
+  return names;
+}
+
 /// A check that a value is one of `words`. A misspelt value is answered with the word that was
 /// probably meant; help, completion and man pages list the words.
 CLI::Validator one_of(std::vector<std::string> words);

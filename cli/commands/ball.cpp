@@ -111,20 +111,6 @@ void run_ball(Context& context, const BallArguments& arguments) {
     fail(context, {ExitCode::File, served.error().message});
 }
 
-std::vector<std::string> firmware_names() {
-  std::vector<std::string> names;
-  for (const auto& row : spec::firmwares)
-    names.emplace_back(row.name);
-  return names;
-}
-
-std::vector<std::string> robot_names() {
-  std::vector<std::string> names;
-  for (const auto& row : spec::robots)
-    names.emplace_back(row.name);
-  return names;
-}
-
 } // namespace
 
 void add_ball(CLI::App& app, Context& context) {
@@ -162,12 +148,12 @@ void add_ball(CLI::App& app, Context& context) {
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
   command->add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
-      ->check(one_of(firmware_names()))
+      ->check(one_of(names_of(spec::firmwares)))
       ->capture_default_str();
   command
       ->add_option("--robot", arguments->robot,
                    "which robot it is; those after SPRK+ speak packets v2")
-      ->check(one_of(robot_names()))
+      ->check(one_of(names_of(spec::robots)))
       ->capture_default_str();
   command
       ->add_option("--fault", arguments->fault,

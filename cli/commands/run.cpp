@@ -363,9 +363,6 @@ void add_program_options(CLI::App& command, RunOptions& options) {
 
 void add_robot_options(CLI::App& command, RunOptions& options) {
   add_target_options(command, options.target);
-  std::vector<std::string> names;
-  for (const auto& row : spec::firmwares)
-    names.emplace_back(row.name);
   command
       .add_option_function<std::string>(
           "--firmware",
@@ -375,7 +372,7 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
           },
           "the firmware that is simulated")
       ->default_str(options.firmware)
-      ->check(one_of(std::move(names)))
+      ->check(one_of(names_of(spec::firmwares)))
       ->capture_default_str();
   command.add_flag("--lenient", options.lenient,
                    "clamps colours and wraps negative headings, as some robots seem to do");
@@ -398,13 +395,10 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
 
 void add_tether_options(CLI::App& command, RunOptions& options) {
   add_robot_port_options(command, options.port);
-  std::vector<std::string> names;
-  for (const auto& row : spec::robots)
-    names.emplace_back(row.name);
   command
       .add_option("--robot", options.robot,
                   "which robot it is; the virtual one drives like it, a real one tells by its name")
-      ->check(one_of(std::move(names)));
+      ->check(one_of(names_of(spec::robots)));
   command.add_option("--record", options.record,
                      "writes what the robot says and is told to this file");
   command.add_option("--replay", options.replay,
