@@ -13,6 +13,8 @@ struct Scale {
   double per = 1;
 
   constexpr double of(double value) const { return value * steps / per; }
+  /// The other way: what so many steps are.
+  constexpr double back(double number) const { return number * per / steps; }
 };
 
 constexpr Scale scale_of(std::string_view unit) {

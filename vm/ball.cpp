@@ -363,11 +363,6 @@ void Ball::feel(const event::Collision& collision) {
   dispatcher_.on_collision();
 }
 
-void Ball::feel_battery(double volts) {
-  body_.set_battery(volts);
-  check_battery();
-}
-
 void Ball::detect_collision(const Impact& impact) {
   const auto& settings = settings_.collisions;
   if (asleep() || settings.method == 0 || now_ < deaf_until_)

@@ -98,7 +98,6 @@ public:
   void feel(const Sample& sample);
   /// The robot says that it ran into something.
   void feel(const event::Collision& collision);
-  void feel_battery(double volts);
 
   // Asks, as a client has them.
   void drive(const Motion& motion) { drive(Actor::Client, motion); }

@@ -36,10 +36,6 @@ public:
   /// A whole packet that leaves, oldest first.
   std::optional<Bytes> take_packet();
 
-  bool awake() const { return awake_; }
-  bool driving() const { return drives_until_ != never; }
-  const spec::RobotInfo& robot() const { return robot_; }
-
 private:
   struct Service {
     const spec::V2ServiceInfo* row;

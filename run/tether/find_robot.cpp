@@ -3,6 +3,7 @@
 #include "protocol/payload.h"
 #include "protocol/payload_v2.h"
 #include "run/tether/run_tethered.h"
+#include "run/tether/talk_v2.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -52,28 +53,6 @@ public:
         ExitCode::NoBall, "no robot answers; wake it, bring it nearer, and see `orb doctor`"});
   }
 
-  /// Which commands of a device it says that it knows; nothing where it does not say.
-  tl::expected<std::optional<Bytes>, Failure> commands(std::uint8_t did) {
-    ++seq_;
-    for (int attempt = 0; attempt < 3; ++attempt) {
-      const auto request =
-          protocol::encode(protocol::make_request(spec::V2Command::GetCommandIds, {did}, seq_));
-      if (auto sent = link_.write(request); !sent)
-        return tl::unexpected(lost(sent.error()));
-      protocol::DecoderV2 decoder;
-      for (const auto wait = link_.now() + patience; link_.now() < wait;) {
-        const auto heard = link_.read(wait);
-        if (!heard)
-          return tl::unexpected(lost(heard.error()));
-        decoder.feed(*heard);
-        while (const auto item = decoder.next())
-          if (is_answer(*item) && item->packet.seq == seq_)
-            return item->packet.error == 0 ? std::optional(item->packet.data) : std::nullopt;
-      }
-    }
-    return std::nullopt;
-  }
-
 private:
   static constexpr Duration patience = 300ms;
 
@@ -84,7 +63,6 @@ private:
 
   protocol::Transport& link_;
   Instant until_;
-  std::uint8_t seq_ = 0;
 };
 
 /// Whether a robot that knows these commands of a device can be that one.
@@ -111,13 +89,14 @@ tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Du
   for (const auto& row : spec::robots)
     if (row.packets == spec::Packets::V2)
       left.push_back(&row);
+  TalkV2 talk(transport, *left.front()); // what it is asked is the same for all
   for (const auto did :
        {std::uint8_t{0x13}, std::uint8_t{0x17}, std::uint8_t{0x18}, std::uint8_t{0x1A}}) {
-    const auto commands = question.commands(did);
-    if (!commands)
-      return tl::unexpected(commands.error());
-    if (*commands)
-      std::erase_if(left, [&](const auto* row) { return !fits(*row, did, **commands); });
+    const auto answer = talk.ask(spec::V2Command::GetCommandIds, {did});
+    if (!answer && answer.error().code == ExitCode::Interrupted)
+      return tl::unexpected(answer.error());
+    if (answer && answer->error == 0)
+      std::erase_if(left, [&](const auto* row) { return !fits(*row, did, answer->data); });
   }
   if (left.empty())
     return tl::unexpected(Failure{ExitCode::NoBall,

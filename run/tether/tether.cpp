@@ -281,7 +281,6 @@ void Tether::watch_samples() {
   if (stale_ || sample_age() < budgets_.stale)
     return;
   stale_ = true;
-  ++stalls_;
   const auto again = waits(Kind::Drive) ? waiting(Kind::Drive) : driving_;
   want_stop();
   waiting(Kind::Drive) = again; // leaves when samples come again
@@ -311,8 +310,9 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
   if (refused_)
     return tl::unexpected(*refused_);
   if (sample_age() >= budgets_.gone)
-    return tl::unexpected(
-        Failure{ExitCode::LinkLost, "no sensor data came for 5 s; bring the robot nearer"});
+    return tl::unexpected(Failure{
+        ExitCode::LinkLost,
+        fmt::format("no sensor data came for {} s; bring the robot nearer", budgets_.gone / 1s)});
   return {};
 }
 
@@ -379,7 +379,7 @@ bool Tether::finish(const std::function<void(const Said&)>& hear) {
   if (hear)
     await_rest(hear);
   for (const auto& request : wire_->teardown())
-    if (const auto done = ask(request, 2 * budgets_.teardown);
+    if (const auto done = ask(request, budgets_.teardown);
         !done && done.error().code == ExitCode::Interrupted)
       break;
   return true;

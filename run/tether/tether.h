@@ -25,7 +25,7 @@ struct TetherBudgets {
   Duration stop = 4s;         ///< for a stop to be acknowledged at the end
   Duration rest = 1500ms;     ///< for the robot to come to rest then
   Duration busy = 5s;         ///< for a robot that says that it is busy
-  Duration teardown = 400ms;  ///< for each of the last answers
+  Duration teardown = 800ms;  ///< for each of the last answers
 };
 
 /// A robot at the other end of a link, as the body of a ball. Set-points wait here, the latest of a
@@ -55,8 +55,6 @@ public:
   /// How long ago the newest sample came.
   Duration sample_age() const { return now() - sample_at_; }
   bool is_stale() const { return stale_; }
-  /// How often samples stayed away.
-  int stalls() const { return stalls_; }
 
   /// From now on the link is this one: the old one was lost.
   void relink(protocol::Transport& transport);
@@ -118,7 +116,6 @@ private:
   Instant next_send_{};
   Instant sample_at_{};
   bool stale_ = false;
-  int stalls_ = 0;
   bool began_ = false;
   bool finished_ = false;
 };

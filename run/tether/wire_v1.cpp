@@ -3,6 +3,8 @@
 #include "protocol/decoder.h"
 #include "protocol/packet.h"
 #include "spec/api.h"
+#include "spec/ball.h"
+#include "spec/unit.h"
 #include "uploader/session.h"
 
 #include <cmath>
@@ -14,19 +16,75 @@ using spec::ApiCommand;
 
 constexpr std::uint32_t motion_timeout_flag = spec::permanent_option_flags::motion_timeout;
 constexpr int default_motion_timeout_ms = 2000;
-constexpr double full_turn = 360;
 
-// What is streamed, in the order of samples.
-constexpr std::uint32_t mask_first = 0x0007FC00;               // attitude, accelerometer, gyro
-constexpr std::uint32_t mask_second = 0x0D800000 | 0xF0000000; // quaternion, odometer, velocity
+/// Where a run keeps what a source says; null for what it does not ask for.
+double* place_of(vm::Sample& sample, spec::StreamSource source) {
+  using enum spec::StreamSource;
+  auto& attitude = sample.attitude ? *sample.attitude : sample.attitude.emplace();
+  switch (source) {
+  case Pitch: return &sample.pitch_deg;
+  case Roll: return &sample.roll_deg;
+  case Yaw: return &sample.yaw_deg;
+  case AccelX: return &sample.acceleration_g.x;
+  case AccelY: return &sample.acceleration_g.y;
+  case AccelZ: return &sample.acceleration_g.z;
+  case GyroX: return &sample.rotation_deg_s.x;
+  case GyroY: return &sample.rotation_deg_s.y;
+  case GyroZ: return &sample.rotation_deg_s.z;
+  case Q0: return &attitude.w;
+  case Q1: return &attitude.x;
+  case Q2: return &attitude.y;
+  case Q3: return &attitude.z;
+  case OdometerX: return &sample.place_cm.x;
+  case OdometerY: return &sample.place_cm.y;
+  case VelocityX: return &sample.velocity_cm_s.x;
+  case VelocityY: return &sample.velocity_cm_s.y;
+  case AccelXRaw:
+  case AccelYRaw:
+  case AccelZRaw:
+  case GyroXRaw:
+  case GyroYRaw:
+  case GyroZRaw:
+  case RightEmfRaw:
+  case LeftEmfRaw:
+  case LeftPwm:
+  case RightPwm:
+  case RightEmf:
+  case LeftEmf:
+  case AccelOne: break;
+  }
+  return nullptr;
+}
 
-constexpr std::size_t at_attitude = 0;
-constexpr std::size_t at_acceleration = 3;
-constexpr std::size_t at_gyro = 6;
-constexpr std::size_t at_quaternion = 9;
-constexpr std::size_t at_place = 13;
-constexpr std::size_t at_velocity = 15;
-constexpr std::size_t values = 17;
+/// MASK and MASK2 of all that a run asks for.
+std::uint64_t wanted_mask() {
+  std::uint64_t mask = 0;
+  vm::Sample sample;
+  for (const auto& row : spec::streams)
+    if (place_of(sample, row.source) != nullptr)
+      mask |= row.mask;
+  return mask;
+}
+
+/// A frame of the stream; nothing where it is another's.
+std::optional<vm::Sample> read_frame(ByteView data) {
+  constexpr std::size_t value = 2; // bytes
+  vm::Sample sample;
+  std::size_t at = 0;
+  for (const auto& row : spec::streams) {
+    auto* const place = place_of(sample, row.source);
+    if (place == nullptr)
+      continue;
+    if (data.size() < at + value)
+      return std::nullopt;
+    const auto steps = static_cast<std::int16_t>(read_u16(data, at));
+    *place = spec::scale_of(row.unit).back(steps);
+    at += value;
+  }
+  if (sample.yaw_deg < 0)
+    sample.yaw_deg += spec::ball::full_circle;
+  return at == data.size() ? std::optional(sample) : std::nullopt;
+}
 
 Request request(ApiCommand command, Bytes data) {
   return {spec::did(command), spec::cid(command), std::move(data)};
@@ -94,30 +152,9 @@ std::optional<Said> WireV1::next() {
       return Said{Said::Answer{item->seq, item->code, {item->data.begin(), item->data.end()}}};
     if (item->kind != protocol::Item::Kind::Async)
       continue;
-    const auto at = [&](std::size_t i) {
-      return static_cast<double>(static_cast<std::int16_t>(read_u16(item->data, 2 * i)));
-    };
-    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData) &&
-        item->data.size() == 2 * values) {
-      constexpr double per_g = 4096;
-      constexpr double per_degree_s = 10;
-      constexpr double per_unit = 10000;
-      constexpr double per_cm_s = 10;
-      vm::Sample sample;
-      sample.pitch_deg = at(at_attitude);
-      sample.roll_deg = at(at_attitude + 1);
-      const double yaw = at(at_attitude + 2);
-      sample.yaw_deg = yaw < 0 ? yaw + full_turn : yaw;
-      sample.acceleration_g = {at(at_acceleration) / per_g, at(at_acceleration + 1) / per_g,
-                               at(at_acceleration + 2) / per_g};
-      sample.rotation_deg_s = {at(at_gyro) / per_degree_s, at(at_gyro + 1) / per_degree_s,
-                               at(at_gyro + 2) / per_degree_s};
-      sample.attitude = {at(at_quaternion) / per_unit, at(at_quaternion + 1) / per_unit,
-                         at(at_quaternion + 2) / per_unit, at(at_quaternion + 3) / per_unit};
-      sample.place_cm = {at(at_place), at(at_place + 1)};
-      sample.velocity_cm_s = {at(at_velocity) / per_cm_s, at(at_velocity + 1) / per_cm_s, 0};
-      return Said{sample};
-    }
+    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData))
+      if (const auto sample = read_frame(item->data))
+        return Said{*sample};
     constexpr std::size_t collision_size = 16;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
         item->data.size() == collision_size) {
@@ -148,13 +185,12 @@ std::vector<Request> WireV1::setup(bool aim) const {
 
 std::vector<Request> WireV1::setup_more() const {
   constexpr unsigned samples_per_second = 33;
-  constexpr unsigned rate = 400;
   Bytes stream;
-  append_u16(stream, rate / samples_per_second);
+  append_u16(stream, spec::ball::control_rate / samples_per_second);
   append_u16(stream, 1);
-  append_u32(stream, mask_first);
+  append_u32(stream, static_cast<std::uint32_t>(wanted_mask()));
   stream.push_back(0);
-  append_u32(stream, mask_second);
+  append_u32(stream, static_cast<std::uint32_t>(wanted_mask() >> 32));
   return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag),
           request(ApiCommand::SetDataStreaming, std::move(stream))};
 }
@@ -186,9 +222,8 @@ std::optional<Request> WireV1::drive(const vm::Motion& motion) const {
     return request(ApiCommand::SetStabilization,
                    {std::uint8_t(*mode == vm::Stabilization::Off ? 0 : 1)});
   if (const auto* rate = std::get_if<vm::RotationRate>(&motion)) {
-    constexpr double unit = 0.784;
-    constexpr double most = 255;
-    const auto value = std::lround(std::min(rate->deg_per_s / unit, most));
+    using namespace spec::ball;
+    const auto value = std::lround(std::min(rate->deg_per_s / rotation_unit, double{greatest}));
     return request(ApiCommand::SetRotationRate, {static_cast<std::uint8_t>(value)});
   }
   return std::nullopt;
