@@ -19,9 +19,9 @@ constexpr Duration patience = 6s; // for a robot to say what it is
 } // namespace
 
 tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options) {
-  const auto of_simulation = [](std::string_view option) {
-    return refuse(
-        fmt::format("`{}` is for the virtual ball; leave it out, or leave `--port` out", option));
+  const auto of_simulation = [&](std::string_view option) {
+    return refuse(fmt::format("`{}` is for the virtual ball; leave it out, or leave `{}` out",
+                              option, given.replay.empty() ? "--port" : "--replay"));
   };
   if (!given.course.empty())
     return of_simulation("--course");
