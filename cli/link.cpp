@@ -1,5 +1,7 @@
 #include "cli/link.h"
 
+#include "cli/options.h"
+
 #include "base/duration.h"
 #include "cli/config.h"
 #include "cli/inputs.h"
@@ -70,13 +72,17 @@ void add_port_options(CLI::App& command, PortOptions& options) {
   add_waits(command, options);
 }
 
-void add_robot_port_options(CLI::App& command, PortOptions& options) {
+void add_robot_port_options(CLI::App& command, PortOptions& options, std::string& robot) {
   options.port.clear();
   command
       .add_option("-p,--port", options.port,
                   "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
                   "pty://, sim: or @ball")
       ->type_name("URL");
+  command
+      .add_option("--robot", robot,
+                  "which robot it is; the virtual one drives like it, a real one tells by its name")
+      ->check(one_of(names_of(spec::robots)));
   add_waits(command, options);
 }
 

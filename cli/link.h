@@ -33,9 +33,10 @@ struct PortOptions {
   std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE
 };
 
-/// Adds `--port`, which says where a robot is that serves as a program's body, `--timeout` and
-/// `--connect-timeout`. Without `--port` there is none, whatever the environment says.
-void add_robot_port_options(CLI::App& command, PortOptions& options);
+/// Adds `--port`, which says where a robot is that serves as a program's body, `--robot`,
+/// `--timeout` and `--connect-timeout`. Without `--port` there is none, whatever the environment
+/// says. `robot` becomes the name of a row of spec/robots.def; empty where none is given.
+void add_robot_port_options(CLI::App& command, PortOptions& options, std::string& robot);
 
 /// Adds `--port`, which the environment may give as ORB_PORT, `--record`, `--timeout` and
 /// `--connect-timeout`.

@@ -1,10 +1,10 @@
 #include "cli/on_robot.h"
 
+#include "cli/driven_robot.h"
 #include "cli/terminal/interrupt.h"
 #include "disk/disk.h"
 
 #include <fmt/format.h>
-#include <memory>
 #include <optional>
 
 namespace orb::cli {
@@ -13,8 +13,6 @@ namespace {
 tl::unexpected<Failure> refuse(std::string message) {
   return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
 }
-
-constexpr Duration patience = 6s; // for a robot to say what it is
 
 } // namespace
 
@@ -47,36 +45,16 @@ run_on_robot(const Context& context, const RunOptions& given, const run::Options
     record = *std::move(draft);
   }
   const InterruptGuard guard;
-  auto port = given.port;
-  port.robot = options.model;
-  port.accepts = uploader::Accepts::All;
-  auto link = open_link(context, port);
-  if (!link)
-    return tl::unexpected(link.error());
-  run::TetherOptions tether;
-  tether.aim = given.keep_aim ? run::Aim::Keep : run::Aim::Zero;
-  tether.note = [&](const std::string& message) { print_note(context, message); };
-  std::unique_ptr<Link> second;
-  if (!link->is_sim)
-    tether.reopen = [&]() -> std::unique_ptr<protocol::Transport> {
-      auto opened = open_link(context, port);
-      if (!opened)
-        return nullptr;
-      second = std::make_unique<Link>(*std::move(opened));
-      return std::move(second->transport);
-    };
-  if (!given.robot.empty() || link->is_sim)
-    tether.robot = options.model;
-  else if (link->named)
-    tether.robot = *link->named;
-  else if (const auto found = run::find_robot(*link->transport, patience))
-    tether.robot = *found;
-  else
-    return tl::unexpected(found.error());
+  auto connected = connect_robot(context, given.port, given.robot);
+  if (!connected)
+    return tl::unexpected(connected.error());
+  auto& robot = **connected;
+  robot.tether.aim = given.keep_aim ? run::Aim::Keep : run::Aim::Zero;
   run::DriveRecording recording;
   if (record)
-    tether.recording = &recording;
-  auto driven = run::run_tethered(inputs, options, console, journey, *link->transport, tether);
+    robot.tether.recording = &recording;
+  auto driven = run::run_tethered(inputs, options, console, journey, *robot.link.transport,
+                                  robot.tether);
   if (!driven || !record)
     return driven;
   record->append(as_bytes(run::to_text(recording)));

@@ -451,7 +451,10 @@ void Live::apply(const vm::Stimulus& stimulus) {
 }
 
 void Live::feel(const vm::Sample& sample) {
-  state_->ball.feel(sample);
+  auto& ball = state_->ball;
+  ball.feel(sample);
+  if (state_->options.steps == Steps::Heard) // this is how a robot elsewhere moves on
+    state_->watcher.on_step(ball.now(), ball.body());
 }
 
 void Live::feel(const vm::event::Collision& collision) {

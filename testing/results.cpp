@@ -17,6 +17,7 @@ void omit(CaseResult& one) {
   one.misses = {};
   one.problem = {};
   one.again = {};
+  one.journey = {};
   one.omitted = true;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "base/time.h"
+#include "report/journey.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,7 +40,9 @@ struct CaseResult {
   std::uint64_t lines = 0;
   std::vector<Miss> misses;
   std::string problem;  ///< with Verdict::Error
-  std::string again;    ///< the command that shows a failure
+  std::string again;    ///< the command that shows a failure; empty where none does
+  /// What was seen of it; null where running it once more shows the same.
+  std::shared_ptr<const report::Journey> journey;
   bool omitted = false; ///< it did not pass, and these three are not kept
 };
 

@@ -14,8 +14,10 @@ constexpr std::size_t longest_line = 4096;
 /// Hears a run, and tells its judges.
 class Court final : public run::Listener {
 public:
-  Court(const Test& test, const Group& group, const report::Journey* journey)
-      : keeps_on_(journey != nullptr) {
+  /// How far a run goes.
+  enum class Goes : std::uint8_t { UntilKnown, ToTheEnd };
+
+  Court(const Test& test, const Group& group, Goes goes) : keeps_on_(goes == Goes::ToTheEnd) {
     judges_.reserve(test.expectations.size());
     for (std::size_t i = 0; i < test.expectations.size(); ++i) {
       const auto& one = test.expectations[i];
@@ -227,13 +229,18 @@ run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t s
   return options;
 }
 
-CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
-                    vm::NativePrograms* native, report::Journey* journey) {
-  const auto& file = suite.files[group.file];
+namespace {
+
+using Run = std::function<tl::expected<run::Ending, Failure>(const run::Options& options,
+                                                             run::Listener& listener)>;
+
+/// Judges the run that `run` makes.
+CaseResult judge_case(const Suite& suite, const Group& group, const run::Options& options,
+                      Court::Goes goes, const Run& run) {
   const auto& test = suite.test_of(group);
   const auto& program = suite.programs[group.program];
   CaseResult result;
-  result.seed = seed;
+  result.seed = options.seed;
   const auto fail = [&](std::string problem) {
     result.verdict = Verdict::Error;
     result.problem = std::move(problem);
@@ -241,10 +248,8 @@ CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
   };
   if (!program.problem.empty())
     return fail(program.problem);
-  auto options = options_of(file, test, seed);
-  options.native_programs = native;
-  Court court(test, group, journey);
-  const auto ending = run::run(program.inputs, options, court, journey);
+  Court court(test, group, goes);
+  const auto ending = run(options, court);
   if (!ending)
     return fail(ending.error().message + "\n");
   result.lasted = ending->lasted;
@@ -255,8 +260,34 @@ CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
   if (!result.misses.empty()) {
     result.verdict = Verdict::Failed;
     constexpr Duration little = 250ms; // that it rolls on, nobody sees
-    result.again = replay_command(suite, group, seed, ending->seen_to - ending->lasted > little);
+    result.again =
+        replay_command(suite, group, options.seed, ending->seen_to - ending->lasted > little);
   }
+  return result;
+}
+
+} // namespace
+
+CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
+                    vm::NativePrograms* native, report::Journey* journey) {
+  auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
+  options.native_programs = native;
+  const auto goes = journey == nullptr ? Court::Goes::UntilKnown : Court::Goes::ToTheEnd;
+  return judge_case(
+      suite, group, options, goes, [&](const run::Options& given, run::Listener& listener) {
+        return run::run(suite.programs[group.program].inputs, given, listener, journey);
+      });
+}
+
+CaseResult play_case(const Suite& suite, const Group& group, std::uint64_t seed, const Play& play) {
+  const auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
+  auto journey = std::make_shared<report::Journey>();
+  auto result = judge_case(suite, group, options, Court::Goes::UntilKnown,
+                           [&](const run::Options& given, run::Listener& listener) {
+                             return play(suite, group, given, listener, *journey);
+                           });
+  result.again.clear(); // the virtual ball would do something else
+  result.journey = std::move(journey);
   return result;
 }
 

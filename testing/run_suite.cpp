@@ -87,13 +87,15 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
     if (index >= tasks.size())
       return false;
     const auto& task = tasks[index];
-    *task.result = run_case(suite, *task.group, task.result->seed, &native, nullptr);
+    const auto seed = task.result->seed;
+    *task.result = options.play ? play_case(suite, *task.group, seed, options.play)
+                                : run_case(suite, *task.group, seed, &native, nullptr);
     failures.add(tasks, index);
     done.fetch_add(1);
     return true;
   };
   std::vector<std::thread> others;
-  const auto wanted = std::min<std::size_t>(options.jobs, tasks.size());
+  const auto wanted = std::min<std::size_t>(options.play ? 1 : options.jobs, tasks.size());
   try {
     for (std::size_t i = 1; i < wanted; ++i)
       others.emplace_back([&] {

@@ -394,11 +394,7 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
 }
 
 void add_tether_options(CLI::App& command, RunOptions& options) {
-  add_robot_port_options(command, options.port);
-  command
-      .add_option("--robot", options.robot,
-                  "which robot it is; the virtual one drives like it, a real one tells by its name")
-      ->check(one_of(names_of(spec::robots)));
+  add_robot_port_options(command, options.port, options.robot);
   command.add_option("--record", options.record,
                      "writes what the robot says and is told to this file");
   command.add_option("--replay", options.replay,

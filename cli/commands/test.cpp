@@ -3,6 +3,8 @@
 #include "cli/inputs.h"
 #include "cli/options.h"
 #include "cli/programs.h"
+#include "cli/robot_stage.h"
+#include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
 #include "disk/disk.h"
 #include "testing/run_suite.h"
@@ -37,6 +39,9 @@ struct TestOptions {
   std::string format = "text";
   std::string output;
   std::string report;
+  PortOptions port; ///< of a robot; empty for the virtual ball
+  std::string robot;
+  bool yes = false;
   bool merge = false;
 };
 
@@ -116,6 +121,12 @@ public:
 
 private:
   CountBar bar_;
+};
+
+/// Shows nothing: on a robot each case is told before it begins.
+class NoBar final : public testing::Progress {
+public:
+  void on_cases(std::uint64_t, std::uint64_t) override {}
 };
 
 /// The files of a report in its folder. The index is written last, and an old one goes first: a
@@ -283,9 +294,55 @@ tl::expected<void, Failure> add_programs(const TestOptions& options,
   return {};
 }
 
+tl::expected<void, Failure> report_and_tell(Context& context, const TestOptions& options,
+                                            const testing::Suite& suite,
+                                            const testing::Results& results) {
+  if (!options.report.empty())
+    if (auto written = write_report(options.report, suite, results); !written)
+      return written;
+  return tell(context, options, results);
+}
+
+/// The tests on a robot, one after the other. What is known of it is told, even where the link was
+/// lost in the middle.
+tl::expected<void, Failure> test_robot(Context& context, const TestOptions& options,
+                                       const testing::Suite& suite, testing::RunOptions run) {
+  const InterruptGuard guard;
+  auto robot = connect_robot(context, options.port, options.robot);
+  if (!robot)
+    return tl::unexpected(robot.error());
+  RobotStage stage(context, **robot, options.yes ? Attended::No : Attended::Yes, suite.cases);
+  run.play = [&](auto&... all) { return stage.play(all...); };
+  NoBar none;
+  const auto results = testing::run_suite(suite, run, none);
+  if (auto told = report_and_tell(context, options, suite, results); !told)
+    return told;
+  if (stage.broken())
+    return tl::unexpected(*stage.broken());
+  return {};
+}
+
+/// Options that belong to a robot, or cannot go with one.
+tl::expected<void, Failure> check_port(const TestOptions& options) {
+  const auto refuse = [](std::string message) {
+    return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
+  };
+  if (options.port.port.empty()) {
+    if (options.yes)
+      return refuse("`--yes` is for tests on a robot; add `--port`");
+    if (!options.robot.empty())
+      return refuse("`--robot` says which robot answers; add `--port`");
+  } else if (options.jobs > 1) {
+    return refuse("a robot runs one test at a time; leave `--jobs` out");
+  }
+  return {};
+}
+
 tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
   if (options.merge)
     return join(context, options);
+  if (auto fits = check_port(options); !fits)
+    return fits;
   if (auto programs = check_programs(options); !programs)
     return programs;
   auto wanted = suite_options(options);
@@ -313,14 +370,13 @@ tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
   testing::RunOptions run;
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
   run.shard = *shard;
+  if (!options.port.port.empty())
+    return test_robot(context, options, *suite, std::move(run));
   const auto results = [&] {
     Bar bar(context);
     return testing::run_suite(*suite, run, bar);
   }();
-  if (!options.report.empty())
-    if (auto written = write_report(options.report, *suite, results); !written)
-      return written;
-  return tell(context, options, results);
+  return report_and_tell(context, options, *suite, results);
 }
 
 } // namespace
@@ -330,6 +386,7 @@ void add_test(CLI::App& app, Context& context) {
       add_command(app, "test", "run the tests of programs and judge them",
                   "orb test\norb test corner.test\norb test task.test --program *.bas\n"
                   "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
+                  "orb test corner.test --port ble://SB-1A2B\n"
                   "orb test --shard 1/2 --format json > a.json\n"
                   "orb test --merge a.json b.json --format markdown");
   auto options = std::make_shared<TestOptions>();
@@ -358,6 +415,9 @@ void add_test(CLI::App& app, Context& context) {
       ->add_option("--report", options->report,
                    "a folder for a page with a picture of each run and a replay of each failure")
       ->type_name("FOLDER");
+  add_robot_port_options(*command, options->port, options->robot);
+  command->add_flag("--yes", options->yes,
+                    "the robot is on its mark: nobody is asked before a test on it");
   command->add_flag("--merge", options->merge,
                     "joins results: the files are those that shards wrote with --format json");
   command->callback([&context, options] {

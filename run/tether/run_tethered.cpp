@@ -155,7 +155,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
                                                    protocol::Transport& transport,
                                                    const TetherOptions& tether) {
   Tether robot(transport, tether.robot, tether.budgets);
-  const auto first = robot.begin(tether.aim == Aim::Zero);
+  const auto first = robot.begin(tether.aim);
   if (!first)
     return tl::unexpected(first.error());
   Live* running = nullptr;

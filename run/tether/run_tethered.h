@@ -14,9 +14,6 @@
 
 namespace orb::run {
 
-/// Whether a run begins with the robot's heading and place set to 0.
-enum class Aim : std::uint8_t { Zero, Keep };
-
 /// What a run on a robot needs beyond its program.
 struct TetherOptions {
   spec::Robot robot = spec::Robot::Sphero;

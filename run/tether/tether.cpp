@@ -104,7 +104,7 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
                           what)});
 }
 
-tl::expected<vm::Sample, Failure> Tether::begin(bool aim) {
+tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
   began_ = true;
   const auto fail = [&](Failure failure) {
     const bool stopped = finish();

@@ -40,9 +40,9 @@ public:
   Tether(const Tether&) = delete;
   Tether& operator=(const Tether&) = delete;
 
-  /// Readies the robot and waits for its first sample. `aim`: its heading and place become 0.
+  /// Readies the robot and waits for its first sample.
   /// The failure says which step failed; the robot has been stopped then.
-  tl::expected<vm::Sample, Failure> begin(bool aim);
+  tl::expected<vm::Sample, Failure> begin(Aim aim);
 
   void obey(const vm::Motion& motion) override;
   void show(vm::Color color) override;

@@ -32,6 +32,9 @@ struct Request {
   Bytes data;
 };
 
+/// Whether a run begins with the robot's heading and place set to 0.
+enum class Aim : std::uint8_t { Zero, Keep };
+
 /// The packets of a robot: what is wanted of it as requests, what it sends as values. It holds no
 /// time and sends nothing.
 class RobotWire {
@@ -45,7 +48,7 @@ public:
 
   /// What readies it for a run, in order. Answers go to hear_setup(), with the number of the
   /// request.
-  virtual std::vector<Request> setup(bool aim) const = 0;
+  virtual std::vector<Request> setup(Aim aim) const = 0;
   virtual void hear_setup(std::size_t, const Bytes&) {}
   /// What is sent once setup() has been answered and depends on the answers.
   virtual std::vector<Request> setup_more() const { return {}; }

@@ -102,7 +102,7 @@ public:
   void feed(ByteView bytes) override { decoder_.feed(bytes); }
   std::optional<Said> next() override;
 
-  std::vector<Request> setup(bool aim) const override;
+  std::vector<Request> setup(Aim aim) const override;
   void hear_setup(std::size_t which, const Bytes& answer) override {
     if (which == 0 && answer.size() == sizeof(std::uint32_t))
       flags_ = read_u32(answer, 0);
@@ -171,10 +171,10 @@ std::optional<Said> WireV1::next() {
   return std::nullopt;
 }
 
-std::vector<Request> WireV1::setup(bool aim) const {
+std::vector<Request> WireV1::setup(Aim aim) const {
   std::vector<Request> all{request(ApiCommand::GetPermanentOptionFlags, {}),
                            request(ApiCommand::SetStabilization, {1})};
-  if (aim) {
+  if (aim == Aim::Zero) {
     all.push_back(request(ApiCommand::SetHeading, {0, 0}));
     constexpr std::size_t operands = 7;
     Bytes origin(operands, 0);

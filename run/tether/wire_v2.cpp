@@ -113,7 +113,7 @@ public:
   void feed(ByteView bytes) override { decoder_.feed(bytes); }
   std::optional<Said> next() override;
 
-  std::vector<Request> setup(bool aim) const override;
+  std::vector<Request> setup(Aim aim) const override;
   std::vector<Request> teardown() const override;
 
   std::optional<Request> drive(const vm::Motion& motion) const override;
@@ -238,14 +238,14 @@ std::optional<Said> WireV2::next() {
   return std::nullopt;
 }
 
-std::vector<Request> WireV2::setup(bool aim) const {
+std::vector<Request> WireV2::setup(Aim aim) const {
   std::vector<Request> all{request(V2Command::Wake)};
   const bool services = robot_.sensors == spec::RobotSensors::Services;
   if (!services)
     all.push_back(request(V2Command::SetStabilization, {1}));
   if (robot_.robot == spec::Robot::R2d2 || robot_.robot == spec::Robot::R2q5)
     all.push_back(request(V2Command::LegAction, {1})); // it drives on three legs
-  if (aim) {
+  if (aim == Aim::Zero) {
     all.push_back(request(V2Command::ResetYaw));
     all.push_back(request(V2Command::ResetLocator));
   }

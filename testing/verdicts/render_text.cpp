@@ -45,7 +45,8 @@ std::string details(const GroupResult& group, const CaseResult& one, Style style
     if (!miss.where.empty())
       out += fmt::format("    ran:   {}\n", to_printable(miss.where));
   }
-  out += fmt::format("    again: {}\n", shown_name(one.again));
+  if (!one.again.empty())
+    out += fmt::format("    again: {}\n", shown_name(one.again));
   return out;
 }
 

@@ -188,8 +188,10 @@ private:
         body += card(one, {}, {});
       return true;
     }
-    report::Journey journey;
-    run_case(suite_, group, one.seed, nullptr, &journey);
+    report::Journey virtual_run;
+    if (one.journey == nullptr)
+      run_case(suite_, group, one.seed, nullptr, &virtual_run);
+    const auto& journey = one.journey == nullptr ? virtual_run : *one.journey;
     ++pictures_;
     const auto picture = name + ".svg";
     if (!pages_.write(picture, report::path_svg(journey)))
