@@ -1,5 +1,7 @@
 #include "cli/driven_robot.h"
 
+#include "run/tether/held_robot.h"
+
 namespace orb::cli {
 namespace {
 
@@ -42,6 +44,22 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
       return std::move(again->transport);
     };
   return robot;
+}
+
+tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
+hold_robot(const Context& context, const PortOptions& port, const std::string& name) {
+  struct Both {
+    std::unique_ptr<DrivenRobot> robot;
+    std::unique_ptr<run::HeldRobot> held; // goes first: it still speaks to the robot
+  };
+  auto robot = connect_robot(context, port, name);
+  if (!robot)
+    return tl::unexpected(robot.error());
+  auto held = run::hold_robot(*(*robot)->link.transport, (*robot)->tether);
+  if (!held)
+    return tl::unexpected(held.error());
+  const auto both = std::make_shared<Both>(*std::move(robot), *std::move(held));
+  return std::shared_ptr<run::HeldRobot>(both, both->held.get());
 }
 
 } // namespace orb::cli

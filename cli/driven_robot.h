@@ -2,6 +2,7 @@
 
 #include "cli/context.h"
 #include "cli/link.h"
+#include "run/held_robot.h"
 #include "run/tether/run_tethered.h"
 
 #include <memory>
@@ -21,5 +22,9 @@ struct DrivenRobot {
 /// name in the port tells, or the robot itself is asked.
 tl::expected<std::unique_ptr<DrivenRobot>, Failure>
 connect_robot(const Context& context, const PortOptions& port, const std::string& name);
+
+/// The same, readied for a debugger.
+tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
+hold_robot(const Context& context, const PortOptions& port, const std::string& name);
 
 } // namespace orb::cli

@@ -55,10 +55,12 @@ Debugger::Debugger(std::span<const run::Input> inputs, const run::Options& optio
 
 Debugger::~Debugger() = default;
 
-tl::expected<std::unique_ptr<Debugger>, Failure>
-Debugger::start(std::span<const run::Input> inputs, const run::Options& options, Console& console) {
+tl::expected<std::unique_ptr<Debugger>, Failure> Debugger::start(std::span<const run::Input> inputs,
+                                                                 const run::Options& options,
+                                                                 Console& console,
+                                                                 run::HeldRobot* robot) {
   std::unique_ptr<Debugger> debugger(new Debugger(inputs, options, console));
-  auto timeline = Timeline::start(inputs, debugger->options_, *debugger);
+  auto timeline = Timeline::start(inputs, debugger->options_, *debugger, robot);
   if (!timeline)
     return tl::unexpected(timeline.error());
   debugger->timeline_ = *std::move(timeline);
@@ -331,6 +333,8 @@ std::string Debugger::filled(std::string_view text) const {
 // --- going --------------------------------------------------------------------------------------
 
 Stop Debugger::go(Move move, Direction direction, Thread thread, const GiveUp& give_up) {
+  if (direction == Direction::Back && timeline_->drives())
+    return {Stop::Reason::Robot, {}, std::string(no_way_back)};
   move_ = move;
   direction_ = direction;
   thread_ = thread;
@@ -394,6 +398,7 @@ Stop Debugger::stop_of(Halt halt) {
     return direction_ == Direction::Forward ? found_ : noted_;
   case Halt::Time: return {Stop::Reason::Time, {}, {}};
   case Halt::GivenUp: return {Stop::Reason::GivenUp, {}, {}};
+  case Halt::Lost: return {Stop::Reason::Robot, {}, timeline_->lost()->message};
   case Halt::Over: break;
   }
   if (direction_ == Direction::Back) {
@@ -405,13 +410,17 @@ Stop Debugger::stop_of(Halt halt) {
   return {Stop::Reason::End, {}, fault_ ? fault_text(*fault_) : std::string()};
 }
 
-void Debugger::restart() {
+tl::expected<void, std::string> Debugger::restart() {
+  if (timeline_->drives())
+    return tl::unexpected(std::string("a robot does not come back to its beginning by itself: end, "
+                                      "put it on its mark, and begin again"));
   timeline_->begin_again();
   fault_.reset();
   is_helped_ = false;
   for (auto& one : breakpoints_)
     one.hits = 0;
   stand_outermost();
+  return {};
 }
 
 /// At the beginning of the run: before the calls that the first line is for.
@@ -453,9 +462,12 @@ bool Debugger::give_number(std::int32_t value) {
   return timeline_->change(GiveNumber{value});
 }
 
-bool Debugger::happen(const vm::Stimulus& stimulus) {
+tl::expected<void, std::string> Debugger::happen(const vm::Stimulus& stimulus) {
+  if (timeline_->drives())
+    return tl::unexpected(std::string("do it to the robot by hand while the program goes on"));
   is_helped_ = true;
-  return timeline_->change(stimulus);
+  timeline_->change(stimulus);
+  return {};
 }
 
 std::optional<run::Want> Debugger::want() const {

@@ -21,6 +21,12 @@
 
 namespace orb::debug {
 
+/// Why a run on a robot is not gone back.
+inline constexpr std::string_view no_way_back =
+    "a robot cannot drive its way back: set a breakpoint earlier and begin again, or leave the "
+    "port "
+    "out";
+
 /// Who runs. A ball has both at once.
 enum class Thread : std::uint8_t { Program, Macro };
 
@@ -64,6 +70,7 @@ struct Stop {
     End,
     Begin,   ///< going back, it came to its beginning
     GivenUp, ///< it is to go on when there is time again: resume()
+    Robot,   ///< the robot that is driven cannot do that, or is lost: `text`
   };
   Reason reason = Reason::Step;
   std::vector<int> breakpoints; ///< that were hit
@@ -94,9 +101,11 @@ public:
 
 class Debugger final : Audience, Watch, Meaning {
 public:
-  /// Inputs, options and console outlive it.
-  static tl::expected<std::unique_ptr<Debugger>, Failure>
-  start(std::span<const run::Input> inputs, const run::Options& options, Console& console);
+  /// Inputs, options, console and the robot, which may be null, outlive it.
+  static tl::expected<std::unique_ptr<Debugger>, Failure> start(std::span<const run::Input> inputs,
+                                                                const run::Options& options,
+                                                                Console& console,
+                                                                run::HeldRobot* robot = nullptr);
   ~Debugger();
 
   const Sources& sources() const { return sources_; }
@@ -119,8 +128,8 @@ public:
   Stop go_until(Duration time, const GiveUp& give_up);
   /// Goes on with what was given up.
   Stop resume(const GiveUp& give_up);
-  /// Back to before the first step.
-  void restart();
+  /// Back to before the first step; a sentence where it cannot be.
+  tl::expected<void, std::string> restart();
   /// The program goes on at a line of the source; false where nothing begins there.
   bool jump(Spot spot);
 
@@ -147,7 +156,7 @@ public:
   // Changing. False, or a sentence, where it cannot be.
   tl::expected<std::int32_t, std::string> set(std::string_view name, std::string_view value);
   bool give_number(std::int32_t value);
-  bool happen(const vm::Stimulus& stimulus);
+  tl::expected<void, std::string> happen(const vm::Stimulus& stimulus);
 
 private:
   Debugger(std::span<const run::Input> inputs, const run::Options& options, Console& console);

@@ -46,4 +46,7 @@ struct Launched {
 tl::expected<std::unique_ptr<Launched>, Failure> read(const Launch& launch,
                                                       structured::Files& files);
 
+/// That a robot can be the ball of that run: what only a simulation has is refused.
+tl::expected<void, Failure> check_for_robot(const Launched& launched);
+
 } // namespace orb::debug

@@ -50,7 +50,8 @@ std::optional<tl::expected<std::string, std::string>> change_by_words(Debugger& 
   const auto script = vm::parse_stimulus(Source("console", fmt::format("at 0s {}\n", line)));
   if (!script.diagnostics.empty() || script.events.size() != 1)
     return std::nullopt;
-  debugger.happen(script.events.front().stimulus);
+  if (const auto done = debugger.happen(script.events.front().stimulus); !done)
+    return wrong_because(done.error());
   return said(fmt::format("now: {}", trim(line)));
 }
 
@@ -161,7 +162,8 @@ void Shell::jump(std::string_view rest, const GiveUp&) {
 }
 
 void Shell::again(std::string_view, const GiveUp&) {
-  debugger_.restart();
+  if (const auto done = debugger_.restart(); !done)
+    return wrong(done.error());
   show_place();
 }
 
@@ -174,12 +176,16 @@ void Shell::report(const Stop& stop) {
                              stop.text.empty() ? "" : ": ", stop.text));
     break;
   case Stop::Reason::Fault: console_.say(fmt::format("error: {}", stop.text)); break;
-  case Stop::Reason::GivenUp: console_.say("interrupted"); break;
+  case Stop::Reason::GivenUp:
+    debugger_.timeline().hold();
+    console_.say("interrupted");
+    break;
+  case Stop::Reason::Robot: return wrong(stop.text);
   case Stop::Reason::Input: console_.say("it waits for a number: `input 42`"); break;
   case Stop::Reason::End:
     if (!stop.text.empty())
       console_.say(fmt::format("error: {}", stop.text));
-    console_.say(fmt::format("{}; `rs` goes back", ending_of(debugger_)));
+    console_.say(ending_of(debugger_) + (debugger_.timeline().drives() ? "" : "; `rs` goes back"));
     return;
   case Stop::Reason::Begin: console_.say("this is where it began"); break;
   }

@@ -79,16 +79,17 @@ struct Timeline::Search {
 // Beginning.
 
 Timeline::Timeline(std::span<const run::Input> inputs, const run::Options& options,
-                   Audience& audience)
-    : inputs_(inputs), options_(options), audience_(audience), steps_apart_(first_steps_apart),
-      time_apart_(first_time_apart) {}
+                   Audience& audience, run::HeldRobot* robot)
+    : inputs_(inputs), options_(options), audience_(audience), robot_(robot), voice_(robot),
+      steps_apart_(first_steps_apart), time_apart_(first_time_apart) {}
 
 Timeline::~Timeline() = default;
 
 tl::expected<std::unique_ptr<Timeline>, Failure> Timeline::start(std::span<const run::Input> inputs,
                                                                  const run::Options& options,
-                                                                 Audience& audience) {
-  std::unique_ptr<Timeline> timeline(new Timeline(inputs, options, audience));
+                                                                 Audience& audience,
+                                                                 run::HeldRobot* robot) {
+  std::unique_ptr<Timeline> timeline(new Timeline(inputs, options, audience, robot));
   if (auto started = timeline->start(); !started)
     return tl::unexpected(started.error());
   timeline->restore(timeline->copies_.front()); // the client of the first ball is gone
@@ -109,10 +110,14 @@ tl::expected<void, Failure> Timeline::start() {
   made.steps = this;
   made.gate = this;
   ball_ = std::make_unique<vm::Ball>(made);
+  if (robot_ != nullptr)
+    ball_->become(voice_);
   vm::BallTransport transport(*ball_);
   uploader::Session session(transport, {}, 0);
   if (auto done = run::upload(load, options_, *ball_, session); !done)
     return done;
+  if (robot_ != nullptr)
+    ball_->feel(robot_->first());
   start_ = ball_->now();
   if (run::start(load, options_, *ball_, session) == run::Started::Refused ||
       !(ball_->basic_running() || ball_->macros().running()))
@@ -343,7 +348,7 @@ Timeline::Reached Timeline::advance_to_bound(Search& search) {
   const Instant wait_until = search.bound && !search.bound->about_to ? search.bound->at : never;
   const Instant end = std::min(wait_until, search.until);
   for (;;) {
-    ball_->advance_until_quiet(std::min(end, ball_->now() + slice));
+    ball_->advance_until_quiet(next_look(end));
     ball_->take_output();
     if (search.at_bound)
       return Reached::Bound;
@@ -363,7 +368,52 @@ Timeline::Reached Timeline::advance_to_bound(Search& search) {
       keep_copy();
     if (search.unwanted())
       return Reached::GivenUp;
+    if (voice_.speaks)
+      if (const auto reached = hear(search))
+        return *reached;
   }
+}
+
+/// How far the ball may live before it is looked at: a robot's run is no faster than the robot.
+Instant Timeline::next_look(Instant end) const {
+  if (voice_.speaks)
+    return std::min(end, std::max(ball_->now(), start_ + robot_->time()));
+  return std::min(end, ball_->now() + slice);
+}
+
+/// Waits for what the robot says. That is a change like those that users make.
+std::optional<Timeline::Reached> Timeline::hear(Search& search) {
+  const auto next = std::min(ball_->next_event(), search.until);
+  const auto felt = robot_->hear(next == never ? Duration::max() : next - start_);
+  if (!felt) {
+    search.closed = true;
+    if (felt.error().code == ExitCode::Interrupted)
+      return Reached::GivenUp;
+    lost_ = felt.error();
+    return Reached::Lost;
+  }
+  search.closed = (*search.give_up)();
+  for (const auto& one : *felt) {
+    edits_.push_back({now(), one});
+    apply(one);
+    ++applied_;
+  }
+  return search.closed ? std::optional(Reached::GivenUp) : std::nullopt;
+}
+
+void Timeline::Voice::obey(const vm::Motion& motion) {
+  if (speaks)
+    robot_->obey(motion);
+}
+
+void Timeline::Voice::show(vm::Color color) {
+  if (speaks)
+    robot_->show(color);
+}
+
+void Timeline::Voice::show_back(int level) {
+  if (speaks)
+    robot_->show_back(level);
 }
 
 /// Lets a program that is between two lines come to the beginning of the next one.
@@ -388,8 +438,36 @@ Halt Timeline::forward(Watch& watch, Duration until, const GiveUp& give_up, How 
       search.skip = step();
     watch.begin();
   }
+  if (robot_ == nullptr)
+    return search_forward(search);
+  if (lost_)
+    return Halt::Lost;
+  edits_.resize(applied_); // of a moment that it has come back from
+  if (!robot_goes_)
+    if (auto goes = robot_->go_on(time()); !goes) {
+      lost_ = goes.error();
+      return Halt::Lost;
+    }
+  robot_goes_ = true;
+  voice_.speaks = true;
+  const auto halt = search_forward(search);
+  voice_.speaks = false;
+  if (halt != Halt::GivenUp)
+    hold();
+  return lost_ ? Halt::Lost : halt;
+}
+
+void Timeline::hold() {
+  if (!std::exchange(robot_goes_, false))
+    return;
+  if (auto held = robot_->hold(); !held && !lost_)
+    lost_ = held.error();
+}
+
+Halt Timeline::search_forward(Search& search) {
   switch (run(search)) {
   case Reached::Over: return Halt::Over;
+  case Reached::Lost: return Halt::Lost;
   case Reached::Time: settle(); return Halt::Time;
   case Reached::Bound:
   case Reached::GivenUp: settle(); return Halt::GivenUp;
@@ -397,6 +475,7 @@ Halt Timeline::forward(Watch& watch, Duration until, const GiveUp& give_up, How 
   }
   if (search.hit) {
     settle();
+    voice_.speaks = false;
     if (instant() > *search.hit)
       go_to({step(), false, *search.hit});
   }
@@ -484,6 +563,15 @@ bool Timeline::apply(const Edit& edit) {
     const auto at = ball_->machine().held() ? ball_->machine().next_event() : ball_->now();
     const vm::TimedStimulus timed{at - ball_->now(), *stimulus};
     ball_->schedule({&timed, 1});
+  } else if (const auto* felt = std::get_if<run::Felt>(&edit)) {
+    // What follows from it is part of the run, also where it happens again.
+    Search again;
+    auto* const before = search_;
+    if (before == nullptr)
+      search_ = &again;
+    std::visit([&](const auto& one) { ball_->feel(one); }, *felt);
+    on_step(ball_->now(), ball_->body()); // this is how a robot elsewhere moves on
+    search_ = before;
   }
   return true;
 }

@@ -3,6 +3,7 @@
 #include "base/exit_code.h"
 #include "base/time.h"
 #include "report/journey.h"
+#include "run/held_robot.h"
 #include "run/run.h"
 #include "vm/ball.h"
 
@@ -74,7 +75,7 @@ struct GoToLine {
 struct GiveNumber { ///< for `input`
   std::int32_t value = 0;
 };
-using Edit = std::variant<SetVariable, GoToLine, GiveNumber, vm::Stimulus>;
+using Edit = std::variant<SetVariable, GoToLine, GiveNumber, vm::Stimulus, run::Felt>;
 
 /// Why a search came back.
 enum class Halt : std::uint8_t {
@@ -82,6 +83,7 @@ enum class Halt : std::uint8_t {
   Time,    ///< the instant that was given
   Over,    ///< the run is over, or waits for a number that nobody brings; backwards: its beginning
   GivenUp, ///< whoever asked does not want it any more
+  Lost,    ///< the robot that is driven: lost()
 };
 
 /// Asked now and then whether a search is still wanted.
@@ -98,9 +100,12 @@ public:
 class Timeline final : vm::Observer, vm::StepObserver, vm::Gate {
 public:
   /// Brings the inputs into a ball and starts them, up to the moment before the first step.
-  /// `options.bound` does not count; inputs and options outlive the timeline.
-  static tl::expected<std::unique_ptr<Timeline>, Failure>
-  start(std::span<const run::Input> inputs, const run::Options& options, Audience& audience);
+  /// `options.bound` does not count; inputs and options outlive the timeline. With a `robot`, which
+  /// may be null, the run drives that, is as fast as it, and goes only forward.
+  static tl::expected<std::unique_ptr<Timeline>, Failure> start(std::span<const run::Input> inputs,
+                                                                const run::Options& options,
+                                                                Audience& audience,
+                                                                run::HeldRobot* robot);
   ~Timeline();
 
   // Where it stands.
@@ -117,6 +122,10 @@ public:
   /// Nothing runs, or it waits for a number that nobody brings.
   bool over() const;
   bool waits_for_number() const;
+  /// Whether it drives a robot.
+  bool drives() const { return robot_ != nullptr; }
+  /// Why the robot can be driven no more.
+  const std::optional<Failure>& lost() const { return lost_; }
 
   // Going.
   /// Whether a search begins, or goes on where it was given up.
@@ -124,6 +133,9 @@ public:
   /// Goes on until `watch` finds something, at the latest to robot time `until`. What it stands
   /// before is not found again, unless the search goes on.
   Halt forward(Watch& watch, Duration until, const GiveUp& give_up, How how = How::Begins);
+  /// Brakes the robot that is driven, where a search was given up and nobody goes on with it. Every
+  /// other end of a search does so by itself.
+  void hold();
   /// Goes to the last place before this one that `watch` would have found; to the beginning where
   /// there is none. Given up, it stands where it stood.
   Halt back(Watch& watch, const GiveUp& give_up);
@@ -145,12 +157,26 @@ public:
   Size size() const;
 
 private:
-  Timeline(std::span<const run::Input> inputs, const run::Options& options, Audience& audience);
+  Timeline(std::span<const run::Input> inputs, const run::Options& options, Audience& audience,
+           run::HeldRobot* robot);
   tl::expected<void, Failure> start();
 
   struct Copy;
   struct Search;
-  enum class Reached : std::uint8_t { Bound, Found, Time, Over, GivenUp };
+  enum class Reached : std::uint8_t { Bound, Found, Time, Over, GivenUp, Lost };
+  /// Tells the robot what the run says, but for what it says again on its way to a place where it
+  /// has been.
+  class Voice final : public vm::Elsewhere {
+  public:
+    explicit Voice(run::HeldRobot* robot) : robot_(robot) {}
+    bool speaks = false;
+    void obey(const vm::Motion& motion) override;
+    void show(vm::Color color) override;
+    void show_back(int level) override;
+
+  private:
+    run::HeldRobot* robot_;
+  };
 
   void on_event(Instant at, const vm::Event& event) override;
   void on_step(Instant at, const vm::Body& body) override;
@@ -167,6 +193,9 @@ private:
   Reached run(Search& search);
   Reached advance(Search& search);
   Reached advance_to_bound(Search& search);
+  Instant next_look(Instant end) const;
+  std::optional<Reached> hear(Search& search);
+  Halt search_forward(Search& search);
   bool apply(const Edit& edit);
   void settle();
   void hit(Instant at);
@@ -175,6 +204,10 @@ private:
   std::span<const run::Input> inputs_;
   const run::Options& options_;
   Audience& audience_;
+  run::HeldRobot* robot_; ///< null: the body is a virtual one
+  Voice voice_;
+  bool robot_goes_ = false; ///< nobody holds it
+  std::optional<Failure> lost_;
   vm::NativePrograms native_; ///< machine code that all copies share
   std::unique_ptr<vm::Ball> ball_;
   Instant start_{};

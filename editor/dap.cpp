@@ -70,10 +70,12 @@ constexpr std::string_view fault_filter = "faults";
 } // namespace
 
 struct DebugAdapter::State final : debug::Console {
-  State(structured::Files& from, std::string where) : files(from), folder(std::move(where)) {}
+  State(structured::Files& from, std::string where, OpenRobot open)
+      : files(from), folder(std::move(where)), open_robot(std::move(open)) {}
 
   structured::Files& files;
   std::string folder;
+  OpenRobot open_robot;
   std::vector<std::string> out;
   std::int64_t seq = 0;
 
@@ -83,6 +85,7 @@ struct DebugAdapter::State final : debug::Console {
   std::int64_t first_column = 1;
 
   std::unique_ptr<debug::Launched> launched;
+  std::shared_ptr<run::HeldRobot> robot;     ///< that is driven; null for the virtual ball
   std::unique_ptr<debug::Debugger> debugger; ///< of `launched`
   bool stop_on_entry = false;
   bool stop_at_end = false;
@@ -130,6 +133,8 @@ struct DebugAdapter::State final : debug::Console {
 
   Answer initialize(const Json& arguments);
   Answer launch(const Json& arguments);
+  tl::expected<std::shared_ptr<run::HeldRobot>, Failure> robot_at(const std::string& port,
+                                                                  const std::string& kind);
   Answer configuration_done();
   Answer set_breakpoints(const Json& arguments);
   Json set_breakpoint(const Json& json, std::optional<std::uint32_t> file);
@@ -187,8 +192,8 @@ struct DebugAdapter::State final : debug::Console {
   void finish();
 };
 
-DebugAdapter::DebugAdapter(structured::Files& files, std::string folder)
-    : state_(std::make_unique<State>(files, std::move(folder))) {}
+DebugAdapter::DebugAdapter(structured::Files& files, std::string folder, OpenRobot open_robot)
+    : state_(std::make_unique<State>(files, std::move(folder), std::move(open_robot))) {}
 DebugAdapter::~DebugAdapter() = default;
 
 std::vector<std::string> DebugAdapter::receive(std::string_view message) {
@@ -239,10 +244,14 @@ void DebugAdapter::State::receive(std::string_view text) {
   const bool launches = command == "launch" && debugger == nullptr;
   const auto answer = request(command, member(message, "arguments"));
   respond(message, answer);
+  if (launches && answer && robot != nullptr)
+    event("capabilities",
+          {{"capabilities", {{"supportsStepBack", false}, {"supportsRestartRequest", false}}}});
   if (launches && answer)
     event("initialized", Json::object());
   if (command == "pause" && answer) {
     going = false;
+    debugger->timeline().hold();
     stopped("pause", {});
   }
   if (command == "goto" && answer)
@@ -290,12 +299,14 @@ Answer DebugAdapter::State::request(const std::string& command, const Json& argu
     return threads();
   if (command == "terminate") {
     going = false;
+    debugger->timeline().hold();
     return Json();
   }
   if (command == "restart") {
     if (!configured)
       return refuse("`configurationDone` comes before `restart`");
-    debugger->restart();
+    if (auto again = debugger->restart(); !again)
+      return refuse(again.error());
     over = false;
     going = false;
     if (!stop_on_entry)
@@ -341,6 +352,8 @@ std::optional<Answer> DebugAdapter::State::move(const std::string& command, cons
       continue;
     if (over)
       return refuse("the run is over; `restart` begins it again");
+    if (robot != nullptr && row.direction == Direction::Back)
+      return refuse(std::string(debug::no_way_back));
     go(row.move, row.direction, thread_of(arguments));
     return command == "continue" ? Json{{"allThreadsContinued", true}} : Json();
   }
@@ -422,7 +435,8 @@ std::optional<std::string> mistyped(const Json& arguments) {
       if (const auto& json = member(arguments, name); !wrong && !json.is_null() && !is(json))
         wrong = fmt::format("`{}` is {}", name, what);
   };
-  expect({"program", "course", "test", "testName", "lang", "cwd"}, is_text, "a text");
+  expect({"program", "course", "test", "testName", "lang", "cwd", "port", "robot"}, is_text,
+         "a text");
   expect({"files", "stimulus"}, text_or_texts, "a text or a list of texts");
   expect({"disconnected", "stopOnEntry", "stopAtEnd", "noDebug", "optimize"}, is_flag,
          "true or false");
@@ -479,9 +493,16 @@ Answer DebugAdapter::State::launch(const Json& arguments) {
   if (!read)
     return refuse(in_terms_of_launch(read.error().message));
   launched = *std::move(read);
-  auto started = debug::Debugger::start(launched->inputs, launched->options, *this);
+  if (const auto port = text_of(member(arguments, "port")); !port.empty()) {
+    auto opened = robot_at(port, text_of(member(arguments, "robot")));
+    if (!opened)
+      return refuse(opened.error().message);
+    robot = *std::move(opened);
+  }
+  auto started = debug::Debugger::start(launched->inputs, launched->options, *this, robot.get());
   if (!started) {
     launched.reset();
+    robot.reset();
     return refuse(started.error().message);
   }
   debugger = *std::move(started);
@@ -490,6 +511,16 @@ Answer DebugAdapter::State::launch(const Json& arguments) {
   stop_on_entry = debugs && flag_of(member(arguments, "stopOnEntry"));
   stop_at_end = debugs && flag_of(member(arguments, "stopAtEnd"));
   return Json();
+}
+
+tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
+DebugAdapter::State::robot_at(const std::string& port, const std::string& kind) {
+  if (auto fits = debug::check_for_robot(*launched); !fits)
+    return tl::unexpected(fits.error());
+  if (!open_robot)
+    return tl::unexpected(Failure{ExitCode::Usage, "robots are not reached from here: leave `port` "
+                                                   "out"});
+  return open_robot(port, kind);
 }
 
 Answer DebugAdapter::State::configuration_done() {
@@ -881,6 +912,7 @@ void DebugAdapter::State::take(const Stop& why) {
   case Stop::Reason::Fault: return stopped("exception", why, "Error of the robot");
   case Stop::Reason::Time: return stopped("pause", why, "Time reached");
   case Stop::Reason::GivenUp: return stopped("pause", why);
+  case Stop::Reason::Robot: output("stderr", fmt::format("error: {}\n", why.text)); return finish();
   case Stop::Reason::Begin: return stopped("entry", why, "Beginning of the run");
   case Stop::Reason::Input:
     say("the program waits for a number; type `input 42` here");
@@ -899,7 +931,7 @@ void DebugAdapter::State::finish() {
   if (over)
     return;
   over = true;
-  event("exited", {{"exitCode", debugger->fault() ? 1 : 0}});
+  event("exited", {{"exitCode", debugger->fault() || debugger->timeline().lost() ? 1 : 0}});
   event("terminated", Json::object());
 }
 

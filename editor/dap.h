@@ -1,5 +1,6 @@
 #pragma once
 
+#include "run/held_robot.h"
 #include "structured/text/files.h"
 
 #include <functional>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tl/expected.hpp>
 #include <vector>
 
 namespace orb::editor {
@@ -16,9 +18,14 @@ namespace orb::editor {
 /// throwing.
 class DebugAdapter {
 public:
+  /// Readies the robot at a port, such as `ble://SB-1A2B`; `kind` says which it is, and is empty
+  /// where its name tells.
+  using OpenRobot = std::function<tl::expected<std::shared_ptr<run::HeldRobot>, Failure>(
+      const std::string& port, const std::string& kind)>;
+
   /// Programs are read from `files`, which must outlive the adapter; paths that are not absolute
-  /// count from `folder`.
-  DebugAdapter(structured::Files& files, std::string folder);
+  /// count from `folder`. Without `open_robot` programs run on the virtual ball only.
+  DebugAdapter(structured::Files& files, std::string folder, OpenRobot open_robot = {});
   ~DebugAdapter();
   DebugAdapter(const DebugAdapter&) = delete;
   DebugAdapter& operator=(const DebugAdapter&) = delete;

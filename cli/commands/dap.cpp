@@ -1,29 +1,55 @@
 #include "editor/dap.h"
 #include "cli/commands.h"
+#include "cli/driven_robot.h"
 #include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/terminal/interrupt.h"
 #include "cli/wire.h"
 #include "editor/wire.h"
 
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 namespace orb::cli {
 namespace {
 
+/// The robot that `launch` names.
+tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
+robot_at(const Context& context, const std::string& port, const std::string& kind) {
+  if (!kind.empty() && spec::find_robot(kind) == nullptr) {
+    const auto names = names_of(spec::robots);
+    const auto meant = meant_instead(kind, names);
+    return tl::unexpected(
+        Failure{ExitCode::Usage,
+                fmt::format("`{}` is not a robot{}", kind,
+                            meant.empty() ? fmt::format("; use one of {}", fmt::join(names, ", "))
+                                          : meant)});
+  }
+  PortOptions options;
+  options.port = port;
+  return hold_robot(context, options, kind);
+}
+
 /// Serves until the client says `disconnect` or goes away.
-ExitCode serve() {
+ExitCode serve(const Context& context) {
+  const InterruptGuard guard; // a robot is put back as it was, however this ends
   DiskFiles disk;
   std::error_code none;
-  editor::DebugAdapter adapter(disk, std::filesystem::current_path(none).string());
+  editor::DebugAdapter adapter(disk, std::filesystem::current_path(none).string(),
+                               [&](const std::string& port, const std::string& kind) {
+                                 return robot_at(context, port, kind);
+                               });
   editor::MessageReader reader;
   std::array<char, 65536> bytes{};
   for (;;) {
     while (adapter.busy() && !client_speaks())
       send_all(adapter.work(client_speaks));
     const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR)
+    if (n < 0 && errno == EINTR && InterruptGuard::asked() == 0)
       continue;
     if (n <= 0)
       return adapter.ended() ? ExitCode::Done : ExitCode::BadInput; // gone without a word
@@ -45,7 +71,7 @@ void add_dap(CLI::App& app, Context& context) {
                   "orb dap\n"
                   "orb dap --stdio");
   add_stdio_flag(*command);
-  command->callback([&context] { context.exit = serve(); });
+  command->callback([&context] { context.exit = serve(context); });
 }
 
 } // namespace orb::cli

@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/driven_robot.h"
 #include "cli/inputs.h"
 #include "cli/options.h"
 #include "cli/terminal/interrupt.h"
@@ -23,6 +24,8 @@ struct DebugOptions {
   bool disconnected = false;
   bool plain = false;
   bool optimized = false;
+  PortOptions port; ///< of a robot; empty for the virtual ball
+  std::string robot;
 };
 
 class Terminal final : public debug::Console {
@@ -73,6 +76,13 @@ void fail_by_line(Context& context, const Failure& failure) {
   fail(context, {failure.code, std::string(rest)});
 }
 
+tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
+robot_for(const Context& context, const debug::Launched& launched, const DebugOptions& options) {
+  if (auto fits = debug::check_for_robot(launched); !fits)
+    return tl::unexpected(fits.error());
+  return hold_robot(context, options.port, options.robot);
+}
+
 void debug_it(Context& context, const DebugOptions& options) {
   auto launch = options.launch;
   if (launch.files.empty() && launch.test.empty())
@@ -92,13 +102,25 @@ void debug_it(Context& context, const DebugOptions& options) {
   const auto launched = debug::read(launch, files);
   if (!launched)
     return fail_by_line(context, launched.error());
+  std::optional<InterruptGuard> guard; // however it ends, the robot is put back as it was
+  std::shared_ptr<run::HeldRobot> robot;
+  if (!options.port.port.empty()) {
+    guard.emplace();
+    auto opened = robot_for(context, **launched, options);
+    if (!opened)
+      return fail(context, opened.error());
+    robot = *std::move(opened);
+  }
   Terminal terminal;
-  const auto debugger = debug::Debugger::start((*launched)->inputs, (*launched)->options, terminal);
+  const auto debugger =
+      debug::Debugger::start((*launched)->inputs, (*launched)->options, terminal, robot.get());
   if (!debugger)
     return fail(context, debugger.error());
   debug::Shell shell(**debugger, terminal, write_file);
   shell.show_place();
   context.exit = converse(shell, options.commands);
+  if (const auto& lost = (*debugger)->timeline().lost())
+    context.exit = lost->code;
 }
 
 } // namespace
@@ -109,6 +131,7 @@ void add_debug(CLI::App& app, Context& context) {
       "orb debug patrol.orb\n"
       "orb debug square.bas --stimulus 'at 2s shake'\n"
       "orb debug --test corner.test --only 'stops at the wall'\n"
+      "orb debug square.bas --port ble://SB-1A2B\n"
       "orb debug square.bas --do 'b 40' --do c --do 'p X'");
   auto options = std::make_shared<DebugOptions>();
   auto& launch = options->launch;
@@ -132,6 +155,7 @@ void add_debug(CLI::App& app, Context& context) {
       ->add_flag("--optimized", options->optimized,
                  "the lines that are sent to a robot, which may stand for several statements")
       ->excludes(plain);
+  add_robot_port_options(*command, options->port, options->robot);
   command->add_option("--do", options->commands, "a command to begin with; may be given again")
       ->allow_extra_args(false)
       ->type_name("COMMAND");

@@ -119,30 +119,64 @@ tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
       return fail(answer.error());
     wire_->hear_setup(i, *answer);
   }
-  for (const auto& request : wire_->setup_more())
+  if (auto done = ask_all(wire_->setup_more()); !done)
+    return fail(done.error());
+  auto sample = listen();
+  return sample ? std::move(sample) : fail(sample.error());
+}
+
+tl::expected<void, Failure> Tether::ask_all(const std::vector<Request>& requests) {
+  for (const auto& request : requests)
     if (const auto answer = ask(request, budgets_.setup); !answer)
-      return fail(answer.error());
+      return tl::unexpected(answer.error());
+  return {};
+}
+
+/// Lets the robot speak, and waits for what it says first.
+tl::expected<vm::Sample, Failure> Tether::listen() {
+  if (auto asked = ask_all(wire_->stream()); !asked)
+    return tl::unexpected(asked.error());
   std::optional<vm::Sample> sample;
   const auto until = now() + budgets_.first_sample;
   while (!sample && now() < until) {
     auto bytes = transport_->read(until);
     if (!bytes)
-      return fail(lost(bytes.error()));
+      return tl::unexpected(lost(bytes.error()));
     wire_->feed(*bytes);
     while (const auto said = wire_->next())
       if (const auto* felt = std::get_if<vm::Sample>(&said->what))
         sample = *felt;
   }
   if (!sample)
-    return fail(
-        {ExitCode::LinkLost,
-         fmt::format(
-             "the robot answers, but no sensor data came for {} s; is it a {}? "
-             "`--robot` names another",
-             std::chrono::duration_cast<std::chrono::seconds>(budgets_.first_sample).count(),
-             spec::info(robot_).title)});
+    return tl::unexpected(
+        Failure{ExitCode::LinkLost,
+                fmt::format("the robot answers, but no sensor data came for {} s; is it a {}? "
+                            "`--robot` names another",
+                            budgets_.first_sample / 1s, spec::info(robot_).title)});
   sample_at_ = now();
+  stale_ = false;
   return *sample;
+}
+
+tl::expected<void, Failure> Tether::hold() {
+  held_ = waits(Kind::Drive) ? std::exchange(waiting(Kind::Drive), std::nullopt) : driving_;
+  if (waits(Kind::Stop))
+    held_.reset();
+  waiting(Kind::Stop).reset();
+  driving_.reset();
+  if (!brake({}))
+    return tl::unexpected(Failure{ExitCode::LinkLost,
+                                  "the robot has not acknowledged the stop; by itself it stops 2 s "
+                                  "after the last command: see that it does"});
+  return ask_all(wire_->silence());
+}
+
+tl::expected<void, Failure> Tether::go_on() {
+  if (auto heard = listen(); !heard)
+    return tl::unexpected(heard.error());
+  if (auto drive = std::exchange(held_, std::nullopt))
+    waiting(Kind::Drive) = std::move(drive);
+  return {};
 }
 
 // What the ball asks of its body.
@@ -378,10 +412,11 @@ bool Tether::finish(const std::function<void(const Said&)>& hear) {
     return false;
   if (hear)
     await_rest(hear);
-  for (const auto& request : wire_->teardown())
-    if (const auto done = ask(request, budgets_.teardown);
-        !done && done.error().code == ExitCode::Interrupted)
-      break;
+  for (const auto& requests : {wire_->silence(), wire_->teardown()})
+    for (const auto& request : requests)
+      if (const auto done = ask(request, budgets_.teardown);
+          !done && done.error().code == ExitCode::Interrupted)
+        return true;
   return true;
 }
 

@@ -44,6 +44,11 @@ public:
   /// The failure says which step failed; the robot has been stopped then.
   tl::expected<vm::Sample, Failure> begin(Aim aim);
 
+  /// Brakes the robot and silences it, whoever holds it. Fails where it has not acknowledged that.
+  tl::expected<void, Failure> hold();
+  /// Lets it speak again and drive as it did when it was held.
+  tl::expected<void, Failure> go_on();
+
   void obey(const vm::Motion& motion) override;
   void show(vm::Color color) override;
   void show_back(int level) override;
@@ -86,6 +91,8 @@ private:
   bool waits(Kind kind) const { return waiting_[static_cast<std::size_t>(kind)].has_value(); }
   bool may_leave(Kind kind) const { return kind != Kind::Drive || !stale_; }
   tl::expected<Bytes, Failure> ask(const Request& request, Duration budget);
+  tl::expected<void, Failure> ask_all(const std::vector<Request>& requests);
+  tl::expected<vm::Sample, Failure> listen();
   tl::expected<void, protocol::LinkError> send(const Request& request, Kind kind);
   tl::expected<void, protocol::LinkError> send_due();
   Instant next_due() const;
@@ -107,6 +114,7 @@ private:
   std::array<std::optional<Request>, kinds> waiting_; ///< to leave
   std::array<std::uint8_t, kinds> newest_{};          ///< sequence number of the newest sent
   std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
+  std::optional<Request> held_;    ///< what it is to drive once nobody holds it
   Instant driven_at_{};
   int heading_ = 0;
   std::deque<Pending> open_; ///< sent, not answered

@@ -52,7 +52,10 @@ public:
   virtual void hear_setup(std::size_t, const Bytes&) {}
   /// What is sent once setup() has been answered and depends on the answers.
   virtual std::vector<Request> setup_more() const { return {}; }
-  /// What undoes it, after the robot has been stopped.
+  /// What lets it say what it feels, and what silences it.
+  virtual std::vector<Request> stream() const = 0;
+  virtual std::vector<Request> silence() const = 0;
+  /// What undoes setup(), after the robot has been stopped and silenced.
   virtual std::vector<Request> teardown() const = 0;
 
   /// Nothing for what it cannot do.

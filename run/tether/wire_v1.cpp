@@ -107,7 +107,11 @@ public:
     if (which == 0 && answer.size() == sizeof(std::uint32_t))
       flags_ = read_u32(answer, 0);
   }
-  std::vector<Request> setup_more() const override;
+  std::vector<Request> setup_more() const override {
+    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag)};
+  }
+  std::vector<Request> stream() const override;
+  std::vector<Request> silence() const override;
   std::vector<Request> teardown() const override;
 
   std::optional<Request> drive(const vm::Motion& motion) const override;
@@ -183,7 +187,7 @@ std::vector<Request> WireV1::setup(Aim aim) const {
   return all;
 }
 
-std::vector<Request> WireV1::setup_more() const {
+std::vector<Request> WireV1::stream() const {
   constexpr unsigned samples_per_second = 33;
   Bytes stream;
   append_u16(stream, spec::ball::control_rate / samples_per_second);
@@ -191,23 +195,22 @@ std::vector<Request> WireV1::setup_more() const {
   append_u32(stream, static_cast<std::uint32_t>(wanted_mask()));
   stream.push_back(0);
   append_u32(stream, static_cast<std::uint32_t>(wanted_mask() >> 32));
-  return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag),
-          request(ApiCommand::SetDataStreaming, std::move(stream))};
+  return {request(ApiCommand::SetDataStreaming, std::move(stream))};
 }
 
-std::vector<Request> WireV1::teardown() const {
+std::vector<Request> WireV1::silence() const {
   Bytes nothing;
   append_u16(nothing, 1);
   append_u16(nothing, 1);
   append_u32(nothing, 0);
   nothing.push_back(0);
   append_u32(nothing, 0);
-  return {request(ApiCommand::SetDataStreaming, std::move(nothing)),
-          request(ApiCommand::SetStabilization, {1}),
-          request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
-          request(ApiCommand::SetBackLed, {0}),
-          timeout(),
-          flags(flags_.value_or(0))};
+  return {request(ApiCommand::SetDataStreaming, std::move(nothing))};
+}
+
+std::vector<Request> WireV1::teardown() const {
+  return {request(ApiCommand::SetStabilization, {1}), request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
+          request(ApiCommand::SetBackLed, {0}), timeout(), flags(flags_.value_or(0))};
 }
 
 std::optional<Request> WireV1::drive(const vm::Motion& motion) const {

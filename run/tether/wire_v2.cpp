@@ -114,6 +114,8 @@ public:
   std::optional<Said> next() override;
 
   std::vector<Request> setup(Aim aim) const override;
+  std::vector<Request> stream() const override;
+  std::vector<Request> silence() const override;
   std::vector<Request> teardown() const override;
 
   std::optional<Request> drive(const vm::Motion& motion) const override;
@@ -240,8 +242,7 @@ std::optional<Said> WireV2::next() {
 
 std::vector<Request> WireV2::setup(Aim aim) const {
   std::vector<Request> all{request(V2Command::Wake)};
-  const bool services = robot_.sensors == spec::RobotSensors::Services;
-  if (!services)
+  if (robot_.sensors != spec::RobotSensors::Services)
     all.push_back(request(V2Command::SetStabilization, {1}));
   if (robot_.robot == spec::Robot::R2d2 || robot_.robot == spec::Robot::R2q5)
     all.push_back(request(V2Command::LegAction, {1})); // it drives on three legs
@@ -249,7 +250,11 @@ std::vector<Request> WireV2::setup(Aim aim) const {
     all.push_back(request(V2Command::ResetYaw));
     all.push_back(request(V2Command::ResetLocator));
   }
-  if (services) {
+  return all;
+}
+
+std::vector<Request> WireV2::stream() const {
+  if (robot_.sensors == spec::RobotSensors::Services) {
     Bytes list{token};
     for (const auto service : wanted_services) {
       append_u16(list, static_cast<std::uint32_t>(service));
@@ -257,9 +262,8 @@ std::vector<Request> WireV2::setup(Aim aim) const {
     }
     Bytes period;
     append_u16(period, sample_interval_ms);
-    all.push_back(request(V2Command::StreamConfigure, std::move(list)));
-    all.push_back(request(V2Command::StreamStart, std::move(period)));
-    return all;
+    return {request(V2Command::StreamConfigure, std::move(list)),
+            request(V2Command::StreamStart, std::move(period))};
   }
   Bytes extended;
   append_u32(extended, wanted_mask(spec::V2Mask::Extended));
@@ -267,22 +271,22 @@ std::vector<Request> WireV2::setup(Aim aim) const {
   append_u16(mask, sample_interval_ms);
   mask.push_back(0);
   append_u32(mask, wanted_mask(spec::V2Mask::Base));
-  all.push_back(request(V2Command::StreamExtended, std::move(extended)));
-  all.push_back(request(V2Command::StreamMask, std::move(mask)));
-  return all;
+  return {request(V2Command::StreamExtended, std::move(extended)),
+          request(V2Command::StreamMask, std::move(mask))};
+}
+
+std::vector<Request> WireV2::silence() const {
+  if (robot_.sensors == spec::RobotSensors::Services)
+    return {request(V2Command::StreamStop), request(V2Command::StreamClear)};
+  constexpr std::size_t operands = 7;
+  return {request(V2Command::StreamMask, Bytes(operands, 0)),
+          request(V2Command::StreamExtended, Bytes(sizeof(std::uint32_t), 0))};
 }
 
 std::vector<Request> WireV2::teardown() const {
   std::vector<Request> all;
-  if (robot_.sensors == spec::RobotSensors::Services) {
-    all.push_back(request(V2Command::StreamStop));
-    all.push_back(request(V2Command::StreamClear));
-  } else {
-    constexpr std::size_t operands = 7;
-    all.push_back(request(V2Command::StreamMask, Bytes(operands, 0)));
-    all.push_back(request(V2Command::StreamExtended, Bytes(sizeof(std::uint32_t), 0)));
+  if (robot_.sensors != spec::RobotSensors::Services)
     all.push_back(request(V2Command::SetStabilization, {1}));
-  }
   for (auto& one : show({}))
     all.push_back(std::move(one));
   if (auto back = show_back(0))

@@ -87,7 +87,7 @@ struct Session {
     const std::string world = "wall x=8\nat 50ms push 90 100\nat 120ms shake\n";
     options.stimuli = vm::parse_stimulus(Source("s", world)).events;
     options.numbers = {3, 4, 5};
-    auto started = Timeline::start(inputs, options, silence);
+    auto started = Timeline::start(inputs, options, silence, nullptr);
     if (started)
       timeline = *std::move(started);
   }

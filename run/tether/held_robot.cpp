@@ -1,0 +1,90 @@
+#include "run/tether/held_robot.h"
+
+#include <algorithm>
+
+namespace orb::run {
+namespace {
+
+constexpr Duration longest_nap = 20ms;
+
+class Held final : public HeldRobot {
+public:
+  Held(protocol::Transport& transport, const TetherOptions& options)
+      : options_(options), robot_(transport, options.robot, options.budgets) {}
+
+  tl::expected<void, Failure> begin() {
+    auto first = robot_.begin(options_.aim);
+    if (!first)
+      return tl::unexpected(first.error());
+    first_ = *first;
+    return hold();
+  }
+
+  void obey(const vm::Motion& motion) override { robot_.obey(motion); }
+  void show(vm::Color color) override { robot_.show(color); }
+  void show_back(int level) override { robot_.show_back(level); }
+
+  const vm::Sample& first() const override { return first_; }
+  Duration time() const override { return robot_.is_stale() ? paused_at_ : elapsed(); }
+
+  tl::expected<void, Failure> go_on(Duration t) override {
+    auto goes = robot_.go_on();
+    origin_ = robot_.now() - t;
+    return goes;
+  }
+  tl::expected<void, Failure> hold() override { return robot_.hold(); }
+
+  tl::expected<std::vector<Felt>, Failure> hear(Duration until) override {
+    const bool was_stale = robot_.is_stale();
+    std::vector<Felt> felt;
+    const auto nap =
+        was_stale ? longest_nap : std::clamp<Duration>(until - elapsed(), 1ms, longest_nap);
+    if (auto pumped = robot_.pump(robot_.now() + nap,
+                                  [&](const Said& said) {
+                                    if (const auto* sample = std::get_if<vm::Sample>(&said.what))
+                                      felt.emplace_back(*sample);
+                                    else if (const auto* collision =
+                                                 std::get_if<vm::event::Collision>(&said.what))
+                                      felt.emplace_back(*collision);
+                                  });
+        !pumped)
+      return tl::unexpected(pumped.error());
+    watch(was_stale);
+    return felt;
+  }
+
+private:
+  Duration elapsed() const { return robot_.now() - origin_; }
+
+  /// Without samples the run waits, too.
+  void watch(bool was_stale) {
+    if (robot_.is_stale() == was_stale)
+      return;
+    if (was_stale)
+      origin_ = robot_.now() - paused_at_;
+    else
+      paused_at_ = elapsed();
+    if (options_.note)
+      options_.note(was_stale
+                        ? "sensor data again: the program goes on"
+                        : "no sensor data: the robot was told to stop, and the program waits");
+  }
+
+  const TetherOptions options_;
+  Tether robot_;
+  vm::Sample first_;
+  Instant origin_{};
+  Duration paused_at_{};
+};
+
+} // namespace
+
+tl::expected<std::unique_ptr<HeldRobot>, Failure> hold_robot(protocol::Transport& transport,
+                                                             const TetherOptions& tether) {
+  auto held = std::make_unique<Held>(transport, tether);
+  if (auto begun = held->begin(); !begun)
+    return tl::unexpected(begun.error());
+  return held;
+}
+
+} // namespace orb::run
