@@ -569,7 +569,12 @@ bool Timeline::apply(const Edit& edit) {
     auto* const before = search_;
     if (before == nullptr)
       search_ = &again;
-    std::visit([&](const auto& one) { ball_->feel(one); }, *felt);
+    if (const auto* battery = std::get_if<vm::stimulus::Battery>(felt))
+      ball_->apply(*battery);
+    else if (const auto* sample = std::get_if<vm::Sample>(felt))
+      ball_->feel(*sample);
+    else
+      ball_->feel(std::get<vm::event::Collision>(*felt));
     on_step(ball_->now(), ball_->body()); // this is how a robot elsewhere moves on
     search_ = before;
   }

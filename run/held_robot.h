@@ -4,6 +4,7 @@
 #include "base/time.h"
 #include "vm/body/elsewhere.h"
 #include "vm/observer.h"
+#include "vm/stimulus.h"
 
 #include <tl/expected.hpp>
 #include <variant>
@@ -12,7 +13,7 @@
 namespace orb::run {
 
 /// What a robot says that a run is to know.
-using Felt = std::variant<vm::Sample, vm::event::Collision>;
+using Felt = std::variant<vm::Sample, vm::event::Collision, vm::stimulus::Battery>;
 
 /// A robot that drives as a run says, and that somebody may hold, as a debugger does at a
 /// breakpoint: then it is braked and says nothing, and the time of the run stands still. It is held

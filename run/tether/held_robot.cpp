@@ -46,6 +46,9 @@ public:
                                     else if (const auto* collision =
                                                  std::get_if<vm::event::Collision>(&said.what))
                                       felt.emplace_back(*collision);
+                                    else if (const auto* battery =
+                                                 std::get_if<vm::stimulus::Battery>(&said.what))
+                                      felt.emplace_back(*battery);
                                   });
         !pumped)
       return tl::unexpected(pumped.error());

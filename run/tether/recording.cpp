@@ -85,6 +85,8 @@ bool read_what(std::string_view kind, Words& words, DriveLine& line) {
     line.what = DriveLine::Over{};
     return words.rest().empty();
   }
+  if (kind == "battery")
+    return words.read(line.what.emplace<vm::stimulus::Battery>().volts);
   if (kind == "number")
     return words.read(line.what.emplace<DriveLine::Number>().value);
   if (kind != "collision")
@@ -127,6 +129,8 @@ std::string to_text(const DriveRecording& recording) {
       text += "sample" + words_of(*sample);
     else if (const auto* told = std::get_if<DriveLine::Told>(&what))
       text += "told " + told->words;
+    else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&what))
+      text += fmt::format("battery {}", battery->volts);
     else if (const auto* number = std::get_if<DriveLine::Number>(&what))
       text += fmt::format("number {}", number->value);
     else if (const auto* collision = std::get_if<vm::event::Collision>(&what)) {

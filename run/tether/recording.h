@@ -5,6 +5,7 @@
 #include "spec/robots.h"
 #include "vm/body/elsewhere.h"
 #include "vm/observer.h"
+#include "vm/stimulus.h"
 
 #include <cstdint>
 #include <functional>
@@ -31,7 +32,7 @@ struct DriveLine {
   /// The program was over; what comes after it is how the robot came to rest.
   struct Over {};
   Duration at{};
-  std::variant<vm::Sample, vm::event::Collision, Number, Told, Over> what;
+  std::variant<vm::Sample, vm::event::Collision, vm::stimulus::Battery, Number, Told, Over> what;
 };
 
 struct DriveRecording {

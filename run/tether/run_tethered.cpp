@@ -46,6 +46,8 @@ void feel(Live& live, const Said& said) {
     live.feel(*sample);
   else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
     live.feel(*collision);
+  else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
+    live.apply(*battery);
 }
 
 /// Brings a run to `t`, whatever it waits for.
@@ -76,6 +78,8 @@ public:
         note(*sample);
       else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
         note(*collision);
+      else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
+        note(*battery);
       feel(live_, said);
     };
   }
@@ -154,7 +158,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
                                                    report::Journey* journey,
                                                    protocol::Transport& transport,
                                                    const TetherOptions& tether) {
-  Tether robot(transport, tether.robot, tether.budgets);
+  Tether robot(transport, tether.robot, tether.budgets, wants_of(inputs));
   const auto first = robot.begin(tether.aim);
   if (!first)
     return tl::unexpected(first.error());
@@ -182,6 +186,10 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     return tl::unexpected(live.error());
   }
   running = live->get();
+  if (robot.battery()) {
+    note(*robot.battery());
+    (*live)->apply(*robot.battery());
+  }
   if (options.asks == Asks::Yes)
     (*live)->keep_waiting();
   Driven run(**live, robot, tap, tether);
@@ -267,6 +275,8 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
         bring(*running, at);
       if (const auto* sample = std::get_if<vm::Sample>(&what))
         running->feel(*sample);
+      else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&what))
+        running->apply(*battery);
       else
         running->feel(std::get<vm::event::Collision>(what));
     }

@@ -25,8 +25,10 @@ bool is_driving(const vm::Motion& motion) {
 
 } // namespace
 
-Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets)
-    : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot)) {}
+Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
+               const Wants& wants)
+    : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot)),
+      wants_(wants) {}
 
 Tether::~Tether() {
   if (began_ && !finished_)
@@ -92,6 +94,8 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
         wire_->feed(*bytes);
   }
   const auto what = fmt::format("{:02X}h {:02X}h", request.did, request.cid);
+  if (refusal && request.need == Request::Need::Try)
+    return Bytes{};
   if (refusal)
     return tl::unexpected(Failure{
         ExitCode::Refused, fmt::format("the robot refuses command {}: {}; charge it, put it on the "
@@ -121,6 +125,15 @@ tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
   }
   if (auto done = ask_all(wire_->setup_more()); !done)
     return fail(done.error());
+  if (auto request = wire_->ask_battery()) {
+    request->need = Request::Need::Try;
+    const auto answer = ask(*request, budgets_.setup);
+    if (!answer)
+      return fail(answer.error());
+    battery_ = wire_->read_battery(*answer);
+    if (battery_)
+      battery_at_ = now() + budgets_.battery;
+  }
   auto sample = listen();
   return sample ? std::move(sample) : fail(sample.error());
 }
@@ -134,7 +147,7 @@ tl::expected<void, Failure> Tether::ask_all(const std::vector<Request>& requests
 
 /// Lets the robot speak, and waits for what it says first.
 tl::expected<vm::Sample, Failure> Tether::listen() {
-  if (auto asked = ask_all(wire_->stream()); !asked)
+  if (auto asked = ask_all(wire_->stream(wants_)); !asked)
     return tl::unexpected(asked.error());
   std::optional<vm::Sample> sample;
   const auto until = now() + budgets_.first_sample;
@@ -236,6 +249,8 @@ Instant Tether::next_due() const {
   for (std::size_t kind = 0; kind < kinds; ++kind)
     if (waiting_[kind] && may_leave(static_cast<Kind>(kind)))
       due = next_send_;
+  if (battery_at_)
+    due = std::min(due, std::max(next_send_, *battery_at_));
   if (driving_ && !stale_)
     due = std::min(due, std::max(next_send_, driven_at_ + budgets_.repeat));
   if (!open_.empty())
@@ -268,6 +283,10 @@ tl::expected<void, LinkError> Tether::send_due() {
   give_up_waiting();
   if (now() < next_send_)
     return {};
+  if (battery_at_ && now() >= *battery_at_) {
+    battery_at_ = now() + budgets_.battery;
+    waiting(Kind::Battery) = wire_->ask_battery();
+  }
   for (std::size_t i = 0; i < kinds; ++i) {
     const auto kind = static_cast<Kind>(i);
     if (!waits(kind) || !may_leave(kind))
@@ -286,17 +305,20 @@ tl::expected<void, LinkError> Tether::send_due() {
   return {};
 }
 
-void Tether::take(const Said::Answer& answer) {
+/// What an answer means for what was asked; the voltage of the battery where that was it.
+std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
   const auto found = std::find_if(open_.begin(), open_.end(),
                                   [&](const Pending& one) { return one.seq == answer.seq; });
   if (found == open_.end())
-    return;
+    return std::nullopt;
   const auto pending = std::move(*found);
   open_.erase(found);
   if (answer.error == 0) {
     busy_since_.reset();
-    return;
+    return pending.kind == Kind::Battery ? wire_->read_battery(answer.data) : std::nullopt;
   }
+  if (pending.kind == Kind::Battery)
+    return std::nullopt; // it is asked again later
   const bool later = wire_->means_later(answer.error);
   if (later) {
     busy_since_ = busy_since_.value_or(now());
@@ -308,6 +330,7 @@ void Tether::take(const Said::Answer& answer) {
         Failure{ExitCode::Refused,
                 fmt::format("the robot refuses command {:02X}h {:02X}h: {}", pending.request.did,
                             pending.request.cid, wire_->describe(answer.error))};
+  return std::nullopt;
 }
 
 /// Without samples nobody knows where it is: it stops, and goes on when they come again.
@@ -335,10 +358,11 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
       sample_at_ = now();
       stale_ = false;
     }
-    if (const auto* answer = std::get_if<Said::Answer>(&said->what))
-      take(*answer);
-    else
+    const auto* answer = std::get_if<Said::Answer>(&said->what);
+    if (answer == nullptr)
       hear(*said);
+    else if (const auto battery = take(*answer))
+      hear({*battery});
   }
   watch_samples();
   if (refused_)

@@ -26,6 +26,7 @@ struct TetherBudgets {
   Duration rest = 1500ms;     ///< for the robot to come to rest then
   Duration busy = 5s;         ///< for a robot that says that it is busy
   Duration teardown = 800ms;  ///< for each of the last answers
+  Duration battery = 10s;     ///< its voltage is asked for so often
 };
 
 /// A robot at the other end of a link, as the body of a ball. Set-points wait here, the latest of a
@@ -34,7 +35,9 @@ struct TetherBudgets {
 /// stop.
 class Tether final : public vm::Elsewhere {
 public:
-  Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets);
+  /// `wants`: what it streams besides where it is.
+  Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
+         const Wants& wants = {});
   /// Stops the robot where finish() has not been called.
   ~Tether() override;
   Tether(const Tether&) = delete;
@@ -57,6 +60,8 @@ public:
   /// goes to `hear`. The failure is why the run cannot go on.
   tl::expected<void, Failure> pump(Instant deadline, const std::function<void(const Said&)>& hear);
   Instant now() const { return transport_->now(); }
+  /// The voltage of its battery when it was readied; nothing where it does not tell.
+  const std::optional<vm::stimulus::Battery>& battery() const { return battery_; }
   /// How long ago the newest sample came.
   Duration sample_age() const { return now() - sample_at_; }
   bool is_stale() const { return stale_; }
@@ -77,6 +82,7 @@ private:
     Lamp,
     Matrix,
     BackLamp,
+    Battery,
     Other
   };
   static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::Other);
@@ -98,7 +104,7 @@ private:
   Instant next_due() const;
   void send_again(const Pending& pending);
   void give_up_waiting();
-  void take(const Said::Answer& answer);
+  std::optional<vm::stimulus::Battery> take(const Said::Answer& answer);
   bool brake(const std::function<void(const Said&)>& hear);
   void await_rest(const std::function<void(const Said&)>& hear);
   void watch_samples();
@@ -109,6 +115,7 @@ private:
   spec::Robot robot_;
   TetherBudgets budgets_;
   std::unique_ptr<RobotWire> wire_;
+  Wants wants_;
   std::uint8_t seq_ = 0;
 
   std::array<std::optional<Request>, kinds> waiting_; ///< to leave
@@ -118,9 +125,11 @@ private:
   Instant driven_at_{};
   int heading_ = 0;
   std::deque<Pending> open_; ///< sent, not answered
+  std::optional<vm::stimulus::Battery> battery_;
   std::optional<Instant> busy_since_;
   std::optional<Failure> refused_;
 
+  std::optional<Instant> battery_at_; ///< when it is asked for next; nothing where it does not tell
   Instant next_send_{};
   Instant sample_at_{};
   bool stale_ = false;

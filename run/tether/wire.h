@@ -1,9 +1,11 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "run/tether/wants.h"
 #include "spec/robots.h"
 #include "vm/body/elsewhere.h"
 #include "vm/observer.h"
+#include "vm/stimulus.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +24,7 @@ struct Said {
     std::uint8_t error = 0; ///< 0: done
     Bytes data;
   };
-  std::variant<Answer, vm::Sample, vm::event::Collision> what;
+  std::variant<Answer, vm::Sample, vm::event::Collision, vm::stimulus::Battery> what;
 };
 
 /// A request, but for its sequence number.
@@ -30,6 +32,9 @@ struct Request {
   std::uint8_t did = 0;
   std::uint8_t cid = 0;
   Bytes data;
+  /// Whether a run can do without it, where the robot refuses it.
+  enum class Need : std::uint8_t { Must, Try };
+  Need need = Need::Must;
 };
 
 /// Whether a run begins with the robot's heading and place set to 0.
@@ -53,7 +58,7 @@ public:
   /// What is sent once setup() has been answered and depends on the answers.
   virtual std::vector<Request> setup_more() const { return {}; }
   /// What lets it say what it feels, and what silences it.
-  virtual std::vector<Request> stream() const = 0;
+  virtual std::vector<Request> stream(const Wants& wants) = 0;
   virtual std::vector<Request> silence() const = 0;
   /// What undoes setup(), after the robot has been stopped and silenced.
   virtual std::vector<Request> teardown() const = 0;
@@ -63,6 +68,11 @@ public:
   virtual Request brake(int heading_deg) const = 0;
   virtual std::vector<Request> show(vm::Color color) const = 0;
   virtual std::optional<Request> show_back(int level) const = 0;
+
+  /// What asks for the voltage of its battery; nothing where it does not tell. The answer is read
+  /// by read_battery().
+  virtual std::optional<Request> ask_battery() const = 0;
+  virtual std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const = 0;
 
   virtual Duration interval() const = 0;
   /// `busy`, `bad length`, as the robot's tables say it.

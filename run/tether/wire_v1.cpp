@@ -20,7 +20,9 @@ constexpr int default_motion_timeout_ms = 2000;
 /// Where a run keeps what a source says; null for what it does not ask for.
 double* place_of(vm::Sample& sample, spec::StreamSource source) {
   using enum spec::StreamSource;
-  auto& attitude = sample.attitude ? *sample.attitude : sample.attitude.emplace();
+  const auto attitude = [&]() -> vm::Quaternion& {
+    return sample.attitude ? *sample.attitude : sample.attitude.emplace();
+  };
   switch (source) {
   case Pitch: return &sample.pitch_deg;
   case Roll: return &sample.roll_deg;
@@ -31,10 +33,10 @@ double* place_of(vm::Sample& sample, spec::StreamSource source) {
   case GyroX: return &sample.rotation_deg_s.x;
   case GyroY: return &sample.rotation_deg_s.y;
   case GyroZ: return &sample.rotation_deg_s.z;
-  case Q0: return &attitude.w;
-  case Q1: return &attitude.x;
-  case Q2: return &attitude.y;
-  case Q3: return &attitude.z;
+  case Q0: return &attitude().w;
+  case Q1: return &attitude().x;
+  case Q2: return &attitude().y;
+  case Q3: return &attitude().z;
   case OdometerX: return &sample.place_cm.x;
   case OdometerY: return &sample.place_cm.y;
   case VelocityX: return &sample.velocity_cm_s.x;
@@ -56,25 +58,37 @@ double* place_of(vm::Sample& sample, spec::StreamSource source) {
   return nullptr;
 }
 
-/// MASK and MASK2 of all that a run asks for.
-std::uint64_t wanted_mask() {
-  std::uint64_t mask = 0;
+bool is_wanted(spec::StreamSource source, const Wants& wants) {
+  using enum spec::StreamSource;
+  const auto is_one_of = [&](auto... all) { return ((source == all) || ...); };
+  if (is_one_of(AccelX, AccelY, AccelZ))
+    return wants.acceleration;
+  if (is_one_of(GyroX, GyroY, GyroZ))
+    return wants.rotation;
+  if (is_one_of(Q0, Q1, Q2, Q3))
+    return wants.attitude;
   vm::Sample sample;
+  return place_of(sample, source) != nullptr;
+}
+
+/// MASK and MASK2 of all that is wanted.
+std::uint64_t mask_of(const Wants& wants) {
+  std::uint64_t mask = 0;
   for (const auto& row : spec::streams)
-    if (place_of(sample, row.source) != nullptr)
+    if (is_wanted(row.source, wants))
       mask |= row.mask;
   return mask;
 }
 
 /// A frame of the stream; nothing where it is another's.
-std::optional<vm::Sample> read_frame(ByteView data) {
+std::optional<vm::Sample> read_frame(ByteView data, const Wants& wants) {
   constexpr std::size_t value = 2; // bytes
   vm::Sample sample;
   std::size_t at = 0;
   for (const auto& row : spec::streams) {
-    auto* const place = place_of(sample, row.source);
-    if (place == nullptr)
+    if (!is_wanted(row.source, wants))
       continue;
+    auto* const place = place_of(sample, row.source);
     if (data.size() < at + value)
       return std::nullopt;
     const auto steps = static_cast<std::int16_t>(read_u16(data, at));
@@ -108,9 +122,9 @@ public:
       flags_ = read_u32(answer, 0);
   }
   std::vector<Request> setup_more() const override {
-    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag)};
+    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag), collisions(1)};
   }
-  std::vector<Request> stream() const override;
+  std::vector<Request> stream(const Wants& wants) override;
   std::vector<Request> silence() const override;
   std::vector<Request> teardown() const override;
 
@@ -121,6 +135,15 @@ public:
   }
   std::optional<Request> show_back(int level) const override {
     return request(ApiCommand::SetBackLed, {static_cast<std::uint8_t>(level)});
+  }
+  std::optional<Request> ask_battery() const override {
+    return request(ApiCommand::GetPowerState, {});
+  }
+  std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override {
+    constexpr std::size_t voltage = 2; // its place; in 0.01 V
+    if (answer.size() < voltage + 2)
+      return std::nullopt;
+    return vm::stimulus::Battery{read_u16(answer, voltage) / 100.0};
   }
   Duration interval() const override { return spec::info(spec::Robot::Sphero).interval; }
   std::string describe(std::uint8_t error) const override { return uploader::describe_code(error); }
@@ -140,6 +163,15 @@ private:
     append_u32(data, flags);
     return request(ApiCommand::SetPermanentOptionFlags, std::move(data));
   }
+  /// Method 0 turns their detection off. Thresholds and dead time are those that clients use (LIB).
+  static Request collisions(std::uint8_t method) {
+    constexpr std::uint8_t threshold = 100;
+    constexpr std::uint8_t dead_time = 20; // of 10 ms
+    auto configured = request(ApiCommand::ConfigureCollisionDetection,
+                              {method, threshold, threshold, threshold, threshold, dead_time});
+    configured.need = Request::Need::Try;
+    return configured;
+  }
   static Request timeout() {
     Bytes data;
     append_u16(data, default_motion_timeout_ms);
@@ -148,6 +180,7 @@ private:
 
   protocol::Decoder decoder_{protocol::Direction::FromBall};
   std::optional<std::uint32_t> flags_; ///< as the robot had them
+  Wants wants_;                        ///< what it streams
 };
 
 std::optional<Said> WireV1::next() {
@@ -157,7 +190,7 @@ std::optional<Said> WireV1::next() {
     if (item->kind != protocol::Item::Kind::Async)
       continue;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData))
-      if (const auto sample = read_frame(item->data))
+      if (const auto sample = read_frame(item->data, wants_))
         return Said{*sample};
     constexpr std::size_t collision_size = 16;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
@@ -187,14 +220,15 @@ std::vector<Request> WireV1::setup(Aim aim) const {
   return all;
 }
 
-std::vector<Request> WireV1::stream() const {
+std::vector<Request> WireV1::stream(const Wants& wants) {
+  wants_ = wants;
   constexpr unsigned samples_per_second = 33;
   Bytes stream;
   append_u16(stream, spec::ball::control_rate / samples_per_second);
   append_u16(stream, 1);
-  append_u32(stream, static_cast<std::uint32_t>(wanted_mask()));
+  append_u32(stream, static_cast<std::uint32_t>(mask_of(wants)));
   stream.push_back(0);
-  append_u32(stream, static_cast<std::uint32_t>(wanted_mask() >> 32));
+  append_u32(stream, static_cast<std::uint32_t>(mask_of(wants) >> 32));
   return {request(ApiCommand::SetDataStreaming, std::move(stream))};
 }
 
@@ -210,7 +244,7 @@ std::vector<Request> WireV1::silence() const {
 
 std::vector<Request> WireV1::teardown() const {
   return {request(ApiCommand::SetStabilization, {1}), request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
-          request(ApiCommand::SetBackLed, {0}), timeout(), flags(flags_.value_or(0))};
+          request(ApiCommand::SetBackLed, {0}), collisions(0), timeout(), flags(flags_.value_or(0))};
 }
 
 std::optional<Request> WireV1::drive(const vm::Motion& motion) const {

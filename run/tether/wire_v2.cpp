@@ -20,25 +20,25 @@ using spec::V2Service;
 constexpr double cm_per_m = 100;
 constexpr double full_turn = 360;
 
-/// What a run wants to know; the order does not matter.
-constexpr V2Sensor wanted[] = {V2Sensor::Pitch,     V2Sensor::Roll,     V2Sensor::Yaw,
-                               V2Sensor::AccelX,    V2Sensor::AccelY,   V2Sensor::AccelZ,
-                               V2Sensor::LocatorX,  V2Sensor::LocatorY, V2Sensor::VelocityX,
-                               V2Sensor::VelocityY, V2Sensor::GyroX,    V2Sensor::GyroY,
-                               V2Sensor::GyroZ};
-constexpr V2Service wanted_services[] = {V2Service::Attitude, V2Service::Accel, V2Service::Gyro,
+constexpr V2Service useful_services[] = {V2Service::Attitude, V2Service::Accel, V2Service::Gyro,
                                          V2Service::Locator, V2Service::Velocity};
 constexpr std::uint8_t token = 1;
 constexpr unsigned sample_interval_ms = 50;
 
-bool is_wanted(V2Sensor sensor) {
-  return std::find(std::begin(wanted), std::end(wanted), sensor) != std::end(wanted);
+bool is_wanted(V2Sensor sensor, const Wants& wants) {
+  using enum V2Sensor;
+  const auto is_one_of = [&](auto... all) { return ((sensor == all) || ...); };
+  if (is_one_of(AccelX, AccelY, AccelZ))
+    return wants.acceleration;
+  if (is_one_of(GyroX, GyroY, GyroZ))
+    return wants.rotation;
+  return is_one_of(Pitch, Roll, Yaw, LocatorX, LocatorY, VelocityX, VelocityY);
 }
 
-std::uint32_t wanted_mask(spec::V2Mask mask) {
+std::uint32_t mask_of(spec::V2Mask mask, const Wants& wants) {
   std::uint32_t bits = 0;
   for (const auto& row : spec::v2_sensors)
-    if (row.mask == mask && is_wanted(row.sensor))
+    if (row.mask == mask && is_wanted(row.sensor, wants))
       bits |= row.bit;
   return bits;
 }
@@ -89,6 +89,14 @@ std::vector<V2Sensor> values_of(V2Service service) {
   return {};
 }
 
+std::vector<V2Service> services_of(const Wants& wants) {
+  std::vector<V2Service> all;
+  for (const auto service : useful_services)
+    if (is_wanted(values_of(service).front(), wants))
+      all.push_back(service);
+  return all;
+}
+
 bool is_sane(const vm::Sample& sample) {
   for (const double value :
        {sample.place_cm.x, sample.place_cm.y, sample.velocity_cm_s.x, sample.velocity_cm_s.y,
@@ -114,7 +122,7 @@ public:
   std::optional<Said> next() override;
 
   std::vector<Request> setup(Aim aim) const override;
-  std::vector<Request> stream() const override;
+  std::vector<Request> stream(const Wants& wants) override;
   std::vector<Request> silence() const override;
   std::vector<Request> teardown() const override;
 
@@ -125,6 +133,16 @@ public:
     if (robot_.aiming == 0)
       return std::nullopt;
     return lamps(robot_.aiming, {static_cast<std::uint8_t>(level)});
+  }
+  std::optional<Request> ask_battery() const override {
+    if (!knows(robot_, spec::info(V2Command::GetVoltage)))
+      return std::nullopt;
+    return request(V2Command::GetVoltage);
+  }
+  std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override {
+    if (answer.size() != 2)
+      return std::nullopt;
+    return vm::stimulus::Battery{read_u16(answer, 0) / 100.0};
   }
   Duration interval() const override { return robot_.interval; }
   std::string describe(std::uint8_t error) const override {
@@ -143,12 +161,14 @@ private:
     data.push_back(flags);
     return request(V2Command::DriveWithHeading, std::move(data));
   }
+  std::optional<Request> collisions(std::uint8_t method) const;
   Request lamps(std::uint32_t mask, Bytes values) const;
   std::optional<vm::Sample> sample(const Bytes& data) const;
   std::optional<vm::Sample> services(const Bytes& data) const;
 
   const spec::RobotInfo& robot_;
   protocol::DecoderV2 decoder_;
+  Wants wants_; ///< what it streams
 };
 
 Bytes WireV2::encode(const Request& request, std::uint8_t seq) const {
@@ -171,7 +191,7 @@ std::optional<vm::Sample> WireV2::sample(const Bytes& data) const {
   vm::Sample sample;
   std::size_t at = 0;
   for (const auto& row : spec::v2_sensors) {
-    if (!is_wanted(row.sensor))
+    if (!is_wanted(row.sensor, wants_))
       continue;
     if (data.size() < at + sizeof(float)) {
       if (row.mask == spec::V2Mask::Extended)
@@ -191,7 +211,7 @@ std::optional<vm::Sample> WireV2::services(const Bytes& data) const {
   if (data.empty() || data[0] != token)
     return std::nullopt;
   std::size_t at = 1;
-  for (const auto service : wanted_services) {
+  for (const auto service : services_of(wants_)) {
     const auto& row = *spec::find_v2_service(static_cast<std::uint16_t>(service));
     const auto sensors = values_of(service);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
@@ -250,13 +270,28 @@ std::vector<Request> WireV2::setup(Aim aim) const {
     all.push_back(request(V2Command::ResetYaw));
     all.push_back(request(V2Command::ResetLocator));
   }
+  if (const auto detects = collisions(1))
+    all.push_back(*detects);
   return all;
 }
 
-std::vector<Request> WireV2::stream() const {
+/// Method 0 turns their detection off. Thresholds and dead time are those that clients use (LIB).
+std::optional<Request> WireV2::collisions(std::uint8_t method) const {
+  if (!knows(robot_, spec::info(V2Command::CollisionDetection)))
+    return std::nullopt;
+  constexpr std::uint8_t threshold = 100;
+  constexpr std::uint8_t dead_time = 20; // of 10 ms
+  auto configured = request(V2Command::CollisionDetection,
+                            {method, threshold, threshold, threshold, threshold, dead_time});
+  configured.need = Request::Need::Try;
+  return configured;
+}
+
+std::vector<Request> WireV2::stream(const Wants& wants) {
+  wants_ = wants;
   if (robot_.sensors == spec::RobotSensors::Services) {
     Bytes list{token};
-    for (const auto service : wanted_services) {
+    for (const auto service : services_of(wants)) {
       append_u16(list, static_cast<std::uint32_t>(service));
       list.push_back(2); // 32 bits
     }
@@ -266,11 +301,11 @@ std::vector<Request> WireV2::stream() const {
             request(V2Command::StreamStart, std::move(period))};
   }
   Bytes extended;
-  append_u32(extended, wanted_mask(spec::V2Mask::Extended));
+  append_u32(extended, mask_of(spec::V2Mask::Extended, wants));
   Bytes mask;
   append_u16(mask, sample_interval_ms);
   mask.push_back(0);
-  append_u32(mask, wanted_mask(spec::V2Mask::Base));
+  append_u32(mask, mask_of(spec::V2Mask::Base, wants));
   return {request(V2Command::StreamExtended, std::move(extended)),
           request(V2Command::StreamMask, std::move(mask))};
 }
@@ -287,6 +322,8 @@ std::vector<Request> WireV2::teardown() const {
   std::vector<Request> all;
   if (robot_.sensors != spec::RobotSensors::Services)
     all.push_back(request(V2Command::SetStabilization, {1}));
+  if (const auto detects = collisions(0))
+    all.push_back(*detects);
   for (auto& one : show({}))
     all.push_back(std::move(one));
   if (auto back = show_back(0))
@@ -311,7 +348,7 @@ std::vector<Request> WireV2::show(vm::Color color) const {
   for (int lamp = 0; lamp < std::popcount(robot_.body) / 3; ++lamp)
     values.insert(values.end(), {color.red, color.green, color.blue});
   std::vector<Request> all{lamps(robot_.body, std::move(values))};
-  if (robot_.robot == spec::Robot::Bolt)
+  if (knows(robot_, spec::info(V2Command::MatrixColor)))
     all.push_back(request(V2Command::MatrixColor, {color.red, color.green, color.blue}));
   return all;
 }

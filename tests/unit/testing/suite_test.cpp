@@ -48,7 +48,7 @@ public:
 
 Results run(const Suite& suite, unsigned jobs, Shard shard = {}) {
   Silent progress;
-  return run_suite(suite, {jobs, shard}, progress);
+  return run_suite(suite, {jobs, shard, {}}, progress);
 }
 
 TEST(Suite, ResultsDoNotDependOnJobs) {
