@@ -157,6 +157,10 @@ void Journey::see(Duration, const vm::event::End& seen) {
   totals_.lines = std::max(totals_.lines, seen.lines);
 }
 
+void Journey::see(Duration t, const vm::event::StopLost&) {
+  happen(t, Happening::Kind::Error, "the robot has not acknowledged the stop");
+}
+
 void Journey::set_course(Course course) {
   walls_.insert(walls_.begin(), course.walls.begin(), course.walls.end());
   course_ = std::move(course);

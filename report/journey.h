@@ -185,6 +185,7 @@ private:
   void see(Duration t, const vm::event::Bump& seen);
   void see(Duration t, const vm::event::Sleep& seen);
   void see(Duration t, const vm::event::End& seen);
+  void see(Duration t, const vm::event::StopLost& seen);
 
   void happen(Duration t, Happening::Kind kind, std::string text, std::string label = {});
   void visit(Duration t, Place place);

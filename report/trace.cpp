@@ -141,10 +141,14 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
                                   {"go", n(static_cast<int>(x.roll.go))}});
           },
           [&](const e::Position& x) {
-            return line("pose", {{"x", x.pose.x_cm},
-                                 {"y", x.pose.y_cm},
-                                 {"heading", x.pose.heading_deg},
-                                 {"speed", x.pose.speed_cm_s}});
+            Fields fields{{"x", x.pose.x_cm},
+                          {"y", x.pose.y_cm},
+                          {"heading", x.pose.heading_deg},
+                          {"speed", x.pose.speed_cm_s}};
+            if (x.age)
+              fields.push_back(
+                  {"age_ms", std::chrono::duration<double, std::milli>(*x.age).count()});
+            return line("pose", fields);
           },
           [&](const e::Marker& x) {
             return line(
@@ -171,6 +175,9 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
           },
           [&](const e::End&) { return std::string(); },
           [&](const e::MacroEnd&) { return std::string(); },
+          [&](const e::StopLost&) {
+            return line("stop", {{"reason", std::string("not acknowledged")}});
+          },
           [&](const e::Bump& x) {
             if (x.wall.axis == vm::Wall::Axis::None)
               return line("bump", {{"wall", vm::to_string(x.wall)}, {"speed", n(x.speed)}});

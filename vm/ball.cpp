@@ -30,9 +30,9 @@ ProgramOptions program_options(const BallOptions& options) {
 
 Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
-      body_(options.seed, options.driving), link_(options.wire), drive_(body_, settings_), power_(settings_),
-      programs_(program_options(options), options.seed), macros_(asks_->of_macro),
-      dispatcher_(asks_->of_client, options.seed, options.firmware) {
+      body_(options.seed, options.driving), link_(options.wire), drive_(body_, settings_),
+      power_(settings_), programs_(program_options(options), options.seed),
+      macros_(asks_->of_macro), dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
 }
 
@@ -283,7 +283,7 @@ void Ball::watch_motion() {
     dispatcher_.on_motion();
   }
   if (now_ >= watch_at_ || (was_moving_ && !moving)) {
-    trace(event::Position{body_.pose()});
+    trace(event::Position{body_.pose(), felt_at_ ? std::optional(now_ - *felt_at_) : std::nullopt});
     watch_battery();
     watch_at_ = moving ? now_ + pose_interval : never;
   }
@@ -354,6 +354,7 @@ void Ball::become(Elsewhere& robot) {
 void Ball::feel(const Sample& sample) {
   body_.advance_to(now_);
   body_.feel(sample);
+  felt_at_ = now_;
   watch_motion();
 }
 

@@ -197,6 +197,7 @@ private:
   bool double_shake_ = false;
   Instant deaf_until_{}; ///< the dead time after a collision
   Instant watch_at_ = never;
+  std::optional<Instant> felt_at_; ///< when a robot elsewhere said something last
   bool was_moving_ = false;
 };
 

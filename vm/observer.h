@@ -5,6 +5,7 @@
 #include "vm/body.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -37,6 +38,7 @@ struct Drive {
 /// Where the ball is; every 50 ms while it moves, and where it comes to rest.
 struct Position {
   Pose pose;
+  std::optional<Duration> age = {}; ///< since a robot that is elsewhere has said so
 };
 struct Marker {
   int marker = 0;
@@ -93,12 +95,15 @@ struct End {
   std::uint64_t lines = 0;
 };
 
+/// A robot that is elsewhere has not acknowledged that it stops; it may still drive.
+struct StopLost {};
+
 } // namespace event
 
 using Event =
     std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
                  event::Position, event::Marker, event::Macro, event::Line, event::Collision,
-                 event::Sleep, event::End, event::MacroEnd, event::Bump>;
+                 event::Sleep, event::End, event::MacroEnd, event::Bump, event::StopLost>;
 
 /// Sees what happens to a ball, in the order in which it happens.
 class Observer {

@@ -39,17 +39,16 @@ public:
     std::vector<Felt> felt;
     const auto nap =
         was_stale ? longest_nap : std::clamp<Duration>(until - elapsed(), 1ms, longest_nap);
-    if (auto pumped = robot_.pump(robot_.now() + nap,
-                                  [&](const Said& said) {
-                                    if (const auto* sample = std::get_if<vm::Sample>(&said.what))
-                                      felt.emplace_back(*sample);
-                                    else if (const auto* collision =
-                                                 std::get_if<vm::event::Collision>(&said.what))
-                                      felt.emplace_back(*collision);
-                                    else if (const auto* battery =
-                                                 std::get_if<vm::stimulus::Battery>(&said.what))
-                                      felt.emplace_back(*battery);
-                                  });
+    if (auto pumped = robot_.pump(
+            robot_.now() + nap,
+            [&](const Said& said) {
+              if (const auto* sample = std::get_if<vm::Sample>(&said.what))
+                felt.emplace_back(*sample);
+              else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
+                felt.emplace_back(*collision);
+              else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
+                felt.emplace_back(*battery);
+            });
         !pumped)
       return tl::unexpected(pumped.error());
     watch(was_stale);

@@ -144,6 +144,15 @@ std::string in_words(const DriveLine& told) {
                      std::chrono::duration<double>(told.at).count());
 }
 
+/// That a robot may still drive belongs to what happened.
+void tell_stop(Listener& listener, report::Journey* journey, Duration t, bool stopped) {
+  if (stopped)
+    return;
+  listener.on_event(t, vm::event::StopLost{});
+  if (journey != nullptr)
+    journey->add(t, vm::event::StopLost{});
+}
+
 Ending finished(Ending ending, bool stopped) {
   ending.robot_stopped = stopped;
   if (stopped)
@@ -158,7 +167,9 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
                                                    report::Journey* journey,
                                                    protocol::Transport& transport,
                                                    const TetherOptions& tether) {
-  Tether robot(transport, tether.robot, tether.budgets, wants_of(inputs));
+  // A report has lanes for all sensors.
+  const auto wants = journey == nullptr ? wants_of(inputs) : Wants{};
+  Tether robot(transport, tether.robot, tether.budgets, wants);
   const auto first = robot.begin(tether.aim);
   if (!first)
     return tl::unexpected(first.error());
@@ -206,6 +217,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
       stopped = robot.finish();
     }
   }
+  tell_stop(tap, journey, (*live)->time(), stopped);
   auto ending = (*live)->finish();
   if (!ending)
     return tl::unexpected(ending.error());
@@ -286,6 +298,7 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
         more != recording.lines.end())
       left =
           fmt::format("the program ends before the recording, which has {} next", in_words(*more));
+  tell_stop(tap, journey, running->time(), recording.stopped || !left.empty());
   auto ending = running->finish();
   if (!ending)
     return tl::unexpected(ending.error());

@@ -243,8 +243,12 @@ std::vector<Request> WireV1::silence() const {
 }
 
 std::vector<Request> WireV1::teardown() const {
-  return {request(ApiCommand::SetStabilization, {1}), request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
-          request(ApiCommand::SetBackLed, {0}), collisions(0), timeout(), flags(flags_.value_or(0))};
+  return {request(ApiCommand::SetStabilization, {1}),
+          request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
+          request(ApiCommand::SetBackLed, {0}),
+          collisions(0),
+          timeout(),
+          flags(flags_.value_or(0))};
 }
 
 std::optional<Request> WireV1::drive(const vm::Motion& motion) const {
