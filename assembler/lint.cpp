@@ -58,6 +58,7 @@ public:
       check_flags(macro);
       check_commands(macro);
       check_loops(macro);
+      check_robot(macro);
     }
     check_heap();
     check_gosub_depth();
@@ -69,6 +70,16 @@ private:
   Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
     diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
     return diagnostics_.back();
+  }
+
+  void check_robot(const AssembledMacro& macro) {
+    if (!options_.robot)
+      return;
+    for (const auto& command : macro.commands)
+      if (const auto* lack = spec::find_lack(*options_.robot, command.info->mnemonic))
+        report(rules::RobotLacks, command.span,
+               fmt::format("the {} has no `{}`: {}", spec::info(*options_.robot).title, lack->word,
+                           lack->why));
   }
 
   /// False where the rule was reported there already: loops and callers come by more than once.

@@ -2,7 +2,10 @@
 
 #include "assembler/assemble.h"
 
+#include "spec/robots.h"
+
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +13,7 @@ namespace orb::assembler {
 
 struct LintOptions {
   int executive = spec::macro_executive_newest; ///< version of the ball's macro executive
+  std::optional<spec::Robot> robot = {};        ///< which robot drives; nothing: any
 };
 
 /// What the linter has to say about an assembled file by itself, the assembler's own findings not

@@ -2,16 +2,29 @@
 
 #include "cli/driven_robot.h"
 #include "cli/terminal/interrupt.h"
+#include "compiler/lint/lint.h"
 #include "disk/disk.h"
 
 #include <fmt/format.h>
 #include <optional>
+#include <set>
 
 namespace orb::cli {
 namespace {
 
 tl::unexpected<Failure> refuse(std::string message) {
   return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
+}
+
+/// What the program says and this robot does not have, each word once.
+void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs,
+                   spec::Robot robot) {
+  std::set<std::string> said;
+  for (const auto& input : inputs)
+    if (input.program)
+      for (const auto& found : compiler::robot_findings(input.program->parsed, robot))
+        if (said.insert(found.message).second)
+          print_note(context, "hint: " + found.message);
 }
 
 } // namespace
@@ -49,6 +62,7 @@ run_on_robot(const Context& context, const RunOptions& given, const run::Options
   if (!connected)
     return tl::unexpected(connected.error());
   auto& robot = **connected;
+  hint_at_lacks(context, inputs, robot.tether.robot);
   robot.tether.aim = given.keep_aim ? run::Aim::Keep : run::Aim::Zero;
   run::DriveRecording recording;
   if (record)

@@ -45,6 +45,15 @@ std::string robots_with(const spec::V2CommandInfo& command) {
   return out;
 }
 
+/// Which words of programs mean nothing to the robot.
+std::string lacks_of(spec::Robot robot) {
+  std::string out;
+  for (const auto& row : spec::robot_lacks)
+    if (row.robot == robot)
+      out += fmt::format("{}`{}` ({})", out.empty() ? "" : ", ", row.word, row.why);
+  return out;
+}
+
 } // namespace
 
 Section robots_section() {
@@ -65,6 +74,8 @@ Section robots_section() {
     entry.facts.emplace_back("speed 60", fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 60)));
     entry.facts.emplace_back("speed 255",
                              fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 255)));
+    if (const auto lacks = lacks_of(row.robot); !lacks.empty())
+      entry.facts.emplace_back("does not have", lacks);
     entry.facts.emplace_back("source", row.source);
     section.entries.push_back(std::move(entry));
   }

@@ -262,6 +262,26 @@ constexpr const RobotInfo* find_robot(std::string_view name) {
   return nullptr;
 }
 
+/// What programs say and a robot does not have.
+struct RobotLack {
+  Robot robot;
+  std::string_view word;
+  std::string_view why;
+};
+
+inline constexpr auto robot_lacks = std::to_array<RobotLack>({
+#define LACK(robot, word, why) {Robot::robot, word, why},
+#include "spec/robots.def"
+});
+
+/// The row of a word that the robot does not have; null for what it has.
+constexpr const RobotLack* find_lack(Robot robot, std::string_view word) {
+  for (const auto& row : robot_lacks)
+    if (row.robot == robot && row.word == word)
+      return &row;
+  return nullptr;
+}
+
 /// Whether the robot knows the command.
 constexpr bool knows(const RobotInfo& robot, const V2CommandInfo& command) {
   const bool is_rvr = robot.sensors == RobotSensors::Services;

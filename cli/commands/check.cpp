@@ -24,6 +24,7 @@ struct Options {
   std::string lang;
   std::string format = "text";
   TargetOptions target;
+  std::string robot; ///< which drives; empty for any
   Policy policy;
   assembler::LintOptions macro;
   bool fix = false;
@@ -55,7 +56,11 @@ tl::expected<Sources, Failure> read_sources(const Options& options) {
 
 testing::Findings check_all(const Options& options, std::span<const SourceFile> sources) {
   DiskFiles disk;
-  auto found = testing::check_files(sources, options.target.target(), options.macro, disk);
+  auto target = options.target.target();
+  auto macro = options.macro;
+  if (!options.robot.empty())
+    target.robot = macro.robot = spec::find_robot(options.robot)->robot; // the options are checked
+  auto found = testing::check_files(sources, target, macro, disk);
   for (auto& file : found.files)
     weigh(options.policy, file.diagnostics);
   return found;
@@ -138,6 +143,7 @@ void add_check(CLI::App& app, Context& context) {
       add_command(app, "check", "find the mistakes in programs, macros, courses and tests",
                   "orb check square.bas\n"
                   "orb check --target 1.2 --ram 1024 *.bas\n"
+                  "orb check --robot rvr patrol.orb\n"
                   "orb check --fix patrol.orb\n"
                   "orb check parking.svg\n"
                   "orb check --watch square.bas\n"
@@ -146,6 +152,10 @@ void add_check(CLI::App& app, Context& context) {
   command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
   add_language_option(*command, options->lang);
   add_target_options(*command, options->target);
+  command
+      ->add_option("--robot", options->robot,
+                   "the robot that drives: what it does not have is a finding")
+      ->check(one_of(names_of(spec::robots)));
   command
       ->add_option("--executive", options->macro.executive,
                    "version of the ball's macro executive, for macro source")

@@ -3,7 +3,9 @@
 #include "cli/config.h"
 #include "cli/json.h"
 #include "cli/link.h"
+#include "cli/newer_robot.h"
 #include "cli/terminal/interrupt.h"
+#include "run/tether/run_tethered.h"
 #include "uploader/bluez.h"
 #include "uploader/endpoint.h"
 
@@ -142,10 +144,54 @@ void check_computer(const Context& context, Checkup& checkup) {
   check_ble(checkup);
 }
 
+/// What a robot of packets v2 says of itself.
+tl::expected<void, Failure> check_newer(Checkup& checkup, Link& link,
+                                        const spec::RobotInfo& robot) {
+  run::TalkV2 talk(*link.transport, robot);
+  if (const auto pinged = talk.request(spec::V2Command::Ping); !pinged)
+    return tl::unexpected(pinged.error());
+  checkup.good(fmt::format("a {} answers", robot.title));
+  const auto answer = talk.ask(spec::V2Command::GetVoltageState);
+  if (!answer)
+    return tl::unexpected(answer.error());
+  enum { Ok = 1, Low, Critical };
+  const int state = answer->error != 0 || answer->data.empty() ? 0 : answer->data.front();
+  if (state == Low || state == Critical)
+    checkup.bad(fmt::format("its battery is {}", state == Low ? "low" : "critical"),
+                "put it on the charger");
+  else if (state == Ok)
+    checkup.good("its battery is OK");
+  checkup.good(fmt::format("it keeps no programs: `orb run PROGRAM --port {}` drives it from here",
+                           link.name));
+  return {};
+}
+
+/// Whether a robot of packets v2 answers; then it has been looked at.
+bool is_newer(Checkup& checkup, Link& link) {
+  constexpr Duration patience = 3s;
+  const auto found = run::find_robot(*link.transport, patience);
+  if (found && spec::info(*found).packets == spec::Packets::V2) {
+    if (const auto done = check_newer(checkup, link, spec::info(*found)); !done)
+      checkup.bad("the robot stopped answering", done.error().message);
+    return true;
+  }
+  if (!found && found.error().code == ExitCode::Usage) { // it answers, and several are like it
+    checkup.bad("a newer robot answers and does not say which it is", found.error().message);
+    return true;
+  }
+  return false;
+}
+
 /// Opens the link and greets the ball.
-void check_ball(Context& context, Checkup& checkup, const PortOptions& options) {
+void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
+                const std::string& robot) {
   const InterruptGuard guard;
   auto told = false; // why it does not open
+  const auto* newer = newer_robot(context, given, robot);
+  auto options = given;
+  options.accepts = uploader::Accepts::All;
+  if (newer != nullptr)
+    options.robot = newer->robot;
   auto link = open_link(context, options, [&](protocol::BleStep, const auto& found) {
     told = !found;
     if (found)
@@ -162,6 +208,13 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
   }
   if (!link->is_sim)
     checkup.good(fmt::format("{} opens", link->name));
+  if (newer != nullptr) {
+    if (const auto done = check_newer(checkup, *link, *newer); !done)
+      checkup.bad("no robot answers", done.error().message);
+    return;
+  }
+  if (!link->is_sim && is_newer(checkup, *link))
+    return;
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto greeting = uploader::greet(session);
   if (!greeting) {
@@ -187,7 +240,8 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& options) 
 
 enum class Asked { ThePort, TheComputer };
 
-void run(Context& context, const PortOptions& options, const std::string& format, Asked asked) {
+void run(Context& context, const PortOptions& options, const std::string& format,
+         const std::string& robot, Asked asked) {
   auto list = Json::array();
   auto* const gathered = format == "json" ? &list : nullptr;
   Checkup checkup(context, gathered);
@@ -210,7 +264,7 @@ void run(Context& context, const PortOptions& options, const std::string& format
   case Scheme::Sim: break;
   }
   if (reachable)
-    check_ball(context, checkup, options);
+    check_ball(context, checkup, options, robot);
   if (asked == Asked::TheComputer)
     print_note(context,
                "no robot was tried: `orb doctor --port URL` tries one, `orb ports` lists them");
@@ -230,11 +284,13 @@ void add_doctor(CLI::App& app, Context& context) {
                               "orb doctor --port ble://SK-1A2B");
   auto options = std::make_shared<PortOptions>();
   add_port_options(*command, *options);
+  auto robot = std::make_shared<std::string>();
+  add_newer_robot_option(*command, *robot);
   auto format = std::make_shared<std::string>("text");
   add_format_option(*command, *format);
-  command->callback([&context, options, format, command] {
+  command->callback([&context, options, format, robot, command] {
     const auto asked = command->count("--port") > 0 ? Asked::ThePort : Asked::TheComputer;
-    run(context, *options, *format, asked);
+    run(context, *options, *format, *robot, asked);
   });
 }
 

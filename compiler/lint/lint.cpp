@@ -131,6 +131,8 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
     lint_units(program, flow, findings);
     lint_waits(program, flow, findings);
   }
+  if (target.robot)
+    lint_robot(program, *target.robot, findings);
   check_size(program, flow, target, findings);
   drop_doubles(findings.all());
   silence(program, findings);

@@ -24,7 +24,7 @@ bool is_told(const Rule* rule) {
                            &robot::MayLeaveRange,    &robot::WrongUnit,       &robot::TinyValue,
                            &robot::GoZero,           &robot::WeakBrake,       &robot::StaleSensor,
                            &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
-                           &robot::AlwaysOne})
+                           &robot::AlwaysOne,        &robot::RobotLacks})
     if (rule == told)
       return true;
   return false;
