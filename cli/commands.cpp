@@ -88,6 +88,7 @@ constexpr auto commands = std::to_array<Command>({
     {"decode", add_decode},
     {"disasm", add_disasm},
     {"doctor", add_doctor},
+    {"drive", add_drive},
     {"encode", add_encode},
     {"erase", add_erase},
     {"exec", add_exec},

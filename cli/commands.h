@@ -26,6 +26,7 @@ void add_commit(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 void add_dap(CLI::App& app, Context& context);
 void add_debug(CLI::App& app, Context& context);
+void add_drive(CLI::App& app, Context& context);
 void add_decode(CLI::App& app, Context& context);
 void add_disasm(CLI::App& app, Context& context);
 void add_doctor(CLI::App& app, Context& context);

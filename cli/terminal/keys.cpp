@@ -1,0 +1,74 @@
+#include "cli/terminal/keys.h"
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+bool is_there() {
+  pollfd in{STDIN_FILENO, POLLIN, 0};
+  return ::poll(&in, 1, 0) > 0;
+}
+
+/// The next byte; nothing at the end.
+bool read_byte(char& byte) {
+  return ::read(STDIN_FILENO, &byte, 1) == 1;
+}
+
+/// What follows ESC: `[A` or `OA` for an arrow.
+Key read_arrow() {
+  char first = 0;
+  char second = 0;
+  if (!is_there() || !read_byte(first) || (first != '[' && first != 'O') || !is_there() ||
+      !read_byte(second))
+    return Key::None;
+  return second == 'A'   ? Key::Up
+         : second == 'B' ? Key::Down
+         : second == 'C' ? Key::RightArrow
+         : second == 'D' ? Key::LeftArrow
+                         : Key::None;
+}
+
+} // namespace
+
+struct Keys::Before {
+  termios settings{};
+};
+
+Keys::Keys() {
+  termios settings{};
+  if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &settings) != 0)
+    return;
+  before_ = std::make_unique<Before>(Before{settings});
+  settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO); // Ctrl-C still interrupts
+  ::tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+}
+
+Keys::~Keys() {
+  give_back();
+}
+
+void Keys::give_back() {
+  if (before_ != nullptr)
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &before_->settings);
+}
+
+bool Keys::from_terminal() const {
+  return before_ != nullptr;
+}
+
+Pressed Keys::next(Wait wait) {
+  constexpr char escape = 0x1B;
+  if ((from_terminal() || wait == Wait::No) && !is_there())
+    return {};
+  char byte = 0;
+  if (!read_byte(byte))
+    return {Key::End, 0};
+  if (byte == escape)
+    return {read_arrow(), 0};
+  return {Key::None, byte};
+}
+
+} // namespace orb::cli

@@ -1,0 +1,99 @@
+#include "run/tether/pilot.h"
+
+#include "spec/basic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace orb::run {
+namespace {
+
+constexpr int circle = 360;
+constexpr int turn_deg = 15;
+constexpr int speed_step = 20;
+constexpr int fastest = 255;
+constexpr int lamp_level = 255;
+
+int on_circle(int deg) {
+  return (deg % circle + circle) % circle;
+}
+
+std::string side(double cm, std::string_view plus, std::string_view minus) {
+  return fmt::format("{:.0f} cm {}", std::abs(cm), cm < 0 ? minus : plus);
+}
+
+} // namespace
+
+void Pilot::press(Key key) {
+  switch (key) {
+  case Key::Faster: speed_ = std::min(speed_ + speed_step, fastest); break;
+  case Key::Slower: speed_ = std::max(speed_ - speed_step, 0); break;
+  case Key::Left: heading_ = on_circle(heading_ - turn_deg); break;
+  case Key::Right: heading_ = on_circle(heading_ + turn_deg); break;
+  case Key::Stop: return stop();
+  case Key::Ahead: // where it faces now
+    ahead_ = on_circle(static_cast<int>(std::lround(sample_.yaw_deg)));
+    heading_ = 0;
+    break;
+  case Key::Color:
+    color_ = (color_ + 1) % spec::led_colours.size();
+    return show({spec::led_colours[color_].red, spec::led_colours[color_].green,
+                 spec::led_colours[color_].blue});
+  case Key::Lamp: lamp_ = !lamp_; return robot_.show_back(lamp_ ? lamp_level : 0);
+  }
+  obey(patience);
+}
+
+void Pilot::steer(int heading_deg, int speed, Duration lasts) {
+  heading_ = on_circle(heading_deg);
+  speed_ = std::clamp(speed, 0, fastest);
+  obey(lasts);
+}
+
+void Pilot::obey(Duration lasts) {
+  if (speed_ == 0 && stops_at_)
+    return stop();
+  robot_.obey(vm::Roll{on_circle(heading_ + ahead_), speed_, vm::Go::Drive});
+  if (speed_ > 0)
+    stops_at_ = robot_.now() + lasts;
+}
+
+void Pilot::stop() {
+  speed_ = 0;
+  stops_at_.reset();
+  robot_.obey(vm::Roll{on_circle(heading_ + ahead_), 0, vm::Go::Brake});
+}
+
+void Pilot::show(vm::Color color) {
+  robot_.show(color);
+}
+
+void Pilot::hear(const Said& said) {
+  if (const auto* sample = std::get_if<vm::Sample>(&said.what))
+    sample_ = *sample;
+  else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
+    battery_ = *battery;
+  else if (std::holds_alternative<vm::event::Collision>(said.what))
+    ++blows_;
+}
+
+void Pilot::watch() {
+  if (stops_at_ && robot_.now() >= *stops_at_)
+    stop();
+}
+
+std::string Pilot::words() const {
+  auto text = fmt::format("{}, {}, {:.0f} cm/s, faces {:.0f}°, told {}° at {}",
+                          side(sample_.place_cm.y, "ahead", "behind"),
+                          side(sample_.place_cm.x, "right", "left"),
+                          std::hypot(sample_.velocity_cm_s.x, sample_.velocity_cm_s.y),
+                          sample_.yaw_deg, on_circle(heading_ + ahead_), speed_);
+  if (blows_ > 0)
+    text += fmt::format(", {} blow{}", blows_, blows_ == 1 ? "" : "s");
+  if (battery_)
+    text += fmt::format(", {:.2f} V", battery_->volts);
+  return text;
+}
+
+} // namespace orb::run

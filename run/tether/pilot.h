@@ -1,0 +1,55 @@
+#pragma once
+
+#include "run/tether/tether.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace orb::run {
+
+/// Somebody who drives a robot by hand: headings and speeds add up key by key, and the robot stops
+/// where nothing comes for a while.
+class Pilot {
+public:
+  /// Without a key for so long the robot stops: somebody may have walked away.
+  static constexpr Duration patience = 5s;
+
+  Pilot(Tether& robot, const vm::Sample& first) : robot_(robot), sample_(first) {}
+
+  enum class Key : std::uint8_t { Faster, Slower, Left, Right, Stop, Ahead, Color, Lamp };
+  void press(Key key);
+  /// 0 <= heading < 360 as the pilot counts it, 0 <= speed <= 255. Holds for `patience`, too.
+  void steer(int heading_deg, int speed, Duration patience);
+  void stop();
+  void show(vm::Color color);
+
+  /// What the robot says.
+  void hear(const Said& said);
+  /// Stops the robot where nothing came for too long.
+  void watch();
+
+  const vm::Sample& sample() const { return sample_; }
+  const std::optional<vm::stimulus::Battery>& battery() const { return battery_; }
+  int heading() const { return heading_; }
+  int speed() const { return speed_; }
+  std::uint64_t blows() const { return blows_; }
+  /// `12 cm right, 40 cm ahead, 34 cm/s, faces 90°, told 90° at 60`.
+  std::string words() const;
+
+private:
+  void obey(Duration patience);
+
+  Tether& robot_;
+  vm::Sample sample_;
+  std::optional<vm::stimulus::Battery> battery_;
+  int heading_ = 0; ///< as the pilot counts it
+  int speed_ = 0;
+  int ahead_ = 0; ///< the robot's own heading that the pilot calls 0
+  std::size_t color_ = 0;
+  bool lamp_ = false;
+  std::uint64_t blows_ = 0;
+  std::optional<Instant> stops_at_;
+};
+
+} // namespace orb::run

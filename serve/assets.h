@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace orb::serve {
+
+// drive.html, drive.css and the modules of drive/ as one script, put into the program by the build.
+extern const std::string_view page_html;
+extern const std::string_view page_css;
+extern const std::string_view page_js;
+
+} // namespace orb::serve

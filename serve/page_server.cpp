@@ -1,0 +1,267 @@
+#include "serve/page_server.h"
+
+#include <algorithm>
+#include <asio.hpp>
+#include <charconv>
+#include <deque>
+#include <fmt/format.h>
+#include <list>
+#include <optional>
+#include <random>
+#include <utility>
+
+// The libraries of Debian that serve HTTP bring TLS into every start of a program; what a page on
+// the same computer needs of HTTP is little.
+
+namespace orb::serve {
+namespace {
+
+using asio::ip::tcp;
+
+constexpr std::size_t most_head = 8192;
+constexpr std::size_t most_body = 1024;
+constexpr std::size_t most_waiting = 64; ///< events that a page has not taken yet
+constexpr std::size_t most_guests = 16;
+
+/// 128 bits as hex digits.
+std::string make_secret() {
+  std::random_device draw;
+  std::string text;
+  for (int i = 0; i < 4; ++i)
+    text += fmt::format("{:08x}", draw());
+  return text;
+}
+
+std::string answer(std::string_view status, std::string_view type, std::string_view body) {
+  return fmt::format("HTTP/1.1 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n"
+                     "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n"
+                     "Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'; "
+                     "script-src 'unsafe-inline'; connect-src 'self'; img-src data:; "
+                     "frame-ancestors 'none'\r\nConnection: close\r\n\r\n{}",
+                     status, type, body.size(), body);
+}
+
+constexpr std::string_view event_head = "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n"
+                                        "Cache-Control: no-store\r\nConnection: close\r\n\r\n";
+
+/// The first line of a request, and the length that its head announces.
+struct Head {
+  std::string_view method;
+  std::string_view path;
+  std::size_t length = 0;
+};
+
+bool is_header(std::string_view line, std::string_view name) {
+  return line.size() > name.size() && line[name.size()] == ':' &&
+         std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) {
+           return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
+         });
+}
+
+/// Nothing where it is no request that could be answered.
+std::optional<Head> read_head(std::string_view text) {
+  Head head;
+  const auto first = text.substr(0, text.find("\r\n"));
+  const auto blank = first.find(' ');
+  const auto end = first.rfind(' ');
+  if (blank == std::string_view::npos || end <= blank)
+    return std::nullopt;
+  head.method = first.substr(0, blank);
+  head.path = first.substr(blank + 1, end - blank - 1);
+  for (auto rest = text.substr(first.size()); rest.starts_with("\r\n");) {
+    rest.remove_prefix(2);
+    const auto line = rest.substr(0, rest.find("\r\n"));
+    rest.remove_prefix(line.size());
+    constexpr std::string_view name = "content-length";
+    if (!is_header(line, name))
+      continue;
+    const auto value = line.substr(line.find_first_not_of(" \t", name.size() + 1));
+    if (std::from_chars(value.data(), value.data() + value.size(), head.length).ec != std::errc{})
+      return std::nullopt;
+  }
+  return head;
+}
+
+/// A connection: a request that arrives, or a page that listens.
+struct Guest {
+  explicit Guest(tcp::socket from) : socket(std::move(from)) {}
+  tcp::socket socket;
+  std::string in;
+  std::deque<std::string> out;
+  bool listens = false;
+  bool leaves = false; ///< when all is said
+  bool gone = false;
+};
+
+} // namespace
+
+struct PageServer::State {
+  State(std::string text, OnPost hears) : page(std::move(text)), on_post(std::move(hears)) {}
+
+  tl::expected<void, IoError> open();
+  void accept();
+  void read(Guest& guest);
+  void write(Guest& guest);
+  void say(Guest& guest, std::string text);
+  void serve(Guest& guest);
+  void answer_to(Guest& guest, const Head& head, std::string_view body);
+
+  std::string page;
+  OnPost on_post;
+  asio::io_context context;
+  tcp::acceptor acceptor{context};
+  std::string base; ///< `/SECRET/`
+  std::string url;
+  std::list<Guest> guests;
+};
+
+tl::expected<void, IoError> PageServer::State::open() {
+  asio::error_code error;
+  const tcp::endpoint place(asio::ip::address_v4::loopback(), 0);
+  acceptor.open(place.protocol(), error);
+  if (!error)
+    acceptor.bind(place, error);
+  if (!error)
+    acceptor.listen(static_cast<int>(most_guests), error);
+  if (error)
+    return tl::unexpected(IoError{fmt::format("cannot serve a page: {}", error.message())});
+  base = "/" + make_secret() + "/";
+  url = fmt::format("http://127.0.0.1:{}{}", acceptor.local_endpoint().port(), base);
+  accept();
+  return {};
+}
+
+void PageServer::State::accept() {
+  acceptor.async_accept([this](asio::error_code error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted)
+      return;
+    if (!error && guests.size() < most_guests)
+      read(guests.emplace_back(std::move(socket)));
+    accept();
+  });
+}
+
+void PageServer::State::read(Guest& guest) {
+  const auto before = guest.in.size();
+  constexpr std::size_t piece = 2048;
+  guest.in.resize(before + piece);
+  guest.socket.async_read_some(asio::buffer(guest.in.data() + before, piece),
+                               [this, &guest, before](asio::error_code error, std::size_t n) {
+                                 guest.in.resize(before + n);
+                                 if (error) {
+                                   guest.gone = true;
+                                   return;
+                                 }
+                                 serve(guest);
+                                 if (!guest.leaves && !guest.gone)
+                                   read(guest);
+                               });
+}
+
+/// Answers once the whole request is there.
+void PageServer::State::serve(Guest& guest) {
+  if (guest.listens) {
+    guest.in.clear(); // who listens says no more
+    return;
+  }
+  const auto end = guest.in.find("\r\n\r\n");
+  if (end == std::string::npos) {
+    if (guest.in.size() > most_head)
+      guest.gone = true;
+    return;
+  }
+  const auto text = std::string_view(guest.in);
+  const auto head = read_head(text.substr(0, end));
+  constexpr std::size_t blank_line = 4;
+  if (!head || head->length > most_body) {
+    guest.leaves = true;
+    return say(guest, answer("400 Bad Request", "text/plain", "not a request that is served\n"));
+  }
+  if (text.size() - end - blank_line >= head->length)
+    answer_to(guest, *head, text.substr(end + blank_line, head->length));
+}
+
+void PageServer::State::answer_to(Guest& guest, const Head& head, std::string_view body) {
+  const bool known = head.path.starts_with(base);
+  const auto path = known ? head.path.substr(base.size()) : std::string_view();
+  if (known && head.method == "GET" && path == "events") {
+    guest.listens = true;
+    return say(guest, std::string(event_head));
+  }
+  guest.leaves = true;
+  if (known && head.method == "GET" && path.empty())
+    return say(guest, answer("200 OK", "text/html; charset=utf-8", page));
+  if (known && head.method == "POST") {
+    on_post(path, body);
+    return say(guest, answer("204 No Content", "text/plain", ""));
+  }
+  say(guest, answer("404 Not Found", "text/plain", "there is nothing here\n"));
+}
+
+void PageServer::State::say(Guest& guest, std::string text) {
+  if (guest.out.size() >= most_waiting) {
+    guest.gone = true;
+    return;
+  }
+  guest.out.push_back(std::move(text));
+  if (guest.out.size() == 1)
+    write(guest);
+}
+
+void PageServer::State::write(Guest& guest) {
+  asio::async_write(guest.socket, asio::buffer(guest.out.front()),
+                    [this, &guest](asio::error_code error, std::size_t) {
+                      guest.out.pop_front();
+                      if (error)
+                        guest.gone = true;
+                      else if (!guest.out.empty())
+                        write(guest);
+                      else if (guest.leaves) {
+                        asio::error_code ignored;
+                        guest.socket.shutdown(tcp::socket::shutdown_send, ignored);
+                        guest.gone = true;
+                      }
+                    });
+}
+
+PageServer::PageServer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PageServer::~PageServer() = default;
+
+tl::expected<std::unique_ptr<PageServer>, IoError> PageServer::start(std::string page,
+                                                                     OnPost on_post) {
+  auto state = std::make_unique<State>(std::move(page), std::move(on_post));
+  if (auto opened = state->open(); !opened)
+    return tl::unexpected(opened.error());
+  return std::unique_ptr<PageServer>(new PageServer(std::move(state)));
+}
+
+const std::string& PageServer::url() const {
+  return state_->url;
+}
+
+void PageServer::poll() {
+  state_->context.restart();
+  state_->context.poll();
+  // Who is gone is forgotten once nothing of his is under way.
+  for (auto& guest : state_->guests)
+    if (guest.gone && guest.socket.is_open()) {
+      asio::error_code ignored;
+      guest.socket.close(ignored);
+    }
+  state_->context.poll();
+  state_->guests.remove_if([](const Guest& guest) { return !guest.socket.is_open(); });
+}
+
+void PageServer::send(std::string_view event) {
+  for (auto& guest : state_->guests)
+    if (guest.listens && !guest.gone)
+      state_->say(guest, fmt::format("data: {}\n\n", event));
+}
+
+std::size_t PageServer::listeners() const {
+  return static_cast<std::size_t>(
+      std::count_if(state_->guests.begin(), state_->guests.end(),
+                    [](const Guest& guest) { return guest.listens && !guest.gone; }));
+}
+
+} // namespace orb::serve
