@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "cli/commands/ports.h"
+#include "cli/commands/robot/ports.h"
 #include "cli/options.h"
 #include "cli/output_error.h"
 #include "reference/completion_words.h"

@@ -171,7 +171,7 @@ std::string synopsis(const Command& command) {
   out += fmt::format(".Nm orb {}\n", word(command.name));
   for (const auto& option : command.options)
     if (option.argument.empty() && !option.asks_for_help)
-      out += fmt::format(".{} {}\n", option.required ? "No" : "Op", flags(option));
+      out += fmt::format(".{}{}\n", option.required ? "" : "Op ", flags(option));
   for (const auto& option : command.options)
     if (!option.argument.empty())
       out += fmt::format(".{} {}{}\n", option.required ? "Ar" : "Op Ar", word(option.argument),

@@ -18,8 +18,8 @@ namespace {
 
 using asio::ip::tcp;
 
-constexpr std::size_t most_head = 8192;
-constexpr std::size_t most_body = 1024;
+constexpr std::size_t most_head = 8192; // bytes: what browsers send is a tenth of that
+constexpr std::size_t most_body = 1024; // bytes: a post holds a few numbers
 constexpr std::size_t most_waiting = 64; ///< events that a page has not taken yet
 constexpr std::size_t most_guests = 16;
 
@@ -143,7 +143,7 @@ void PageServer::State::accept() {
 
 void PageServer::State::read(Guest& guest) {
   const auto before = guest.in.size();
-  constexpr std::size_t piece = 2048;
+  constexpr std::size_t piece = 2048; // bytes of one read
   guest.in.resize(before + piece);
   guest.socket.async_read_some(asio::buffer(guest.in.data() + before, piece),
                                [this, &guest, before](asio::error_code error, std::size_t n) {

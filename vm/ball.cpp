@@ -44,7 +44,7 @@ Ball::Ball(const Ball& other)
       streamer_(other.streamer_), dispatcher_(other.dispatcher_, asks_->of_client),
       script_(other.script_), interrupted_(other.interrupted_), idle_since_(other.idle_since_),
       double_shake_(other.double_shake_), deaf_until_(other.deaf_until_),
-      watch_at_(other.watch_at_), was_moving_(other.was_moving_) {}
+      watch_at_(other.watch_at_), felt_at_(other.felt_at_), was_moving_(other.was_moving_) {}
 
 Ball::~Ball() = default;
 

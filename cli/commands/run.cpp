@@ -1,7 +1,7 @@
 #include "run/run.h"
 #include "base/duration.h"
 #include "cli/commands.h"
-#include "cli/commands/monitor.h"
+#include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
 #include "cli/on_robot.h"
 #include "cli/options.h"

@@ -48,6 +48,7 @@ public:
 
   virtual Bytes encode(const Request& request, std::uint8_t seq) const = 0;
   virtual std::uint8_t next_seq(std::uint8_t seq) const = 0;
+  /// The bytes must live until next() has returned nothing.
   virtual void feed(ByteView bytes) = 0;
   virtual std::optional<Said> next() = 0;
 

@@ -1,4 +1,4 @@
-#include "cli/commands/ports.h"
+#include "cli/commands/robot/ports.h"
 
 #include "base/duration.h"
 #include "base/text.h"

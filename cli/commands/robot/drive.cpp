@@ -280,7 +280,7 @@ void add_drive(CLI::App& app, Context& context) {
   command->add_flag("--page", options->page,
                     "serves a page with a joystick and live curves, on this computer only");
   command->add_flag("--open", options->open, "the same, and opens it");
-  command->footer("keys: " + key_help());
+  command->footer("Keys: " + key_help());
   command->callback([&context, options] {
     if (const auto done = drive(context, *options); !done)
       fail(context, done.error());

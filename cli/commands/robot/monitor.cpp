@@ -1,5 +1,6 @@
-#include "cli/commands/monitor.h"
+#include "cli/commands/robot/monitor.h"
 
+#include "base/duration.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/json.h"
@@ -7,12 +8,18 @@
 #include "disk/disk.h"
 #include "protocol/describe.h"
 #include "protocol/payload.h"
+#include "report/page.h"
+#include "report/svg.h"
+#include "run/start.h"
+#include "run/tether/onlooker.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
+#include "structured/text/words.h"
 
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -133,12 +140,14 @@ void print_fault(const Context& context, const run::ProgramError& fault) {
 }
 
 Watched monitor(const Context& context, Link& link, uploader::Session& session,
-                const Lookup& lookup, std::string_view format) {
+                const Lookup& lookup, std::string_view format, Spectator* spectator) {
   Watched watched;
   auto& inbox = session.inbox();
   while (true) {
     while (!inbox.empty()) {
-      if (format == "json")
+      if (spectator != nullptr && spectator->takes(inbox.front())) {
+        // it is not for people
+      } else if (format == "json")
         print_json_message(inbox.front(), lookup, watched);
       else
         print_message(context, inbox.front(), lookup, watched);
@@ -155,6 +164,8 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
     }
     if (resting && inbox.empty())
       return watched;
+    if (spectator != nullptr && !spectator->goes_on())
+      return watched;
   }
 }
 
@@ -164,7 +175,98 @@ struct Options {
   PortOptions port;
   std::string map;
   std::string format = "text";
+  std::string report; ///< a file for what was seen; empty for none
+  std::string svg;
+  std::string time; ///< how long it listens; empty: until it is ended
+
+  bool draws() const { return !report.empty() || !svg.empty(); }
 };
+
+/// Gathers what a ball does whose own program drives it.
+class Camera final : public Spectator {
+public:
+  Camera(uploader::Session& session, Duration lasts, report::Journey* journey)
+      : session_(session), lasts_(lasts), began_(session.now()) {
+    if (journey != nullptr)
+      onlooker_.emplace(*journey);
+  }
+
+  /// The ball begins to say what it feels.
+  tl::expected<void, Failure> begin() {
+    return onlooker_ ? ask_all(onlooker_->stream()) : tl::expected<void, Failure>();
+  }
+  void end() {
+    if (onlooker_)
+      static_cast<void>(ask_all(onlooker_->silence())); // the link may be gone
+  }
+
+  bool takes(const Async& message) override {
+    if (!onlooker_)
+      return false;
+    onlooker_->hear(time(), message);
+    return is(message, AsyncId::SensorData);
+  }
+
+  bool goes_on() override { return lasts_ == Duration{} || time() < lasts_; }
+
+  Duration time() const { return session_.now() - began_; }
+
+private:
+  tl::expected<void, Failure> ask_all(const std::vector<run::Request>& requests) {
+    for (const auto& one : requests) {
+      const auto answer =
+          session_.ask(static_cast<spec::ApiCommand>(one.did << 8 | one.cid), one.data);
+      if (!answer)
+        return tl::unexpected(Failure{ExitCode::LinkLost,
+                                      "the ball does not answer when it is asked for its "
+                                      "sensors; bring it nearer, and try again"});
+      if (answer->code != 0)
+        return tl::unexpected(
+            Failure{ExitCode::Refused, fmt::format("the ball does not stream its sensors: {}",
+                                                   uploader::describe_code(answer->code))});
+    }
+    return {};
+  }
+
+  uploader::Session& session_;
+  Duration lasts_;
+  Instant began_;
+  std::optional<run::Onlooker> onlooker_;
+};
+
+/// The report and the drawing of what was seen.
+tl::expected<void, IoError> write_seen(const Options& options, report::Journey& journey,
+                                       Duration time) {
+  journey.finish(time, "abort", "was watched");
+  if (!options.report.empty())
+    if (auto done =
+            disk::write(options.report, as_bytes(report::report_page(journey, options.port.port, {},
+                                                                     structured::keyword_words)));
+        !done)
+      return done;
+  return options.svg.empty() ? tl::expected<void, IoError>()
+                             : disk::write(options.svg, as_bytes(report::path_svg(journey)));
+}
+
+ExitCode watch(Context& context, const Options& options, Duration lasts, const Lookup& lookup,
+               std::span<const run::Input> inputs, Link& link, uploader::Session& session) {
+  report::Journey journey;
+  run::describe(inputs, {}, journey);
+  Camera camera(session, lasts, options.draws() ? &journey : nullptr);
+  if (auto begun = camera.begin(); !begun) {
+    print_error(context, begun.error().message);
+    return begun.error().code;
+  }
+  print_note(context, lasts == Duration{} ? "listening; Ctrl-C ends" : "listening");
+  const auto watched = monitor(context, link, session, lookup, options.format, &camera);
+  camera.end();
+  if (options.draws())
+    if (auto written = write_seen(options, journey, camera.time()); !written) {
+      print_error(context, written.error().message);
+      return ExitCode::File;
+    }
+  return watched.lost ? ExitCode::LinkLost : ExitCode::Done;
+}
 
 tl::expected<run::LineMap, Failure> read_map(const std::string& path) {
   const auto text = read_text(path);
@@ -197,12 +299,14 @@ void listen(Context& context, const Options& options) {
     inputs = read_program(lookup.lines);
     lookup.input = inputs.empty() ? nullptr : &inputs.front();
   }
+  const auto lasts = options.time.empty() ? Duration{} : parse_duration(options.time, 1s);
+  if (!lasts)
+    return fail(context, {ExitCode::Usage, fmt::format("`--for {}` is not a time; write it like "
+                                                       "90s, 500ms or 2min",
+                                                       options.time)});
   with_firmware(context, options.port,
                 [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
-                  print_note(context, "listening; Ctrl-C ends");
-                  return monitor(context, link, session, lookup, options.format).lost
-                             ? ExitCode::LinkLost
-                             : ExitCode::Done;
+                  return watch(context, options, *lasts, lookup, inputs, link, session);
                 });
 }
 
@@ -212,7 +316,8 @@ void add_monitor(CLI::App& app, Context& context) {
   auto* command =
       add_command(app, "monitor", "print what a ball says: prints, errors, markers, collisions",
                   "orb monitor --port /dev/rfcomm0\n"
-                  "orb monitor --port @red --map square.json");
+                  "orb monitor --port @red --map square.json\n"
+                  "orb monitor --port @red --report drive.html --for 30s");
   auto options = std::make_shared<Options>();
   add_port_options(*command, options->port);
   add_format_option(*command, options->format);
@@ -220,6 +325,11 @@ void add_monitor(CLI::App& app, Context& context) {
       ->add_option("--map", options->map,
                    "a map written by `orb build --map`: errors then point into the source")
       ->type_name("FILE");
+  command
+      ->add_option("--report", options->report, "a page with the way of the ball and its sensors")
+      ->type_name("OUT.html");
+  command->add_option("--svg", options->svg, "a drawing of the way")->type_name("OUT.svg");
+  command->add_option("--for", options->time, "how long; else until Ctrl-C")->type_name("TIME");
   command->callback([&context, options] { listen(context, *options); });
 }
 

@@ -1,7 +1,7 @@
 #include "base/duration.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/commands/monitor.h"
+#include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
 #include "cli/link.h"
 #include "cli/options.h"

@@ -1,6 +1,6 @@
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/commands/monitor.h"
+#include "cli/commands/robot/monitor.h"
 #include "cli/json.h"
 #include "cli/newer_robot.h"
 #include "cli/terminal/interrupt.h"

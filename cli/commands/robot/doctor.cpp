@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "cli/commands/ports.h"
+#include "cli/commands/robot/ports.h"
 #include "cli/config.h"
 #include "cli/json.h"
 #include "cli/link.h"

@@ -21,10 +21,22 @@ struct Lookup {
   const run::Input* input = nullptr; ///< the source, where there is one to look into
 };
 
+/// Sees what is monitored, besides what is printed.
+class Spectator {
+public:
+  virtual ~Spectator() = default;
+  /// Whether the message is not to be printed.
+  virtual bool takes(const protocol::Async& message) = 0;
+  /// Nothing has come for a while, or much; false: it has seen enough.
+  virtual bool goes_on() = 0;
+};
+
 /// Prints what comes from the ball until Ctrl-C, or until the built-in ball is at rest: prints to
 /// stdout as they are, markers, collisions and sensor values a line each; errors to stderr. With
-/// the format `json` everything is a line of JSON on stdout (docs/json.md).
+/// the format `json` everything is a line of JSON on stdout (docs/json.md). `spectator` may be
+/// null.
 Watched monitor(const Context& context, Link& link, uploader::Session& session,
-                const Lookup& lookup, std::string_view format = "text");
+                const Lookup& lookup, std::string_view format = "text",
+                Spectator* spectator = nullptr);
 
 } // namespace orb::cli
