@@ -1,5 +1,6 @@
 #include "cli/robot_stage.h"
 
+#include "cli/on_robot.h"
 #include "cli/terminal/interrupt.h"
 
 #include <algorithm>
@@ -126,14 +127,15 @@ RobotStage::play(const testing::Suite& suite, const testing::Group& group,
   options.model = robot_.tether.robot;
   auto driven = run::run_tethered(suite.programs[group.program].inputs, options, listener, &journey,
                                   *robot_.link.transport, robot_.tether);
-  const auto failure = driven ? driven->failure : std::optional(driven.error());
+  auto failure = driven ? driven->failure : std::optional(driven.error());
   if (failure) {
+    if (driven && !driven->ending.robot_stopped.value_or(true))
+      failure->message += fmt::format("; {}", stop_note(driven->ending));
     broken_ = failure;
     return tl::unexpected(*failure);
   }
   if (!driven->ending.robot_stopped.value_or(true)) {
-    broken_ = Failure{ExitCode::LinkLost, "the robot has not acknowledged the stop; by itself it "
-                                          "stops 2 s after the last command: see that it does"};
+    broken_ = Failure{ExitCode::LinkLost, std::string(stop_note(driven->ending))};
     return tl::unexpected(*broken_);
   }
   return std::move(driven->ending);
