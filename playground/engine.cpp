@@ -29,6 +29,8 @@ const Engine::Row Engine::rows[] = {
     {"report", &Engine::report},
     {"deliver_start", &Engine::deliver_start},
     {"deliver_step", &Engine::deliver_step},
+    {"drive_start", &Engine::drive_start},
+    {"drive_step", &Engine::drive_step},
 };
 
 namespace {
@@ -112,9 +114,10 @@ Answer Engine::stimulus(Request& request) {
 }
 
 Answer Engine::input(Request& request) {
-  if (!live_)
+  auto* const run = drive_ ? drive_->run() : live_.get();
+  if (run == nullptr)
     return no_run();
-  live_->give(request.value<std::int32_t>("value").value_or(0));
+  run->give(request.value<std::int32_t>("value").value_or(0));
   return nothing;
 }
 
@@ -134,6 +137,24 @@ Answer Engine::deliver_step(Request& request) {
   if (!upload_)
     return refuse(ExitCode::Usage, "nothing is being uploaded");
   return upload_->step(request.params);
+}
+
+Answer Engine::drive_start(Request& request) {
+  drive_.reset();
+  auto drive = Drive::start(request);
+  if (!drive)
+    return tl::unexpected(drive.error());
+  drive_ = *std::move(drive);
+  return drive_->step(ordered_json::object());
+}
+
+Answer Engine::drive_step(Request& request) {
+  if (!drive_)
+    return refuse(ExitCode::Usage, "no robot is driven");
+  auto answer = drive_->step(request.params);
+  if (!answer || answer->starts_with(R"({"over")"))
+    drive_.reset();
+  return answer;
 }
 
 std::string Engine::answer(const char* request) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "editor/language_server.h"
+#include "playground/drives.h"
 #include "playground/request.h"
 #include "playground/robot.h"
 #include "playground/runs.h"
@@ -14,7 +15,7 @@
 namespace orb::playground {
 
 /// What answers requests. What lives from one to the next (the language server, a live run, an
-/// upload) is kept here.
+/// upload, a robot that is driven) is kept here.
 class Engine {
 public:
   /// The answer to a request, both whole messages: `{"result":…}` or `{"error":…}`. Throws what the
@@ -42,6 +43,8 @@ private:
   Answer report(Request& request);
   Answer deliver_start(Request& request);
   Answer deliver_step(Request& request);
+  Answer drive_start(Request& request);
+  Answer drive_step(Request& request);
   Answer hear_robot(Request& request) { return ear_.hear(request); }
   template <Answer (*function)(Request&)>
   Answer plain(Request& request) {
@@ -52,6 +55,7 @@ private:
   editor::LanguageServer server_{&folder_, &folder_};
   std::unique_ptr<Run> live_;
   std::optional<Upload> upload_;
+  std::unique_ptr<Drive> drive_;
   RobotEar ear_;
 };
 

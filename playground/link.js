@@ -110,13 +110,19 @@ export async function serial_link(orb, port) {
   };
 }
 
-/** A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. */
-export async function bluetooth_link(orb, device) {
-  const { pauses_ms, ble } = await orb.call("links");
+/**
+ * A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. `which`: those that
+ * keep programs, or all that can be driven from here.
+ */
+export async function bluetooth_link(orb, device, which = "ble") {
+  const links = await orb.call("links");
+  const { pauses_ms } = links;
+  const kinds = which === "all" ? [links.ble, links.newer] : [links.ble];
   device ??= await navigator.bluetooth.requestDevice({
-    filters: ble.names.map(namePrefix => ({ namePrefix })),
-    optionalServices: ble.services,
+    filters: kinds.flatMap(kind => kind.names.map(namePrefix => ({ namePrefix }))),
+    optionalServices: kinds.flatMap(kind => kind.services),
   });
+  const ble = kinds.find(kind => kind.names.some(name => device.name?.startsWith(name))) ?? kinds[0];
   const inbox = new Inbox();
   const lost = closed("the robot is gone; hold it near, charge it, and try again");
   let here = true;
@@ -131,6 +137,7 @@ export async function bluetooth_link(orb, device) {
   device.addEventListener("gattserverdisconnected", gone);
   return {
     kind: "ble",
+    name: device.name ?? "",
     async write(bytes) {
       for (let at = 0; at < bytes.length; at += ble.piece) {
         if (!here) throw lost;
@@ -153,12 +160,26 @@ export async function bluetooth_link(orb, device) {
 async function greet(device, ble, on_bytes) {
   const server = await within(device.gatt.connect(), ble.connect_ms, new Error("it does not answer"));
   const find = async ({ service, characteristic }) => (await server.getPrimaryService(service)).getCharacteristic(characteristic);
-  for (const word of ble.greeting) await (await find(word)).writeValueWithResponse(word.bytes);
+  for (const word of ble.greeting) {
+    if (ble.wordless.some(name => device.name?.startsWith(name))) break;
+    await (await find(word)).writeValueWithResponse(word.bytes);
+  }
   const answers = await find(ble.answers);
   answers.addEventListener("characteristicvaluechanged", ({ target: { value } }) =>
     on_bytes(new Uint8Array(value.buffer, value.byteOffset, value.byteLength)));
   await answers.startNotifications();
   return find(ble.commands);
+}
+
+/** What a link does when it is asked to `write` bytes or to read until a time. */
+export async function do_wish(link, { write, read_until }, now, signal) {
+  try {
+    if (!write) return { bytes: await link.read(read_until - now(), signal) };
+    await link.write(write);
+    return {};
+  } catch (error) {
+    return { error: { kind: error.kind ?? "broken", message: error.message ?? String(error) } };
+  }
 }
 
 /**
@@ -176,18 +197,10 @@ export async function deliver(orb, link, request, { on_status = () => {}, signal
     return told_to_stop = true;
   };
   const interrupted = { kind: "interrupted", message: "interrupted" };
-  async function carry_out({ write, read_until }) {
+  async function carry_out(wish) {
     if (stopped()) return { error: interrupted };
-    try {
-      if (write) {
-        await link.write(write);
-        return {};
-      }
-      const bytes = await link.read(read_until - now(), told_to_stop ? undefined : signal);
-      return !bytes.length && stopped() ? { error: interrupted } : { bytes };
-    } catch (error) {
-      return { error: { kind: error.kind ?? "broken", message: error.message ?? String(error) } };
-    }
+    const done = await do_wish(link, wish, now, told_to_stop ? undefined : signal);
+    return done.bytes && !done.bytes.length && stopped() ? { error: interrupted } : done;
   }
   let step = await orb.call("deliver_start", { ...request, first_seq, link: link.kind });
   let told = "";

@@ -398,7 +398,7 @@ const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_pl
 const mine = set_up_mine({ store, workspace: () => workspace, on_open: (next, words) => { exchange(next, words); show_view("work"); },
   begin: () => checked({ files: { "program.orb": welcome }, active: "program.orb" }) });
 const world = set_up_world({ workspace: () => workspace, keep: keep_soon });
-set_up_flash({ machine, workspace: () => workspace, on_mistakes: show_mistakes });
+set_up_flash({ machine, workspace: () => workspace, ball, on_mistakes: show_mistakes });
 
 /** A run shows its lines in the text of the program, so that one is shown. */
 function show_program() {

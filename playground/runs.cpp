@@ -74,7 +74,8 @@ ordered_json pose_json(const vm::Pose& pose) {
 
 } // namespace
 
-tl::expected<std::unique_ptr<Run>, Problem> Run::start(Request& request, const Wanted& wanted) {
+tl::expected<std::unique_ptr<Run>, Problem>
+Run::start(Request& request, const Wanted& wanted, vm::Elsewhere* robot, const vm::Sample& first) {
   auto launched = launch(request);
   if (!launched)
     return tl::unexpected(launched.error());
@@ -87,6 +88,8 @@ tl::expected<std::unique_ptr<Run>, Problem> Run::start(Request& request, const W
   if (!bound)
     return refuse(ExitCode::Usage, fmt::format("`{}` is not a time", request.text("for")));
   options.bound = *bound;
+  options.robot = robot;
+  options.robot_sample = first;
   options.line = request.value<std::uint16_t>("line");
   options.trace_lines = request.flag("trace_lines");
   options.until = request.text("until", wanted.report ? "rest" : "quiet") == "rest"

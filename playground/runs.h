@@ -24,7 +24,10 @@ struct Wanted {
 /// A run with all that it needs, and what it has come to. A page's live run is moved on bit by bit.
 class Run final : run::Listener {
 public:
-  static tl::expected<std::unique_ptr<Run>, Problem> start(Request& request, const Wanted& wanted);
+  /// With a `robot`, which may be null, that is its body; `first` is what it said before.
+  static tl::expected<std::unique_ptr<Run>, Problem> start(Request& request, const Wanted& wanted,
+                                                           vm::Elsewhere* robot = nullptr,
+                                                           const vm::Sample& first = {});
 
   /// Goes on to its end.
   void finish();
@@ -34,10 +37,17 @@ public:
   /// Ends it where it has not come to its end by itself.
   void stop();
   /// Whoever runs it may give() numbers while it waits for them.
-  void keep_waiting() { live_->keep_waiting(); }
+  void keep_waiting() {
+    live_->keep_waiting();
+    may_wait_ = true;
+  }
   void give(std::int32_t number) { live_->give(number); }
   /// A line of a stimulus script without its time.
   tl::expected<void, Problem> apply(const std::string& line);
+
+  /// The run itself, and who hears of it, for a robot that drives it.
+  run::Live& live() { return *live_; }
+  run::Listener& listener() { return *this; }
 
   std::string hint() const;
   /// What happened since the last frame.
@@ -51,6 +61,7 @@ private:
   Run() = default;
   void on_event(Duration t, const vm::Event& event) override;
   void on_fault(Duration t, const run::ProgramError& fault) override;
+  bool has_more_numbers() const override { return may_wait_; }
   std::string report_of(const report::Journey& journey) const;
 
   std::string title_;
@@ -65,6 +76,7 @@ private:
   std::optional<Duration> rolls_since_;   ///< nothing runs any more
   std::string trace_text_;
   bool over_ = false;
+  bool may_wait_ = false;       ///< somebody may give() numbers
   std::size_t told_prints_ = 0; ///< by the last frame
 };
 

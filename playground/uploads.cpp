@@ -1,7 +1,10 @@
 #include "playground/uploads.h"
 
+#include "playground/log_link.h"
+
 #include "run/delivery.h"
 #include "spec/ble.h"
+#include "spec/robots.h"
 #include "spec/serial.h"
 #include "uploader/ble.h"
 
@@ -9,49 +12,6 @@
 
 namespace orb::playground {
 namespace {
-
-using protocol::LinkError;
-
-/// The link as far as it has been used; then it wishes.
-class Log final : public protocol::Transport {
-public:
-  explicit Log(const std::vector<Done>& done) : done_(done) {}
-
-  Instant now() const override { return now_; }
-
-  tl::expected<void, LinkError> write(ByteView bytes) override {
-    const auto* done = next({{"write", bytes_json(bytes)}});
-    return failed(done) ? tl::unexpected(error(done)) : tl::expected<void, LinkError>();
-  }
-
-  tl::expected<Bytes, LinkError> read(Instant deadline) override {
-    const auto* done = next({{"read_until", milliseconds(deadline.time_since_epoch())}});
-    return failed(done) ? tl::unexpected(error(done)) : tl::expected<Bytes, LinkError>(done->bytes);
-  }
-
-  /// What is to be done next; null where the log was enough.
-  const ordered_json& wish() const { return wish_; }
-
-private:
-  const Done* next(ordered_json wish) {
-    if (at_ == done_.size()) {
-      if (wish_.is_null())
-        wish_ = std::move(wish);
-      return nullptr;
-    }
-    now_ = done_[at_].at;
-    return &done_[at_++];
-  }
-  static bool failed(const Done* done) { return done == nullptr || done->error; }
-  static LinkError error(const Done* done) {
-    return done == nullptr ? LinkError{LinkError::Kind::Ended, "not yet"} : *done->error;
-  }
-
-  const std::vector<Done>& done_;
-  std::size_t at_ = 0;
-  Instant now_{};
-  ordered_json wish_;
-};
 
 /// Remembers what was told last.
 class Last final : public uploader::Progress {
@@ -94,18 +54,19 @@ ordered_json place_json(spec::BleCharacteristic characteristic) {
 }
 
 /// How a robot is found and opened to commands.
-ordered_json ble_json(const uploader::Budgets& budgets) {
+ordered_json ble_json(const uploader::Budgets& budgets, spec::BleProtocol protocol) {
+  const bool is_v1 = protocol == spec::BleProtocol::V1;
   auto services = ordered_json::array();
   for (const auto& row : spec::ble_services)
-    if (row.protocol == spec::BleProtocol::V1)
+    if (row.protocol == protocol)
       services.push_back(row.uuid);
   auto names = ordered_json::array();
   for (const auto& row : spec::ble_names)
-    if (row.protocol == spec::BleProtocol::V1)
+    if (row.protocol == protocol)
       names.push_back(row.prefix);
   auto greeting = ordered_json::array();
   for (const auto& row : spec::ble_greeting) {
-    if (spec::protocol_of(row.characteristic) != spec::BleProtocol::V1)
+    if (spec::protocol_of(row.characteristic) != protocol)
       continue;
     greeting.push_back(place_json(row.characteristic));
     greeting.back()["bytes"] = bytes_json(as_bytes(row.bytes));
@@ -113,19 +74,15 @@ ordered_json ble_json(const uploader::Budgets& budgets) {
   return {{"services", services},
           {"names", names},
           {"greeting", greeting},
-          {"commands", place_json(spec::BleCharacteristic::Commands)},
-          {"answers", place_json(spec::BleCharacteristic::Answers)},
+          {"wordless",
+           {spec::info(spec::info(spec::Robot::Rvr).ble).prefix}}, // it has no such characteristic
+          {"commands", place_json(is_v1 ? spec::BleCharacteristic::Commands
+                                        : spec::BleCharacteristic::PacketsV2)},
+          {"answers", place_json(is_v1 ? spec::BleCharacteristic::Answers
+                                       : spec::BleCharacteristic::PacketsV2)},
           {"piece", spec::ble_piece_bytes},
           {"connect_ms", milliseconds(budgets.ble_connect)},
           {"write_ms", milliseconds(budgets.ble_send)}};
-}
-
-LinkError read_error(const ordered_json& error) {
-  const auto kind = error.value("kind", "broken");
-  return {kind == "closed"        ? LinkError::Kind::Closed
-          : kind == "interrupted" ? LinkError::Kind::Interrupted
-                                  : LinkError::Kind::Broken,
-          error.value("message", "")};
 }
 
 } // namespace
@@ -139,7 +96,8 @@ Answer links(Request&) {
       {{"pauses_ms", pauses},
        {"serial",
         {{"baud_rate", spec::serial_baud_rate}, {"write_ms", milliseconds(budgets.write)}}},
-       {"ble", ble_json(budgets)}});
+       {"ble", ble_json(budgets, spec::BleProtocol::V1)},
+       {"newer", ble_json(budgets, spec::BleProtocol::V2)}});
 }
 
 tl::expected<Upload, Problem> Upload::start(Request& request) {
@@ -165,19 +123,13 @@ tl::expected<Upload, Problem> Upload::start(Request& request) {
 }
 
 std::string Upload::step(const ordered_json& done) {
-  if (done.contains("at")) {
-    Done one{Instant{} + duration_of(done.at("at").get<double>()), {}, {}};
-    if (const auto bytes = done.find("bytes"); bytes != done.end())
-      one.bytes = bytes_of(*bytes);
-    if (const auto error = done.find("error"); error != done.end())
-      one.error = read_error(*error);
-    log_.push_back(std::move(one));
-  }
+  if (done.contains("at"))
+    log_.push_back(read_done(done));
   return next();
 }
 
 std::string Upload::next() {
-  Log link(log_);
+  LogLink link(log_);
   Last progress;
   uploader::Session session(link, budgets_, first_seq_);
   const auto report = uploader::deliver(session, delivery_, battery_, progress);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "playground/log_link.h"
 #include "playground/request.h"
-#include "protocol/transport.h"
 #include "uploader/upload.h"
 
 #include <optional>
@@ -12,13 +12,6 @@ namespace orb::playground {
 
 /// What a page must know to open links to robots and to write to them.
 Answer links(Request& request);
-
-/// What a browser's link did when it was asked to.
-struct Done {
-  Instant at{}; ///< when it was done
-  Bytes bytes;  ///< of a read
-  std::optional<protocol::LinkError> error;
-};
 
 /// An upload over a link that only answers later: uploader::deliver() runs from its beginning on
 /// what the link has done so far, and where that ends stands what the link shall do next. The very

@@ -1,9 +1,11 @@
 // Runs: in the time of the robot, at once, and what is done to the ball meanwhile.
 
+import { do_wish } from "../link.js";
 import { $, announce, button, element, with_code } from "./dom.js";
 import { ending_of, program_of } from "./workspace.js";
 
 const silent_ms = 4000; // without a frame
+const frame_ms = 33; // between two pictures of a robot that is driven
 const patience = 400; // milliseconds that a worker has to end a run itself
 
 /** What `run` and `start` are asked: the files, which of them, and the world around. */
@@ -44,7 +46,8 @@ export class Ball {
     $("run-icon").setAttribute("d", runs ? icons.stop : icons.run);
     $("instant").setAttribute("aria-disabled", String(runs));
     this.on_busy();
-    $("hands").hidden = what !== "live";
+    $("hands").hidden = what !== "live" && what !== "robot";
+    $("hands").classList.toggle("of-robot", what === "robot");
     $("player").classList.toggle("is-live", what === "live");
   }
   say(words, bad = false, more = []) {
@@ -53,7 +56,8 @@ export class Ball {
   }
   /** Nothing has run yet: the ball rests in the middle. */
   rest() {
-    if (this.busy) {
+    if (this.busy === "robot") this.leash.abort();
+    else if (this.busy) {
       this.finish();
       this.machine.restart();
     }
@@ -80,11 +84,48 @@ export class Ball {
       const { report } = await this.machine.call("start", asked);
       if (this.run_number !== run) return;
       this.show(report, true);
-      this.say("running");
+      this.say(this.running = "running");
       this.player.play();
       this.expect_frame();
     } catch (error) {
       if (this.run_number === run) this.fail(error);
+    }
+  }
+  /** On a robot: the program runs here, and the robot at the other end of `link` is its body. */
+  async drive(link) {
+    const asked = request(this.workspace());
+    if (!this.ready(asked)) return;
+    this.set_busy("robot");
+    this.say("readies the robot");
+    this.on_begin();
+    const { signal } = this.leash = new AbortController();
+    this.told = "";
+    const begin = performance.now();
+    const now = () => performance.now() - begin;
+    try {
+      let step = await this.machine.call("drive_start", { ...asked, robot: link.name ?? "", for: "0" });
+      while (step.wish) {
+        if (signal.aborted) throw new Error("stopped; the robot was not moved");
+        step = await this.machine.call("drive_step", { at: now(), ...await do_wish(link, step.wish, now) });
+      }
+      this.show(step.report, true);
+      this.say(this.running = `drives the ${step.robot}; Stop brakes it`);
+      this.player.play();
+      let done = {}, shown = 0;
+      while (!step.over) {
+        const frame = now() - shown >= frame_ms;
+        if (frame) shown = now();
+        step = await this.machine.call("drive_step", { at: now(), ...done, stop: signal.aborted, frame });
+        if (step.frame) this.take_frame(step.frame);
+        done = step.write.length ? await do_wish(link, { write: step.write }, now) : {};
+        if (!done.error && !step.over) done = await do_wish(link, { read_until: now() + step.wait_ms }, now);
+      }
+      this.finish();
+      this.conclude(step.over, false);
+      const stop = step.stopped ? "the robot has been stopped" : "the robot has not acknowledged the stop: see that it stands still";
+      $("outcome").append(element("p", { class: step.stopped ? "hint" : "bad" }, [step.trouble, stop].filter(Boolean).join("; ")));
+    } catch (error) {
+      this.fail(error);
     }
   }
   /** An engine that is silent is named. */
@@ -95,8 +136,8 @@ export class Ball {
     }, silent_ms);
   }
   take_frame({ ms, waits_for, pose, prints, faults, ended, more }) {
-    if (this.busy !== "live") return;
-    this.expect_frame();
+    if (this.busy !== "live" && this.busy !== "robot") return;
+    if (this.busy === "live") this.expect_frame();
     if (more) this.player.grow(more, ms * 1000);
     if (pose) this.heading = pose.heading;
     if (prints) announce(prints);
@@ -111,7 +152,7 @@ export class Ball {
     this.waits = waits;
     $("number-words").textContent = waits ? `It waits for ${waits}` : "Number";
     $("number-form").classList.toggle("wanted", waits !== "");
-    if (!this.told) this.say(waits ? `waits for ${waits}` : "running");
+    if (!this.told) this.say(waits ? `waits for ${waits}` : this.running);
     if (waits && $("player").contains(document.activeElement)) $("number").focus();
   }
   /** All that is known of a fault: what happened where, with which values, and what helps. */
@@ -191,6 +232,7 @@ export class Ball {
   /** At once, whatever the program does. */
   async stop() {
     if (!this.busy) return;
+    if (this.busy === "robot") return this.leash.abort(); // the run ends once it is braked
     const run = this.run_number;
     if (this.busy === "live") {
       this.machine.call("stop", {}).catch(() => {});

@@ -14,7 +14,7 @@ function unless(signal, promise, undo) {
   return Promise.race([promise, stop]);
 }
 
-export function set_up_flash({ machine, workspace, on_mistakes }) {
+export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   let running = null;
   let held = null; // the link to a robot that has taken the program: { link, asked, over }
 
@@ -25,6 +25,8 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
     $("flash-serial").disabled = !serial || !names[0];
     $("flash-bluetooth").disabled = !bluetooth || !names[0];
     $("flash-file").disabled = !names[0];
+    $("drive-serial").disabled = !serial || !names[0];
+    $("drive-bluetooth").disabled = !bluetooth || !names[0];
     $("flash-lacks").textContent = !serial && !bluetooth ? "This browser can reach no robot. Chrome and Edge can; or take the file and write it with `orb upload`."
       : !serial ? "This browser knows no serial ports: classic balls need Chrome or Edge on a computer, or the file and `orb upload`."
       : !bluetooth ? "This browser knows no Bluetooth LE." : "";
@@ -37,7 +39,7 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
     // A browser that knows it may be on a device that has none, or whose radio is off.
     const there = await navigator.bluetooth.getAvailability?.().catch(() => true) ?? true;
     if (there || running) return;
-    $("flash-bluetooth").disabled = true;
+    $("flash-bluetooth").disabled = $("drive-bluetooth").disabled = true;
     $("flash-lacks").textContent = "This device has no Bluetooth, or it is switched off; switch it on and open this again.";
   }
   function say(words, bad = false) {
@@ -46,7 +48,7 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
   }
   function set_running(controller) {
     running = controller;
-    for (const id of ["flash-serial", "flash-bluetooth", "flash-file", "flash-close", "flash-options"]) $(id).disabled = !!controller;
+    for (const id of ["drive-serial", "drive-bluetooth", "flash-serial", "flash-bluetooth", "flash-file", "flash-close", "flash-options"]) $(id).disabled = !!controller;
     $("flash-cancel").hidden = !controller;
     if (!controller) return;
     $("flash-progress").hidden = false;
@@ -82,6 +84,27 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
       }
     } finally {
       if (!stays) await link?.close().catch(() => {});
+      set_running(null);
+    }
+  }
+  /** The program runs here and drives the robot: the dialog makes room for the map. */
+  async function drive(open_link) {
+    const controller = new AbortController();
+    let link = null;
+    await let_go();
+    set_running(controller);
+    $("flash-progress").hidden = true;
+    say("Choose the robot in the window of the browser, and put it on the floor.");
+    try {
+      link = await unless(controller.signal, open_link(), late => late.close());
+      say("");
+      set_running(null);
+      $("flash-dialog").close();
+      await ball.drive(link);
+    } catch (error) {
+      say(error.name === "NotFoundError" ? "No robot was chosen." : error.message, error.name !== "NotFoundError");
+    } finally {
+      await link?.close().catch(() => {});
       set_running(null);
     }
   }
@@ -140,6 +163,8 @@ export function set_up_flash({ machine, workspace, on_mistakes }) {
   window.addEventListener("pagehide", () => let_go());
   $("flash-serial").addEventListener("click", () => write(() => serial_link(machine)));
   $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link(machine)));
+  $("drive-serial").addEventListener("click", () => drive(() => serial_link(machine)));
+  $("drive-bluetooth").addEventListener("click", () => drive(() => bluetooth_link(machine, undefined, "all")));
   $("flash-file").addEventListener("click", as_file);
   $("flash-cancel").addEventListener("click", () => running?.abort());
   $("flash-dialog").addEventListener("cancel", event => { if (running) event.preventDefault(); });

@@ -1,18 +1,13 @@
 #include "run/tether/run_tethered.h"
 
 #include "run/live.h"
+#include "run/tether/driven.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace orb::run {
 namespace {
-
-/// How long the program may be behind the link: a reaction takes no longer than this.
-constexpr Duration shortest_nap = 2ms;
-constexpr Duration longest_nap = 20ms;
-/// A program that is further behind, because the computer slept, does not hurry after.
-constexpr Duration most_behind = 500ms;
 
 /// Hands everything on, and notes the numbers that were given.
 class Tap final : public Listener {
@@ -38,104 +33,6 @@ public:
 private:
   Listener& inner_;
   std::function<void(std::int32_t)> on_number_; ///< empty: numbers come from elsewhere
-};
-
-/// Lets a run know what the robot says; its time is that of the link.
-void feel(Live& live, const Said& said) {
-  if (const auto* sample = std::get_if<vm::Sample>(&said.what))
-    live.feel(*sample);
-  else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
-    live.feel(*collision);
-  else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
-    live.apply(*battery);
-}
-
-/// Brings a run to `t`, whatever it waits for.
-void bring(Live& live, Duration t) {
-  live.advance(t);
-  live.wait(t);
-}
-
-/// A run and the robot that it drives.
-class Driven {
-public:
-  Driven(Live& live, Tether& robot, Listener& listener, const TetherOptions& options)
-      : live_(live), robot_(robot), listener_(listener), options_(options), origin_(robot.now()) {}
-
-  /// Goes on to the end of the program, or of what the link gives.
-  tl::expected<void, Failure> drive() {
-    auto driven = drive_on();
-    over_ = true;
-    note(DriveLine::Over{});
-    return driven;
-  }
-
-  std::function<void(const Said&)> hear() {
-    return [this](const Said& said) {
-      if (!over_) // the time of the program ends with it
-        bring(live_, elapsed());
-      if (const auto* sample = std::get_if<vm::Sample>(&said.what))
-        note(*sample);
-      else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
-        note(*collision);
-      else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
-        note(*battery);
-      feel(live_, said);
-    };
-  }
-
-private:
-  tl::expected<void, Failure> drive_on() {
-    while (true) {
-      if (robot_.is_stale()) {
-        if (auto back = sit_out(); !back)
-          return back;
-        continue;
-      }
-      if (elapsed() - live_.time() > most_behind)
-        origin_ = robot_.now() - live_.time();
-      if (!live_.advance(elapsed())) {
-        if (!live_.waits_for_number() || !listener_.has_more_numbers())
-          return {};
-        if (const auto number = listener_.ask_number())
-          live_.give(*number);
-        live_.wait(elapsed());
-      }
-      const auto nap = std::clamp(live_.next_event() - elapsed(), shortest_nap, longest_nap);
-      if (auto pumped = robot_.pump(robot_.now() + nap, hear()); !pumped)
-        return pumped;
-    }
-  }
-
-  Duration elapsed() const { return robot_.now() - origin_; }
-
-  void note(decltype(DriveLine::what) what) {
-    if (options_.recording != nullptr)
-      options_.recording->lines.push_back({live_.time(), std::move(what)});
-  }
-
-  /// Waits for samples; the program waits with it.
-  tl::expected<void, Failure> sit_out() {
-    const auto paused_at = elapsed();
-    if (options_.note)
-      options_.note("no sensor data: the robot was told to stop, and the program waits");
-    while (robot_.is_stale())
-      if (auto pumped = robot_.pump(robot_.now() + longest_nap,
-                                    [](const Said&) {}); // what comes first counts from then on
-          !pumped)
-        return pumped;
-    origin_ = robot_.now() - paused_at;
-    if (options_.note)
-      options_.note("sensor data again: the program goes on");
-    return {};
-  }
-
-  Live& live_;
-  Tether& robot_;
-  Listener& listener_;
-  const TetherOptions& options_;
-  Instant origin_;
-  bool over_ = false;
 };
 
 /// `roll 90 60 1` at 0.400 s
@@ -205,8 +102,12 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     (*live)->keep_waiting();
   Driven run(**live, robot, tap, tether);
   std::optional<Failure> failure;
-  if (auto driven = run.drive(); !driven)
-    failure = driven.error();
+  for (auto course = run.step(); course != Driven::Course::Ends; course = run.step())
+    if (!course) {
+      failure = course.error();
+      break;
+    }
+  run.end();
   over = true;
   bool stopped = robot.finish(run.hear());
   std::unique_ptr<protocol::Transport> second;

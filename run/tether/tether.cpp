@@ -249,6 +249,8 @@ Instant Tether::next_due() const {
   for (std::size_t kind = 0; kind < kinds; ++kind)
     if (waiting_[kind] && may_leave(static_cast<Kind>(kind)))
       due = next_send_;
+  if (stopped_ && !parting_.empty())
+    due = std::min(due, next_send_);
   if (battery_at_)
     due = std::min(due, std::max(next_send_, *battery_at_));
   if (driving_ && !stale_)
@@ -298,6 +300,11 @@ tl::expected<void, LinkError> Tether::send_due() {
     }
     return send(request, kind);
   }
+  if (stopped_ && !parting_.empty()) {
+    const auto request = parting_.front();
+    parting_.pop_front();
+    return send(request, Kind::Other);
+  }
   if (driving_ && !stale_ && now() >= driven_at_ + budgets_.repeat) {
     driven_at_ = now();
     return send(*driving_, Kind::Drive);
@@ -315,6 +322,7 @@ std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
   open_.erase(found);
   if (answer.error == 0) {
     busy_since_.reset();
+    stopped_ = stopped_ || (winding_up_ && pending.kind == Kind::Stop);
     return pending.kind == Kind::Battery ? wire_->read_battery(answer.data) : std::nullopt;
   }
   if (pending.kind == Kind::Battery)
@@ -364,6 +372,8 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
     else if (const auto battery = take(*answer))
       hear({*battery});
   }
+  if (winding_up_)
+    return {};
   watch_samples();
   if (refused_)
     return tl::unexpected(*refused_);
@@ -372,6 +382,16 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
         ExitCode::LinkLost,
         fmt::format("no sensor data came for {} s; bring the robot nearer", budgets_.gone / 1s)});
   return {};
+}
+
+void Tether::wind_up() {
+  finished_ = true; // it is not told to stop once more when it is left
+  winding_up_ = true;
+  stale_ = false;
+  battery_at_.reset();
+  want_stop();
+  for (const auto& requests : {wire_->silence(), wire_->teardown()})
+    parting_.insert(parting_.end(), requests.begin(), requests.end());
 }
 
 void Tether::relink(protocol::Transport& transport) {

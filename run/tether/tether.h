@@ -68,6 +68,12 @@ public:
 
   /// From now on the link is this one: the old one was lost.
   void relink(protocol::Transport& transport);
+  /// The same as finish(), bit by bit for who may not wait: pump() brakes the robot, then puts it
+  /// back as it was, one request after the other, without its answers.
+  void wind_up();
+  /// Nothing is left to send. Whether the brake was acknowledged: acknowledged().
+  bool is_wound_up() const { return winding_up_ && parting_.empty(); }
+  bool acknowledged() const { return stopped_; }
   /// Brakes the robot, watches it until it rests, puts it back as it was. Whether the brake was
   /// acknowledged. What it says meanwhile goes to `hear`.
   bool finish(const std::function<void(const Said&)>& hear = {});
@@ -121,7 +127,10 @@ private:
   std::array<std::optional<Request>, kinds> waiting_; ///< to leave
   std::array<std::uint8_t, kinds> newest_{};          ///< sequence number of the newest sent
   std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
-  std::optional<Request> held_;    ///< what it is to drive once nobody holds it
+  std::deque<Request> parting_;    ///< to be sent after the brake
+  bool winding_up_ = false;
+  bool stopped_ = false;        ///< the brake of wind_up() was acknowledged
+  std::optional<Request> held_; ///< what it is to drive once nobody holds it
   Instant driven_at_{};
   int heading_ = 0;
   std::deque<Pending> open_; ///< sent, not answered

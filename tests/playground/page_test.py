@@ -73,7 +73,7 @@ class Characteristic extends EventTarget {
     if (bytes.length > 20) throw new DOMException('too long', 'InvalidModificationError');
     (window.written ??= []).push([this.name, bytes.length]);
     if (!window.greeted) return; // what opens the robot to commands
-    await fetch('/wire/write', { method: 'POST', body: bytes });
+    if ((await fetch('/wire/write', { method: 'POST', body: bytes })).status !== 200) device.gatt.disconnect();
   }
   async startNotifications() {
     window.greeted = true;
@@ -99,6 +99,9 @@ const device = Object.assign(new EventTarget(), { name: 'BB-1234', gatt: {
 } });
 Object.defineProperty(navigator, 'bluetooth', { value: { requestDevice: async () => device } });
 """
+
+
+picture_folder = os.environ.get("ORB_PICTURES")
 
 
 class Playground(unittest.TestCase):
@@ -747,6 +750,48 @@ class Playground(unittest.TestCase):
         heard = page.evaluate(f"{by_id('robot-prints')}.textContent")
         page.evaluate(wait(900))
         self.assertEqual(page.evaluate(f"{by_id('robot-prints')}.textContent"), heard)
+
+    def drive(self, kind, mock, *options, program, cut=None):
+        wire = site_server.Handler.wire = site_server.Wire(orb, *options, cut=cut)
+        self.addCleanup(wire.close)
+        page = self.open(fragment({"a.bas": program}), before=mock)
+        page.evaluate(click("flash"))
+        page.wait(f"{by_id('flash-dialog')}.open")
+        page.evaluate(click(f"drive-{kind}"))
+        return page, wire
+
+    def test_a_robot_is_driven_from_here(self):
+        newer = mock_bluetooth.replace("BB-1234", "SB-1234")
+        for kind, mock, options in (("bluetooth", newer, ["--robot", "bolt"]), ("serial", mock_serial, [])):
+            with self.subTest(kind):
+                page, wire = self.drive(kind, mock, *options, program='10 RGB 0,0,255\n20 goroll 90,80,1\n30 if xpos < 20 then goto 30\n'
+                                        '40 goroll 90,0,0\n50 delay 600\n60 print "at ";xpos / 10\n')
+                page.wait(f"{by_id('outcome')}.textContent.includes('has been stopped')", 40)
+                outcome = page.evaluate(f"{by_id('outcome')}.textContent")
+                self.assertIn("ended after", outcome)
+                self.assertRegex(outcome, r"stopped at [2-6]\d,-?\d cm")
+                if picture_folder:
+                    page.picture(os.path.join(picture_folder, f"drive-{kind}.png"))
+                self.assertRegex(page.evaluate(f"{events}.join()"), r"at [2-6]")
+                self.assertEqual(page.complaints, [])
+
+    def test_stop_brakes_the_robot_that_is_driven(self):
+        newer = mock_bluetooth.replace("BB-1234", "SM-1234")
+        page, wire = self.drive("bluetooth", newer, "--robot", "mini", program="10 goroll 0,60,1\n20 delay 100\n30 goto 10\n")
+        page.wait(f"{by_id('outcome')}.textContent.includes('drives the Sphero Mini')", 20)
+        page.evaluate(wait(800))
+        page.evaluate(click("run"))
+        page.wait(f"{by_id('outcome')}.textContent.includes('has been stopped')", 20)
+        page.evaluate(wait(300))
+        sent = len(wire.sent)
+        page.evaluate(wait(1200))
+        self.assertEqual(len(wire.sent), sent, "nothing drives it any more")
+
+    def test_a_robot_that_is_lost_while_it_drives_is_told(self):
+        newer = mock_bluetooth.replace("BB-1234", "SM-1234")
+        page, wire = self.drive("bluetooth", newer, "--robot", "mini", program="10 goroll 0,60,1\n20 delay 100\n30 goto 10\n", cut=900)
+        page.wait(f"{by_id('outcome')}.textContent.includes('not acknowledged the stop')", 30)
+        self.assertIn("gone", page.evaluate(f"{by_id('outcome')}.textContent"))
 
     def test_a_radio_that_is_off_is_told(self):
         off = mock_bluetooth.replace("{ requestDevice: async () => device }", "{ requestDevice: async () => device, getAvailability: async () => false }")

@@ -1,0 +1,98 @@
+#include "run/tether/driven.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orb::run {
+namespace {
+
+/// How long the program may be behind the link: a reaction takes no longer than this.
+constexpr Duration shortest_nap = 2ms;
+constexpr Duration longest_nap = 20ms;
+/// A program that is further behind, because the computer slept, does not hurry after.
+constexpr Duration most_behind = 500ms;
+
+} // namespace
+
+void bring(Live& live, Duration t) {
+  live.advance(t);
+  live.wait(t);
+}
+
+void feel(Live& live, const Said& said) {
+  if (const auto* sample = std::get_if<vm::Sample>(&said.what))
+    live.feel(*sample);
+  else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
+    live.feel(*collision);
+  else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
+    live.apply(*battery);
+}
+
+std::function<void(const Said&)> Driven::hear() {
+  return [this](const Said& said) {
+    if (!over_) // the time of the program ends with it
+      bring(live_, elapsed());
+    if (const auto* sample = std::get_if<vm::Sample>(&said.what))
+      note(*sample);
+    else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
+      note(*collision);
+    else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
+      note(*battery);
+    feel(live_, said);
+  };
+}
+
+Duration Driven::nap() const {
+  return std::clamp(live_.next_event() - elapsed(), shortest_nap, longest_nap);
+}
+
+tl::expected<Driven::Course, Failure> Driven::step() {
+  if (robot_.is_stale() || paused_at_) {
+    if (auto back = sit_out(); !back)
+      return tl::unexpected(back.error());
+    return Course::GoesOn;
+  }
+  if (elapsed() - live_.time() > most_behind)
+    origin_ = robot_.now() - live_.time();
+  if (!live_.advance(elapsed())) {
+    if (!live_.waits_for_number() || !listener_.has_more_numbers())
+      return Course::Ends;
+    if (const auto number = listener_.ask_number())
+      live_.give(*number);
+    live_.wait(elapsed());
+  }
+  if (auto pumped = robot_.pump(robot_.now() + nap(), hear()); !pumped)
+    return tl::unexpected(pumped.error());
+  return Course::GoesOn;
+}
+
+void Driven::end() {
+  over_ = true;
+  note(DriveLine::Over{});
+}
+
+void Driven::note(decltype(DriveLine::what) what) {
+  if (options_.recording != nullptr)
+    options_.recording->lines.push_back({live_.time(), std::move(what)});
+}
+
+/// Waits for samples; the program waits with it.
+tl::expected<void, Failure> Driven::sit_out() {
+  if (!paused_at_) {
+    paused_at_ = elapsed();
+    if (options_.note)
+      options_.note("no sensor data: the robot was told to stop, and the program waits");
+  }
+  if (auto pumped = robot_.pump(robot_.now() + longest_nap,
+                                [](const Said&) {}); // what comes first counts from then on
+      !pumped)
+    return pumped;
+  if (robot_.is_stale())
+    return {};
+  origin_ = robot_.now() - *std::exchange(paused_at_, std::nullopt);
+  if (options_.note)
+    options_.note("sensor data again: the program goes on");
+  return {};
+}
+
+} // namespace orb::run
