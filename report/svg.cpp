@@ -78,20 +78,37 @@ struct Extent {
   double high = 0;
 };
 
-Extent extent(const Journey& journey) {
+/// Around all places of a journey, and of another one that may be null.
+Extent extent(const Journey& journey, const Journey* other) {
   Extent box;
   bool first = true;
-  for (const auto& entry : journey.poses().entries()) {
-    const auto& pose = entry.value;
-    if (first)
-      box = {pose.x_cm, pose.x_cm, pose.y_cm, pose.y_cm};
-    first = false;
-    box.left = std::min(box.left, pose.x_cm);
-    box.right = std::max(box.right, pose.x_cm);
-    box.low = std::min(box.low, pose.y_cm);
-    box.high = std::max(box.high, pose.y_cm);
+  for (const auto* one : {&journey, other}) {
+    if (one == nullptr)
+      continue;
+    for (const auto& entry : one->poses().entries()) {
+      const auto& pose = entry.value;
+      if (first)
+        box = {pose.x_cm, pose.x_cm, pose.y_cm, pose.y_cm};
+      first = false;
+      box.left = std::min(box.left, pose.x_cm);
+      box.right = std::max(box.right, pose.x_cm);
+      box.low = std::min(box.low, pose.y_cm);
+      box.high = std::max(box.high, pose.y_cm);
+    }
   }
   return box;
+}
+
+/// One line through all places.
+std::string pale_path(const Journey& journey, const Frame& frame) {
+  std::string d;
+  std::string here;
+  for (const auto& entry : journey.poses().entries())
+    if (const auto next = at(frame(entry.value)); next != here) {
+      d += (d.empty() ? "M" : "L") + next;
+      here = next;
+    }
+  return fmt::format("<path class=\"planned\" d=\"{}\"/>\n", d);
 }
 
 /// With all of the course around it.
@@ -312,8 +329,14 @@ constexpr std::string_view zone_style = R"(<style>
 </style>
 )";
 
-std::string picture(const Journey& journey, double* height) {
-  auto box = extent(journey);
+/// Of a picture with a planned path.
+constexpr std::string_view planned_style = R"(<style>
+.planned{fill:none;stroke:#8c9ba7;stroke-opacity:.45;stroke-width:9;stroke-linecap:round;stroke-linejoin:round}
+</style>
+)";
+
+std::string picture(const Journey& journey, const Journey* planned, double* height) {
+  auto box = extent(journey, planned);
   const auto& poses = journey.poses().entries();
   const auto last = last_lit(journey);
   const auto& course = journey.course();
@@ -329,7 +352,7 @@ std::string picture(const Journey& journey, double* height) {
   const auto start = poses.empty() ? frame(vm::Point{}) : frame(poses.front().value);
   const auto end = poses.empty() ? start : frame(poses.back().value);
   return grid(frame) + (course ? zones(*course, frame) : std::string()) + walls(journey, frame) +
-         path(journey, frame) +
+         (planned != nullptr ? pale_path(*planned, frame) : std::string()) + path(journey, frame) +
          fmt::format("<circle class=\"start\" cx=\"{}\" cy=\"{}\" r=\"8\"/>\n", number(start.x),
                      number(start.y)) +
          marks(journey, frame) + ball(end, 10, last);
@@ -337,15 +360,16 @@ std::string picture(const Journey& journey, double* height) {
 
 } // namespace
 
-std::string path_svg(const Journey& journey) {
+std::string path_svg(const Journey& journey, const Journey* planned) {
   double height = 0;
-  const auto body = picture(journey, &height);
+  const auto body = picture(journey, planned, &height);
   const auto width = number(card_width);
   const auto tall = number(height);
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
-                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}{4}"
+                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}{4}{5}"
                      "<rect class=\"card\" width=\"{0}\" height=\"{1}\" rx=\"10\"/>\n{3}</svg>\n",
-                     width, tall, style, body, journey.course() ? zone_style : "");
+                     width, tall, style, body, journey.course() ? zone_style : "",
+                     planned != nullptr ? planned_style : "");
 }
 
 } // namespace orb::report

@@ -113,8 +113,10 @@ tl::expected<std::string, Failure> read_before(const RunOptions& options) {
   return *std::move(run);
 }
 
-tl::expected<void, IoError>
-write_pictures(const RunOptions& options, const report::Journey& journey, std::string_view before) {
+tl::expected<void, IoError> write_pictures(const RunOptions& options,
+                                           const report::Journey& journey,
+                                           const report::Journey* planned,
+                                           std::string_view before) {
   if (!options.report.empty()) {
     auto page = report::report_page(journey, disk::display_name(options.files.front()), before,
                                     structured::keyword_words);
@@ -123,8 +125,9 @@ write_pictures(const RunOptions& options, const report::Journey& journey, std::s
     if (auto done = disk::write(options.report, as_bytes(page)); !done)
       return done;
   }
-  return options.svg.empty() ? tl::expected<void, IoError>()
-                             : disk::write(options.svg, as_bytes(report::path_svg(journey)));
+  return options.svg.empty()
+             ? tl::expected<void, IoError>()
+             : disk::write(options.svg, as_bytes(report::path_svg(journey, planned)));
 }
 
 /// Where the run can be seen, or how it could be; empty where there is nothing to see.
@@ -203,6 +206,18 @@ tl::expected<void, Failure> take_course(const Context& context, const std::strin
   return {};
 }
 
+/// The same run on the virtual ball that drives like that robot.
+void plan(const std::vector<run::Input>& inputs, const run::Options& given, spec::Robot robot,
+          report::Journey& journey) {
+  class Nobody final : public run::Listener {
+    void on_event(Duration, const vm::Event&) override {}
+    void on_fault(Duration, const run::ProgramError&) override {}
+  } nobody;
+  auto options = given;
+  options.model = robot;
+  static_cast<void>(run::run(inputs, options, nobody, &journey)); // without it there is no plan
+}
+
 tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
   auto options = read_options(context, given);
   if (!options)
@@ -233,7 +248,8 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   if (!given.report.empty() || !given.svg.empty())
     journey.emplace();
   auto* const notes = journey ? &*journey : nullptr;
-  std::optional<Failure> broken; // why a run on a robot could not go on
+  std::optional<Failure> broken;          // why a run on a robot could not go on
+  std::optional<report::Journey> planned; // what the virtual ball does in place of a robot
   const auto ending = [&]() -> tl::expected<run::Ending, Failure> {
     if (given.port.port.empty() && given.replay.empty())
       return run::run(*inputs, *options, console, notes);
@@ -243,6 +259,8 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
     if (!driven)
       return tl::unexpected(driven.error());
     broken = std::move(driven->failure);
+    if (!given.svg.empty() && options->asks == run::Asks::No)
+      plan(*inputs, *options, driven->robot, planned.emplace());
     if (!driven->left.empty())
       broken = Failure{ExitCode::BadInput, driven->left};
     return std::move(driven->ending);
@@ -253,7 +271,7 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   for (const auto& fault : ending->faults)
     print_fault(context, fault);
   if (written && journey)
-    written = write_pictures(given, *journey, *before);
+    written = write_pictures(given, *journey, planned ? &*planned : nullptr, *before);
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
   tell(context, given, *ending, run::why(*inputs, *options, *ending));

@@ -126,7 +126,8 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     tether.recording->stopped = stopped;
     tether.recording->failure = failure;
   }
-  return TetheredEnding{finished(*std::move(ending), stopped), std::move(failure), {}};
+  return TetheredEnding{
+      finished(*std::move(ending), stopped), std::move(failure), tether.robot, {}};
 }
 
 tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs,
@@ -204,7 +205,7 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
   if (!ending)
     return tl::unexpected(ending.error());
   return TetheredEnding{finished(*std::move(ending), recording.stopped), recording.failure,
-                        std::move(left)};
+                        recording.robot, std::move(left)};
 }
 
 } // namespace orb::run

@@ -29,7 +29,8 @@ struct TetherOptions {
 
 struct TetheredEnding {
   Ending ending;
-  std::optional<Failure> failure; ///< why the run could not go on to its end
+  std::optional<Failure> failure;          ///< why the run could not go on to its end
+  spec::Robot robot = spec::Robot::Sphero; ///< which drove
   std::string left; ///< of a replay: where the program asked for something else; empty where not
 };
 
