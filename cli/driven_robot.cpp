@@ -58,7 +58,9 @@ hold_robot(const Context& context, const PortOptions& port, const std::string& n
   auto held = run::hold_robot(*(*robot)->link.transport, (*robot)->tether);
   if (!held)
     return tl::unexpected(held.error());
-  const auto both = std::make_shared<Both>(*std::move(robot), *std::move(held));
+  const auto both = std::make_shared<Both>();
+  both->robot = *std::move(robot);
+  both->held = *std::move(held);
   return std::shared_ptr<run::HeldRobot>(both, both->held.get());
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cli/context.h"
 #include "cli/driven_robot.h"
 #include "run/tether/drive_home.h"
 #include "testing/run_suite.h"
@@ -19,8 +18,8 @@ enum class Attended : std::uint8_t { Yes, No };
 class RobotStage {
 public:
   /// `cases`: how many there will be.
-  RobotStage(const Context& context, DrivenRobot& robot, Attended attended, std::uint64_t cases)
-      : context_(context), robot_(robot), attended_(attended), cases_(cases) {}
+  RobotStage(DrivenRobot& robot, Attended attended, std::uint64_t cases)
+      : robot_(robot), attended_(attended), cases_(cases) {}
 
   /// Runs a case; fails where it cannot be run. After a link is lost, or an interruption, no case
   /// can be.
@@ -37,7 +36,6 @@ private:
   tl::expected<void, Failure> await_hands(const testing::Suite& suite, const testing::Group& group,
                                           const run::Options& options, run::Home home);
 
-  const Context& context_;
   DrivenRobot& robot_;
   Attended attended_;
   std::uint64_t cases_;

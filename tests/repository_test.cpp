@@ -129,7 +129,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> shelves = {
 TEST(Floors, AShelfIncludesOnlyFromThoseBelowIt) {
   const std::regex include(R"re(^\s*#\s*include\s+"([a-z_0-9/]+)/[^"/]+")re");
   for (const auto& [room, folders] : shelves) {
-    const auto floor_of = [&, &folders = folders](const fs::path& folder) {
+    const auto floor_of = [&, &room = room, &folders = folders](const fs::path& folder) {
       const auto found = std::find(folders.begin(), folders.end(), folder.string());
       EXPECT_NE(found, folders.end()) << room << " has no shelf " << folder;
       return found - folders.begin();

@@ -311,7 +311,7 @@ tl::expected<void, Failure> test_robot(Context& context, const TestOptions& opti
   auto robot = connect_robot(context, options.port, options.robot);
   if (!robot)
     return tl::unexpected(robot.error());
-  RobotStage stage(context, **robot, options.yes ? Attended::No : Attended::Yes, suite.cases);
+  RobotStage stage(**robot, options.yes ? Attended::No : Attended::Yes, suite.cases);
   run.play = [&](auto&... all) { return stage.play(all...); };
   NoBar none;
   const auto results = testing::run_suite(suite, run, none);
