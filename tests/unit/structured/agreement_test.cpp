@@ -37,11 +37,12 @@ std::string all_findings(const Compiled& compiled) {
 /// The rules that may be raised on the robot's lines: what the source says itself.
 bool may_remain(const Diagnostic& found) {
   namespace robot = compiler::rules;
-  for (const auto* rule : {&robot::BusyLoop, &robot::ClearedByReading, &robot::DataReplaced,
-                           &robot::DataExpression, &robot::LargerThanOldRam, &robot::UnusedVariable,
-                           &robot::MissingGo, &robot::ProgramTooLarge, &robot::MissingDelay,
-                           &robot::DrivesOn, &robot::LoopLeavesRange, &robot::HeadingGrows,
-                           &robot::IndexBeforeY}) // a loop whose first index is 0, as `Y` is then
+  for (const auto* rule :
+       {&robot::BusyLoop, &robot::ClearedByReading, &robot::DataReplaced, &robot::DataExpression,
+        &robot::LargerThanOldRam, &robot::UnusedVariable, &robot::MissingGo,
+        &robot::ProgramTooLarge, &robot::MissingDelay, &robot::DrivesOn, &robot::LoopLeavesRange,
+        &robot::HeadingGrows, &robot::ReadPastData,
+        &robot::IndexBeforeY}) // a loop whose first index is 0, as `Y` is then
     if (found.rule == rule)
       return true;
   // What says that a program does something else than was meant; random ones mean nothing.
@@ -193,10 +194,10 @@ TEST(Agreement, IndicesThatAreErrorsAreWrong) {
 }
 
 TEST(Agreement, MostRandomProgramsCompileAndRun) {
-  // Programs that are all refused would prove nothing.
+  // Programs that are all refused would prove nothing. Which they are depends on the compiler.
   int compiled_ones = 0;
   int ended = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 450; ++seed) {
     const auto text = testing::RandomStructured(seed).write();
     NoFiles files;
     const auto compiled = compile("random.orb", "random.orb", text, {}, files);
