@@ -67,8 +67,8 @@ run_on_robot(const Context& context, const RunOptions& given, const run::Options
   run::DriveRecording recording;
   if (record)
     robot.tether.recording = &recording;
-  auto driven = run::run_tethered(inputs, options, console, journey, *robot.link.transport,
-                                  robot.tether);
+  auto driven =
+      run::run_tethered(inputs, options, console, journey, *robot.link.transport, robot.tether);
   if (!driven || !record)
     return driven;
   record->append(as_bytes(run::to_text(recording)));
@@ -92,10 +92,7 @@ replay_drive(const RunOptions& given, const run::Options& options,
 }
 
 std::string_view stop_note(const run::Ending& ending) {
-  return ending.robot_stopped.value_or(false)
-             ? "the robot has been stopped"
-             : "the robot has not acknowledged the stop; by itself it stops 2 s after the last "
-               "command: see that it does";
+  return ending.robot_stopped.value_or(false) ? run::stop_done : run::stop_lost;
 }
 
 } // namespace orb::cli

@@ -81,7 +81,7 @@ tl::expected<void, Failure> Driven::sit_out() {
   if (!paused_at_) {
     paused_at_ = elapsed();
     if (options_.note)
-      options_.note("no sensor data: the robot was told to stop, and the program waits");
+      options_.note(std::string(samples_gone));
   }
   if (auto pumped = robot_.pump(robot_.now() + longest_nap,
                                 [](const Said&) {}); // what comes first counts from then on
@@ -91,7 +91,7 @@ tl::expected<void, Failure> Driven::sit_out() {
     return {};
   origin_ = robot_.now() - *std::exchange(paused_at_, std::nullopt);
   if (options_.note)
-    options_.note("sensor data again: the program goes on");
+    options_.note(std::string(samples_back));
   return {};
 }
 

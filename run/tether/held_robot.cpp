@@ -67,9 +67,7 @@ private:
     else
       paused_at_ = elapsed();
     if (options_.note)
-      options_.note(was_stale
-                        ? "sensor data again: the program goes on"
-                        : "no sensor data: the robot was told to stop, and the program waits");
+      options_.note(std::string(was_stale ? samples_back : samples_gone));
   }
 
   const TetherOptions options_;

@@ -178,9 +178,7 @@ tl::expected<void, Failure> Tether::hold() {
   waiting(Kind::Stop).reset();
   driving_.reset();
   if (!brake({}))
-    return tl::unexpected(Failure{ExitCode::LinkLost,
-                                  "the robot has not acknowledged the stop; by itself it stops 2 s "
-                                  "after the last command: see that it does"});
+    return tl::unexpected(Failure{ExitCode::LinkLost, std::string(stop_lost)});
   return ask_all(wire_->silence());
 }
 

@@ -10,9 +10,19 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <tl/expected.hpp>
 
 namespace orb::run {
+
+// What is said of a robot, whoever drives it.
+inline constexpr std::string_view stop_done = "the robot has been stopped";
+inline constexpr std::string_view stop_lost =
+    "the robot has not acknowledged the stop; by itself it stops 2 s after the last command: see "
+    "that it does";
+inline constexpr std::string_view samples_gone =
+    "no sensor data: the robot was told to stop, and the program waits";
+inline constexpr std::string_view samples_back = "sensor data again: the program goes on";
 
 /// Waits and repetitions of a run on a robot that is elsewhere.
 struct TetherBudgets {

@@ -1,7 +1,6 @@
 #include "cli/commands.h"
 #include "cli/driven_robot.h"
 #include "cli/json.h"
-#include "cli/on_robot.h"
 #include "cli/terminal/browser.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/keys.h"
@@ -257,9 +256,7 @@ tl::expected<void, Failure> drive(Context& context, const DriveOptions& options)
   if (keys.from_terminal())
     print_out("\n");
   const bool stopped = robot.finish();
-  run::Ending ending;
-  ending.robot_stopped = stopped;
-  print_note(context, stop_note(ending));
+  print_note(context, stopped ? run::stop_done : run::stop_lost);
   if (driven && !stopped)
     context.exit = ExitCode::LinkLost;
   return driven;
