@@ -2,12 +2,11 @@
 
 #include "base/text.h"
 #include "cli/context.h"
-#include "cli/options.h"
+#include "cli/model/command.h"
 #include "cli/save_ball.h"
 #include "disk/disk.h"
 #include "disk/lock.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -223,24 +222,19 @@ tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) 
 }
 
 /// The commands that a setting of section `command` speaks to.
-std::vector<CLI::App*> addressed(CLI::App& app, const std::string& command) {
-  return app.get_subcommands(
-      [&](CLI::App* sub) { return command.empty() || sub->get_name() == command; });
+std::vector<Command> addressed(const Command& orb, const std::string& command) {
+  auto all = orb.commands();
+  if (!command.empty())
+    std::erase_if(all, [&](const Command& one) { return one.name() != command; });
+  return all;
 }
 
-void set_default(CLI::Option& option, const std::vector<std::string>& values) {
-  for (const auto& value : values)
-    option.add_result(value);
-  option.run_callback();
-  option.clear(); // as if never given: a flag or the environment still replaces it
-}
-
-tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
-  const auto commands = addressed(app, setting.section.name);
+tl::expected<void, ConfigError> apply(const Setting& setting, const Command& orb) {
+  const auto commands = addressed(orb, setting.section.name);
   if (commands.empty()) {
     std::vector<std::string> names = {std::string(balls_section)};
-    for (const auto* command : addressed(app, ""))
-      names.push_back(command->get_name());
+    for (const auto& command : addressed(orb, ""))
+      names.push_back(command.name());
     return tl::unexpected(problem(setting.section.place,
                                   fmt::format("`[{}]` is not a section{}", setting.section.name,
                                               meant_instead(setting.section.name, names))));
@@ -250,21 +244,17 @@ tl::expected<void, ConfigError> apply(const Setting& setting, CLI::App& app) {
                            project_options.end();
   bool known = false;
   std::vector<std::string> names;
-  for (auto* command : commands) {
-    for (auto* option : command->get_options())
-      for (const auto& name : option->get_lnames())
-        names.push_back(name);
-    auto* option = command->get_option_no_throw("--" + setting.option);
-    if (option == nullptr)
+  for (const auto& command : commands) {
+    for (auto& name : command.option_names())
+      names.push_back(std::move(name));
+    const auto option = command.find("--" + setting.option);
+    if (!option)
       continue;
     known = true;
     if (!allowed)
       break;
-    try {
-      set_default(*option, setting.values);
-    } catch (const CLI::Error& error) {
-      return tl::unexpected(problem(setting.place, error.what()));
-    }
+    if (auto why = option->set_default(setting.values))
+      return tl::unexpected(problem(setting.place, *why));
   }
   if (!known)
     return tl::unexpected(problem(
@@ -421,9 +411,9 @@ tl::expected<Config, ConfigError> load_config() {
   return config;
 }
 
-tl::expected<void, ConfigError> apply_config(const Config& config, CLI::App& app) {
+tl::expected<void, ConfigError> apply_config(const Config& config, const Command& orb) {
   for (const auto& setting : config.settings)
-    if (auto done = apply(setting, app); !done)
+    if (auto done = apply(setting, orb); !done)
       return done;
   return {};
 }

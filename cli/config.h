@@ -11,6 +11,8 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 /// A section of a configuration file: the name of a command, or empty for all commands.
 struct Section {
   std::string name;
@@ -43,7 +45,7 @@ tl::expected<Config, ConfigError> load_config();
 
 /// Makes the settings the defaults of the options they name, so that flags and environment stay
 /// stronger. An unknown section, option or value is an error.
-tl::expected<void, ConfigError> apply_config(const Config& config, CLI::App& app);
+tl::expected<void, ConfigError> apply_config(const Config& config, const Command& orb);
 
 /// The URL that `port` stands for: the ball's URL for `@name`, else `port` itself.
 tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port);

@@ -1,19 +1,18 @@
 #include "cli/inputs.h"
 
 #include "base/render.h"
-#include "cli/options.h"
+#include "cli/model/command.h"
 #include "disk/disk.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 
 namespace orb::cli {
 
-void add_language_option(CLI::App& command, std::string& lang) {
+void add_language_option(const Command& command, std::string& lang) {
   command.add_option("--lang", lang, "the language, if the file's ending does not tell")
-      ->check(one_of({"basic", "structured", "macro"}));
+      .check(one_of({"basic", "structured", "macro"}));
 }
 
 tl::expected<std::string, Failure> read_text(const std::string& path) {
@@ -77,12 +76,12 @@ tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std
   return inputs;
 }
 
-void add_stimulus_option(CLI::App& command, std::vector<std::string>& stimuli) {
+void add_stimulus_option(const Command& command, std::vector<std::string>& stimuli) {
   command
       .add_option("--stimulus", stimuli,
                   "what happens to the ball: a script, or one line such as `at 2s shake`")
-      ->allow_extra_args(false)
-      ->type_name("FILE|LINE");
+      .one_value_each()
+      .type_name("FILE|LINE");
 }
 
 bool is_stimulus_line(const std::string& given) {
@@ -109,11 +108,11 @@ read_stimuli(const Context& context, const std::vector<std::string>& given) {
   return events;
 }
 
-void add_course_option(CLI::App& command, std::string& path) {
+void add_course_option(const Command& command, std::string& path) {
   command
       .add_option("--course", path,
                   "what the ball drives through: walls, zones and a start, as SVG")
-      ->type_name("FILE.svg");
+      .type_name("FILE.svg");
 }
 
 tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path) {

@@ -16,8 +16,10 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 /// Adds `--lang basic|structured|macro`, which overrides the ending of file names.
-void add_language_option(CLI::App& command, std::string& lang);
+void add_language_option(const Command& command, std::string& lang);
 
 /// Reads the file at `path`, or standard input for `-`.
 tl::expected<std::string, Failure> read_text(const std::string& path);
@@ -42,7 +44,7 @@ tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std
                                                            run::Lint lint);
 
 /// Adds `--stimulus`, a script or a line of one, which may be given several times.
-void add_stimulus_option(CLI::App& command, std::vector<std::string>& stimuli);
+void add_stimulus_option(const Command& command, std::vector<std::string>& stimuli);
 
 /// Whether what `--stimulus` was given is a line (`at 2s shake`, `wall x=50`) and not a file.
 bool is_stimulus_line(const std::string& given);
@@ -52,7 +54,7 @@ tl::expected<std::vector<vm::TimedStimulus>, Failure>
 read_stimuli(const Context& context, const std::vector<std::string>& given);
 
 /// Adds `--course`, the drawing of what the ball drives through.
-void add_course_option(CLI::App& command, std::string& path);
+void add_course_option(const Command& command, std::string& path);
 
 /// Reads that drawing. What is said about it goes to stderr.
 tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path);

@@ -1,9 +1,8 @@
 #include "cli/json.h"
 
 #include "cli/context.h"
-#include "cli/options.h"
+#include "cli/model/command.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace orb::cli {
@@ -25,10 +24,10 @@ std::string_view kind_name(Item::Kind kind) {
 
 } // namespace
 
-void add_format_option(CLI::App& command, std::string& format) {
+void add_format_option(const Command& command, std::string& format) {
   command.add_option("--format", format, "text, or JSON for programs")
-      ->check(one_of({"text", "json"}))
-      ->capture_default_str();
+      .check(one_of({"text", "json"}))
+      .show_default();
 }
 
 void put_fields(Json& json, const protocol::Parts& parts) {

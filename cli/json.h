@@ -11,10 +11,12 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 using Json = nlohmann::ordered_json;
 
 /// Adds `--format text|json`.
-void add_format_option(CLI::App& command, std::string& format);
+void add_format_option(const Command& command, std::string& format);
 
 /// The fields of a packet by name: numbers and texts; what numbers stand for is a second object.
 void put_fields(Json& json, const protocol::Parts& parts);

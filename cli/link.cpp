@@ -1,10 +1,9 @@
 #include "cli/link.h"
 
-#include "cli/options.h"
-
 #include "base/duration.h"
 #include "cli/config.h"
 #include "cli/inputs.h"
+#include "cli/model/command.h"
 #include "cli/terminal/interrupt.h"
 #include "compiler/load.h"
 #include "disk/disk.h"
@@ -13,7 +12,6 @@
 #include "vm/ball_transport.h"
 #include "vm/bluetooth.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <random>
 #include <utility>
@@ -39,50 +37,50 @@ std::uint8_t draw_first_seq() {
 
 namespace {
 
-void add_waits(CLI::App& command, PortOptions& options) {
+void add_waits(const Command& command, PortOptions& options) {
   const auto is_time = [](const std::string& text) {
     const auto time = parse_duration(text, 1s);
     return time && *time > Duration{} ? std::string()
                                       : "`" + text + "` is not a time such as 2s or 500ms";
   };
   command.add_option("--timeout", options.answer, "how long to wait for one answer")
-      ->type_name("TIME")
-      ->check(is_time)
-      ->capture_default_str();
+      .type_name("TIME")
+      .check(is_time)
+      .show_default();
   command
       .add_option("--connect-timeout", options.step,
                   "how long a step to a robot over Bluetooth LE may take")
-      ->type_name("TIME")
-      ->check(is_time)
-      ->capture_default_str();
+      .type_name("TIME")
+      .check(is_time)
+      .show_default();
 }
 
 } // namespace
 
-void add_port_options(CLI::App& command, PortOptions& options) {
+void add_port_options(const Command& command, PortOptions& options) {
   command
       .add_option(
           "-p,--port", options.port,
           "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim: or @ball")
-      ->envname("ORB_PORT")
-      ->type_name("URL")
-      ->capture_default_str();
+      .environment("ORB_PORT")
+      .type_name("URL")
+      .show_default();
   command.add_option("--record", options.record, "write what passes over the link to this file")
-      ->type_name("FILE");
+      .type_name("FILE");
   add_waits(command, options);
 }
 
-void add_robot_port_options(CLI::App& command, PortOptions& options, std::string& robot) {
+void add_robot_port_options(const Command& command, PortOptions& options, std::string& robot) {
   options.port.clear();
   command
       .add_option("-p,--port", options.port,
                   "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
                   "pty://, sim: or @ball")
-      ->type_name("URL");
+      .type_name("URL");
   command
       .add_option("--robot", robot,
                   "which robot it is; the virtual one drives like it, a real one tells by its name")
-      ->check(one_of(names_of(spec::robots)));
+      .check(one_of(names_of(spec::robots)));
   add_waits(command, options);
 }
 

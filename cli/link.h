@@ -23,6 +23,8 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 /// The options of every command that talks to a ball.
 struct PortOptions {
   std::string port = "sim:";
@@ -36,11 +38,11 @@ struct PortOptions {
 /// Adds `--port`, which says where a robot is that serves as a program's body, `--robot`,
 /// `--timeout` and `--connect-timeout`. Without `--port` there is none, whatever the environment
 /// says. `robot` becomes the name of a row of spec/robots.def; empty where none is given.
-void add_robot_port_options(CLI::App& command, PortOptions& options, std::string& robot);
+void add_robot_port_options(const Command& command, PortOptions& options, std::string& robot);
 
 /// Adds `--port`, which the environment may give as ORB_PORT, `--record`, `--timeout` and
 /// `--connect-timeout`.
-void add_port_options(CLI::App& command, PortOptions& options);
+void add_port_options(const Command& command, PortOptions& options);
 
 /// Hears the wire for a recording and for `-vv`.
 class WireLog final : public protocol::WireListener {

@@ -1,17 +1,15 @@
 #include "cli/newer_robot.h"
 
-#include "cli/options.h"
+#include "cli/model/command.h"
 #include "cli/terminal/interrupt.h"
 #include "uploader/endpoint.h"
 
-#include <CLI/CLI.hpp>
-
 namespace orb::cli {
 
-void add_newer_robot_option(CLI::App& command, std::string& robot) {
+void add_newer_robot_option(const Command& command, std::string& robot) {
   command
       .add_option("--robot", robot, "which robot answers there; over Bluetooth LE its name tells")
-      ->check(one_of(names_of(spec::robots)));
+      .check(one_of(names_of(spec::robots)));
 }
 
 const spec::RobotInfo* newer_robot(const Context& context, const PortOptions& options,

@@ -7,8 +7,10 @@
 
 namespace orb::cli {
 
+class Command;
+
 /// Adds `--robot`, for links whose name does not tell which robot of packets v2 answers there.
-void add_newer_robot_option(CLI::App& command, std::string& robot);
+void add_newer_robot_option(const Command& command, std::string& robot);
 
 /// The robot of packets v2 that the options name, by `--robot` or in the port; null for another.
 const spec::RobotInfo* newer_robot(const Context& context, const PortOptions& options,

@@ -1,9 +1,9 @@
 #include "cli/policy.h"
 
 #include "base/suggest.h"
+#include "cli/model/command.h"
 #include "reference/knowledge.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -27,18 +27,16 @@ std::vector<std::string> rule_ids() {
 
 } // namespace
 
-void add_policy_options(CLI::App& command, Policy& policy) {
+void add_policy_options(const Command& command, Policy& policy) {
   command.add_option("--deny", policy.deny, "make a rule an error; `all` for every rule")
-      ->type_name("RULE")
-      ->allow_extra_args(false);
+      .type_name("RULE")
+      .one_value_each();
   command.add_option("--warn", policy.warn, "make a rule a warning")
-      ->type_name("RULE")
-      ->allow_extra_args(false);
-  command.add_option("--allow", policy.allow, "silence a rule")
-      ->type_name("RULE")
-      ->allow_extra_args(false);
+      .type_name("RULE")
+      .one_value_each();
+  command.add_option("--allow", policy.allow, "silence a rule").type_name("RULE").one_value_each();
   command.add_option("--max-errors", policy.max_errors, "show this many findings, 0 for all")
-      ->capture_default_str();
+      .show_default();
 }
 
 bool check_rules(Context& context, const Policy& policy) {

@@ -13,6 +13,8 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 /// How the user weighs findings: `--deny`, `--warn`, `--allow`, `--max-errors`. Of two that name
 /// the same rule the more particular wins (a rule over `all`), then the milder one.
 struct Policy {
@@ -23,7 +25,7 @@ struct Policy {
 };
 
 /// Adds the options to a command.
-void add_policy_options(CLI::App& command, Policy& policy);
+void add_policy_options(const Command& command, Policy& policy);
 
 /// False, and reported, where the policy names a rule that no linter has.
 bool check_rules(Context& context, const Policy& policy);

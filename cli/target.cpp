@@ -1,9 +1,8 @@
 #include "cli/target.h"
 
-#include "cli/options.h"
+#include "cli/model/command.h"
 #include "spec/limits.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <vector>
 
@@ -38,18 +37,18 @@ compiler::Target TargetOptions::target() const {
   return target;
 }
 
-void add_target_options(CLI::App& command, TargetOptions& options) {
+void add_target_options(const Command& command, TargetOptions& options) {
   command
       .add_option("--target", options.version,
                   fmt::format("the orbBasic version of the robot ({})",
                               spec::info(spec::default_basic_version).text))
-      ->check(one_of(versions()))
-      ->envname("ORB_TARGET");
+      .check(one_of(versions()))
+      .environment("ORB_TARGET");
   command.add_option("--ram", options.ram, "bytes of the robot's RAM area")
-      ->check(one_of(ram_sizes()));
+      .check(one_of(ram_sizes()));
   command.add_option("--area", options.area, "the area that the program goes to")
-      ->check(one_of({"ram", "flash"}))
-      ->capture_default_str();
+      .check(one_of({"ram", "flash"}))
+      .show_default();
 }
 
 } // namespace orb::cli

@@ -11,6 +11,8 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 /// The robot that a program is meant for, as options: `--target`, `--ram`, `--area`.
 struct TargetOptions {
   std::string version;
@@ -21,6 +23,6 @@ struct TargetOptions {
 };
 
 /// Adds the options to a command. `--target` also comes from `ORB_TARGET`.
-void add_target_options(CLI::App& command, TargetOptions& options);
+void add_target_options(const Command& command, TargetOptions& options);
 
 } // namespace orb::cli

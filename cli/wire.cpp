@@ -1,6 +1,7 @@
 #include "cli/wire.h"
 
 #include "cli/commands.h"
+#include "cli/model/command.h"
 #include "editor/wire.h"
 
 #include <poll.h>
@@ -18,8 +19,8 @@ bool client_speaks() {
   return ::poll(&input, 1, 0) > 0;
 }
 
-void add_stdio_flag(CLI::App& command) {
-  command.add_flag("--stdio")->description("for editors that insist on it; it changes nothing");
+void add_stdio_flag(const Command& command) {
+  command.add_flag("--stdio", "for editors that insist on it; it changes nothing");
 }
 
 } // namespace orb::cli

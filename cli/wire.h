@@ -11,6 +11,8 @@ class App;
 
 namespace orb::cli {
 
+class Command;
+
 /// Sends messages, each in its frame.
 void send_all(const std::vector<std::string>& messages);
 
@@ -18,6 +20,6 @@ void send_all(const std::vector<std::string>& messages);
 bool client_speaks();
 
 /// Adds `--stdio`, which changes nothing.
-void add_stdio_flag(CLI::App& command);
+void add_stdio_flag(const Command& command);
 
 } // namespace orb::cli

@@ -28,15 +28,12 @@ orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 # orb_library(<folder> [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its
 # .cpp files, alias orb::<folder>. A new file needs no edit here.
 function(orb_library folder)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ORB_ROOT}/${folder}/*.cpp)
   add_library(orb_${folder} STATIC ${sources})
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(NOT ARG_PRECOMPILED)
-    set(ARG_PRECOMPILED rooms)
-  endif()
-  target_precompile_headers(orb_${folder} REUSE_FROM precompiled_${ARG_PRECOMPILED})
+  target_precompile_headers(orb_${folder} REUSE_FROM precompiled_rooms)
 endfunction()
 
 # orb_page(<folder> <name> <script>...): NAME.html, NAME.css and the modules NAME/SCRIPT.js, written as real

@@ -7,7 +7,7 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "disk/disk.h"
 
 #include <algorithm>
@@ -199,27 +199,28 @@ ExitCode run_asm(const Context& context, const AsmOptions& options) {
                          : write_all(context, options, source, assembly, *macros);
 }
 
-void add_asm(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "asm", "assemble macro source into the bytes of a ball",
-                              "orb asm dance.macro -o dance.sphero\norb asm dance.macro --listing\n"
-                              "orb asm set.macro --format bin -o build/");
+void add_asm(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("asm", "assemble macro source into the bytes of a ball",
+                      "orb asm dance.macro -o dance.sphero\norb asm dance.macro --listing\n"
+                      "orb asm set.macro --format bin -o build/");
   auto options = std::make_shared<AsmOptions>();
-  command->add_option("FILE", options->file, "macro source; - is stdin")->required();
-  command->add_option("-o,--out", options->out,
-                      "where to write; a folder (with a final /) takes a file per macro");
+  command.add_option("FILE", options->file, "macro source; - is stdin").required();
+  command.add_option("-o,--out", options->out,
+                     "where to write; a folder (with a final /) takes a file per macro");
   std::vector<std::string> names;
   for (const auto& format : formats)
     names.emplace_back(format.name);
   command
-      ->add_option("--format", options->format,
-                   "what to write; by default what the ending of OUT says, else sphero")
-      ->check(one_of(names));
-  command->add_option("--macro", options->macro, "the one macro of the file to write");
-  command->add_flag("--listing", options->listing,
-                    "print offset, bytes, times and source instead of the bytes");
-  command->add_flag("--fold-delays", options->fold_delays,
-                    "turn `delay` into the delay of the command before it where that is exact");
-  command->callback([&context, options] { context.exit = run_asm(context, *options); });
+      .add_option("--format", options->format,
+                  "what to write; by default what the ending of OUT says, else sphero")
+      .check(one_of(names));
+  command.add_option("--macro", options->macro, "the one macro of the file to write");
+  command.add_flag("--listing", options->listing,
+                   "print offset, bytes, times and source instead of the bytes");
+  command.add_flag("--fold-delays", options->fold_delays,
+                   "turn `delay` into the delay of the command before it where that is exact");
+  command.callback([&context, options] { context.exit = run_asm(context, *options); });
 }
 
 } // namespace orb::cli

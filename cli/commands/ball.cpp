@@ -1,7 +1,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "serve/server.h"
 
 #include "compiler/load.h"
@@ -14,9 +14,6 @@
 
 namespace orb::cli {
 namespace {
-
-/// What a flag without a value holds.
-constexpr const char* bare_flag = "true";
 
 struct BallArguments {
   std::optional<std::string> pty;
@@ -113,59 +110,59 @@ void run_ball(Context& context, const BallArguments& arguments) {
 
 } // namespace
 
-void add_ball(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "ball", "serve virtual balls that real clients can connect to",
-                              "orb ball\norb ball --tcp 127.0.0.1:4242\n"
-                              "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
-                              "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7\n"
-                              "orb ball --bluez=pieces=1..20,drop-once@services\n"
-                              "orb ball --robot bolt --tcp :4242");
+void add_ball(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("ball", "serve virtual balls that real clients can connect to",
+                      "orb ball\norb ball --tcp 127.0.0.1:4242\n"
+                      "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
+                      "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7\n"
+                      "orb ball --bluez=pieces=1..20,drop-once@services\n"
+                      "orb ball --robot bolt --tcp :4242");
   auto arguments = std::make_shared<BallArguments>();
   // A flag, because flags take a value only after `=`.
   command
-      ->add_flag("--pty", arguments->pty,
-                 "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
-      ->type_name("LINK");
+      .add_flag("--pty", arguments->pty,
+                "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
+      .type_name("LINK");
   command
-      ->add_flag("--bluez", arguments->bluez,
-                 "serve behind a Bluetooth LE of its own, on a private D-Bus; with =PLAN, a faulty "
-                 "one: pieces=1..20,late=2s,drop@services,lose=1%")
-      ->type_name("PLAN");
-  command->add_option("--tcp", arguments->tcp, "serve on HOST:PORT; port 0 picks a free one")
-      ->type_name("HOST:PORT");
+      .add_flag("--bluez", arguments->bluez,
+                "serve behind a Bluetooth LE of its own, on a private D-Bus; with =PLAN, a faulty "
+                "one: pieces=1..20,late=2s,drop@services,lose=1%")
+      .type_name("PLAN");
+  command.add_option("--tcp", arguments->tcp, "serve on HOST:PORT; port 0 picks a free one")
+      .type_name("HOST:PORT");
   command
-      ->add_option("--count", arguments->count,
-                   "how many balls; ports count up, links and files get -1, -2, …")
-      ->check(whole_number(1, 1000))
-      ->capture_default_str();
+      .add_option("--count", arguments->count,
+                  "how many balls; ports count up, links and files get -1, -2, …")
+      .check(whole_number(1, 1000))
+      .show_default();
+  command.add_option("--speed", arguments->speed, "how many seconds of the ball pass in one second")
+      .check(number_between(0.001, 1000))
+      .show_default();
   command
-      ->add_option("--speed", arguments->speed, "how many seconds of the ball pass in one second")
-      ->check(number_between(0.001, 1000))
-      ->capture_default_str();
+      .add_option("--seed", arguments->seed,
+                  "seeds all random choices; the address follows from it")
+      .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      .show_default();
+  command.add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
+      .check(one_of(names_of(spec::firmwares)))
+      .show_default();
   command
-      ->add_option("--seed", arguments->seed,
-                   "seeds all random choices; the address follows from it")
-      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  command->add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
-      ->check(one_of(names_of(spec::firmwares)))
-      ->capture_default_str();
+      .add_option("--robot", arguments->robot,
+                  "which robot it is; those after SPRK+ speak packets v2")
+      .check(one_of(names_of(spec::robots)))
+      .show_default();
   command
-      ->add_option("--robot", arguments->robot,
-                   "which robot it is; those after SPRK+ speak packets v2")
-      ->check(one_of(names_of(spec::robots)))
-      ->capture_default_str();
-  command
-      ->add_option("--fault", arguments->fault,
-                   "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
-      ->type_name("PLAN");
-  add_stimulus_option(*command, arguments->stimuli);
-  add_course_option(*command, arguments->course);
-  command->add_option("--state", arguments->state, "keeps flash and settings across runs")
-      ->type_name("FILE");
-  command->add_option("--log", arguments->log, "records every byte, as `replay://` reads it")
-      ->type_name("FILE");
-  command->callback([&context, arguments] { run_ball(context, *arguments); });
+      .add_option("--fault", arguments->fault,
+                  "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
+      .type_name("PLAN");
+  add_stimulus_option(command, arguments->stimuli);
+  add_course_option(command, arguments->course);
+  command.add_option("--state", arguments->state, "keeps flash and settings across runs")
+      .type_name("FILE");
+  command.add_option("--log", arguments->log, "records every byte, as `replay://` reads it")
+      .type_name("FILE");
+  command.callback([&context, arguments] { run_ball(context, *arguments); });
 }
 
 } // namespace orb::cli

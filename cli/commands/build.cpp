@@ -143,35 +143,37 @@ void build(Context& context, const Options& options) {
 
 } // namespace
 
-void add_build(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "build", "make the exact bytes to upload",
-                              "orb build square.bas -o square.img\n"
-                              "orb build --pack square.bas --map square.json -o square.img\n"
-                              "orb build patrol.orb --readable -o patrol.bas\n"
-                              "orb build --listing --native square.bas");
+void add_build(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("build", "make the exact bytes to upload",
+                      "orb build square.bas -o square.img\n"
+                      "orb build --pack square.bas --map square.json -o square.img\n"
+                      "orb build patrol.orb --readable -o patrol.bas\n"
+                      "orb build --listing --native square.bas");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "a source; `-` is standard input")->required();
-  add_language_option(*command, options->lang);
-  command->add_option("-o,--output", options->out,
-                      "where the bytes go; standard output if missing");
-  command->add_flag("--pack", options->pack,
-                    "as small as possible with the same behaviour; structured programs always are");
-  auto* map =
-      command->add_option("--map", options->map, "write which source line became which robot line");
-  auto* readable = command->add_flag("--readable", options->readable,
-                                     "of a structured program: orbBasic for people, with comments");
-  readable->excludes(map);
-  add_target_options(*command, options->target);
-  command->add_flag(
+  command.add_option("FILE", options->file, "a source; `-` is standard input").required();
+  add_language_option(command, options->lang);
+  command.add_option("-o,--output", options->out, "where the bytes go; standard output if missing");
+  command.add_flag("--pack", options->pack,
+                   "as small as possible with the same behaviour; structured programs always are");
+  const auto map =
+      command.add_option("--map", options->map, "write which source line became which robot line");
+  const auto readable =
+      command.add_flag("--readable", options->readable,
+                       "of a structured program: orbBasic for people, with comments");
+  readable.excludes(map);
+  add_target_options(command, options->target);
+  command.add_flag(
       "--no-check", options->no_check,
       "build although the program has errors; of a structured one nothing can be built then");
-  auto* listing = command->add_flag("--listing", options->listing,
-                                    "in place of the bytes: each line and the instructions that "
-                                    "the virtual ball makes of it; of a structured program the "
-                                    "robot's lines and their bytes");
-  listing->excludes(readable);
-  command->add_flag("--native", options->native, "list their machine code, too")->needs(listing);
-  command->callback([&context, options] { build(context, *options); });
+  const auto listing =
+      command.add_flag("--listing", options->listing,
+                       "in place of the bytes: each line and the instructions that "
+                       "the virtual ball makes of it; of a structured program the "
+                       "robot's lines and their bytes");
+  listing.excludes(readable);
+  command.add_flag("--native", options->native, "list their machine code, too").needs(listing);
+  command.callback([&context, options] { build(context, *options); });
 }
 
 } // namespace orb::cli

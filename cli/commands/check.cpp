@@ -2,7 +2,7 @@
 #include "base/render.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "cli/policy.h"
 #include "cli/target.h"
 #include "cli/terminal/watch.h"
@@ -138,36 +138,36 @@ void check(Context& context, const Options& options) {
 
 } // namespace
 
-void add_check(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "check", "find the mistakes in programs, macros, courses and tests",
-                  "orb check square.bas\n"
-                  "orb check --target 1.2 --ram 1024 *.bas\n"
-                  "orb check --robot rvr patrol.orb\n"
-                  "orb check --fix patrol.orb\n"
-                  "orb check parking.svg\n"
-                  "orb check --watch square.bas\n"
-                  "orb check --format sarif *.bas *.macro > findings.sarif");
+void add_check(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("check", "find the mistakes in programs, macros, courses and tests",
+                      "orb check square.bas\n"
+                      "orb check --target 1.2 --ram 1024 *.bas\n"
+                      "orb check --robot rvr patrol.orb\n"
+                      "orb check --fix patrol.orb\n"
+                      "orb check parking.svg\n"
+                      "orb check --watch square.bas\n"
+                      "orb check --format sarif *.bas *.macro > findings.sarif");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
-  add_language_option(*command, options->lang);
-  add_target_options(*command, options->target);
+  command.add_option("FILE", options->files, "sources; `-` is standard input").required();
+  add_language_option(command, options->lang);
+  add_target_options(command, options->target);
   command
-      ->add_option("--robot", options->robot,
-                   "the robot that drives: what it does not have is a finding")
-      ->check(one_of(names_of(spec::robots)));
+      .add_option("--robot", options->robot,
+                  "the robot that drives: what it does not have is a finding")
+      .check(one_of(names_of(spec::robots)));
   command
-      ->add_option("--executive", options->macro.executive,
-                   "version of the ball's macro executive, for macro source")
-      ->check(whole_number(spec::macro_executive_oldest, spec::macro_executive_newest))
-      ->capture_default_str();
-  command->add_option("--format", options->format, "how findings are printed")
-      ->check(one_of({"text", "json", "sarif", "gcc"}))
-      ->capture_default_str();
-  add_policy_options(*command, options->policy);
-  command->add_flag("--fix", options->fix, "make the safe fixes and write the files back");
-  command->add_flag("--watch", options->watch, "check again whenever a file changes");
-  command->callback([&context, options] {
+      .add_option("--executive", options->macro.executive,
+                  "version of the ball's macro executive, for macro source")
+      .check(whole_number(spec::macro_executive_oldest, spec::macro_executive_newest))
+      .show_default();
+  command.add_option("--format", options->format, "how findings are printed")
+      .check(one_of({"text", "json", "sarif", "gcc"}))
+      .show_default();
+  add_policy_options(command, options->policy);
+  command.add_flag("--fix", options->fix, "make the safe fixes and write the files back");
+  command.add_flag("--watch", options->watch, "check again whenever a file changes");
+  command.callback([&context, options] {
     if (options->watch)
       watch(
           context, [&] { return files_of(options->files, options->lang); },

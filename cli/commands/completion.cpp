@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 
 #include <array>
 #include <memory>
@@ -104,17 +104,17 @@ constexpr std::array<Shell, 3> shells = {
 
 } // namespace
 
-void add_completion(CLI::App& app, Context&) {
-  auto* command = add_command(app, "completion", "print the completion script of a shell",
-                              "eval \"$(orb completion bash)\"\n"
-                              "orb completion zsh > ~/.zfunc/_orb\n"
-                              "orb completion fish > ~/.config/fish/completions/orb.fish");
+void add_completion(const Command& orb, Context&) {
+  const auto command = orb.add_command("completion", "print the completion script of a shell",
+                                       "eval \"$(orb completion bash)\"\n"
+                                       "orb completion zsh > ~/.zfunc/_orb\n"
+                                       "orb completion fish > ~/.config/fish/completions/orb.fish");
   std::vector<std::string> names;
   for (const auto& shell : shells)
     names.emplace_back(shell.name);
   auto name = std::make_shared<std::string>();
-  command->add_option("SHELL", *name, "whose script to print")->required()->check(one_of(names));
-  command->callback([name] {
+  command.add_option("SHELL", *name, "whose script to print").required().check(one_of(names));
+  command.callback([name] {
     for (const auto& shell : shells)
       if (shell.name == *name)
         print_out(shell.script);

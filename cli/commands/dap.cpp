@@ -2,7 +2,7 @@
 #include "cli/commands.h"
 #include "cli/driven_robot.h"
 #include "cli/inputs.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/wire.h"
 #include "editor/wire.h"
@@ -65,13 +65,13 @@ ExitCode serve(const Context& context) {
 
 } // namespace
 
-void add_dap(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "dap", "serve debuggers over stdin and stdout (Debug Adapter Protocol)",
-                  "orb dap\n"
-                  "orb dap --stdio");
-  add_stdio_flag(*command);
-  command->callback([&context] { context.exit = serve(context); });
+void add_dap(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("dap", "serve debuggers over stdin and stdout (Debug Adapter Protocol)",
+                      "orb dap\n"
+                      "orb dap --stdio");
+  add_stdio_flag(command);
+  command.callback([&context] { context.exit = serve(context); });
 }
 
 } // namespace orb::cli

@@ -1,7 +1,7 @@
 #include "cli/commands.h"
 #include "cli/driven_robot.h"
 #include "cli/inputs.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "cli/terminal/interrupt.h"
 #include "debug/launch.h"
 #include "debug/shell.h"
@@ -125,9 +125,9 @@ void debug_it(Context& context, const DebugOptions& options) {
 
 } // namespace
 
-void add_debug(CLI::App& app, Context& context) {
-  auto* command = add_command(
-      app, "debug", "run a program line by line on a virtual ball, forwards and backwards",
+void add_debug(const Command& orb, Context& context) {
+  const auto command = orb.add_command(
+      "debug", "run a program line by line on a virtual ball, forwards and backwards",
       "orb debug patrol.orb\n"
       "orb debug square.bas --stimulus 'at 2s shake'\n"
       "orb debug --test corner.test --only 'stops at the wall'\n"
@@ -135,31 +135,31 @@ void add_debug(CLI::App& app, Context& context) {
       "orb debug square.bas --do 'b 40' --do c --do 'p X'");
   auto options = std::make_shared<DebugOptions>();
   auto& launch = options->launch;
-  command->add_option("FILE", launch.files, "a program, and macros that go along");
-  add_language_option(*command, launch.language);
-  add_stimulus_option(*command, launch.stimuli);
-  add_course_option(*command, launch.course);
-  command->add_option("--test", launch.test, "a test file: its world in place of one given here")
-      ->type_name("FILE.test");
-  command->add_option("--only", launch.test_name, "the one test of that file, by its name")
-      ->type_name("NAME");
-  command->add_option("--seed", options->seed, "where random numbers begin")
-      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  command->add_option("--input", launch.numbers, "numbers for `input`")->delimiter(',');
-  command->add_flag("--disconnected", options->disconnected, "no client is connected");
-  auto* plain =
-      command->add_flag("--plain", options->plain,
-                        "each statement keeps lines of its own (the default without `--test`)");
+  command.add_option("FILE", launch.files, "a program, and macros that go along");
+  add_language_option(command, launch.language);
+  add_stimulus_option(command, launch.stimuli);
+  add_course_option(command, launch.course);
+  command.add_option("--test", launch.test, "a test file: its world in place of one given here")
+      .type_name("FILE.test");
+  command.add_option("--only", launch.test_name, "the one test of that file, by its name")
+      .type_name("NAME");
+  command.add_option("--seed", options->seed, "where random numbers begin")
+      .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      .show_default();
+  command.add_option("--input", launch.numbers, "numbers for `input`").separated_by(',');
+  command.add_flag("--disconnected", options->disconnected, "no client is connected");
+  const auto plain =
+      command.add_flag("--plain", options->plain,
+                       "each statement keeps lines of its own (the default without `--test`)");
   command
-      ->add_flag("--optimized", options->optimized,
-                 "the lines that are sent to a robot, which may stand for several statements")
-      ->excludes(plain);
-  add_robot_port_options(*command, options->port, options->robot);
-  command->add_option("--do", options->commands, "a command to begin with; may be given again")
-      ->allow_extra_args(false)
-      ->type_name("COMMAND");
-  command->callback([&context, options] { debug_it(context, *options); });
+      .add_flag("--optimized", options->optimized,
+                "the lines that are sent to a robot, which may stand for several statements")
+      .excludes(plain);
+  add_robot_port_options(command, options->port, options->robot);
+  command.add_option("--do", options->commands, "a command to begin with; may be given again")
+      .one_value_each()
+      .type_name("COMMAND");
+  command.callback([&context, options] { debug_it(context, *options); });
 }
 
 } // namespace orb::cli

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "disk/disk.h"
 
 #include "protocol/describe.h"
@@ -222,23 +222,23 @@ void decode(Context& context, const DecodeArguments& arguments) {
 
 } // namespace
 
-void add_decode(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "decode", "explain packets in words",
-                              "orb decode FF FF 00 01 52 01 AB\n"
-                              "orb decode FFFE08000748656C6C6F0AF2\n"
-                              "orb decode session.txt\norb decode --v2 8D0A11061FBFD8");
+void add_decode(const Command& orb, Context& context) {
+  const auto command = orb.add_command("decode", "explain packets in words",
+                                       "orb decode FF FF 00 01 52 01 AB\n"
+                                       "orb decode FFFE08000748656C6C6F0AF2\n"
+                                       "orb decode session.txt\norb decode --v2 8D0A11061FBFD8");
   auto arguments = std::make_shared<DecodeArguments>();
-  command->add_option("FILE", arguments->words,
-                      "hex bytes, or a file with hex, bytes or a recording; - or nothing is stdin");
-  command->add_flag("--v2", arguments->v2, "packets of the newer robots");
-  add_format_option(*command, arguments->format);
+  command.add_option("FILE", arguments->words,
+                     "hex bytes, or a file with hex, bytes or a recording; - or nothing is stdin");
+  command.add_flag("--v2", arguments->v2, "packets of the newer robots");
+  add_format_option(command, arguments->format);
   command
-      ->add_option(
+      .add_option(
           "--from", arguments->from,
           "who sent the bytes; auto: the side whose checksums are right; a recording says so")
-      ->check(one_of({"auto", "client", "ball"}))
-      ->capture_default_str();
-  command->callback([&context, arguments] { decode(context, *arguments); });
+      .check(one_of({"auto", "client", "ball"}))
+      .show_default();
+  command.callback([&context, arguments] { decode(context, *arguments); });
 }
 
 } // namespace orb::cli

@@ -82,17 +82,19 @@ ExitCode run(const Context& context, const Options& options) {
 
 } // namespace
 
-void add_disasm(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "disasm", "turn the bytes of a macro back into source",
-                              "orb disasm dance.sphero\norb disasm saved.bin -o saved.macro\n"
-                              "orb disasm capture.dat --framed");
+void add_disasm(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("disasm", "turn the bytes of a macro back into source",
+                      "orb disasm dance.sphero\norb disasm saved.bin -o saved.macro\n"
+                      "orb disasm capture.dat --framed");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "bytes of a macro; - is stdin")->required();
-  command->add_option("-o,--out", options->out, "where to write the source; stdout otherwise");
-  auto* raw = command->add_flag("--raw", options->raw, "the bytes are commands alone (.sphero)");
-  command->add_flag("--framed", options->framed, "the bytes begin with id and flags (.bin)")
-      ->excludes(raw);
-  command->callback([&context, options] { context.exit = run(context, *options); });
+  command.add_option("FILE", options->file, "bytes of a macro; - is stdin").required();
+  command.add_option("-o,--out", options->out, "where to write the source; stdout otherwise");
+  const auto raw =
+      command.add_flag("--raw", options->raw, "the bytes are commands alone (.sphero)");
+  command.add_flag("--framed", options->framed, "the bytes begin with id and flags (.bin)")
+      .excludes(raw);
+  command.callback([&context, options] { context.exit = run(context, *options); });
 }
 
 } // namespace orb::cli

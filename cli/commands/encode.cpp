@@ -1,5 +1,5 @@
 #include "cli/commands.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 
 #include "base/suggest.h"
 #include "protocol/packet.h"
@@ -111,33 +111,33 @@ void encode_v1(Context& context, const EncodeArguments& arguments) {
 
 } // namespace
 
-void add_encode(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "encode", "make the bytes of a packet",
-                  "orb encode ping\norb encode set-rgb-led 255 0 0 0\n"
-                  "orb encode append-orbbasic-fragment ram '10 print \"hi\"\\n\\0'\n"
-                  "orb encode configure-locator -- 1 -300 0 90\n"
-                  "orb encode --v2 13 0D\norb encode --robot bolt drive-with-heading 60 90");
+void add_encode(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("encode", "make the bytes of a packet",
+                      "orb encode ping\norb encode set-rgb-led 255 0 0 0\n"
+                      "orb encode append-orbbasic-fragment ram '10 print \"hi\"\\n\\0'\n"
+                      "orb encode configure-locator -- 1 -300 0 90\n"
+                      "orb encode --v2 13 0D\norb encode --robot bolt drive-with-heading 60 90");
   auto arguments = std::make_shared<EncodeArguments>();
-  command->add_option("NAME", arguments->name, "a command of the API, or the DID of a v2 packet")
-      ->required();
-  command->add_option("ARGS", arguments->operands,
-                      "its operands: numbers, 0x hex, named values, text or hex bytes");
-  command->add_option("--seq", arguments->seq, "the sequence number")
-      ->check(whole_number(0, std::numeric_limits<std::uint8_t>::max()))
-      ->capture_default_str();
-  command->add_flag("--no-answer", arguments->no_answer, "ask for no answer");
-  command->add_flag("--v2", arguments->v2,
-                    "a packet of the newer robots: a name and operands, or DID CID [HEX]");
+  command.add_option("NAME", arguments->name, "a command of the API, or the DID of a v2 packet")
+      .required();
+  command.add_option("ARGS", arguments->operands,
+                     "its operands: numbers, 0x hex, named values, text or hex bytes");
+  command.add_option("--seq", arguments->seq, "the sequence number")
+      .check(whole_number(0, std::numeric_limits<std::uint8_t>::max()))
+      .show_default();
+  command.add_flag("--no-answer", arguments->no_answer, "ask for no answer");
+  command.add_flag("--v2", arguments->v2,
+                   "a packet of the newer robots: a name and operands, or DID CID [HEX]");
   std::vector<std::string> robots;
   for (const auto& row : spec::robots)
     if (row.packets == spec::Packets::V2)
       robots.emplace_back(row.name);
   command
-      ->add_option("--robot", arguments->robot,
-                   "the newer robot that it is for: some name a processor in each packet")
-      ->check(one_of(std::move(robots)));
-  command->callback([&context, arguments] {
+      .add_option("--robot", arguments->robot,
+                  "the newer robot that it is for: some name a processor in each packet")
+      .check(one_of(std::move(robots)));
+  command.callback([&context, arguments] {
     const bool only_v2 = spec::find_command(arguments->name) == nullptr &&
                          spec::find_v2_command(arguments->name) != nullptr;
     if (arguments->v2 || !arguments->robot.empty() || only_v2)

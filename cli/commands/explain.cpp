@@ -1,7 +1,8 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
+#include "cli/model/command_line.h"
 #include "reference/foreign.h"
 #include "reference/knowledge.h"
 
@@ -77,18 +78,18 @@ void run(Context& context, const reference::CommandLine& line, const std::string
 
 } // namespace
 
-void add_explain(CLI::App& app, Context& context) {
-  auto* command = add_command(
-      app, "explain", "explain a word: all that the tables know of it",
+void add_explain(const Command& orb, Context& context) {
+  const auto command = orb.add_command(
+      "explain", "explain a word: all that the tables know of it",
       "orb explain goroll\norb explain 08h\norb explain unknown-statement\norb explain -- --open");
   auto word = std::make_shared<std::string>();
   command
-      ->add_option(
+      .add_option(
           "WORD", *word,
           "a statement, variable, colour, error, limit, rule, command or option; or a line of "
           "another language")
-      ->required();
-  command->callback([&app, &context, word] { run(context, command_line(app), *word); });
+      .required();
+  command.callback([orb, &context, word] { run(context, as_data(orb), *word); });
 }
 
 } // namespace orb::cli

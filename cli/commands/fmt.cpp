@@ -149,26 +149,26 @@ void format_all(Context& context, const Options& options) {
 
 } // namespace
 
-void add_fmt(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "fmt", "format programs and macros",
-                              "orb fmt square.bas\n"
-                              "orb fmt -w *.bas *.orb\n"
-                              "orb fmt --renumber=100:10 --diff square.bas");
+void add_fmt(const Command& orb, Context& context) {
+  const auto command = orb.add_command("fmt", "format programs and macros",
+                                       "orb fmt square.bas\n"
+                                       "orb fmt -w *.bas *.orb\n"
+                                       "orb fmt --renumber=100:10 --diff square.bas");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->files, "sources; `-` is standard input")->required();
-  add_language_option(*command, options->lang);
-  auto* write = command->add_flag("-w,--write", options->write, "write the files back");
-  auto* check = command->add_flag("--check", options->check,
-                                  "write nothing; exit 1 where a file would change");
-  auto* diff = command->add_flag("--diff", options->diff, "print the change as a unified diff");
-  write->excludes(check);
-  write->excludes(diff);
-  auto* renumber =
-      command->add_option("--renumber", options->renumber,
-                          "new line numbers START, START+STEP…, and every jump with them (10:10)");
-  renumber->expected(0, 1)->type_name("START:STEP");
-  command->callback([&context, options, renumber] {
-    options->renumbers = renumber->count() > 0;
+  command.add_option("FILE", options->files, "sources; `-` is standard input").required();
+  add_language_option(command, options->lang);
+  const auto write = command.add_flag("-w,--write", options->write, "write the files back");
+  const auto check = command.add_flag("--check", options->check,
+                                      "write nothing; exit 1 where a file would change");
+  const auto diff = command.add_flag("--diff", options->diff, "print the change as a unified diff");
+  write.excludes(check);
+  write.excludes(diff);
+  const auto renumber =
+      command.add_option("--renumber", options->renumber,
+                         "new line numbers START, START+STEP…, and every jump with them (10:10)");
+  renumber.value_optional().type_name("START:STEP");
+  command.callback([&context, options, renumber] {
+    options->renumbers = renumber.given();
     format_all(context, *options);
   });
 }

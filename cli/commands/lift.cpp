@@ -38,16 +38,15 @@ void lift(Context& context, const Options& options) {
 
 } // namespace
 
-void add_lift(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "lift", "turn a numbered program into a structured one",
-                              "orb lift maze.bas -o maze.orb\n"
-                              "orb lift maze.bas | less");
+void add_lift(const Command& orb, Context& context) {
+  const auto command = orb.add_command("lift", "turn a numbered program into a structured one",
+                                       "orb lift maze.bas -o maze.orb\n"
+                                       "orb lift maze.bas | less");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "a numbered program; `-` is standard input")
-      ->required();
-  command->add_option("-o,--output", options->out,
-                      "where the structured program goes; standard output if missing");
-  command->callback([&context, options] { lift(context, *options); });
+  command.add_option("FILE", options->file, "a numbered program; `-` is standard input").required();
+  command.add_option("-o,--output", options->out,
+                     "where the structured program goes; standard output if missing");
+  command.callback([&context, options] { lift(context, *options); });
 }
 
 } // namespace orb::cli

@@ -75,13 +75,13 @@ ExitCode serve() {
 
 } // namespace
 
-void add_lsp(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "lsp", "serve editors over stdin and stdout (Language Server Protocol)",
-                  "orb lsp\n"
-                  "orb lsp --stdio");
-  add_stdio_flag(*command);
-  command->callback([&context] { context.exit = serve(); });
+void add_lsp(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("lsp", "serve editors over stdin and stdout (Language Server Protocol)",
+                      "orb lsp\n"
+                      "orb lsp --stdio");
+  add_stdio_flag(command);
+  command.callback([&context] { context.exit = serve(); });
 }
 
 } // namespace orb::cli

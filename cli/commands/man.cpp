@@ -1,7 +1,8 @@
 #include "base/bytes.h"
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
+#include "cli/model/command_line.h"
 #include "disk/disk.h"
 #include "reference/manual.h"
 
@@ -65,22 +66,23 @@ void write_pages(Context& context, const std::vector<reference::ManualPage>& pag
 
 } // namespace
 
-void add_man(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "man", "print a page of the manual, or write all of them",
-                              "orb man run\n"
-                              "orb man orbbasic > orbbasic.7\n"
-                              "orb man --all man");
+void add_man(const Command& orb, Context& context) {
+  const auto command = orb.add_command("man", "print a page of the manual, or write all of them",
+                                       "orb man run\n"
+                                       "orb man orbbasic > orbbasic.7\n"
+                                       "orb man --all man");
   auto options = std::make_shared<Options>();
-  auto* page = command->add_option("PAGE", options->page,
-                                   "a command, `orbbasic` or `orb-macro`; the page of orb itself "
-                                   "if none is given");
+  const auto page =
+      command.add_option("PAGE", options->page,
+                         "a command, `orbbasic` or `orb-macro`; the page of orb itself "
+                         "if none is given");
   command
-      ->add_option("--all", options->folder,
-                   "write every page below this folder, as `MANPATH` wants it")
-      ->type_name("FOLDER")
-      ->excludes(page);
-  command->callback([&app, &context, options] {
-    const auto pages = reference::manual(command_line(app));
+      .add_option("--all", options->folder,
+                  "write every page below this folder, as `MANPATH` wants it")
+      .type_name("FOLDER")
+      .excludes(page);
+  command.callback([orb, &context, options] {
+    const auto pages = reference::manual(as_data(orb));
     if (options->folder.empty())
       print_page(context, pages, options->page);
     else

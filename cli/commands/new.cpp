@@ -211,28 +211,30 @@ void make(Context& context, const Options& options) {
 
 } // namespace
 
-void add_new(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "new", "make a folder with a working starter project",
-                              "orb new dance\norb new dance --course\norb new dance --numbered");
+void add_new(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("new", "make a folder with a working starter project",
+                      "orb new dance\norb new dance --course\norb new dance --numbered");
   auto options = std::make_shared<Options>();
   command
-      ->add_option(
+      .add_option(
           "NAME", options->folder,
           "the folder to make: a program, its test, a macro, a stimulus script and settings")
-      ->required()
-      ->check([](const std::string& name) {
+      .required()
+      .check([](const std::string& name) {
         return name.empty() ? std::string("a name is needed") : std::string();
       });
-  auto* with_numbers = command->add_flag("--numbered", options->numbered,
-                                         "the program has line numbers (.bas), as the robot itself "
-                                         "has them");
+  const auto with_numbers =
+      command.add_flag("--numbered", options->numbered,
+                       "the program has line numbers (.bas), as the robot itself "
+                       "has them");
   command
-      ->add_flag("--structured", options->structured,
-                 "the program has names and blocks (.orb), which is the default")
-      ->excludes(with_numbers);
-  command->add_flag("--course", options->course,
-                    "also a course: a drawing of walls, zones and a start");
-  command->callback([&context, options] { make(context, *options); });
+      .add_flag("--structured", options->structured,
+                "the program has names and blocks (.orb), which is the default")
+      .excludes(with_numbers);
+  command.add_flag("--course", options->course,
+                   "also a course: a drawing of walls, zones and a start");
+  command.callback([&context, options] { make(context, *options); });
 }
 
 } // namespace orb::cli

@@ -3,8 +3,8 @@
 #include "cli/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
+#include "cli/model/checks.h"
 #include "cli/on_robot.h"
-#include "cli/options.h"
 #include "cli/run_console.h"
 #include "cli/target.h"
 #include "cli/terminal/browser.h"
@@ -357,18 +357,17 @@ void run_with_report(Context& context, RunOptions& options) {
     std::filesystem::remove(std::filesystem::path(options.report).parent_path(), not_empty);
 }
 
-void add_program_options(CLI::App& command, RunOptions& options) {
-  command.add_option("FILE", options.files, "programs and macros; the first one runs")->required();
+void add_program_options(const Command& command, RunOptions& options) {
+  command.add_option("FILE", options.files, "programs and macros; the first one runs").required();
   add_language_option(command, options.language);
   command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")
-      ->capture_default_str();
-  command
-      .add_option("--line", options.run.line, "the line to start at; else the first of the file")
-      ->check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
-                           spec::value_of(spec::Limit::GreatestLineNumber)));
+      .show_default();
+  command.add_option("--line", options.run.line, "the line to start at; else the first of the file")
+      .check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
+                          spec::value_of(spec::Limit::GreatestLineNumber)));
   command.add_option("--seed", options.run.seed, "seeds all random choices")
-      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
+      .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      .show_default();
   command.add_option(
       "--input", options.input,
       "numbers for `input`, separated by commas; @stdin reads them as they are asked for");
@@ -379,19 +378,19 @@ void add_program_options(CLI::App& command, RunOptions& options) {
                      "text that must not be printed; ends the run, exit 1");
 }
 
-void add_robot_options(CLI::App& command, RunOptions& options) {
+void add_robot_options(const Command& command, RunOptions& options) {
   add_target_options(command, options.target);
   command
-      .add_option_function<std::string>(
+      .add_option(
           "--firmware",
           [&options](const std::string& name) {
             options.firmware = name;
             options.firmware_given = true;
           },
           "the firmware that is simulated")
-      ->default_str(options.firmware)
-      ->check(one_of(names_of(spec::firmwares)))
-      ->capture_default_str();
+      .show_default(options.firmware)
+      .check(one_of(names_of(spec::firmwares)))
+      .show_default();
   command.add_flag("--lenient", options.lenient,
                    "clamps colours and wraps negative headings, as some robots seem to do");
   add_stimulus_option(command, options.stimuli);
@@ -399,19 +398,19 @@ void add_robot_options(CLI::App& command, RunOptions& options) {
   command
       .add_option("--lines-per-second", options.run.lines_per_second,
                   "how fast the robot's interpreter is, 1 to 1000000000")
-      ->check(whole_number(1, 1'000'000'000))
-      ->capture_default_str();
+      .check(whole_number(1, 1'000'000'000))
+      .show_default();
   command
       .add_option(
           "--native", options.native,
           "when programs become machine code: auto (once they have run for a while), on (at "
           "once) or off")
-      ->check(one_of({"auto", "on", "off"}))
-      ->capture_default_str();
+      .check(one_of({"auto", "on", "off"}))
+      .show_default();
   command.add_flag("--realtime", options.realtime, "takes as long as the robot would");
 }
 
-void add_tether_options(CLI::App& command, RunOptions& options) {
+void add_tether_options(const Command& command, RunOptions& options) {
   add_robot_port_options(command, options.port, options.robot);
   command.add_option("--record", options.record,
                      "writes what the robot says and is told to this file");
@@ -421,9 +420,9 @@ void add_tether_options(CLI::App& command, RunOptions& options) {
                    "leaves heading and place of the robot as they are; else both begin at 0");
 }
 
-void add_output_options(CLI::App& command, RunOptions& options) {
+void add_output_options(const Command& command, RunOptions& options) {
   command.add_option("--trace", options.trace, "every event as a line, in place of the output")
-      ->check(one_of({"json", "csv"}));
+      .check(one_of({"json", "csv"}));
   command.add_flag("--trace-lines", options.run.trace_lines,
                    "the trace has every executed line, too");
   command.add_option("--trace-out", options.trace_out, "the file for the trace");
@@ -438,20 +437,20 @@ void add_output_options(CLI::App& command, RunOptions& options) {
 
 } // namespace
 
-void add_run(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "run", "run programs and macros on a virtual ball, in virtual time",
-                  "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
-                  "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
-                  "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
-                  "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
-                  "waltz.sphero --expect done\norb run square.orb --port ble://SB-1A2B");
+void add_run(const Command& orb, Context& context) {
+  const auto command = orb.add_command(
+      "run", "run programs and macros on a virtual ball, in virtual time",
+      "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
+      "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
+      "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
+      "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
+      "waltz.sphero --expect done\norb run square.orb --port ble://SB-1A2B");
   auto options = std::make_shared<RunOptions>();
-  add_program_options(*command, *options);
-  add_robot_options(*command, *options);
-  add_tether_options(*command, *options);
-  add_output_options(*command, *options);
-  command->callback([&context, options] { run_with_report(context, *options); });
+  add_program_options(command, *options);
+  add_robot_options(command, *options);
+  add_tether_options(command, *options);
+  add_output_options(command, *options);
+  command.callback([&context, options] { run_with_report(context, *options); });
 }
 
 } // namespace orb::cli

@@ -92,21 +92,21 @@ void run(Context& context, const Options& options) {
 
 } // namespace
 
-void add_spec(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "spec", "print the tables of the robot and the tools",
-                              "orb spec\norb spec statements\norb spec --json > spec.json");
+void add_spec(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("spec", "print the tables of the robot and the tools",
+                      "orb spec\norb spec statements\norb spec --json > spec.json");
   auto options = std::make_shared<Options>();
-  command->add_option("SECTION", options->section, "one table; all if none is given");
-  auto* json = command->add_flag("--json", options->json, "as one JSON document");
-  command->add_flag("--markdown", options->markdown, "as pages of docs/reference")->excludes(json);
-  command->add_flag("--cheatsheet", options->cheatsheet, "the language on one page")
-      ->excludes(json);
+  command.add_option("SECTION", options->section, "one table; all if none is given");
+  const auto json = command.add_flag("--json", options->json, "as one JSON document");
+  command.add_flag("--markdown", options->markdown, "as pages of docs/reference").excludes(json);
+  command.add_flag("--cheatsheet", options->cheatsheet, "the language on one page").excludes(json);
   command
-      ->add_option("--editors", options->editors,
-                   "write the grammars and syntax files for editors into this folder")
-      ->type_name("FOLDER")
-      ->excludes(json);
-  command->callback([&context, options] { run(context, *options); });
+      .add_option("--editors", options->editors,
+                  "write the grammars and syntax files for editors into this folder")
+      .type_name("FOLDER")
+      .excludes(json);
+  command.callback([&context, options] { run(context, *options); });
 }
 
 } // namespace orb::cli

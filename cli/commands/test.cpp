@@ -1,7 +1,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "cli/programs.h"
 #include "cli/robot_stage.h"
 #include "cli/terminal/interrupt.h"
@@ -381,46 +381,46 @@ tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
 
 } // namespace
 
-void add_test(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "test", "run the tests of programs and judge them",
-                  "orb test\norb test corner.test\norb test task.test --program *.bas\n"
-                  "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
-                  "orb test corner.test --port ble://SB-1A2B\n"
-                  "orb test --shard 1/2 --format json > a.json\n"
-                  "orb test --merge a.json b.json --format markdown");
+void add_test(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("test", "run the tests of programs and judge them",
+                      "orb test\norb test corner.test\norb test task.test --program *.bas\n"
+                      "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
+                      "orb test corner.test --port ble://SB-1A2B\n"
+                      "orb test --shard 1/2 --format json > a.json\n"
+                      "orb test --merge a.json b.json --format markdown");
   auto options = std::make_shared<TestOptions>();
   options->paths = test_paths;
   command
-      ->add_option("FILE", options->paths,
-                   "test files, and folders to search for them; with --merge, results")
-      ->capture_default_str();
-  command->add_option(
+      .add_option("FILE", options->paths,
+                  "test files, and folders to search for them; with --merge, results")
+      .show_default();
+  command.add_option(
       "--program", options->programs,
       "programs to test, each with every test, in place of those the tests name; of a "
       "folder those in it, and one of each folder in it");
-  command->add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
-      ->check(whole_number(0, most_jobs))
-      ->capture_default_str();
-  command->add_option("--seeds", options->seeds, "the seeds of every test, such as 1..200");
-  command->add_option("--only", options->only, "runs the one test of this name");
-  command->add_option("--shard", options->shard,
-                      "a share of the runs: 3/16 is the third of sixteen");
+  command.add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
+      .check(whole_number(0, most_jobs))
+      .show_default();
+  command.add_option("--seeds", options->seeds, "the seeds of every test, such as 1..200");
+  command.add_option("--only", options->only, "runs the one test of this name");
+  command.add_option("--shard", options->shard,
+                     "a share of the runs: 3/16 is the third of sixteen");
   std::vector<std::string> formats(testing::format_names().begin(), testing::format_names().end());
-  command->add_option("--format", options->format, "how results are printed")
-      ->check(one_of(std::move(formats)))
-      ->capture_default_str();
-  command->add_option("--output", options->output, "the file for the results; else stdout");
+  command.add_option("--format", options->format, "how results are printed")
+      .check(one_of(std::move(formats)))
+      .show_default();
+  command.add_option("--output", options->output, "the file for the results; else stdout");
   command
-      ->add_option("--report", options->report,
-                   "a folder for a page with a picture of each run and a replay of each failure")
-      ->type_name("FOLDER");
-  add_robot_port_options(*command, options->port, options->robot);
-  command->add_flag("--yes", options->yes,
-                    "the robot is on its mark: nobody is asked before a test on it");
-  command->add_flag("--merge", options->merge,
-                    "joins results: the files are those that shards wrote with --format json");
-  command->callback([&context, options] {
+      .add_option("--report", options->report,
+                  "a folder for a page with a picture of each run and a replay of each failure")
+      .type_name("FOLDER");
+  add_robot_port_options(command, options->port, options->robot);
+  command.add_flag("--yes", options->yes,
+                   "the robot is on its mark: nobody is asked before a test on it");
+  command.add_flag("--merge", options->merge,
+                   "joins results: the files are those that shards wrote with --format json");
+  command.callback([&context, options] {
     if (const auto done = test(context, *options); !done)
       fail(context, done.error());
   });

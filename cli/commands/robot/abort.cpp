@@ -65,12 +65,12 @@ ExitCode abort_all(Context& context, uploader::Session& session,
 
 } // namespace
 
-void add_abort(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "abort", "stop the program and the macro that run on a ball",
-                              "orb abort --port /dev/rfcomm0\norb abort --port @red");
+void add_abort(const Command& orb, Context& context) {
+  const auto command = orb.add_command("abort", "stop the program and the macro that run on a ball",
+                                       "orb abort --port /dev/rfcomm0\norb abort --port @red");
   auto options = std::make_shared<PortOptions>();
-  add_port_options(*command, *options);
-  command->callback([&context, options] {
+  add_port_options(command, *options);
+  command.callback([&context, options] {
     with_firmware(context, *options,
                   [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {
                     return abort_all(context, session, greeting);

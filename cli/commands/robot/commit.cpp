@@ -27,13 +27,14 @@ ExitCode commit(Context& context, uploader::Session& session, const uploader::Gr
 
 } // namespace
 
-void add_commit(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "commit", "copy the program in a ball's RAM to its flash",
-                              "orb commit --port /dev/rfcomm0\norb commit --port @red --force");
+void add_commit(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("commit", "copy the program in a ball's RAM to its flash",
+                      "orb commit --port /dev/rfcomm0\norb commit --port @red --force");
   auto options = std::make_shared<Options>();
-  add_port_options(*command, options->port);
-  command->add_flag("--force", options->force, "commit even if the battery is low");
-  command->callback([&context, options] {
+  add_port_options(command, options->port);
+  command.add_flag("--force", options->force, "commit even if the battery is low");
+  command.callback([&context, options] {
     with_firmware(context, options->port,
                   [&](Link&, uploader::Session& session, const uploader::Greeting& greeting) {
                     return commit(context, session, greeting, *options);

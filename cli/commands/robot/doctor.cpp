@@ -276,20 +276,21 @@ void run(Context& context, const PortOptions& options, const std::string& format
 
 } // namespace
 
-void add_doctor(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "doctor", "find out why a connection fails, and how to fix it",
-                              "orb doctor\n"
-                              "orb doctor --port /dev/rfcomm0\n"
-                              "orb doctor --port rfcomm://68:86:E7:00:11:22\n"
-                              "orb doctor --port ble://SK-1A2B");
+void add_doctor(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("doctor", "find out why a connection fails, and how to fix it",
+                      "orb doctor\n"
+                      "orb doctor --port /dev/rfcomm0\n"
+                      "orb doctor --port rfcomm://68:86:E7:00:11:22\n"
+                      "orb doctor --port ble://SK-1A2B");
   auto options = std::make_shared<PortOptions>();
-  add_port_options(*command, *options);
+  add_port_options(command, *options);
   auto robot = std::make_shared<std::string>();
-  add_newer_robot_option(*command, *robot);
+  add_newer_robot_option(command, *robot);
   auto format = std::make_shared<std::string>("text");
-  add_format_option(*command, *format);
-  command->callback([&context, options, format, robot, command] {
-    const auto asked = command->count("--port") > 0 ? Asked::ThePort : Asked::TheComputer;
+  add_format_option(command, *format);
+  command.callback([&context, options, format, robot, command] {
+    const auto asked = command.find("--port")->given() ? Asked::ThePort : Asked::TheComputer;
     run(context, *options, *format, *robot, asked);
   });
 }

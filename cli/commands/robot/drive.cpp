@@ -264,21 +264,21 @@ tl::expected<void, Failure> drive(Context& context, const DriveOptions& options)
 
 } // namespace
 
-void add_drive(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "drive", "drive a robot by hand, and see what it feels",
-                              "orb drive --port ble://SB-1A2B\n"
-                              "orb drive --port ble://SB-1A2B --open\n"
-                              "printf 'wwwdddx' | orb drive --port sim: --robot mini");
+void add_drive(const Command& orb, Context& context) {
+  const auto command = orb.add_command("drive", "drive a robot by hand, and see what it feels",
+                                       "orb drive --port ble://SB-1A2B\n"
+                                       "orb drive --port ble://SB-1A2B --open\n"
+                                       "printf 'wwwdddx' | orb drive --port sim: --robot mini");
   auto options = std::make_shared<DriveOptions>();
-  add_robot_port_options(*command, options->port, options->robot);
-  command->get_option("--port")->required();
-  command->add_flag("--no-aim", options->keep_aim,
-                    "heading and place of the robot stay what they are");
-  command->add_flag("--page", options->page,
-                    "serves a page with a joystick and live curves, on this computer only");
-  command->add_flag("--open", options->open, "the same, and opens it");
-  command->footer("Keys: " + key_help());
-  command->callback([&context, options] {
+  add_robot_port_options(command, options->port, options->robot);
+  command.find("--port")->required();
+  command.add_flag("--no-aim", options->keep_aim,
+                   "heading and place of the robot stay what they are");
+  command.add_flag("--page", options->page,
+                   "serves a page with a joystick and live curves, on this computer only");
+  command.add_flag("--open", options->open, "the same, and opens it");
+  command.footer("Keys: " + key_help());
+  command.callback([&context, options] {
     if (const auto done = drive(context, *options); !done)
       fail(context, done.error());
   });

@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 #include "cli/link.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -43,16 +43,16 @@ ExitCode erase(Context& context, uploader::Session& session, const std::string& 
 
 } // namespace
 
-void add_erase(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "erase", "erase the program in a ball's RAM or flash",
-                              "orb erase --port /dev/rfcomm0\n"
-                              "orb erase --port @red --area flash");
+void add_erase(const Command& orb, Context& context) {
+  const auto command = orb.add_command("erase", "erase the program in a ball's RAM or flash",
+                                       "orb erase --port /dev/rfcomm0\n"
+                                       "orb erase --port @red --area flash");
   auto options = std::make_shared<Options>();
-  add_port_options(*command, options->port);
-  command->add_option("--area", options->area, "what is erased")
-      ->check(one_of({"ram", "flash"}))
-      ->capture_default_str();
-  command->callback([&context, options] {
+  add_port_options(command, options->port);
+  command.add_option("--area", options->area, "what is erased")
+      .check(one_of({"ram", "flash"}))
+      .show_default();
+  command.callback([&context, options] {
     with_firmware(context, options->port,
                   [&](Link&, uploader::Session& session, const uploader::Greeting&) {
                     return erase(context, session, options->area);

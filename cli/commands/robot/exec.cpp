@@ -190,22 +190,22 @@ void run(Context& context, const Options& options) {
 
 } // namespace
 
-void add_exec(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "exec", "send one command of the API and print the answer",
-                              "orb exec --port /dev/rfcomm0 set-rgb-led 255 0 0\n"
-                              "orb exec --port @red get-power-state\n"
-                              "orb exec perform-level-1-diagnostics\n"
-                              "orb exec get-power-state --format json\n"
-                              "orb exec --port ble://SB-1A2B get-battery-voltage");
+void add_exec(const Command& orb, Context& context) {
+  const auto command = orb.add_command("exec", "send one command of the API and print the answer",
+                                       "orb exec --port /dev/rfcomm0 set-rgb-led 255 0 0\n"
+                                       "orb exec --port @red get-power-state\n"
+                                       "orb exec perform-level-1-diagnostics\n"
+                                       "orb exec get-power-state --format json\n"
+                                       "orb exec --port ble://SB-1A2B get-battery-voltage");
   auto options = std::make_shared<Options>();
-  command->add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
-      ->required();
-  command->add_option("ARGS", options->arguments, "its operands");
-  add_port_options(*command, options->port);
-  add_newer_robot_option(*command, options->robot);
-  add_format_option(*command, options->format);
-  command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
-  command->callback([&context, options] { run(context, *options); });
+  command.add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
+      .required();
+  command.add_option("ARGS", options->arguments, "its operands");
+  add_port_options(command, options->port);
+  add_newer_robot_option(command, options->robot);
+  add_format_option(command, options->format);
+  command.add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command.callback([&context, options] { run(context, *options); });
 }
 
 } // namespace orb::cli

@@ -251,20 +251,19 @@ void run(Context& context, const PortOptions& options, const std::string& format
 
 } // namespace
 
-void add_info(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "info", "show a ball's model, versions, battery and name",
-                              "orb info --port /dev/rfcomm0\n"
-                              "orb info --port rfcomm://68:86:E7:00:11:22\n"
-                              "orb info --port ble://SK-1A2B\n"
-                              "orb info --port ble://SB-1A2B");
+void add_info(const Command& orb, Context& context) {
+  const auto command = orb.add_command("info", "show a ball's model, versions, battery and name",
+                                       "orb info --port /dev/rfcomm0\n"
+                                       "orb info --port rfcomm://68:86:E7:00:11:22\n"
+                                       "orb info --port ble://SK-1A2B\n"
+                                       "orb info --port ble://SB-1A2B");
   auto options = std::make_shared<PortOptions>();
-  add_port_options(*command, *options);
+  add_port_options(command, *options);
   auto robot = std::make_shared<std::string>();
-  add_newer_robot_option(*command, *robot);
+  add_newer_robot_option(command, *robot);
   auto format = std::make_shared<std::string>("text");
-  add_format_option(*command, *format);
-  command->callback(
-      [&context, options, format, robot] { run(context, *options, *format, *robot); });
+  add_format_option(command, *format);
+  command.callback([&context, options, format, robot] { run(context, *options, *format, *robot); });
 }
 
 } // namespace orb::cli

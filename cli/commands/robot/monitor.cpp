@@ -312,25 +312,24 @@ void listen(Context& context, const Options& options) {
 
 } // namespace
 
-void add_monitor(CLI::App& app, Context& context) {
-  auto* command =
-      add_command(app, "monitor", "print what a ball says: prints, errors, markers, collisions",
-                  "orb monitor --port /dev/rfcomm0\n"
-                  "orb monitor --port @red --map square.json\n"
-                  "orb monitor --port @red --report drive.html --for 30s");
+void add_monitor(const Command& orb, Context& context) {
+  const auto command =
+      orb.add_command("monitor", "print what a ball says: prints, errors, markers, collisions",
+                      "orb monitor --port /dev/rfcomm0\n"
+                      "orb monitor --port @red --map square.json\n"
+                      "orb monitor --port @red --report drive.html --for 30s");
   auto options = std::make_shared<Options>();
-  add_port_options(*command, options->port);
-  add_format_option(*command, options->format);
+  add_port_options(command, options->port);
+  add_format_option(command, options->format);
   command
-      ->add_option("--map", options->map,
-                   "a map written by `orb build --map`: errors then point into the source")
-      ->type_name("FILE");
-  command
-      ->add_option("--report", options->report, "a page with the way of the ball and its sensors")
-      ->type_name("OUT.html");
-  command->add_option("--svg", options->svg, "a drawing of the way")->type_name("OUT.svg");
-  command->add_option("--for", options->time, "how long; else until Ctrl-C")->type_name("TIME");
-  command->callback([&context, options] { listen(context, *options); });
+      .add_option("--map", options->map,
+                  "a map written by `orb build --map`: errors then point into the source")
+      .type_name("FILE");
+  command.add_option("--report", options->report, "a page with the way of the ball and its sensors")
+      .type_name("OUT.html");
+  command.add_option("--svg", options->svg, "a drawing of the way").type_name("OUT.svg");
+  command.add_option("--for", options->time, "how long; else until Ctrl-C").type_name("TIME");
+  command.callback([&context, options] { listen(context, *options); });
 }
 
 } // namespace orb::cli

@@ -177,26 +177,26 @@ void save(Context& context, const std::string& assignment) {
 
 } // namespace
 
-void add_ports(CLI::App& app, Context& context) {
-  auto* command = add_command(app, "ports", "list where a ball could be, and give it a name",
-                              "orb ports\norb ports --scan 20s\norb ports --format json\n"
-                              "orb ports --save red=ble://SK-1A2B");
+void add_ports(const Command& orb, Context& context) {
+  const auto command = orb.add_command("ports", "list where a ball could be, and give it a name",
+                                       "orb ports\norb ports --scan 20s\norb ports --format json\n"
+                                       "orb ports --save red=ble://SK-1A2B");
   auto options = std::make_shared<Options>();
-  add_format_option(*command, options->format);
+  add_format_option(command, options->format);
   command
-      ->add_option("--scan", options->scan,
-                   "how long to listen for robots over Bluetooth LE; 0 for not at all")
-      ->type_name("TIME")
-      ->check([](const std::string& text) {
+      .add_option("--scan", options->scan,
+                  "how long to listen for robots over Bluetooth LE; 0 for not at all")
+      .type_name("TIME")
+      .check([](const std::string& text) {
         return parse_duration(text, 1s) ? std::string()
                                         : "`" + text + "` is not a time such as 5s or 500ms";
       })
-      ->capture_default_str();
+      .show_default();
   command
-      ->add_option("--save", options->saved,
-                   "from now on @NAME is this port; several can be saved at once")
-      ->type_name("NAME=URL");
-  command->callback([&context, options] {
+      .add_option("--save", options->saved,
+                  "from now on @NAME is this port; several can be saved at once")
+      .type_name("NAME=URL");
+  command.callback([&context, options] {
     for (const auto& assignment : options->saved)
       if (context.exit == ExitCode::Done)
         save(context, assignment);

@@ -4,7 +4,7 @@
 #include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
 #include "cli/link.h"
-#include "cli/options.h"
+#include "cli/model/checks.h"
 #include "cli/target.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
@@ -195,20 +195,20 @@ void upload(Context& context, const Options& options) {
 
 } // namespace
 
-void add_upload(CLI::App& app, Context& context) {
-  auto* command = add_command(
-      app, "upload", "put programs and macros into a ball",
+void add_upload(const Command& orb, Context& context) {
+  const auto command = orb.add_command(
+      "upload", "put programs and macros into a ball",
       "orb upload square.bas --port /dev/rfcomm0 --run\n"
       "orb upload dance.macro square.bas --port rfcomm://68:86:E7:00:11:22 --area flash\n"
       "orb upload square.bas --dry-run");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->files, "sources or built macros; macros are sent first")
-      ->required();
-  add_language_option(*command, options->lang);
-  add_port_options(*command, options->port);
-  add_target_options(*command, options->target);
+  command.add_option("FILE", options->files, "sources or built macros; macros are sent first")
+      .required();
+  add_language_option(command, options->lang);
+  add_port_options(command, options->port);
+  add_target_options(command, options->target);
   command
-      ->add_option_function<std::string>(
+      .add_option(
           "--run",
           [options](const std::string& line) {
             options->run = true;
@@ -216,34 +216,34 @@ void add_upload(CLI::App& app, Context& context) {
               options->run_line = std::stoi(line);
           },
           "run it; a program at its first line, or at LINE")
-      ->expected(0, 1)
-      ->type_name("LINE")
-      ->check([](const std::string& text) {
+      .value_optional()
+      .type_name("LINE")
+      .check([](const std::string& text) {
         return text.empty() || parse_number<std::uint16_t>(text).value_or(0) > 0
                    ? std::string()
                    : fmt::format("`{}` is not a line number; write one from {} to {}", text,
                                  spec::value_of(spec::Limit::LeastLineNumber),
                                  spec::value_of(spec::Limit::GreatestLineNumber));
       });
-  command->add_option("--as", options->as, "how macros are kept")
-      ->check(one_of({"temp", "user", "stream"}));
-  command->add_option("--id", options->id, "the id to save a macro under, 32 to 253")
-      ->check(whole_number(spec::macro_id_user_first, spec::macro_id_user_last))
-      ->type_name("N");
-  command->add_flag("--clear-macros", options->clear_macros,
-                    "make the ball forget all its user macros first");
-  command->add_flag("--force", options->force, "write to flash even if the battery is low");
-  command->add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
-  command->add_flag("--dry-run", options->dry_run,
-                    "print the packets and send nothing; with -v also when it would give up");
-  command->add_flag("--no-check", options->no_check, "send it even if it has errors");
+  command.add_option("--as", options->as, "how macros are kept")
+      .check(one_of({"temp", "user", "stream"}));
+  command.add_option("--id", options->id, "the id to save a macro under, 32 to 253")
+      .check(whole_number(spec::macro_id_user_first, spec::macro_id_user_last))
+      .type_name("N");
+  command.add_flag("--clear-macros", options->clear_macros,
+                   "make the ball forget all its user macros first");
+  command.add_flag("--force", options->force, "write to flash even if the battery is low");
+  command.add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command.add_flag("--dry-run", options->dry_run,
+                   "print the packets and send nothing; with -v also when it would give up");
+  command.add_flag("--no-check", options->no_check, "send it even if it has errors");
   constexpr int most_attempts = 1000;
   command
-      ->add_option("--attempts", options->attempts, "how often a program is sent before giving up")
-      ->check(whole_number(1, most_attempts))
-      ->type_name("N")
-      ->capture_default_str();
-  command->callback([&context, options] { upload(context, *options); });
+      .add_option("--attempts", options->attempts, "how often a program is sent before giving up")
+      .check(whole_number(1, most_attempts))
+      .type_name("N")
+      .show_default();
+  command.callback([&context, options] { upload(context, *options); });
 }
 
 } // namespace orb::cli

@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/model/command_line.h"
 #include "disk/disk.h"
 #include "tests/golden/files.h"
 #include "vm/native/native.h"
@@ -21,11 +22,8 @@ constexpr std::string_view cannot_forbid = "this kernel cannot forbid it";
     print_err(cannot_forbid);
     std::_Exit(0);
   }
-  CLI::App app{"", "orb"};
   Context context;
-  add_commands(app, context);
-  app.parse(
-      std::vector<std::string>{file.string(), "--native=on", "-v", "run"}); // CLI11: the last first
+  all_commands(context)->parse({"run", "-v", "--native=on", file.string()});
   std::_Exit(static_cast<int>(context.exit));
 }
 

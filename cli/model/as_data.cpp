@@ -1,25 +1,15 @@
-#include "cli/options.h"
-
-#include "base/suggest.h"
-#include "base/text.h"
-#include "cli/commands.h"
+#include "cli/model/command_line.h"
+#include "cli/model/help.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <limits>
-#include <memory>
 #include <string_view>
-#include <utility>
 
 namespace orb::cli {
 namespace {
 
 using reference::ValueKind;
-
-/// The check of `one_of` marks itself by this name, so that `words_of` finds it again.
-constexpr auto mark = "one of";
 
 struct Kind {
   std::string_view name; ///< of the argument, or of the option without dashes
@@ -111,68 +101,27 @@ reference::Option describe(const CLI::App& app, const CLI::Option& option) {
   return out;
 }
 
+std::string examples_of(const CLI::App& command) {
+  const auto formatter = command.get_formatter();
+  const auto* help = dynamic_cast<const HelpFormatter*>(formatter.get());
+  return help == nullptr ? std::string() : help->examples();
+}
+
 reference::Command describe(const CLI::App& app) {
   const auto footer = app.get_footer();
   reference::Command out{
       app.get_name(), app.get_description(), footer.size() > 1 ? footer : "", examples_of(app), {}};
   for (const auto* option : app.get_options())
-    if (!option->get_group().empty())
-      out.options.push_back(describe(app, *option));
+    out.options.push_back(describe(app, *option));
   return out;
 }
 
 } // namespace
 
-std::string meant_instead(const std::string& word, const std::vector<std::string>& names) {
-  const auto hint = did_you_mean(word, names, {});
-  return hint.empty() ? hint : "; " + hint;
-}
-
-CLI::Validator one_of(std::vector<std::string> words) {
-  const auto list = fmt::format("{{{}}}", fmt::join(words, ","));
-  auto known = std::make_shared<const std::vector<std::string>>(std::move(words));
-  auto check = [known](std::string& value) -> std::string {
-    if (std::find(known->begin(), known->end(), value) != known->end())
-      return {};
-    return fmt::format("`{}` is not one of {}{}", value, fmt::join(*known, ", "),
-                       meant_instead(value, *known));
-  };
-  return CLI::Validator(std::move(check), list, mark);
-}
-
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
-  auto check = [=](std::string& value) -> std::string {
-    const auto number = value.starts_with("0x")
-                            ? parse_number<std::uint64_t>(std::string_view(value).substr(2), 16)
-                            : parse_number<std::uint64_t>(value);
-    return number && *number >= least && *number <= greatest
-               ? std::string()
-               : fmt::format("takes {} to {}, found `{}`", least, greatest, value);
-  };
-  const bool bounded = greatest < std::numeric_limits<std::uint64_t>::max();
-  return CLI::Validator(std::move(check),
-                        bounded ? fmt::format("{} to {}", least, greatest) : std::string());
-}
-
-CLI::Validator number_between(double least, double greatest) {
-  auto check = [=](std::string& value) -> std::string {
-    const auto number = parse_real(value);
-    return number && *number >= least && *number <= greatest
-               ? std::string()
-               : fmt::format("takes {} to {}, found `{}`", least, greatest, value);
-  };
-  return CLI::Validator(std::move(check), fmt::format("{} to {}", least, greatest));
-}
-
-bool is_hidden(const CLI::App& command) {
-  return command.get_group().empty();
-}
-
-reference::CommandLine command_line(const CLI::App& app) {
-  reference::CommandLine line{describe(app), {}};
-  for (const auto* command :
-       app.get_subcommands([](const CLI::App* one) { return !is_hidden(*one); }))
-    line.commands.push_back(describe(*command));
+reference::CommandLine as_data(const Command& root) {
+  reference::CommandLine line{describe(root.app()), {}};
+  for (const auto& command : root.commands())
+    line.commands.push_back(describe(command.app()));
   return line;
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+
+namespace orb::cli {
+
+/// Help with the examples first: people paste before they read.
+class HelpFormatter : public CLI::Formatter {
+public:
+  explicit HelpFormatter(std::string examples) : examples_(std::move(examples)) {}
+
+  std::string make_description(const CLI::App* app) const override;
+
+  const std::string& examples() const { return examples_; }
+
+private:
+  std::string examples_;
+};
+
+} // namespace orb::cli
