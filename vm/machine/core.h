@@ -157,6 +157,9 @@ struct Core {
   Then enter(std::int32_t value);
 };
 
+/// Whether a variable is one of the timers.
+bool is_timer(spec::Variable variable);
+
 /// A way to run code: what to put into Code::handler for each operation, and the loop itself.
 struct Engine {
   /// By bytecode::Op: a pair for what goes on with the line and for what ends it.

@@ -3,11 +3,7 @@
 #include "bytecode/arithmetic.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
-#include <span>
 #include <utility>
 
 namespace orb::vm {
@@ -16,248 +12,18 @@ namespace {
 
 using bytecode::Op;
 using spec::BasicError;
-using spec::Limit;
-using spec::Statement;
-using spec::Variable;
 
 constexpr std::int64_t second = Duration{1s}.count();
 /// No product of a run's lines or time leaves 63 bits.
 constexpr std::int64_t most_lines = 8'000'000'000;
 constexpr std::int64_t greatest_product = 1'000'000'000 * most_lines; // below 2^63
 
-/// A program becomes machine code when it has run so many lines for each of its instructions.
-constexpr std::uint64_t runs_before_compiling = 200;
-constexpr std::uint64_t never_compile = std::numeric_limits<std::uint64_t>::max();
-/// In fewer lines than these, machine code does not earn what it costs to change to it.
-constexpr std::int64_t fewest_native_lines = 30;
-constexpr std::int64_t lines_to_pay_a_change = 8;
-/// A program that hardly stays in machine code is left to the loop: in lines that it might have
-/// won.
-constexpr std::int64_t greatest_loss = -10'000;
-
-constexpr auto print_bytes = static_cast<std::size_t>(spec::value_of(Limit::PrintBytes));
-constexpr std::int32_t timer_values = spec::info(Variable::TimerA).greatest + 1;
-/// What is printed in place of a text that is too long; no document has the robot's words [?].
-constexpr std::string_view too_long = "(print exceeds 32 bytes)\n";
-
-constexpr bool within(const spec::Parameter& parameter, std::int32_t value) {
-  return parameter.least <= value && value <= parameter.greatest;
-}
-
-/// What a lenient ball makes of a value out of range; nothing: it stops at it, too.
-std::optional<std::int32_t> bent(Statement statement, const spec::Parameter& parameter,
-                                 std::int32_t value) {
-  if (statement == Statement::Rgb)
-    return std::clamp(value, parameter.least, parameter.greatest);
-  if (parameter.unit != "deg" || value >= parameter.least)
-    return std::nullopt;
-  const auto turn = parameter.greatest + 1;
-  return (value % turn + turn) % turn;
-}
-
-std::size_t timer_number(Variable variable) {
-  return static_cast<std::size_t>(variable) - static_cast<std::size_t>(Variable::TimerA);
-}
-
-bool is_timer(Variable variable) {
-  return variable == Variable::TimerA || variable == Variable::TimerB ||
-         variable == Variable::TimerC;
-}
-
-/// Lamps change nothing that happens later, so the program need not pause for the ball to look.
-bool only_lights(Statement statement) {
-  return statement == Statement::Rgb || statement == Statement::Ledc ||
-         statement == Statement::BackLed;
-}
-
 } // namespace
-
-// --- slow operations
-// ------------------------------------------------------------------------------
-
-Then Core::read_system(const Code& instruction) {
-  const auto variable = static_cast<Variable>(instruction.b);
-  const Instant now = line_end();
-  registers[instruction.a] = is_timer(variable) ? timer(variable, now) : host->read(variable, now);
-  return Then::Next;
-}
-
-std::int32_t Core::timer(Variable variable, Instant now) const {
-  const auto& timer = timers[timer_number(variable)];
-  const std::int64_t elapsed = (now - timer.since) / std::chrono::milliseconds{1};
-  return timer.from == 0
-             ? static_cast<std::int32_t>(elapsed % timer_values)
-             : static_cast<std::int32_t>(std::max<std::int64_t>(0, timer.from - elapsed));
-}
-
-Then Core::write_system(const Code& instruction) {
-  const auto variable = static_cast<Variable>(instruction.a);
-  const std::int32_t value = registers[instruction.b];
-  if (!is_timer(variable)) {
-    const auto problem = host->write(variable, value, line_end());
-    return problem ? fail(*problem) : interrupted ? Then::Leave : Then::Next;
-  }
-  if (value < 0 || value >= timer_values)
-    return fail(BasicError::BadNumericParameter);
-  timers[timer_number(variable)] = {line_end(), value};
-  return Then::Next;
-}
-
-Then Core::square_root(const Code& instruction) {
-  const std::int32_t value = registers[instruction.b];
-  if (value < 0)
-    return fail(BasicError::BadNumericParameter);
-  // 31 bits are exact in a double, and IEEE rounds the root correctly.
-  registers[instruction.a] = static_cast<std::int32_t>(std::sqrt(static_cast<double>(value)));
-  return Then::Next;
-}
-
-Then Core::random_number(const Code& instruction) {
-  const std::int32_t most = registers[instruction.b];
-  if (most < 1)
-    return fail(BasicError::BadNumericParameter);
-  const std::uint64_t drawn = random.next() >> 32;
-  registers[instruction.a] =
-      1 + static_cast<std::int32_t>(drawn * static_cast<std::uint64_t>(most) >> 32);
-  return Then::Next;
-}
-
-void Core::print_number(std::int32_t value) {
-  char digits[12];
-  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
-  text.append(digits, end);
-}
-
-Then Core::print(PrintEnd end) {
-  if (text.size() > print_bytes)
-    text = too_long;
-  else if (end == PrintEnd::Line)
-    text += '\n';
-  const Instant now = line_end();
-  const auto again = host->print(text, now);
-  if (!again) {
-    text.clear();
-    return Then::Leave; // whoever watches the output may want to stop here
-  }
-  pending = std::move(text);
-  text.clear();
-  wait = Wait::Queue;
-  until = *again;
-  return Then::Leave;
-}
-
-Then Core::delay(std::int32_t milliseconds) {
-  if (!within(spec::info(Statement::Delay).parameters()[0], milliseconds))
-    return fail(BasicError::BadNumericParameter);
-  wait = Wait::Time;
-  until = line_end() + std::chrono::milliseconds{milliseconds};
-  return Then::Leave;
-}
-
-Then Core::input(const Code& instruction) {
-  entry = instruction.a;
-  wait = Wait::Input;
-  until = never;
-  return Then::Leave;
-}
-
-Then Core::input_timed(const Code& instruction) {
-  const std::int32_t milliseconds = registers[instruction.b];
-  if (!within(spec::info(Statement::Input).parameters()[0], milliseconds))
-    return fail(BasicError::BadNumericParameter);
-  entry = instruction.a;
-  fallback = registers[instruction.c];
-  wait = Wait::Input;
-  until = line_end() + std::chrono::milliseconds{milliseconds};
-  return Then::Leave;
-}
-
-Then Core::enter(std::int32_t value) {
-  std::size_t index = entry;
-  if (entry == bytecode::element_by_index) {
-    const std::int32_t y = registers[bytecode::index_variable];
-    if (y < 1 || y > bytecode::element_count)
-      return fail(BasicError::IllegalIndex);
-    index = bytecode::first_element + static_cast<std::size_t>(y) - 1;
-  }
-  registers[index] = value;
-  return Then::Next;
-}
-
-Then Core::set_data(const Code& instruction) {
-  data_count = instruction.b;
-  data_next = 0;
-  std::copy_n(registers.begin() + instruction.a, data_count, data.begin());
-  return Then::Next;
-}
-
-Then Core::read_data(const Code& instruction) {
-  if (data_next == data_count)
-    return fail(BasicError::OutOfData);
-  registers[instruction.a] = data[data_next++];
-  return Then::Next;
-}
-
-Then Core::perform(const Code& instruction) {
-  const auto statement = static_cast<Statement>(instruction.a);
-  std::span<const std::int32_t> arguments{registers.data() + instruction.b, instruction.c};
-  const auto parameters = spec::info(statement).parameters();
-  std::array<std::int32_t, std::tuple_size_v<decltype(spec::StatementInfo::parameter_slots)>>
-      taken{};
-  for (std::size_t i = 0; i < arguments.size(); ++i)
-    if (!within(parameters[i], arguments[i])) {
-      const auto instead = ranges == spec::Ranges::Lenient
-                               ? bent(statement, parameters[i], arguments[i])
-                               : std::nullopt;
-      if (!instead)
-        return fail(BasicError::BadNumericParameter);
-      if (arguments.data() != taken.data()) {
-        std::copy(arguments.begin(), arguments.end(), taken.begin());
-        arguments = {taken.data(), arguments.size()};
-      }
-      taken[i] = *instead;
-    }
-  if (const auto problem = host->perform(statement, arguments, line_end()))
-    return fail(*problem);
-  return only_lights(statement) && !interrupted ? Then::Next : Then::Leave;
-}
-
-void Core::reseed() {
-  random.state = seeds.next();
-}
-
-void Core::clear() {
-  std::fill_n(registers.begin(), bytecode::first_temporary, 0);
-  frames.loops[0].variable = Frames::no_variable;
-  frames.loop = frames.loops.data();
-  frames.call_depth = 0;
-  data_count = data_next = 0;
-  text.clear();
-  tron = false;
-  timers.fill({line_end(), 0});
-  reseed();
-}
-
-Then Core::trace() {
-  tron = true;
-  return Then::Leave;
-}
-
-Then Core::reset() {
-  const Instant now = line_end();
-  clear();
-  pc = start;
-  host->perform(Statement::Reset, {}, now);
-  return Then::Leave;
-}
-
-// --- the machine
-// ----------------------------------------------------------------------------------
 
 Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch dispatch,
                  Native native, NativePrograms* shared)
     : engine_(dispatch == Dispatch::Threaded ? threaded_engine() : switch_engine()),
-      native_(native), shared_(shared) {
+      native_(native, shared) {
   core_.lines_per_second =
       std::clamp<std::int64_t>(static_cast<std::int64_t>(lines_per_second), 1, second);
   core_.seeds.state = Random::mix(seed);
@@ -265,12 +31,10 @@ Machine::Machine(std::uint32_t lines_per_second, std::uint64_t seed, Dispatch di
 }
 
 Machine::Machine(const Machine& other)
-    : engine_(other.engine_), core_(other.core_), native_(other.native_), shared_(other.shared_),
-      only_interpreted_(other.only_interpreted_), compile_at_(other.compile_at_),
-      gain_(other.gain_), now_(other.now_), lines_(other.lines_),
-      earlier_lines_(other.earlier_lines_), running_(other.running_), tracing_(other.tracing_),
-      gate_(other.gate_), held_(other.held_), announced_(other.announced_),
-      missing_line_(other.missing_line_), stop_(other.stop_) {
+    : engine_(other.engine_), core_(other.core_), native_(other.native_), now_(other.now_),
+      lines_(other.lines_), earlier_lines_(other.earlier_lines_), running_(other.running_),
+      tracing_(other.tracing_), gate_(other.gate_), held_(other.held_),
+      announced_(other.announced_), missing_line_(other.missing_line_), stop_(other.stop_) {
   const auto& from = other.core_;
   const auto same = [&](const Code* place) {
     return place == nullptr ? nullptr : core_.code.data() + from.index_of(place);
@@ -280,10 +44,6 @@ Machine::Machine(const Machine& other)
   core_.start = same(from.start);
   if (from.frames.loop != nullptr)
     core_.frames.loop = core_.frames.loops.data() + (from.frames.loop - from.frames.loops.data());
-  if (other.own_code_)
-    compile_at_ = lines_before_compiling();
-  else
-    machine_code_ = other.machine_code_;
 }
 
 void Machine::link(bytecode::Chunk given) {
@@ -335,11 +95,7 @@ void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
   core_.clear();
   earlier_lines_ += lines_;
   lines_ = 0;
-  machine_code_ = nullptr;
-  own_code_.reset();
-  only_interpreted_ = {};
-  gain_ = 0;
-  compile_at_ = lines_before_compiling();
+  native_.begin(core_.code.size());
   running_ = true;
   announced_ = false;
   stop_.reset();
@@ -484,51 +240,6 @@ bool Machine::announce(Host& host) {
   return !again;
 }
 
-/// The lines after which a program becomes machine code: what may be long to compile has run long.
-std::uint64_t Machine::lines_before_compiling() const {
-  if (native_ == Native::Off || (native_ == Native::Auto && !has_native_code()))
-    return never_compile;
-  return native_ == Native::On ? 0 : runs_before_compiling * core_.code.size();
-}
-
-void Machine::compile() {
-  compile_at_ = never_compile;
-  machine_code_ = shared_ ? shared_->find(core_.chunk) : nullptr;
-  if (machine_code_)
-    return;
-  auto made = NativeCode::compile(core_.chunk);
-  if (made)
-    own_code_ = *std::move(made);
-  else
-    only_interpreted_ = made.error();
-  machine_code_ = own_code_.get();
-}
-
-/// Runs what the budget allows as machine code, and one by one the lines that it does not know.
-Exit Machine::run_native() {
-  while (true) {
-    const std::int64_t before = core_.budget;
-    machine_code_->run(core_);
-    if (core_.budget == 0)
-      return Exit::Budget;
-    if (core_.budget < NativeCode::longest_block)
-      return engine_.run(core_);
-    gain_ = std::min<std::int64_t>(0, gain_ + before - core_.budget - lines_to_pay_a_change);
-    if (native_ == Native::Auto && gain_ < greatest_loss) {
-      machine_code_ = nullptr;
-      return engine_.run(core_);
-    }
-    const std::int64_t rest = core_.budget - 1;
-    core_.allowed -= rest;
-    core_.budget = 1;
-    const Exit exit = engine_.run(core_);
-    core_.allowed += rest;
-    core_.budget += rest;
-    if (exit != Exit::Budget)
-      return exit;
-  }
-}
-
 void Machine::run(Instant limit, Host& host) {
   core_.host = &host;
   core_.interrupted = held_ = false;
@@ -544,10 +255,7 @@ void Machine::run(Instant limit, Host& host) {
     std::int64_t lines = lines_before(limit);
     if (lines <= 0)
       return;
-    if (lines_ >= compile_at_)
-      compile();
-    lines = static_cast<std::int64_t>(
-        std::min(static_cast<std::uint64_t>(lines), compile_at_ - lines_));
+    lines = native_.until_asked(lines, lines_, core_.chunk);
     if (!announce(host))
       continue;
     if (gate_ != nullptr) {
@@ -559,8 +267,7 @@ void Machine::run(Instant limit, Host& host) {
     const bool single = tracing_ || core_.tron;
     const int line = single ? line_of(core_.pc) : 0;
     core_.allowed = core_.budget = single ? 1 : lines;
-    const bool pays = native_ == Native::On || lines >= fewest_native_lines;
-    const Exit exit = machine_code_ && pays && !single ? run_native() : engine_.run(core_);
+    const Exit exit = single ? engine_.run(core_) : native_.run(core_, engine_);
     const std::int64_t executed = core_.allowed - core_.budget;
     now_ = core_.line_end();
     lines_ += static_cast<std::uint64_t>(executed);

@@ -5,7 +5,7 @@
 #include "spec/basic.h"
 #include "vm/machine/core.h"
 #include "vm/machine/host.h"
-#include "vm/native/native.h"
+#include "vm/native/engine.h"
 #include "vm/observer.h"
 
 #include <cstdint>
@@ -99,9 +99,9 @@ public:
   /// The program and all that it has come to.
   const Core& core() const { return core_; }
   /// The machine code of the program; null where it is interpreted.
-  const NativeCode* machine_code() const { return machine_code_; }
+  const NativeCode* machine_code() const { return native_.code(); }
   /// Why there is none although it was wanted; empty otherwise.
-  std::string_view only_interpreted() const { return only_interpreted_; }
+  std::string_view only_interpreted() const { return native_.only_interpreted(); }
   /// Lines executed since there is this machine.
   std::uint64_t lines_of_all() const { return earlier_lines_ + lines_; }
   /// The place of the next instruction in the code of the program.
@@ -129,21 +129,12 @@ private:
   bool announce(Host& host);
   std::int64_t lines_before(Instant limit) const;
   int line_of(const Code* code) const;
-  std::uint64_t lines_before_compiling() const;
-  void compile();
-  Exit run_native();
   void finish(event::End::Reason reason);
   void finish(spec::BasicError error, int line);
 
   Engine engine_;
   Core core_;
-  Native native_;
-  NativePrograms* shared_;
-  std::unique_ptr<NativeCode> own_code_;
-  const NativeCode* machine_code_ = nullptr;
-  std::string_view only_interpreted_;
-  std::uint64_t compile_at_ = 0; ///< lines
-  std::int64_t gain_ = 0;        ///< lines; below 0 where changes to machine code did not pay
+  NativeEngine native_;
   Instant now_{};
   std::uint64_t lines_ = 0;
   std::uint64_t earlier_lines_ = 0; ///< of earlier programs
