@@ -1,4 +1,4 @@
-#include "editor/dap.h"
+#include "editor/debug_adapter.h"
 #include "cli/commands.h"
 #include "cli/driven_robot.h"
 #include "cli/inputs.h"

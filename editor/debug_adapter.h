@@ -13,6 +13,10 @@
 
 namespace orb::editor {
 
+namespace dap {
+struct Session;
+}
+
 /// A debug adapter without a transport: messages of the Debug Adapter Protocol in, messages out. It
 /// reads no clock and no file by itself, and answers every message, however malformed, without
 /// throwing.
@@ -46,8 +50,7 @@ public:
   bool ended() const;
 
 private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<dap::Session> session_;
 };
 
 } // namespace orb::editor

@@ -1,0 +1,45 @@
+#include "editor/debug_adapter.h"
+
+#include "editor/dap/session.h"
+
+#include <utility>
+
+namespace orb::editor {
+
+DebugAdapter::DebugAdapter(structured::Files& files, std::string folder, OpenRobot open_robot)
+    : session_(std::make_unique<dap::Session>(files, std::move(folder), std::move(open_robot))) {}
+DebugAdapter::~DebugAdapter() = default;
+
+std::vector<std::string> DebugAdapter::receive(std::string_view message) {
+  session_->receive(message);
+  return std::exchange(session_->out, {});
+}
+
+std::vector<std::string> DebugAdapter::receive_garbage(std::string_view what) {
+  session_->respond({}, dap::refuse(std::string(what)));
+  return std::exchange(session_->out, {});
+}
+
+bool DebugAdapter::busy() const {
+  return session_->going;
+}
+
+bool DebugAdapter::ended() const {
+  return session_->ended;
+}
+
+std::vector<std::string> DebugAdapter::work(const std::function<bool()>& interrupted) {
+  constexpr std::size_t enough = 64; // messages before the client gets them
+  if (session_->going) {
+    const auto why =
+        session_->work([&] { return session_->out.size() >= enough || interrupted(); });
+    session_->work = [this](const debug::GiveUp& give_up) {
+      return session_->debugger->resume(give_up);
+    };
+    if (why.reason != debug::Stop::Reason::GivenUp)
+      session_->take(why);
+  }
+  return std::exchange(session_->out, {});
+}
+
+} // namespace orb::editor
