@@ -7,7 +7,7 @@
 //   .macro square id=40 flags=motor_control,endsig
 //   comment "lap \"one\""
 
-#include <tao/pegtl.hpp>
+#include "base/peg.h"
 
 namespace orb::assembler::grammar {
 

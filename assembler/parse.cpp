@@ -121,46 +121,25 @@ void read_number(Value& value, const char* at, const char* end) {
     value.unit = read_unit({at, static_cast<std::size_t>(end - at)});
 }
 
-template <typename Rule>
-struct Action : tao::pegtl::nothing<Rule> {};
+ORB_ACTIONS
 
-#define ORB_ACTION(rule, body)                                                                     \
-  template <>                                                                                      \
-  struct Action<g::rule> {                                                                         \
-    template <typename Input>                                                                      \
-    static void apply([[maybe_unused]] const Input& in, Builder& builder) {                        \
-      body;                                                                                        \
-    }                                                                                              \
-  };
-
-ORB_ACTION(mnemonic, builder.head(in.begin(), in.end());
+ORB_ACTION(g::mnemonic, builder.head(in.begin(), in.end());
            builder.statement.info = spec::find_macro_command(in.string_view()))
-ORB_ACTION(directive, builder.head(in.begin(), in.end());
+ORB_ACTION(g::directive, builder.head(in.begin(), in.end());
            builder.statement.kind = Statement::Kind::NoEnd)
-ORB_ACTION(word, builder.add(Value::Kind::Word, in.begin(), in.end()))
-ORB_ACTION(equals, builder.equals())
-ORB_ACTION(number, read_number(builder.add(Value::Kind::Number, in.begin(), in.end()), in.begin(),
-                               in.end()))
-ORB_ACTION(text, builder.add(Value::Kind::Text, in.begin(), in.end()))
-
-#undef ORB_ACTION
+ORB_ACTION(g::word, builder.add(Value::Kind::Word, in.begin(), in.end()))
+ORB_ACTION(g::equals, builder.equals())
+ORB_ACTION(g::number, read_number(builder.add(Value::Kind::Number, in.begin(), in.end()),
+                                  in.begin(), in.end()))
+ORB_ACTION(g::text, builder.add(Value::Kind::Text, in.begin(), in.end()))
 
 template <typename Rule>
-constexpr Stop::Expected expected = Stop::Expected::NothingMore;
-template <>
-constexpr Stop::Expected expected<g::assigned> = Stop::Expected::Value;
-template <>
-constexpr Stop::Expected expected<g::closing_quote> = Stop::Expected::ClosingQuote;
-template <>
-constexpr Stop::Expected expected<g::next_operand> = Stop::Expected::Operand;
+constexpr auto reason = Stop::Expected::NothingMore;
+ORB_REASON(Stop::Expected::Value, g::assigned)
+ORB_REASON(Stop::Expected::ClosingQuote, g::closing_quote)
+ORB_REASON(Stop::Expected::Operand, g::next_operand)
 
-template <typename Rule>
-struct Control : tao::pegtl::normal<Rule> {
-  template <typename Input>
-  [[noreturn]] static void raise(const Input& in, Builder& /*builder*/) {
-    throw Stop{expected<Rule>, in.current()};
-  }
-};
+ORB_CONTROL
 
 /// `text` as it can stand in a message.
 std::string seen(const char* at, const char* end) {
@@ -245,8 +224,7 @@ std::optional<Diagnostic> parse_line(Builder& builder, const char* begin, const 
   builder.statement.head = {};
   std::optional<Diagnostic> problem;
   try {
-    tao::pegtl::memory_input<tao::pegtl::tracking_mode::lazy, tao::pegtl::eol::lf_crlf, const char*>
-        input(begin, end, "");
+    peg::Input input(begin, end, "");
     tao::pegtl::parse<g::line, Action, Control>(input, builder);
     if (builder.statement.head.size() > 0)
       problem = commit(builder);

@@ -9,7 +9,8 @@
 // it is (word_statement, named_factor, arguments): a new statement of the usual form is a new row
 // and leaves this file alone.
 
-#include <tao/pegtl.hpp>
+#include "base/peg.h"
+
 #include <tao/pegtl/contrib/analyze_traits.hpp>
 
 namespace orb::compiler {
@@ -22,15 +23,6 @@ using namespace tao::pegtl;
 
 // The rules that look a word up. They are matched by hand, in parse.cpp; what they consume is said
 // here once more for analyze(), which proves that no loop stands still.
-#define ORB_BY_HAND(name)                                                                          \
-  struct name {                                                                                    \
-    using rule_t = name;                                                                           \
-    using subs_t = empty_list;                                                                     \
-    template <apply_mode A, rewind_mode M, template <typename...> class Action,                    \
-              template <typename...> class Control, typename Input>                                \
-    static bool match(Input& in, Builder& builder);                                                \
-  };
-
 // clang-format off
 
 struct _    : star<blank> {};
@@ -119,8 +111,6 @@ struct short_print    : seq<question_mark, _, output> {};
 ORB_BY_HAND(word_statement) // a word and what its form asks for
 struct statement      : sor<word_statement, short_print> {};
 struct line_rest      : sor<line_end, seq<must<statement>, must<line_end>>> {}; // after its number
-
-#undef ORB_BY_HAND
 
 // clang-format on
 

@@ -21,7 +21,7 @@ constexpr std::uint8_t deepest = 32;
 struct Stop {
   Reason reason;
   const char* begin;
-  const char* end; ///< null where the span is the token at `begin`
+  const char* end = nullptr; ///< null where the span is the token at `begin`
   std::uint32_t found = 0;
 };
 
@@ -150,9 +150,6 @@ public:
   }
   void spell(Spelling spelling) { program_.statements[statement_].spelling = spelling; }
   spec::Statement kind() const { return kind_; }
-  std::uint32_t items_now() const {
-    return size(program_.items) - program_.statements[statement_].items_begin;
-  }
 
   /// What a failed line or branch is cut back to.
   struct Mark {
@@ -290,9 +287,7 @@ const char* skip_outside_strings(const char* p, const char* end, IsEnd is_end) {
 
 namespace grammar {
 
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool named_factor::match(Input& in, Builder& builder) {
+ORB_MATCH(named_factor) {
   const auto letters = peek_letters(in);
   if (letters.length == 0)
     return false;
@@ -315,7 +310,7 @@ bool named_factor::match(Input& in, Builder& builder) {
   case WordKind::Function:
     in.bump_in_this_line(letters.length);
     builder.open(begin);
-    if (!Control<call_operand>::template match<A, M, Action, Control>(in, builder))
+    if (!ORB_MATCHES(call_operand))
       return false;
     builder.unary(NodeKind::Call, word.index, begin, builder.trim(begin, in.current()));
     builder.close();
@@ -327,9 +322,7 @@ bool named_factor::match(Input& in, Builder& builder) {
   return false;
 }
 
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool user_variable::match(Input& in, Builder& builder) {
+ORB_MATCH(user_variable) {
   const auto letters = peek_letters(in);
   if (letters.length != 1)
     return false;
@@ -345,21 +338,19 @@ bool user_variable::match(Input& in, Builder& builder) {
   return true;
 }
 
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool arguments::match(Input& in, Builder& builder) {
+ORB_MATCH(arguments) {
   const auto& row = spec::info(builder.kind());
   const auto most = row.parameters().size();
   for (std::size_t n = 0; n < most; ++n) {
     if (n > 0) {
       const char* const here = in.current();
-      if (!Control<comma>::template match<A, M, Action, Control>(in, builder)) {
+      if (!ORB_MATCHES(comma)) {
         if (n >= row.required)
           return true;
         throw Stop{Reason::ExpectedComma, here, nullptr, static_cast<std::uint32_t>(n)};
       }
     }
-    if (!Control<expression>::template match<A, M, Action, Control>(in, builder))
+    if (!ORB_MATCHES(expression))
       throw Stop{Reason::ExpectedExpression, in.current(), nullptr, static_cast<std::uint32_t>(n)};
   }
   if (most > 0 && in.current() != in.end() && *in.current() == ',')
@@ -377,9 +368,9 @@ bool match_branch(Input& in, Builder& builder) {
     try {
       if (begin != in.end() && is_digit(*begin))
         throw Stop{Reason::ImpliedGoto, begin, nullptr};
-      if (!Control<statement>::template match<A, M, Action, Control>(in, builder))
+      if (!ORB_MATCHES(statement))
         throw Stop{Reason::ExpectedStatement, in.current(), nullptr};
-      if (!Control<End>::template match<A, M, Action, Control>(in, builder))
+      if (!ORB_MATCHES(End))
         throw Stop{Reason::Trailing, in.current(), nullptr};
     } catch (const Stop& stop) {
       const auto at_else = [&](const char* p) {
@@ -399,26 +390,15 @@ bool match_branch(Input& in, Builder& builder) {
   return true;
 }
 
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool then_branch::match(Input& in, Builder& builder) {
+ORB_MATCH(then_branch) {
   return match_branch<then_end, true, A, M, Action, Control>(in, builder);
 }
 
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool else_branch::match(Input& in, Builder& builder) {
+ORB_MATCH(else_branch) {
   return match_branch<line_end, false, A, M, Action, Control>(in, builder);
 }
 
-template <typename Rule, apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool match_rest(Input& in, Builder& builder) {
-  return Control<Rule>::template match<A, M, Action, Control>(in, builder);
-}
-
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
+ORB_RULE_TEMPLATE
 bool match_assignment(Input& in, Builder& builder) {
   const auto letters = peek_letters(in);
   const char* const begin = in.current();
@@ -429,14 +409,12 @@ bool match_assignment(Input& in, Builder& builder) {
     builder.item(ItemKind::System, word.index, builder.span(begin, begin + letters.length));
     in.bump_in_this_line(letters.length);
     skip_blanks(in);
-  } else if (!Control<user_variable>::template match<A, M, Action, Control>(in, builder)) {
+  } else if (!ORB_MATCHES(user_variable)) {
     throw Stop{Reason::ExpectedVariable, begin, nullptr};
   }
-  return match_rest<assignment, A, M, Action, Control>(in, builder);
+  return ORB_MATCHES(assignment);
 }
-template <apply_mode A, rewind_mode M, template <typename...> class Action,
-          template <typename...> class Control, typename Input>
-bool word_statement::match(Input& in, Builder& builder) {
+ORB_MATCH(word_statement) {
   const auto letters = peek_letters(in);
   if (letters.length == 0)
     return false;
@@ -463,17 +441,16 @@ bool word_statement::match(Input& in, Builder& builder) {
   case spec::Form::Assignment:
     builder.spell(Spelling::Let);
     return match_assignment<A, M, Action, Control>(in, builder);
-  case spec::Form::Conditional: return match_rest<conditional, A, M, Action, Control>(in, builder);
-  case spec::Form::Loop: return match_rest<loop, A, M, Action, Control>(in, builder);
-  case spec::Form::LoopEnd: return match_rest<loop_end, A, M, Action, Control>(in, builder);
-  case spec::Form::Branch: return match_rest<branch_line, A, M, Action, Control>(in, builder);
-  case spec::Form::IndexedBranch:
-    return match_rest<indexed_branch, A, M, Action, Control>(in, builder);
-  case spec::Form::Output: return match_rest<output, A, M, Action, Control>(in, builder);
-  case spec::Form::Entry: return match_rest<entry, A, M, Action, Control>(in, builder);
-  case spec::Form::Values: return match_rest<values, A, M, Action, Control>(in, builder);
-  case spec::Form::Variables: return match_rest<variables, A, M, Action, Control>(in, builder);
-  case spec::Form::Arguments: return match_rest<arguments, A, M, Action, Control>(in, builder);
+  case spec::Form::Conditional: return ORB_MATCHES(conditional);
+  case spec::Form::Loop: return ORB_MATCHES(loop);
+  case spec::Form::LoopEnd: return ORB_MATCHES(loop_end);
+  case spec::Form::Branch: return ORB_MATCHES(branch_line);
+  case spec::Form::IndexedBranch: return ORB_MATCHES(indexed_branch);
+  case spec::Form::Output: return ORB_MATCHES(output);
+  case spec::Form::Entry: return ORB_MATCHES(entry);
+  case spec::Form::Values: return ORB_MATCHES(values);
+  case spec::Form::Variables: return ORB_MATCHES(variables);
+  case spec::Form::Arguments: return ORB_MATCHES(arguments);
   }
   return false;
 }
@@ -486,91 +463,54 @@ namespace g = grammar;
 
 /// What is reported where a rule that must match does not.
 template <typename Rule>
-constexpr Reason reason = Reason::Trailing;
-template <>
-constexpr Reason reason<g::sum> = Reason::ExpectedExpression;
-template <>
-constexpr Reason reason<g::product> = Reason::ExpectedExpression;
-template <>
-constexpr Reason reason<g::factor> = Reason::ExpectedExpression;
-template <>
-constexpr Reason reason<g::positive> = Reason::ExpectedExpression;
-template <>
-constexpr Reason reason<g::expression> = Reason::ExpectedExpression;
-template <>
-constexpr Reason reason<g::group_end> = Reason::ExpectedParenthesis;
-template <>
-constexpr Reason reason<g::equals> = Reason::ExpectedEquals;
-template <>
-constexpr Reason reason<g::comma> = Reason::ExpectedComma;
-template <>
-constexpr Reason reason<g::user_variable> = Reason::ExpectedUserVariable;
-template <>
-constexpr Reason reason<g::target> = Reason::ExpectedTarget;
-template <>
-constexpr Reason reason<tao::pegtl::seq<g::target, g::_>> = Reason::ExpectedTarget;
-template <>
-constexpr Reason reason<g::targets> = Reason::ExpectedTarget;
-template <>
-constexpr Reason reason<g::on_word> = Reason::ExpectedGotoOrGosub;
-template <>
-constexpr Reason reason<g::word_to> = Reason::ExpectedTo;
-template <>
-constexpr Reason reason<g::word_then> = Reason::ExpectedThen;
-template <>
-constexpr Reason reason<g::relation_sign> = Reason::ExpectedRelation;
-template <>
-constexpr Reason reason<tao::pegtl::one<'"'>> = Reason::ExpectedQuote;
-template <>
-constexpr Reason reason<g::statement> = Reason::ExpectedStatement;
+constexpr auto reason = Reason::Trailing;
+ORB_REASON(Reason::ExpectedExpression, g::sum)
+ORB_REASON(Reason::ExpectedExpression, g::product)
+ORB_REASON(Reason::ExpectedExpression, g::factor)
+ORB_REASON(Reason::ExpectedExpression, g::positive)
+ORB_REASON(Reason::ExpectedExpression, g::expression)
+ORB_REASON(Reason::ExpectedParenthesis, g::group_end)
+ORB_REASON(Reason::ExpectedEquals, g::equals)
+ORB_REASON(Reason::ExpectedComma, g::comma)
+ORB_REASON(Reason::ExpectedUserVariable, g::user_variable)
+ORB_REASON(Reason::ExpectedTarget, g::target)
+ORB_REASON(Reason::ExpectedTarget, tao::pegtl::seq<g::target, g::_>)
+ORB_REASON(Reason::ExpectedTarget, g::targets)
+ORB_REASON(Reason::ExpectedGotoOrGosub, g::on_word)
+ORB_REASON(Reason::ExpectedTo, g::word_to)
+ORB_REASON(Reason::ExpectedThen, g::word_then)
+ORB_REASON(Reason::ExpectedRelation, g::relation_sign)
+ORB_REASON(Reason::ExpectedQuote, tao::pegtl::one<'"'>)
+ORB_REASON(Reason::ExpectedStatement, g::statement)
 
-template <typename Rule>
-struct Control : tao::pegtl::normal<Rule> {
-  template <typename Input>
-  [[noreturn]] static void raise(const Input& in, Builder& /*builder*/) {
-    throw Stop{reason<Rule>, in.current(), nullptr};
-  }
-};
+ORB_CONTROL
 
-template <typename Rule>
-struct Action : tao::pegtl::nothing<Rule> {};
+ORB_ACTIONS
 
-#define ORB_ACTION(rule, body)                                                                     \
-  template <>                                                                                      \
-  struct Action<g::rule> {                                                                         \
-    template <typename Input>                                                                      \
-    static void apply([[maybe_unused]] const Input& in, Builder& builder) {                        \
-      body;                                                                                        \
-    }                                                                                              \
-  };
-
-ORB_ACTION(number, builder.number(in.begin(), in.end()))
-ORB_ACTION(group_begin, builder.open(in.begin()))
-ORB_ACTION(group, builder.unary(NodeKind::Group, 0, in.begin(), in.end()); builder.close())
-ORB_ACTION(negation, builder.unary(NodeKind::Negate, 0, in.begin(), in.end()))
-ORB_ACTION(product_tail, builder.binary(*in.begin()))
-ORB_ACTION(sum_tail, builder.binary(*in.begin()))
-ORB_ACTION(expression, builder.expression(ItemKind::Expression))
-ORB_ACTION(target, builder.item(ItemKind::Target, read_line_number(in.begin(), in.end()),
-                                builder.span(in.begin(), in.end())))
-ORB_ACTION(relation_sign,
+ORB_ACTION(g::number, builder.number(in.begin(), in.end()))
+ORB_ACTION(g::group_begin, builder.open(in.begin()))
+ORB_ACTION(g::group, builder.unary(NodeKind::Group, 0, in.begin(), in.end()); builder.close())
+ORB_ACTION(g::negation, builder.unary(NodeKind::Negate, 0, in.begin(), in.end()))
+ORB_ACTION(g::product_tail, builder.binary(*in.begin()))
+ORB_ACTION(g::sum_tail, builder.binary(*in.begin()))
+ORB_ACTION(g::expression, builder.expression(ItemKind::Expression))
+ORB_ACTION(g::target, builder.item(ItemKind::Target, read_line_number(in.begin(), in.end()),
+                                   builder.span(in.begin(), in.end())))
+ORB_ACTION(g::relation_sign,
            builder.item(ItemKind::Relation,
                         static_cast<std::uint32_t>(*spec::find_relation(*in.begin())),
                         builder.span(in.begin(), in.end())))
-ORB_ACTION(also_and, builder.item(ItemKind::And, 0, builder.span(in.begin(), in.begin() + 3)))
-ORB_ACTION(also_or, builder.item(ItemKind::Or, 0, builder.span(in.begin(), in.begin() + 2)))
-ORB_ACTION(word_then, builder.end_condition())
-ORB_ACTION(text, builder.item(ItemKind::String, 0, builder.span(in.begin(), in.end())))
-ORB_ACTION(print_comma, builder.item(ItemKind::Comma, 0, builder.span(in.begin(), in.end())))
-ORB_ACTION(semicolon, builder.item(ItemKind::Semicolon, 0, builder.span(in.begin(), in.end())))
-ORB_ACTION(character, builder.expression(ItemKind::Character); builder.widen_item(in.begin()))
-ORB_ACTION(on_gosub, builder.spell(Spelling::OnGosub))
-ORB_ACTION(question_mark, builder.begin_statement(spec::Statement::Print, Spelling::QuestionMark,
-                                                  in.begin(), in.end()))
-#undef ORB_ACTION
-
-using Input =
-    tao::pegtl::memory_input<tao::pegtl::tracking_mode::lazy, tao::pegtl::eol::lf, const char*>;
+ORB_ACTION(g::also_and, builder.item(ItemKind::And, 0, builder.span(in.begin(), in.begin() + 3)))
+ORB_ACTION(g::also_or, builder.item(ItemKind::Or, 0, builder.span(in.begin(), in.begin() + 2)))
+ORB_ACTION(g::word_then, builder.end_condition())
+ORB_ACTION(g::text, builder.item(ItemKind::String, 0, builder.span(in.begin(), in.end())))
+ORB_ACTION(g::print_comma, builder.item(ItemKind::Comma, 0, builder.span(in.begin(), in.end())))
+ORB_ACTION(g::semicolon, builder.item(ItemKind::Semicolon, 0, builder.span(in.begin(), in.end())))
+ORB_ACTION(g::character, builder.expression(ItemKind::Character); builder.widen_item(in.begin()))
+ORB_ACTION(g::on_gosub, builder.spell(Spelling::OnGosub))
+ORB_ACTION(g::question_mark, builder.begin_statement(spec::Statement::Print, Spelling::QuestionMark,
+                                                     in.begin(), in.end()))
+using peg::Input;
 
 /// Parses the lines of a text one after the other.
 class Lines {

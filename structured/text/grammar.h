@@ -8,7 +8,8 @@
 // rule applies; what must follow is said with must<>. Rules that look a word up, or that a table
 // row decides, are matched by hand in parse.cpp.
 
-#include <tao/pegtl.hpp>
+#include "base/peg.h"
+
 #include <tao/pegtl/contrib/analyze_traits.hpp>
 
 namespace orb::structured {
@@ -18,15 +19,6 @@ class Builder;
 namespace orb::structured::grammar {
 
 using namespace tao::pegtl;
-
-#define ORB_BY_HAND(name)                                                                          \
-  struct name {                                                                                    \
-    using rule_t = name;                                                                           \
-    using subs_t = empty_list;                                                                     \
-    template <apply_mode A, rewind_mode M, template <typename...> class Action,                    \
-              template <typename...> class Control, typename Input>                                \
-    static bool match(Input& in, Builder& builder);                                                \
-  };
 
 // clang-format off
 
@@ -121,8 +113,6 @@ struct locals         : must<names> {};
 struct jump           : seq<must<new_name>, gap> {};
 struct file           : must<file_name> {};
 ORB_BY_HAND(arguments) // as many expressions as the row of the statement has parameters
-
-#undef ORB_BY_HAND
 
 // clang-format on
 
