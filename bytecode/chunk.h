@@ -33,7 +33,6 @@ struct Line {
 };
 
 // The register file: A to Y, the elements of Z, temporaries, constants.
-inline constexpr std::uint16_t first_variable = 0;
 inline constexpr std::uint16_t index_variable = 24; ///< Y
 inline constexpr std::uint16_t first_element = 25;  ///< Z where Y is 1
 inline constexpr std::uint16_t element_count = 25;

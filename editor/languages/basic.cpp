@@ -1,5 +1,6 @@
 // What an editor may ask about an orbBasic program.
 
+#include "base/silence.h"
 #include "base/text.h"
 #include "compiler/check.h"
 #include "compiler/renumber.h"
@@ -26,7 +27,6 @@ namespace {
 using compiler::Program;
 
 constexpr auto language_id = basic_language_id;
-constexpr std::string_view allow_mark = "orb: allow";
 constexpr auto most_line_number =
     static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber));
 

@@ -2,6 +2,7 @@
 
 #include "assembler/assemble.h"
 #include "base/fixes.h"
+#include "base/silence.h"
 #include "base/text.h"
 #include "compiler/check.h"
 #include "compiler/text/image.h"
@@ -39,7 +40,6 @@ using structured::Program;
 using structured::SymbolKind;
 
 constexpr auto language_id = structured_language_id;
-constexpr std::string_view allow_mark = "orb: allow";
 
 // ---- names
 

@@ -111,7 +111,6 @@ public:
   double yaw_deg() const { return yaw_deg_; } ///< 0 <= yaw < 360
   double yaw_rate_deg_s() const { return yaw_rate_; }
   double world_offset_deg() const { return world_offset_deg_; } ///< world direction = yaw + offset
-  double forward_cm_s() const { return forward_; }
   double forward_acceleration_cm_s2() const { return forward_acceleration_; }
   double sideways_acceleration_cm_s2() const { return sideways_acceleration_; } ///< to the right
   /// What the wheels and its momentum make of it, for somebody who calls the heading `way_deg`.

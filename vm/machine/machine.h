@@ -104,8 +104,6 @@ public:
   std::string_view only_interpreted() const { return native_.only_interpreted(); }
   /// Lines executed since there is this machine.
   std::uint64_t lines_of_all() const { return earlier_lines_ + lines_; }
-  /// The place of the next instruction in the code of the program.
-  std::uint32_t next_instruction() const { return core_.index_of(core_.pc); }
   /// From now on `gate` is asked before lines; null: nobody.
   void ask(Gate* gate) { gate_ = gate; }
   /// The last run() came back because the gate let no line pass.

@@ -23,8 +23,6 @@ public:
   /// Takes a user macro: false when the id is taken, or the heap or the index is full.
   bool save_user(std::uint8_t id, ByteView image);
   void forget_users();
-  std::size_t user_count() const { return entry_count_; }
-  std::size_t heap_used() const { return heap_used_; }
 
   /// Empties the buffer that the temporary and the stream macro share.
   void clear_buffer();
