@@ -19,7 +19,7 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct BuildOptions {
   std::string file;
   std::string lang;
   std::string out = "-";
@@ -56,7 +56,7 @@ bool write(Context& context, const std::string& path, std::string_view bytes) {
   return written.has_value();
 }
 
-void build_basic(Context& context, const Options& options, const Source& source) {
+void build_basic(Context& context, const BuildOptions& options, const Source& source) {
   const auto target = options.target.target();
   const auto checked = compiler::check(source.text(), target);
   const bool refused = !checked.image_bytes;
@@ -83,7 +83,7 @@ void build_basic(Context& context, const Options& options, const Source& source)
                fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
 }
 
-void build_structured(Context& context, const Options& options, const Source& source) {
+void build_structured(Context& context, const BuildOptions& options, const Source& source) {
   const auto target = options.target.target();
   DiskFiles files;
   const auto input = run::read_input(source.name(), std::string(source.text()), "structured",
@@ -118,7 +118,7 @@ void build_structured(Context& context, const Options& options, const Source& so
                                     packed, packed - room, options.target.area, source.name()));
 }
 
-void build(Context& context, const Options& options) {
+void build(Context& context, const BuildOptions& options) {
   const auto file = read_source(options.file, options.lang);
   if (!file)
     return fail(context, file.error());
@@ -150,7 +150,7 @@ void add_build(const Command& orb, Context& context) {
                       "orb build --pack square.bas --map square.json -o square.img\n"
                       "orb build patrol.orb --readable -o patrol.bas\n"
                       "orb build --listing --native square.bas");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BuildOptions>();
   command.add_option("FILE", options->file, "a source; `-` is standard input").required();
   add_language_option(command, options->lang);
   command.add_option("-o,--output", options->out, "where the bytes go; standard output if missing");

@@ -19,7 +19,7 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> files;
   std::string lang;
   std::string format = "text";
@@ -35,7 +35,7 @@ using run::SourceFile;
 
 using Sources = std::vector<SourceFile>;
 
-tl::expected<Sources, Failure> read_sources(const Options& options) {
+tl::expected<Sources, Failure> read_sources(const CheckOptions& options) {
   Sources sources;
   for (const auto& path : options.files) {
     if (testing::is_no_program(path)) {
@@ -54,7 +54,7 @@ tl::expected<Sources, Failure> read_sources(const Options& options) {
   return sources;
 }
 
-testing::Findings check_all(const Options& options, std::span<const SourceFile> sources) {
+testing::Findings check_all(const CheckOptions& options, std::span<const SourceFile> sources) {
   DiskFiles disk;
   auto target = options.target.target();
   auto macro = options.macro;
@@ -67,7 +67,7 @@ testing::Findings check_all(const Options& options, std::span<const SourceFile> 
 }
 
 /// Makes the safe fixes of a file until none is left, and writes it back where one was made.
-bool fix_one(Context& context, const Options& options, SourceFile& input) {
+bool fix_one(Context& context, const CheckOptions& options, SourceFile& input) {
   const auto made = testing::fix(input, [&](const SourceFile& file) {
     return check_all(options, {&file, 1}).files.front().diagnostics;
   });
@@ -91,7 +91,7 @@ std::string page_of(const std::vector<reference::Section>& sections, const Rule&
   return {};
 }
 
-void print_findings(Context& context, const Options& options,
+void print_findings(Context& context, const CheckOptions& options,
                     const std::vector<FileFindings>& files) {
   if (options.format == "json") {
     print_out(render_json(files));
@@ -111,7 +111,7 @@ void print_findings(Context& context, const Options& options,
   }
 }
 
-void check(Context& context, const Options& options) {
+void check(Context& context, const CheckOptions& options) {
   if (!check_rules(context, options.policy))
     return;
   if (options.fix &&
@@ -148,7 +148,7 @@ void add_check(const Command& orb, Context& context) {
                       "orb check parking.svg\n"
                       "orb check --watch square.bas\n"
                       "orb check --format sarif *.bas *.macro > findings.sarif");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   command.add_option("FILE", options->files, "sources; `-` is standard input").required();
   add_language_option(command, options->lang);
   add_target_options(command, options->target);

@@ -1,10 +1,10 @@
-#include "editor/debug_adapter.h"
 #include "cli/commands.h"
 #include "cli/driven_robot.h"
 #include "cli/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/wire.h"
+#include "editor/debug_adapter.h"
 #include "editor/wire.h"
 
 #include <array>

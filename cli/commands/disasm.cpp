@@ -13,7 +13,7 @@ namespace {
 
 using assembler::Reading;
 
-struct Options {
+struct DisasmOptions {
   std::string file;
   std::string out;
   bool raw = false;
@@ -22,7 +22,8 @@ struct Options {
 
 /// What the bytes are: as the user says, as the ending says, or as the one reading that works.
 /// Nothing where both work.
-std::optional<Reading> choose(const Options& options, const std::string& ending, ByteView bytes) {
+std::optional<Reading> choose(const DisasmOptions& options, const std::string& ending,
+                              ByteView bytes) {
   if (options.raw || options.framed)
     return options.raw ? Reading::Headerless : Reading::Framed;
   if (ending == ".sphero")
@@ -36,7 +37,7 @@ std::optional<Reading> choose(const Options& options, const std::string& ending,
   return framed ? Reading::Framed : Reading::Headerless;
 }
 
-ExitCode run(const Context& context, const Options& options) {
+ExitCode run(const Context& context, const DisasmOptions& options) {
   auto content = disk::read(options.file);
   if (!content) {
     print_error(context, content.error().message);
@@ -87,7 +88,7 @@ void add_disasm(const Command& orb, Context& context) {
       orb.add_command("disasm", "turn the bytes of a macro back into source",
                       "orb disasm dance.sphero\norb disasm saved.bin -o saved.macro\n"
                       "orb disasm capture.dat --framed");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DisasmOptions>();
   command.add_option("FILE", options->file, "bytes of a macro; - is stdin").required();
   command.add_option("-o,--out", options->out, "where to write the source; stdout otherwise");
   const auto raw =

@@ -22,7 +22,7 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct FmtOptions {
   std::vector<std::string> files;
   std::string lang;
   std::string renumber;
@@ -97,7 +97,7 @@ std::optional<std::string> format_macro(Context& context, const Source& source) 
   return assembler::layout(source.text());
 }
 
-void run_one(Context& context, const Options& options, const std::string& path,
+void run_one(Context& context, const FmtOptions& options, const std::string& path,
              const std::optional<compiler::Numbering>& numbering) {
   const auto file = read_source(path, options.lang);
   if (!file)
@@ -133,7 +133,7 @@ void run_one(Context& context, const Options& options, const std::string& path,
     print_out(*formatted);
 }
 
-void format_all(Context& context, const Options& options) {
+void format_all(Context& context, const FmtOptions& options) {
   std::optional<compiler::Numbering> numbering;
   if (options.renumbers) {
     numbering = read_numbering(options.renumber);
@@ -154,7 +154,7 @@ void add_fmt(const Command& orb, Context& context) {
                                        "orb fmt square.bas\n"
                                        "orb fmt -w *.bas *.orb\n"
                                        "orb fmt --renumber=100:10 --diff square.bas");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FmtOptions>();
   command.add_option("FILE", options->files, "sources; `-` is standard input").required();
   add_language_option(command, options->lang);
   const auto write = command.add_flag("-w,--write", options->write, "write the files back");

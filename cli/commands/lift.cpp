@@ -10,12 +10,12 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct LiftOptions {
   std::string file;
   std::string out = "-";
 };
 
-void lift(Context& context, const Options& options) {
+void lift(Context& context, const LiftOptions& options) {
   const auto language = run::language_of(options.file, "").value_or(run::Language::Basic);
   if (language != run::Language::Basic)
     return fail(context,
@@ -42,7 +42,7 @@ void add_lift(const Command& orb, Context& context) {
   const auto command = orb.add_command("lift", "turn a numbered program into a structured one",
                                        "orb lift maze.bas -o maze.orb\n"
                                        "orb lift maze.bas | less");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LiftOptions>();
   command.add_option("FILE", options->file, "a numbered program; `-` is standard input").required();
   command.add_option("-o,--output", options->out,
                      "where the structured program goes; standard output if missing");

@@ -16,7 +16,7 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct ManOptions {
   std::string page = "orb";
   std::string folder;
 };
@@ -71,7 +71,7 @@ void add_man(const Command& orb, Context& context) {
                                        "orb man run\n"
                                        "orb man orbbasic > orbbasic.7\n"
                                        "orb man --all man");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ManOptions>();
   const auto page =
       command.add_option("PAGE", options->page,
                          "a command, `orbbasic` or `orb-macro`; the page of orb itself "

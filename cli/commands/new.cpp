@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct NewOptions {
   std::string folder;
   bool numbered = false;
   bool structured = false; ///< the default, said aloud
@@ -170,7 +170,7 @@ std::string filled(std::string_view text, const std::string& name, std::string_v
   return out;
 }
 
-void make(Context& context, const Options& options) {
+void make(Context& context, const NewOptions& options) {
   const auto& folder = options.folder;
   const fs::path path(folder);
   std::error_code error;
@@ -215,7 +215,7 @@ void add_new(const Command& orb, Context& context) {
   const auto command =
       orb.add_command("new", "make a folder with a working starter project",
                       "orb new dance\norb new dance --course\norb new dance --numbered");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewOptions>();
   command
       .add_option(
           "NAME", options->folder,

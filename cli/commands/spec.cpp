@@ -12,7 +12,7 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct SpecOptions {
   std::string section;
   bool json = false;
   bool markdown = false;
@@ -61,7 +61,7 @@ void write_editor_files(Context& context, const std::string& folder) {
   }
 }
 
-void run(Context& context, const Options& options) {
+void run(Context& context, const SpecOptions& options) {
   if (!options.editors.empty()) {
     write_editor_files(context, options.editors);
     return;
@@ -96,7 +96,7 @@ void add_spec(const Command& orb, Context& context) {
   const auto command =
       orb.add_command("spec", "print the tables of the robot and the tools",
                       "orb spec\norb spec statements\norb spec --json > spec.json");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SpecOptions>();
   command.add_option("SECTION", options->section, "one table; all if none is given");
   const auto json = command.add_flag("--json", options->json, "as one JSON document");
   command.add_flag("--markdown", options->markdown, "as pages of docs/reference").excludes(json);

@@ -7,13 +7,13 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct CommitOptions {
   PortOptions port;
   bool force = false;
 };
 
 ExitCode commit(Context& context, uploader::Session& session, const uploader::Greeting& greeting,
-                const Options& options) {
+                const CommitOptions& options) {
   const auto done = uploader::commit(session, greeting,
                                      options.force ? uploader::BatteryPolicy::Ignore
                                                    : uploader::BatteryPolicy::Refuse);
@@ -31,7 +31,7 @@ void add_commit(const Command& orb, Context& context) {
   const auto command =
       orb.add_command("commit", "copy the program in a ball's RAM to its flash",
                       "orb commit --port /dev/rfcomm0\norb commit --port @red --force");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CommitOptions>();
   add_port_options(command, options->port);
   command.add_flag("--force", options->force, "commit even if the battery is low");
   command.callback([&context, options] {

@@ -10,7 +10,7 @@ namespace {
 
 using spec::ApiCommand;
 
-struct Options {
+struct EraseOptions {
   PortOptions port;
   std::string area = "ram";
 };
@@ -47,7 +47,7 @@ void add_erase(const Command& orb, Context& context) {
   const auto command = orb.add_command("erase", "erase the program in a ball's RAM or flash",
                                        "orb erase --port /dev/rfcomm0\n"
                                        "orb erase --port @red --area flash");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EraseOptions>();
   add_port_options(command, options->port);
   command.add_option("--area", options->area, "what is erased")
       .check(one_of({"ram", "flash"}))

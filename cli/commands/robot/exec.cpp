@@ -16,7 +16,7 @@
 namespace orb::cli {
 namespace {
 
-struct Options {
+struct ExecOptions {
   PortOptions port;
   std::string name;
   std::vector<std::string> arguments;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 /// Sends a command of packets v2 and prints the answer. A robot that sleeps is woken for it.
-void run_v2(Context& context, const Options& options, const spec::RobotInfo& robot) {
+void run_v2(Context& context, const ExecOptions& options, const spec::RobotInfo& robot) {
   const auto* row = spec::find_v2_command(options.name);
   if (row == nullptr) {
     std::vector<std::string_view> names;
@@ -125,7 +125,7 @@ std::string in_words(const protocol::Async& message) {
   return describer.describe(item) + "\n";
 }
 
-ExitCode print_answer(const Context& context, const Options& options, spec::ApiCommand command,
+ExitCode print_answer(const Context& context, const ExecOptions& options, spec::ApiCommand command,
                       const Bytes& data, const protocol::Response& answer,
                       uploader::Session& session) {
   const auto* more = announced(command, data);
@@ -156,7 +156,7 @@ ExitCode print_answer(const Context& context, const Options& options, spec::ApiC
   return ExitCode::LinkLost;
 }
 
-void run(Context& context, const Options& options) {
+void run(Context& context, const ExecOptions& options) {
   if (const auto* robot = newer_robot(context, options.port, options.robot))
     return run_v2(context, options, *robot);
   if (spec::find_command(options.name) == nullptr && spec::find_v2_command(options.name) != nullptr)
@@ -197,7 +197,7 @@ void add_exec(const Command& orb, Context& context) {
                                        "orb exec perform-level-1-diagnostics\n"
                                        "orb exec get-power-state --format json\n"
                                        "orb exec --port ble://SB-1A2B get-battery-voltage");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExecOptions>();
   command.add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
       .required();
   command.add_option("ARGS", options->arguments, "its operands");

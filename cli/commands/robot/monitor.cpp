@@ -171,7 +171,7 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
 
 namespace {
 
-struct Options {
+struct MonitorOptions {
   PortOptions port;
   std::string map;
   std::string format = "text";
@@ -235,7 +235,7 @@ private:
 };
 
 /// The report and the drawing of what was seen.
-tl::expected<void, IoError> write_seen(const Options& options, report::Journey& journey,
+tl::expected<void, IoError> write_seen(const MonitorOptions& options, report::Journey& journey,
                                        Duration time) {
   journey.finish(time, "abort", "was watched");
   if (!options.report.empty())
@@ -248,8 +248,9 @@ tl::expected<void, IoError> write_seen(const Options& options, report::Journey& 
                              : disk::write(options.svg, as_bytes(report::path_svg(journey)));
 }
 
-ExitCode watch(Context& context, const Options& options, Duration lasts, const Lookup& lookup,
-               std::span<const run::Input> inputs, Link& link, uploader::Session& session) {
+ExitCode watch(Context& context, const MonitorOptions& options, Duration lasts,
+               const Lookup& lookup, std::span<const run::Input> inputs, Link& link,
+               uploader::Session& session) {
   report::Journey journey;
   run::describe(inputs, {}, journey);
   Camera camera(session, lasts, options.draws() ? &journey : nullptr);
@@ -288,7 +289,7 @@ std::vector<run::Input> read_program(const run::LineMap& map) {
   return inputs && inputs->front().program ? *std::move(inputs) : std::vector<run::Input>();
 }
 
-void listen(Context& context, const Options& options) {
+void listen(Context& context, const MonitorOptions& options) {
   Lookup lookup;
   std::vector<run::Input> inputs;
   if (!options.map.empty()) {
@@ -318,7 +319,7 @@ void add_monitor(const Command& orb, Context& context) {
                       "orb monitor --port /dev/rfcomm0\n"
                       "orb monitor --port @red --map square.json\n"
                       "orb monitor --port @red --report drive.html --for 30s");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MonitorOptions>();
   add_port_options(command, options->port);
   add_format_option(command, options->format);
   command

@@ -59,7 +59,7 @@ std::vector<Port> find_ports(const Config& config) {
 
 namespace {
 
-struct Options {
+struct PortsOptions {
   std::string format = "text";
   std::string scan = "5s";
   std::vector<std::string> saved;
@@ -136,7 +136,7 @@ void add_robots(const Context& context, const std::vector<uploader::SeenDevice>&
       ports.push_back(describe(context.config, device, devices));
 }
 
-void list(Context& context, const Options& options) {
+void list(Context& context, const PortsOptions& options) {
   const auto devices = scan(context, *parse_duration(options.scan, 1s)); // the option is checked
   if (!devices)
     return fail(context, devices.error());
@@ -181,7 +181,7 @@ void add_ports(const Command& orb, Context& context) {
   const auto command = orb.add_command("ports", "list where a ball could be, and give it a name",
                                        "orb ports\norb ports --scan 20s\norb ports --format json\n"
                                        "orb ports --save red=ble://SK-1A2B");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PortsOptions>();
   add_format_option(command, options->format);
   command
       .add_option("--scan", options->scan,

@@ -19,7 +19,7 @@ namespace {
 
 using uploader::Report;
 
-struct Options {
+struct UploadOptions {
   std::vector<std::string> files;
   std::string lang;
   TargetOptions target;
@@ -42,7 +42,7 @@ ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
 }
 
 tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
-                                                        const Options& options) {
+                                                        const UploadOptions& options) {
   auto inputs = read_inputs(options.files, options.lang, options.target.target(),
                             options.no_check ? run::Lint::Off : run::Lint::On);
   if (!inputs)
@@ -62,7 +62,7 @@ tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
   return inputs;
 }
 
-run::DeliveryOptions delivery_options(const Options& options) {
+run::DeliveryOptions delivery_options(const UploadOptions& options) {
   run::DeliveryOptions wanted;
   wanted.area = options.target.area == "flash" ? spec::Area::Flash : spec::Area::Ram;
   wanted.run = options.run;
@@ -100,8 +100,8 @@ void print_plan(const Context& context, std::string_view name, const uploader::P
   print_out(text);
 }
 
-ExitCode dry_run(const Context& context, const Options& options, const uploader::Delivery& delivery,
-                 uploader::Budgets budgets) {
+ExitCode dry_run(const Context& context, const UploadOptions& options,
+                 const uploader::Delivery& delivery, uploader::Budgets budgets) {
   budgets.attempts = options.attempts;
   for (const auto& macro : delivery.macros) {
     const auto plan = make_plan(macro.job, budgets);
@@ -140,7 +140,7 @@ std::string uncounted_note(std::size_t pieces) {
 }
 
 /// Tells how it ended, and watches what runs where that was asked for.
-ExitCode finish(const Context& context, const Options& options, Link& link,
+ExitCode finish(const Context& context, const UploadOptions& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
                 const Lookup& lookup) {
   if (report.kind != Report::Kind::Done)
@@ -157,8 +157,8 @@ ExitCode finish(const Context& context, const Options& options, Link& link,
   return watched.faulted ? ExitCode::BadInput : watched.lost ? ExitCode::LinkLost : ExitCode::Done;
 }
 
-ExitCode send(const Context& context, const Options& options, const uploader::Delivery& delivery,
-              const Lookup& lookup) {
+ExitCode send(const Context& context, const UploadOptions& options,
+              const uploader::Delivery& delivery, const Lookup& lookup) {
   const InterruptGuard guard; // from here on the last word is what is on the ball
   auto link = open_link(context, options.port);
   if (!link)
@@ -178,7 +178,7 @@ ExitCode send(const Context& context, const Options& options, const uploader::De
       context, finish(context, options, *link, session, report, session.now() - start, lookup));
 }
 
-void upload(Context& context, const Options& options) {
+void upload(Context& context, const UploadOptions& options) {
   const auto budgets = port_budgets(context, options.port);
   if (!budgets)
     return cli::fail(context, budgets.error());
@@ -201,7 +201,7 @@ void add_upload(const Command& orb, Context& context) {
       "orb upload square.bas --port /dev/rfcomm0 --run\n"
       "orb upload dance.macro square.bas --port rfcomm://68:86:E7:00:11:22 --area flash\n"
       "orb upload square.bas --dry-run");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<UploadOptions>();
   command.add_option("FILE", options->files, "sources or built macros; macros are sent first")
       .required();
   add_language_option(command, options->lang);
