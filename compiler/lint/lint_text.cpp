@@ -1,599 +1,186 @@
-#include "compiler/lint/lint_passes.h"
-
-#include "compiler/lint/sensor_tests.h"
-#include "compiler/text/rules.h"
-#include "compiler/text/words.h"
-#include "spec/limits.h"
-
-#include <algorithm>
-#include <fmt/format.h>
-#include <optional>
+#include "compiler/lint/text_pass.h"
 
 namespace orb::compiler {
-namespace {
 
-/// Neither printable ASCII nor LF.
-constexpr bool is_unusual(char c) {
-  return ((c < ' ') | (c > '~')) & (c != '\n');
+void TextPass::run() {
+  check_bytes();
+  check_numbers();
+  for (const auto& code : flow_.code)
+    check_line(program_.lines[code.line]);
+  check_targets();
+  for (std::uint32_t i = 0; i < program_.nodes.size(); ++i)
+    if (is_remarkable(program_.nodes[i]))
+      check_node(i);
 }
 
-bool has_unusual_byte(std::string_view text) {
-  constexpr std::size_t block = 64; // known, so that the compiler looks at many bytes at once
-  for (; text.size() >= block; text.remove_prefix(block)) {
-    std::uint8_t found = 0;
-    for (std::size_t i = 0; i < block; ++i)
-      found |= static_cast<std::uint8_t>(is_unusual(text[i]));
-    if (found != 0)
-      return true;
-  }
-  return std::any_of(text.begin(), text.end(), is_unusual);
+void TextPass::check_bytes() {
+  if (!has_unusual_byte(program_.text))
+    return;
+  for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
+    check_bytes_of(i);
+  check_line_ends();
 }
 
-/// What can be said of the text without computing anything.
-class TextPass {
-public:
-  TextPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
-      : program_(program), flow_(flow), target_(target), findings_(findings) {}
-
-  void run() {
-    check_bytes();
-    check_numbers();
-    for (const auto& code : flow_.code)
-      check_line(program_.lines[code.line]);
-    check_targets();
-    for (std::uint32_t i = 0; i < program_.nodes.size(); ++i)
-      if (is_remarkable(program_.nodes[i]))
-        check_node(i);
-  }
-
-private:
-  // ---- the whole text
-
-  void check_bytes() {
-    if (!has_unusual_byte(program_.text))
-      return;
-    for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
-      check_bytes_of(i);
-    check_line_ends();
-  }
-
-  void check_bytes_of(std::uint32_t index) {
-    const auto& line = program_.lines[index];
-    const auto end = line.comment.size() > 0 ? line.comment.begin : line.span.end;
-    bool in_string = false;
-    bool tab_seen = false;
-    bool byte_seen = false;
-    for (auto i = line.span.begin; i < end; ++i) {
-      const auto c = static_cast<unsigned char>(program_.text[i]);
-      in_string = in_string != (c == '"');
-      if (c == '\t' && !in_string && !tab_seen) {
-        tab_seen = true;
-        add_tab(index, i, end);
-      } else if ((c < ' ' || c >= '\x7F') && (c != '\t' || in_string) && !byte_seen) {
-        byte_seen = true;
-        findings_.add(rules::NonprintingByte, {i, i + 1},
-                      fmt::format("byte {:02X} is not printable ASCII", c), "write plain letters");
-      }
+void TextPass::check_bytes_of(std::uint32_t index) {
+  const auto& line = program_.lines[index];
+  const auto end = line.comment.size() > 0 ? line.comment.begin : line.span.end;
+  bool in_string = false;
+  bool tab_seen = false;
+  bool byte_seen = false;
+  for (auto i = line.span.begin; i < end; ++i) {
+    const auto c = static_cast<unsigned char>(program_.text[i]);
+    in_string = in_string != (c == '"');
+    if (c == '\t' && !in_string && !tab_seen) {
+      tab_seen = true;
+      add_tab(index, i, end);
+    } else if ((c < ' ' || c >= '\x7F') && (c != '\t' || in_string) && !byte_seen) {
+      byte_seen = true;
+      findings_.add(rules::NonprintingByte, {i, i + 1},
+                    fmt::format("byte {:02X} is not printable ASCII", c), "write plain letters");
     }
   }
+}
 
-  void add_tab(std::uint32_t index, std::uint32_t first, std::uint32_t end) {
-    auto& d = findings_.add(rules::Tab, {first, first + 1}, "a tab stands where a space belongs",
-                            "write a space");
-    Fix fix{"write spaces", {}, Safety::Safe};
-    bool in_string = false;
-    for (auto i = program_.lines[index].span.begin; i < end; ++i) {
-      in_string = in_string != (program_.text[i] == '"');
-      if (program_.text[i] == '\t' && !in_string)
-        fix.edits.push_back({{i, i + 1}, " "});
+void TextPass::add_tab(std::uint32_t index, std::uint32_t first, std::uint32_t end) {
+  auto& d = findings_.add(rules::Tab, {first, first + 1}, "a tab stands where a space belongs",
+                          "write a space");
+  Fix fix{"write spaces", {}, Safety::Safe};
+  bool in_string = false;
+  for (auto i = program_.lines[index].span.begin; i < end; ++i) {
+    in_string = in_string != (program_.text[i] == '"');
+    if (program_.text[i] == '\t' && !in_string)
+      fix.edits.push_back({{i, i + 1}, " "});
+  }
+  d.fix = std::move(fix);
+}
+
+void TextPass::check_line_ends() {
+  const auto at = program_.text.find('\r');
+  if (at == std::string_view::npos)
+    return;
+  const auto begin = static_cast<std::uint32_t>(at);
+  const bool pair = at + 1 < program_.text.size() && program_.text[at + 1] == '\n';
+  auto& d = findings_.add(rules::LineEnding, {begin, begin},
+                          fmt::format("lines end in {}", pair ? "CRLF" : "CR"),
+                          "the robot's documents ask for LF alone");
+  Fix fix{"end lines in LF", {}, Safety::Safe};
+  for (auto i = begin; i < program_.text.size(); ++i)
+    if (program_.text[i] == '\r') {
+      const bool followed = i + 1 < program_.text.size() && program_.text[i + 1] == '\n';
+      fix.edits.push_back({{i, i + 1}, followed ? "" : "\n"});
     }
-    d.fix = std::move(fix);
+  d.fix = std::move(fix);
+}
+
+void TextPass::check_numbers() {
+  std::uint32_t last = 0;
+  bool ascending = true;
+  for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
+    const auto& line = program_.lines[i];
+    if (!line.has_number())
+      continue;
+    if (line.number == 0)
+      findings_.add(rules::LineNumberRange, line.number_span,
+                    fmt::format("line number 0 is not {} to {}",
+                                spec::value_of(spec::Limit::LeastLineNumber),
+                                spec::value_of(spec::Limit::GreatestLineNumber)));
+    if (line.number <= last && i > 0)
+      ascending = false;
+    if (line.number < last)
+      findings_.add(rules::UnsortedLines, line.number_span,
+                    fmt::format("line {} stands below line {}", line.number, last),
+                    "lines run in the order of the text; `orb fmt --renumber` puts it right");
+    last = line.number;
+    if (!line.has_statement())
+      add_empty_line(line);
   }
+  if (!ascending)
+    check_duplicates();
+}
 
-  void check_line_ends() {
-    const auto at = program_.text.find('\r');
-    if (at == std::string_view::npos)
-      return;
-    const auto begin = static_cast<std::uint32_t>(at);
-    const bool pair = at + 1 < program_.text.size() && program_.text[at + 1] == '\n';
-    auto& d = findings_.add(rules::LineEnding, {begin, begin},
-                            fmt::format("lines end in {}", pair ? "CRLF" : "CR"),
-                            "the robot's documents ask for LF alone");
-    Fix fix{"end lines in LF", {}, Safety::Safe};
-    for (auto i = begin; i < program_.text.size(); ++i)
-      if (program_.text[i] == '\r') {
-        const bool followed = i + 1 < program_.text.size() && program_.text[i + 1] == '\n';
-        fix.edits.push_back({{i, i + 1}, followed ? "" : "\n"});
-      }
-    d.fix = std::move(fix);
+void TextPass::add_empty_line(const Line& line) {
+  auto& d = findings_.add(rules::LineWithoutStatement, line.number_span,
+                          fmt::format("line {} holds no statement and is dropped", line.number),
+                          line.comment.size() > 0 ? "a comment needs no number" : "");
+  if (line.number == none - 1 || is_target(line.number))
+    return;
+  if (line.comment.size() > 0)
+    d.fix = single_fix("remove the number", {line.span.begin, line.comment.begin}, "");
+}
+
+bool TextPass::is_target(std::uint32_t number) {
+  if (!targets_sorted_) {
+    targets_sorted_ = true;
+    for (const auto& part : program_.items)
+      if (part.kind == ItemKind::Target)
+        targets_.push_back(part.value);
+    std::sort(targets_.begin(), targets_.end());
   }
+  return std::binary_search(targets_.begin(), targets_.end(), number);
+}
 
-  // ---- line numbers
-
-  void check_numbers() {
-    std::uint32_t last = 0;
-    bool ascending = true;
-    for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
-      const auto& line = program_.lines[i];
-      if (!line.has_number())
-        continue;
-      if (line.number == 0)
-        findings_.add(rules::LineNumberRange, line.number_span,
-                      fmt::format("line number 0 is not {} to {}",
-                                  spec::value_of(spec::Limit::LeastLineNumber),
-                                  spec::value_of(spec::Limit::GreatestLineNumber)));
-      if (line.number <= last && i > 0)
-        ascending = false;
-      if (line.number < last)
-        findings_.add(rules::UnsortedLines, line.number_span,
-                      fmt::format("line {} stands below line {}", line.number, last),
-                      "lines run in the order of the text; `orb fmt --renumber` puts it right");
-      last = line.number;
-      if (!line.has_statement())
-        add_empty_line(line);
+void TextPass::check_duplicates() {
+  constexpr std::size_t most_fixes = 64; // the rest gets its turn when these are applied
+  std::size_t first = 0;
+  std::size_t found = 0;
+  for (std::size_t i = 1; i < flow_.numbers.size(); ++i) {
+    const auto& row = flow_.numbers[i];
+    if (row.number != flow_.numbers[first].number) {
+      first = i;
+      continue;
     }
-    if (!ascending)
-      check_duplicates();
-  }
-
-  void add_empty_line(const Line& line) {
-    auto& d = findings_.add(rules::LineWithoutStatement, line.number_span,
-                            fmt::format("line {} holds no statement and is dropped", line.number),
-                            line.comment.size() > 0 ? "a comment needs no number" : "");
-    if (line.number == none - 1 || is_target(line.number))
-      return;
-    if (line.comment.size() > 0)
-      d.fix = single_fix("remove the number", {line.span.begin, line.comment.begin}, "");
-  }
-
-  /// Whether some jump names the line; the jumps are sorted once, when this is first asked.
-  bool is_target(std::uint32_t number) {
-    if (!targets_sorted_) {
-      targets_sorted_ = true;
-      for (const auto& part : program_.items)
-        if (part.kind == ItemKind::Target)
-          targets_.push_back(part.value);
-      std::sort(targets_.begin(), targets_.end());
-    }
-    return std::binary_search(targets_.begin(), targets_.end(), number);
-  }
-
-  void check_duplicates() {
-    constexpr std::size_t most_fixes = 64; // the rest gets its turn when these are applied
-    std::size_t first = 0;
-    std::size_t found = 0;
-    for (std::size_t i = 1; i < flow_.numbers.size(); ++i) {
-      const auto& row = flow_.numbers[i];
-      if (row.number != flow_.numbers[first].number) {
-        first = i;
-        continue;
-      }
-      const auto& line = program_.lines[row.line];
-      auto& d = findings_.add(rules::DuplicateLine, line.number_span,
-                              fmt::format("line number {} is already taken", row.number));
-      const auto& original = program_.lines[flow_.numbers[first].line];
-      add_note(d, original.number_span, "the first line with that number");
-      if (++found > most_fixes)
-        continue;
-      if (const auto free = free_number(row.line)) {
-        d.help = fmt::format("{} is free here", *free);
-        d.fix = single_fix(fmt::format("renumber to {}", *free), line.number_span,
-                           std::to_string(*free));
-      }
+    const auto& line = program_.lines[row.line];
+    auto& d = findings_.add(rules::DuplicateLine, line.number_span,
+                            fmt::format("line number {} is already taken", row.number));
+    const auto& original = program_.lines[flow_.numbers[first].line];
+    add_note(d, original.number_span, "the first line with that number");
+    if (++found > most_fixes)
+      continue;
+    if (const auto free = free_number(row.line)) {
+      d.help = fmt::format("{} is free here", *free);
+      d.fix =
+          single_fix(fmt::format("renumber to {}", *free), line.number_span, std::to_string(*free));
     }
   }
+}
 
-  /// A number between those of the neighbours that no line and no jump has.
-  std::optional<std::uint32_t> free_number(std::uint32_t index) {
-    std::uint32_t below = 0;
-    for (std::uint32_t i = 0; i <= index; ++i)
-      if (program_.lines[i].has_number())
-        below = program_.lines[i].number;
-    auto above = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)) + 1;
-    for (auto i = index + 1; i < program_.lines.size(); ++i)
-      if (program_.lines[i].has_number() && program_.lines[i].number > below) {
-        above = program_.lines[i].number;
-        break;
-      }
-    constexpr std::uint32_t tries = 100; // a text as crowded as that is renumbered instead
-    const auto middle = above - below > 20 ? below + 10 : below + (above - below) / 2;
-    for (std::uint32_t n = middle; n < above && n < middle + tries; ++n)
-      if (n > below && flow_.find(n) == nullptr && !is_target(n))
-        return n;
-    for (std::uint32_t n = below + 1; n < middle && n < below + tries; ++n)
-      if (flow_.find(n) == nullptr && !is_target(n))
-        return n;
-    return std::nullopt;
-  }
-
-  // ---- statements
-
-  void check_line(const Line& line) {
-    blank_missing_ = false;
-    const auto& whole = program_.statements[line.statement];
-    if (line.has_number() && whole.span.size() > 0 && whole.span.begin == line.number_span.end)
-      add_missing_blank(line.number_span.end, "the line number");
-    for (const auto& statement : program_.whole(whole)) {
-      if (statement.error)
-        continue;
-      if (&statement != &whole)
-        check_branch(statement);
-      check(statement);
-      if (statement.kind == spec::Statement::Print && program_.items_of(statement).empty())
-        check_single_quotes(statement, line.comment);
-    }
-  }
-
-  void check_branch(const StatementNode& statement) {
-    const auto& row = spec::info(statement.kind);
-    if (row.in_then == spec::InThen::Unlisted)
-      findings_.add(rules::UndocumentedInBranch, statement.word,
-                    fmt::format("`{}` is not documented inside `then` and `else`", row.word),
-                    "put it on a line of its own and jump there");
-  }
-
-  void check(const StatementNode& statement) {
-    const auto& row = spec::info(statement.kind);
-    if (statement.kind == spec::Statement::Goroll)
-      check_age_of_goroll(statement);
-    else if (row.since > target_.version)
-      add_newer(statement.word, row.word, row.since);
-    const bool wordy = statement.word.size() > 0 && statement.spelling != Spelling::QuestionMark;
-    if (wordy && statement.word.end < statement.span.end)
-      check_side(statement.word.end, statement.word.end, row.word);
-    switch (row.form) {
-    case spec::Form::Assignment: check_let(statement); break;
-    case spec::Form::Conditional: check_if(statement); break;
-    case spec::Form::Loop: check_for(program_.as<ForView>(statement)); break;
-    case spec::Form::IndexedBranch: check_on(statement); break;
-    case spec::Form::Output: check_print(program_.items_of(statement)); break;
-    case spec::Form::Values: check_data(program_.items_of(statement)); break;
-    case spec::Form::Variables: check_read(statement); break;
-    case spec::Form::LoopEnd:
-    case spec::Form::Branch:
-    case spec::Form::Entry:
-    case spec::Form::Arguments: break;
-    }
-  }
-
-  /// Before August 2012 it had two values.
-  void check_age_of_goroll(const StatementNode& statement) {
-    const auto& row = spec::info(statement.kind);
-    const auto values = program_.items_of(statement);
-    if (row.since <= target_.version || values.size() < row.parameters().size())
-      return;
-    add_newer(statement.word, row.word, row.since);
-    findings_.all().back().help =
-        fmt::format("it had two values then: write `{}`",
-                    program_.text_of({statement.word.begin, values[values.size() - 2].span.end}));
-  }
-
-  void check_age_of_timer(const LetView& let) {
-    const auto& row = spec::info(spec::BasicGrowth::TimersCountUp);
-    if (row.since <= target_.version || let.variable.kind != ItemKind::System ||
-        !is_timer(static_cast<spec::Variable>(let.variable.value)))
-      return;
-    const auto& value = program_.nodes[let.expression.value];
-    if (value.kind != NodeKind::Number || value.value != 0)
-      return;
-    auto& d = findings_.add(
-        rules::NewerThanTarget, let.variable.span,
-        fmt::format("a timer that is set to 0 counts up since orbBasic {}, the target has {}",
-                    spec::info(row.since).text, spec::info(target_.version).text),
-        "set it to a number and see how far it has counted down");
-    d.severity = Severity::Warning;
-  }
-
-  void add_newer(Span span, std::string_view word, spec::BasicVersion since) {
-    findings_.add(rules::NewerThanTarget, span,
-                  fmt::format("`{}` needs orbBasic {}, the target has {}", word,
-                              spec::info(since).text, spec::info(target_.version).text));
-  }
-
-  void check_let(const StatementNode& statement) {
-    check_age_of_timer(program_.as<LetView>(statement));
-    if (statement.spelling != Spelling::Let)
-      return;
-    auto& d = findings_.add(rules::UndocumentedLet, statement.word, "`let` is not documented",
-                            "leave it out");
-    const auto begin = program_.as<LetView>(statement).variable.span.begin;
-    d.fix = single_fix("remove `let`", {statement.word.begin, begin}, "");
-  }
-
-  void check_if(const StatementNode& statement) {
-    const auto condition = program_.as<IfView>(statement);
-    if (condition.second)
-      check_gap(condition.first.right.span.end, condition.second->left.span.begin,
-                condition.joint->kind == ItemKind::And ? "and" : "or");
-    // A branch without text has no side that a blank could stand on.
-    const auto& then = program_.statements[statement.then_branch].span;
-    if (then.size() == 0)
-      return;
-    check_gap(condition.last().right.span.end, then.begin, "then");
-    if (statement.else_branch != none && program_.statements[statement.else_branch].span.size() > 0)
-      check_gap(then.end, program_.statements[statement.else_branch].span.begin, "else");
-  }
-
-  void check_for(const ForView& loop) {
-    check_gap(loop.start.span.end, loop.end.span.begin, "to");
-    if (loop.step != nullptr)
-      check_gap(loop.end.span.end, loop.step->span.begin, "step");
-  }
-
-  void check_on(const StatementNode& statement) {
-    const auto& [selector, targets] = program_.as<OnView>(statement);
-    check_gap(selector.span.end, targets.front().span.begin,
-              statement.spelling == Spelling::OnGosub ? "gosub" : "goto");
-  }
-
-  void check_targets() {
-    for (const auto& jump : flow_.jumps) {
-      if (jump.to != none)
-        continue;
-      const auto& target = program_.items[jump.item];
-      if (const auto* number = flow_.find(target.value))
-        add_empty_target(target, number->line);
-      else
-        add_missing_target(target);
-    }
-  }
-
-  void add_empty_target(const Item& target, std::uint32_t index) {
-    auto& d = findings_.add(rules::EmptyTarget, target.span,
-                            fmt::format("line {} holds no statement and is dropped", target.value),
-                            "jump to the line below it");
-    const auto at = program_.lines.begin() + index;
-    const auto below = std::find_if(at, program_.lines.end(), [](const Line& line) {
-      return line.has_number() && line.has_statement();
-    });
-    if (below == program_.lines.end()) {
-      d.help = fmt::format("write `{} end`", target.value);
-      d.fix = single_fix(d.help, {at->number_span.end, at->number_span.end}, " end");
-    } else if (below->number < none - 1) {
-      d.help = fmt::format("jump to the line below it: {}", below->number);
-      d.fix = single_fix(d.help, target.span, std::to_string(below->number));
-    }
-  }
-
-  void add_missing_target(const Item& target) {
-    auto& d = findings_.add(rules::MissingTarget, target.span,
-                            fmt::format("there is no line {}", program_.text_of(target.span)));
-    const auto next =
-        std::lower_bound(flow_.numbers.begin(), flow_.numbers.end(), target.value,
-                         [](const auto& row, std::uint32_t n) { return row.number < n; });
-    if (next != flow_.numbers.end())
-      d.help = fmt::format("the next one is {}", next->number);
-    else if (!flow_.numbers.empty())
-      d.help = fmt::format("the last one is {}", flow_.numbers.back().number);
-  }
-
-  void check_print(std::span<const Item> items) {
-    for (std::size_t i = 0; i + 1 < items.size(); ++i)
-      if (items[i].kind == ItemKind::Semicolon)
-        add_semicolon(items[i], items[i + 1]);
-  }
-
-  /// `print 'hello'` prints an empty line, because `'` begins a comment.
-  void check_single_quotes(const StatementNode& statement, Span comment) {
-    const auto text = program_.text_of(comment);
-    const auto last = text.find_last_of('\'');
-    if (last == 0 || last == std::string_view::npos ||
-        text.find_first_not_of(" \t", last + 1) != std::string_view::npos)
-      return;
-    const auto quoted = fmt::format("\"{}\"", text.substr(1, last - 1));
-    auto& d = findings_.add(rules::SingleQuotes, {statement.span.begin, comment.end},
-                            "`'` begins a comment, so this prints an empty line",
-                            fmt::format("write `print {}`", quoted));
-    if (quoted.find('"', 1) == quoted.size() - 1)
-      d.fix = single_fix(
-          d.help, {comment.begin, comment.begin + static_cast<std::uint32_t>(last) + 1}, quoted);
-  }
-
-  void add_semicolon(const Item& semicolon, const Item& next) {
-    auto& d = findings_.add(rules::SemicolonInPrint, semicolon.span,
-                            "a `;` means something only at the end of a print",
-                            "leave it out, or write `,` for a space");
-    // A blank keeps what stands on both sides apart; a minus sign would join them.
-    if (program_.text[next.span.begin] != '-')
-      d.fix = single_fix("write a space", {semicolon.span.begin, next.span.begin}, " ");
-  }
-
-  void check_data(std::span<const Item> values) {
-    const auto count = static_cast<std::uint32_t>(values.size());
-    const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues));
-    if (count > most)
-      findings_.add(rules::TooManyDataValues, values[most].span,
-                    fmt::format("the line holds {} values; the robot ignores those after the {}th",
-                                count, most));
-    for (const auto& value : values) {
-      const auto& root = program_.nodes[value.value];
-      const bool negative =
-          root.kind == NodeKind::Negate && program_.nodes[value.value - 1].kind == NodeKind::Number;
-      if (root.kind != NodeKind::Number && !negative) {
-        findings_.add(rules::DataExpression, value.span,
-                      "a `data` value is a plain number in the documents");
-        break;
-      }
-    }
-  }
-
-  void check_read(const StatementNode& statement) {
-    if (program_.items_of(statement).size() > 1)
-      findings_.add(rules::ReadSeveral, statement.span,
-                    "some firmware reads only one variable per `read`",
-                    "write one `read` for each variable");
-  }
-
-  // ---- blanks
-
-  /// A word stands between two expressions: blanks belong on both of its sides.
-  void check_gap(std::uint32_t begin, std::uint32_t end, std::string_view word) {
-    if (end <= begin)
-      return;
-    check_side(begin, begin, word);
-    check_side(end - 1, end, word);
-  }
-
-  /// Where a blank should be at `at`, and where one can be put.
-  void check_side(std::uint32_t at, std::uint32_t gap, std::string_view word) {
-    if (!is_blank(program_.text[at]))
-      add_missing_blank(gap, fmt::format("`{}`", word));
-  }
-
-  void add_missing_blank(std::uint32_t at, std::string_view what) {
-    if (blank_missing_)
-      return; // one for a line is enough
-    blank_missing_ = true;
-    auto& d = findings_.add(rules::MissingBlank, {at, at},
-                            fmt::format("a space is missing next to {}", what));
-    d.fix = single_fix("insert a space", {at, at}, " ");
-  }
-
-  // ---- expressions
-
-  /// Whether there may be something to say of a node; of most there is nothing.
-  static bool is_remarkable(const Node& node) {
-    constexpr auto bit = [](NodeKind kind) { return 1U << static_cast<unsigned>(kind); };
-    constexpr auto kinds =
-        bit(NodeKind::System) | bit(NodeKind::Group) | bit(NodeKind::Negate) | bit(NodeKind::Call);
-    return (kinds & bit(node.kind)) != 0 || node.overflow;
-  }
-
-  void check_node(std::uint32_t index) {
-    const auto& node = program_.nodes[index];
-    switch (node.kind) {
-    case NodeKind::Number:
-      if (node.overflow)
-        findings_.add(rules::LiteralTooLarge, node.span,
-                      fmt::format("{} is above {}", program_.text_of(node.span),
-                                  spec::value_of(spec::Limit::GreatestInteger)));
+std::optional<std::uint32_t> TextPass::free_number(std::uint32_t index) {
+  std::uint32_t below = 0;
+  for (std::uint32_t i = 0; i <= index; ++i)
+    if (program_.lines[i].has_number())
+      below = program_.lines[i].number;
+  auto above = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)) + 1;
+  for (auto i = index + 1; i < program_.lines.size(); ++i)
+    if (program_.lines[i].has_number() && program_.lines[i].number > below) {
+      above = program_.lines[i].number;
       break;
-    case NodeKind::System: check_system(node); break;
-    case NodeKind::Group: check_depth(node); break;
-    case NodeKind::Negate:
-      if (!follows_step(node.span.begin))
-        add_negative(node);
-      break;
-    case NodeKind::Call:
-      check_depth(node);
-      check_operand(node, program_.nodes[index - 1]);
-      break;
-    case NodeKind::Letter:
-    case NodeKind::Indexed:
-    case NodeKind::Binary: break;
     }
+  constexpr std::uint32_t tries = 100; // a text as crowded as that is renumbered instead
+  const auto middle = above - below > 20 ? below + 10 : below + (above - below) / 2;
+  for (std::uint32_t n = middle; n < above && n < middle + tries; ++n)
+    if (n > below && flow_.find(n) == nullptr && !is_target(n))
+      return n;
+  for (std::uint32_t n = below + 1; n < middle && n < below + tries; ++n)
+    if (flow_.find(n) == nullptr && !is_target(n))
+      return n;
+  return std::nullopt;
+}
+
+void TextPass::check_line(const Line& line) {
+  blank_missing_ = false;
+  const auto& whole = program_.statements[line.statement];
+  if (line.has_number() && whole.span.size() > 0 && whole.span.begin == line.number_span.end)
+    add_missing_blank(line.number_span.end, "the line number");
+  for (const auto& statement : program_.whole(whole)) {
+    if (statement.error)
+      continue;
+    if (&statement != &whole)
+      check_branch(statement);
+    check(statement);
+    if (statement.kind == spec::Statement::Print && program_.items_of(statement).empty())
+      check_single_quotes(statement, line.comment);
   }
-
-  /// Whether the sign of a step stands here, which is documented.
-  bool follows_step(std::uint32_t at) const {
-    constexpr std::string_view word = "step";
-    while (at > 0 && is_blank(program_.text[at - 1]))
-      --at;
-    return program_.text.substr(0, at).ends_with(word);
-  }
-
-  void check_depth(const Node& node) {
-    const auto most = spec::value_of(spec::Limit::ExpressionLevels);
-    if (node.depth == most + 1)
-      findings_.add(rules::ExpressionLevels, node.span,
-                    fmt::format("more than {} parentheses and functions are open at once", most),
-                    "compute part of it on a line of its own");
-  }
-
-  void add_negative(const Node& node) {
-    auto& d = findings_.add(rules::NegativeLiteral, node.span,
-                            "negative numbers are not documented", "write `0-…`");
-    const auto version = target_.version;
-    if (version == spec::BasicVersion::V0_9)
-      d.severity = Severity::Error;
-    // Behind an operator, or before one that binds more strongly than minus, only parentheses keep
-    // the sign with its operand.
-    auto before = node.span.begin;
-    while (before > 0 && is_blank(program_.text[before - 1]))
-      --before;
-    auto after = node.span.end;
-    while (after < program_.text.size() && is_blank(program_.text[after]))
-      ++after;
-    const bool bound = before > 0 && spec::find_operator(program_.text[before - 1]);
-    const auto next = after < program_.text.size() ? spec::find_operator(program_.text[after])
-                                                   : std::optional<spec::Operator>();
-    const bool binds = next && spec::info(*next).level == spec::Level::Medium;
-    const auto begin = node.span.begin;
-    if (!bound && !binds) {
-      d.help = fmt::format("write `0{}`", program_.text_of(node.span));
-      d.fix = single_fix(d.help, {begin, begin}, "0");
-      return;
-    }
-    d.help = fmt::format("write `(0{})`", program_.text_of(node.span));
-    // Each function around it may get parentheses in the same round, which also count.
-    if (2 * node.depth + 1 + deepest_below(node) <= spec::value_of(spec::Limit::ExpressionLevels))
-      d.fix = Fix{
-          d.help, {{{begin, begin}, "(0"}, {{node.span.end, node.span.end}, ")"}}, Safety::Safe};
-  }
-
-  void check_system(const Node& node) {
-    const auto& row = spec::variables[node.what];
-    const bool old_name = !row.old_word.empty() && program_.text_of(node.span) == row.old_word;
-    if (old_name && target_.version >= row.since) {
-      auto& d = findings_.add(rules::OldName, node.span,
-                              fmt::format("`{}` has been called `{}` since orbBasic {}",
-                                          row.old_word, row.word, spec::info(row.since).text),
-                              fmt::format("write `{}`", row.word));
-      d.fix = single_fix(d.help, node.span, std::string(row.word));
-    } else if (!old_name && row.since > target_.version) {
-      add_newer(node.span, row.word, row.since);
-      if (!row.old_word.empty())
-        findings_.all().back().help = fmt::format("it was called `{}` then", row.old_word);
-    }
-  }
-
-  /// A-9: the operand is the whole expression that follows, which reads otherwise where a weak
-  /// operator follows, or anything after a parenthesis.
-  void check_operand(const Node& node, const Node& operand) {
-    const auto& row = spec::functions[node.what];
-    if (operand.kind != NodeKind::Binary)
-      return;
-    const auto& op = spec::operators[operand.what];
-    const bool parenthesis = program_.text[operand.span.begin] == '(';
-    if (op.level != spec::Level::Low && !parenthesis)
-      return;
-    auto& d = findings_.add(
-        rules::FunctionOperand, node.span,
-        fmt::format("`{}` takes all of `{}`", row.word, program_.text_of(operand.span)),
-        fmt::format("write `{} ({})`, or `({} …)` for less", row.word,
-                    program_.text_of(operand.span), row.word));
-    // Other fixes of the same round may put parentheses around and into this operand.
-    const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
-    if (levels <= spec::value_of(spec::Limit::ExpressionLevels))
-      d.fix = Fix{"put the operand in parentheses",
-                  {{{operand.span.begin, operand.span.begin},
-                    program_.text[operand.span.begin - 1] == ' ' ? "(" : " ("},
-                   {{operand.span.end, operand.span.end}, ")"}},
-                  Safety::Safe};
-  }
-
-  /// How many levels a subtree has, and at most can get by fixes: functions and signs count twice.
-  int deepest_below(const Node& root) const {
-    int levels = 0;
-    const auto index = static_cast<std::uint32_t>(&root - program_.nodes.data());
-    for (auto i = root.first; i < index; ++i) {
-      const auto kind = program_.nodes[i].kind;
-      levels += kind == NodeKind::Group || kind == NodeKind::Negate ? 1 : 0;
-      levels += kind == NodeKind::Call ? 2 : 0;
-    }
-    return levels;
-  }
-
-  const Program& program_;
-  const Flow& flow_;
-  const Target& target_;
-  Findings& findings_;
-  std::vector<std::uint32_t> targets_; ///< line numbers that something names, ascending
-  bool targets_sorted_ = false;
-  bool blank_missing_ = false; ///< on this line, and reported
-};
-
-} // namespace
+}
 
 void lint_text(const Program& program, const Flow& flow, const Target& target, Findings& findings) {
   TextPass(program, flow, target, findings).run();

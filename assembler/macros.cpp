@@ -1,0 +1,153 @@
+#include "assembler/assembler.h"
+
+namespace orb::assembler {
+
+void Assembler::define_macro(const Statement& statement) {
+  AssembledMacro defined;
+  const auto* value = values(statement);
+  if (statement.count == 0 || value->kind != Value::Kind::Word || value->name.size() != 0) {
+    report(rules::Header, statement.head, "`.macro` takes a name",
+           "write `.macro NAME id=40 flags=motor_control`");
+    defined.span = statement.head;
+    assembly_.macros.push_back(std::move(defined));
+    return;
+  }
+  defined.name = text(value->span);
+  defined.span = value->span;
+  Name name;
+  name.kind = Name::Kind::Macro;
+  name.macro = assembly_.macros.size();
+  define(value->span, name);
+  std::string_view attribute;
+  for (const auto* at = value + 1; at != value + statement.count; ++at) {
+    if (at->name.size() != 0)
+      attribute = text(at->name);
+    read_attribute(defined, attribute, *at);
+  }
+  if (defined.extended_flags)
+    set_flags(defined, defined.flags.value_or(spec::macro_default_flags) |
+                           static_cast<int>(spec::MacroFlag::ExtFlags));
+  check_id_is_free(defined);
+  assembly_.macros.push_back(std::move(defined));
+}
+
+void Assembler::read_attribute(AssembledMacro& defined, std::string_view attribute,
+                               const Value& value) {
+  if (attribute == "id")
+    return read_id(defined, value);
+  if (attribute == "flags")
+    return read_flag(defined, value);
+  if (attribute == "ext") {
+    if (const auto byte = header_byte(value, 0, "extended flags are"))
+      defined.extended_flags = byte;
+    return;
+  }
+  constexpr std::string_view attributes[] = {"id", "flags", "ext"};
+  report(rules::Header, value.name.size() != 0 ? value.name : value.span,
+         attribute.empty() ? "a macro has one name"
+                           : fmt::format("`.macro` has no `{}=`", attribute),
+         did_you_mean(attribute, attributes, "there are `id=`, `flags=` and `ext=`"));
+}
+
+std::optional<std::uint8_t> Assembler::header_byte(const Value& value, int minimum,
+                                                   std::string_view what) {
+  const auto* number = &value;
+  if (value.kind == Value::Kind::Word)
+    if (const auto* name = find_name(text(value.span));
+        name != nullptr && name->kind == Name::Kind::Constant)
+      number = &name->value;
+  if (number->kind == Value::Kind::Number && number->unit == Unit::None &&
+      number->thousandths % whole == 0 && number->thousandths >= minimum * whole &&
+      number->thousandths <= UINT8_MAX * whole)
+    return static_cast<std::uint8_t>(number->thousandths / whole);
+  report(rules::Header, value.span,
+         fmt::format("{} {} to {}, found `{}`", what, minimum, UINT8_MAX, text(value.span)));
+  return std::nullopt;
+}
+
+void Assembler::read_id(AssembledMacro& defined, const Value& value) {
+  const auto id = header_byte(value, spec::macro_id_none, "an id is");
+  if (!id)
+    return;
+  const auto kind = spec::macro_id_kind(*id);
+  if (kind == spec::MacroIdKind::None)
+    report(rules::Header, value.span, "id 0 means that no macro is running",
+           fmt::format("write an id from {} to {}", spec::macro_id_user_first,
+                       spec::macro_id_user_last));
+  if (kind == spec::MacroIdKind::System)
+    report(rules::Header, value.span,
+           fmt::format("ids {} to {} are the ball's own macros", spec::macro_id_system_first,
+                       spec::macro_id_system_last),
+           fmt::format("write an id from {} to {}", spec::macro_id_user_first,
+                       spec::macro_id_user_last))
+        .severity = Severity::Warning;
+  defined.id = id;
+}
+
+void Assembler::read_flag(AssembledMacro& defined, const Value& value) {
+  defined.flags_span = value.span;
+  const auto old = defined.flags.value_or(0);
+  if (value.kind == Value::Kind::Word) {
+    const auto word = text(value.span);
+    if (word == "none") {
+      defined.flags = old;
+      return;
+    }
+    if (const auto* flag = spec::find_macro_flag(word)) {
+      set_flags(defined, old | flag->bit);
+      return;
+    }
+    if (find_name(word) == nullptr) {
+      std::array<std::string_view, std::size(spec::macro_flags)> words;
+      std::string all;
+      for (std::size_t i = 0; i < words.size(); ++i) {
+        words[i] = spec::macro_flags[i].word;
+        all += fmt::format("{}`{}`", i == 0 ? "" : ", ", words[i]);
+      }
+      report(rules::Header, value.span, fmt::format("`{}` is not a macro flag", word),
+             did_you_mean(word, words, fmt::format("there are {}", all)));
+      return;
+    }
+  }
+  if (const auto byte = header_byte(value, 0, "flags are"))
+    set_flags(defined, old | *byte);
+}
+
+void Assembler::set_flags(AssembledMacro& defined, int flags) {
+  defined.flags = static_cast<std::uint8_t>(flags);
+  if (spec::has_flag(*defined.flags, spec::MacroFlag::ExtFlags) && !defined.extended_flags)
+    defined.extended_flags = 0;
+}
+
+void Assembler::check_id_is_free(const AssembledMacro& defined) {
+  if (!defined.id)
+    return;
+  for (const auto& other : assembly_.macros)
+    if (other.id == defined.id) {
+      report(
+          rules::DuplicateId, defined.span,
+          fmt::format("`{}` and `{}` have the same id {}", other.name, defined.name, *defined.id))
+          .notes.push_back({other.span, fmt::format("`{}` is here", other.name)});
+      return;
+    }
+}
+
+void Assembler::begin_unnamed() {
+  assembly_.macros.emplace_back();
+  inside_ = true;
+  reserve();
+}
+
+void Assembler::end_macro() {
+  if (!inside_)
+    return;
+  auto& ended = macro();
+  if (!ended.has_end && !no_end_) {
+    place(spec::info(MacroCommand::End), {}, {}, Origin::Supplied, {}, {});
+    ended.has_end = true;
+  }
+  no_end_ = false;
+  after_end_reported_ = false;
+}
+
+} // namespace orb::assembler

@@ -1,0 +1,147 @@
+#pragma once
+
+#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/sensor_tests.h"
+#include "compiler/text/rules.h"
+#include "compiler/text/words.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+namespace orb::compiler {
+
+/// Neither printable ASCII nor LF.
+constexpr bool is_unusual(char c) {
+  return ((c < ' ') | (c > '~')) & (c != '\n');
+}
+
+inline bool has_unusual_byte(std::string_view text) {
+  constexpr std::size_t block = 64; // known, so that the compiler looks at many bytes at once
+  for (; text.size() >= block; text.remove_prefix(block)) {
+    std::uint8_t found = 0;
+    for (std::size_t i = 0; i < block; ++i)
+      found |= static_cast<std::uint8_t>(is_unusual(text[i]));
+    if (found != 0)
+      return true;
+  }
+  return std::any_of(text.begin(), text.end(), is_unusual);
+}
+
+/// What can be said of the text without computing anything.
+class TextPass {
+public:
+  TextPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
+      : program_(program), flow_(flow), target_(target), findings_(findings) {}
+
+  void run();
+
+private:
+  // ---- the whole text
+
+  void check_bytes();
+
+  void check_bytes_of(std::uint32_t index);
+
+  void add_tab(std::uint32_t index, std::uint32_t first, std::uint32_t end);
+
+  void check_line_ends();
+
+  // ---- line numbers
+
+  void check_numbers();
+
+  void add_empty_line(const Line& line);
+
+  /// Whether some jump names the line; the jumps are sorted once, when this is first asked.
+  bool is_target(std::uint32_t number);
+
+  void check_duplicates();
+
+  /// A number between those of the neighbours that no line and no jump has.
+  std::optional<std::uint32_t> free_number(std::uint32_t index);
+
+  // ---- statements
+
+  void check_line(const Line& line);
+
+  void check_branch(const StatementNode& statement);
+
+  void check(const StatementNode& statement);
+
+  /// Before August 2012 it had two values.
+  void check_age_of_goroll(const StatementNode& statement);
+
+  void check_age_of_timer(const LetView& let);
+
+  void add_newer(Span span, std::string_view word, spec::BasicVersion since);
+
+  void check_let(const StatementNode& statement);
+
+  void check_if(const StatementNode& statement);
+
+  void check_for(const ForView& loop);
+
+  void check_on(const StatementNode& statement);
+
+  void check_targets();
+
+  void add_empty_target(const Item& target, std::uint32_t index);
+
+  void add_missing_target(const Item& target);
+
+  void check_print(std::span<const Item> items);
+
+  /// `print 'hello'` prints an empty line, because `'` begins a comment.
+  void check_single_quotes(const StatementNode& statement, Span comment);
+
+  void add_semicolon(const Item& semicolon, const Item& next);
+
+  void check_data(std::span<const Item> values);
+
+  void check_read(const StatementNode& statement);
+
+  // ---- blanks
+
+  /// A word stands between two expressions: blanks belong on both of its sides.
+  void check_gap(std::uint32_t begin, std::uint32_t end, std::string_view word);
+
+  /// Where a blank should be at `at`, and where one can be put.
+  void check_side(std::uint32_t at, std::uint32_t gap, std::string_view word);
+
+  void add_missing_blank(std::uint32_t at, std::string_view what);
+
+  // ---- expressions
+
+  /// Whether there may be something to say of a node; of most there is nothing.
+  static bool is_remarkable(const Node& node);
+
+  void check_node(std::uint32_t index);
+
+  /// Whether the sign of a step stands here, which is documented.
+  bool follows_step(std::uint32_t at) const;
+
+  void check_depth(const Node& node);
+
+  void add_negative(const Node& node);
+
+  void check_system(const Node& node);
+
+  /// the operand is the whole expression that follows, which reads otherwise where a weak
+  /// operator follows, or anything after a parenthesis.
+  void check_operand(const Node& node, const Node& operand);
+
+  /// How many levels a subtree has, and at most can get by fixes: functions and signs count twice.
+  int deepest_below(const Node& root) const;
+
+  const Program& program_;
+  const Flow& flow_;
+  const Target& target_;
+  Findings& findings_;
+  std::vector<std::uint32_t> targets_; ///< line numbers that something names, ascending
+  bool targets_sorted_ = false;
+  bool blank_missing_ = false; ///< on this line, and reported
+};
+
+} // namespace orb::compiler

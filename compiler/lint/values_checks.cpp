@@ -1,0 +1,441 @@
+#include "compiler/lint/values_pass.h"
+
+namespace orb::compiler {
+
+void ValuesPass::check_lines() {
+  bool falls = false;
+  forget_letters();
+  for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
+    const auto& code = flow_.code[i];
+    if (code.target || !falls)
+      begin_block();
+    begin_line(i, falls);
+    line_end_ = program_.lines[code.line].span.end;
+    cleared_on_line_ = 0;
+    const auto& statement = program_.statements[code.statement];
+    go(i);
+    if (code.jumps_begin != code.jumps_end || statement.error)
+      counting_ = 0;                        // the loop may be left early
+    falls = code.falls && !statement.error; // a line that does not parse may set anything
+    for (const auto& jump : flow_.jumps_of(code))
+      if (jump.call)
+        falls = false; // the subroutine may change everything
+    in_order_ = in_order_ && falls;
+  }
+}
+
+void ValuesPass::begin_line(std::uint32_t code, bool falls) {
+  if (followed_ && ways_.is_kept(code)) {
+    block_ = code;
+    if (const auto* known = ways_.before(code)) {
+      now_ = *known;
+      return;
+    }
+    forget_letters();
+  } else if (!followed_ && (flow_.code[code].target || !falls)) {
+    forget_letters();
+  }
+}
+
+void ValuesPass::look(const StatementNode& statement) {
+  if (following_ || statement.error)
+    return;
+  evaluate(statement);
+  const auto& row = spec::info(statement.kind);
+  if (row.after == spec::After::Waits)
+    cleared_ = 0;
+  switch (row.form) {
+  case spec::Form::Assignment: check_let(program_.as<LetView>(statement)); break;
+  case spec::Form::Loop: check_for(program_.as<ForView>(statement)); break;
+  case spec::Form::LoopEnd: check_indexed(program_.items_of(statement)); break;
+  case spec::Form::IndexedBranch: check_on(program_.as<OnView>(statement)); break;
+  case spec::Form::Output: check_print(statement); break;
+  case spec::Form::Entry: check_input(statement); break;
+  case spec::Form::Values: check_data(statement); break;
+  case spec::Form::Variables: check_read(statement); break;
+  case spec::Form::Arguments: check_arguments(statement); break;
+  case spec::Form::Conditional: check_condition(program_.as<IfView>(statement)); break;
+  case spec::Form::Branch: break;
+  }
+}
+
+void ValuesPass::check_range(const Item& value, std::string_view word,
+                             const spec::Parameter& parameter) {
+  const auto& range = range_of(value);
+  if (parameter.least <= range.lo && range.hi <= parameter.greatest)
+    return;
+  if (range.misses(parameter.least, parameter.greatest))
+    add_out_of_range(value, word, parameter);
+  else if (!check_loop_range(value, word, parameter)) {
+    if (exact_[value.value] != 0)
+      check_may_leave(value, word, parameter);
+    else
+      doubt(value, parameter.least, parameter.greatest);
+  }
+}
+
+void ValuesPass::check_may_leave(const Item& value, std::string_view word,
+                                 const spec::Parameter& parameter) {
+  const auto& range = range_of(value);
+  if (range.lo == Range{}.lo || range.hi == Range{}.hi)
+    return; // nobody knows by how much
+  const auto kind = program_.nodes[value.value].kind;
+  const bool single =
+      kind == NodeKind::Letter || kind == NodeKind::System || kind == NodeKind::Group;
+  const auto text = program_.text_of(value.span);
+  const auto whole = single ? std::string(text) : fmt::format("({})", text);
+  const auto turn = std::int64_t{parameter.greatest} + 1;
+  std::string help;
+  if (range.lo == 1 && range.hi == turn)
+    help = fmt::format("write `{} - 1`", whole);
+  else if (range.lo >= 0)
+    help = fmt::format("write `{} % {}`", whole, turn);
+  else if (turn == full_turn && range.lo >= -full_turn)
+    help = fmt::format("write `({} + {}) % {}`", text, full_turn, full_turn);
+  else
+    help = fmt::format("where it is outside, set it to {} or {} first", parameter.least,
+                       parameter.greatest);
+  const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
+  add_may_leave(
+      value, fmt::format("`{}` takes {}{} to {}", word, name, parameter.least, parameter.greatest),
+      help);
+}
+
+void ValuesPass::add_may_leave(const Item& value, const std::string& allowed,
+                               const std::string& help) {
+  findings_.add(rules::MayLeaveRange, value.span,
+                fmt::format("{}, and `{}` can be {}", allowed, program_.text_of(value.span),
+                            shown(range_of(value))),
+                help);
+}
+
+void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
+                                  const spec::Parameter& parameter) {
+  const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
+  findings_.add(rules::ValueOutOfRange, value.span,
+                fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
+                            parameter.greatest, shown(range_of(value))));
+}
+
+bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
+                                  const spec::Parameter& parameter) {
+  const auto& root = program_.nodes[value.value];
+  std::uint32_t counters = 0;
+  for (auto n = root.first; n <= value.value; ++n) {
+    const auto& node = program_.nodes[n];
+    if (node.kind == NodeKind::Letter && (counting_ & bit(node.what)) != 0)
+      ++counters;
+    else if (node.kind != NodeKind::Number && node.kind != NodeKind::Group &&
+             (node.kind != NodeKind::Binary || !keeps_ends(node)))
+      return false;
+  }
+  const bool wraps = range_of(value) == Range{};
+  if (counters != 1 || conditional_ || wraps)
+    return false;
+  const auto text = program_.text_of(value.span);
+  auto& d = findings_.add(rules::LoopLeavesRange, value.span,
+                          fmt::format("`{}` takes {} {} to {}, and `{}` counts {} here", word,
+                                      parameter.name, parameter.least, parameter.greatest, text,
+                                      shown(range_of(value))));
+  const bool heading = parameter.greatest + 1 == full_turn && range_of(value).lo >= 0;
+  const bool single = root.kind == NodeKind::Letter;
+  if (heading) {
+    d.help =
+        fmt::format("write `{}{}{} % {}`", single ? "" : "(", text, single ? "" : ")", full_turn);
+    d.fix = Fix{
+        d.help,
+        {{{value.span.begin, value.span.begin}, single ? "" : "("},
+         {{value.span.end, value.span.end}, fmt::format("{} % {}", single ? "" : ")", full_turn)}},
+        Safety::Safe};
+  } else if (single && range_of(value).hi > parameter.greatest) {
+    d.help = fmt::format("let the loop end at {}", parameter.greatest);
+  }
+  return true;
+}
+
+bool ValuesPass::keeps_ends(const Node& node) {
+  const auto op = static_cast<spec::Operator>(node.what);
+  return op == spec::Operator::Add || op == spec::Operator::Subtract ||
+         op == spec::Operator::Multiply;
+}
+
+void ValuesPass::check_arguments(const StatementNode& statement) {
+  const auto& row = spec::info(statement.kind);
+  const auto parameters = row.parameters();
+  const auto arguments = program_.items_of(statement);
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    check_range(arguments[i], row.word, parameters[i]);
+  if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
+      target_.version >= spec::info(spec::BasicGrowth::GoValue).since)
+    add_missing_go(statement, arguments.back());
+  if (statement.kind == spec::Statement::Basflg)
+    check_flags(arguments.front());
+  if (statement.kind == spec::Statement::Sleep)
+    check_sleep(program_.as<SleepView>(statement).line);
+  if (statement.kind == spec::Statement::Rstr)
+    data_.left = conditional_ ? DataSet::unknown : data_.size;
+}
+
+void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
+  const auto speed = range_of(last);
+  auto& d = findings_.add(rules::MissingGo, statement.span,
+                          "`goroll` takes 3 values since orbBasic 1.2 (August 2012), found 2",
+                          "add the go value: 1 drives, 0 brakes");
+  const auto end = last.span.end;
+  if (speed.constant())
+    d.fix = single_fix("add the go value", {end, end}, speed.lo > 0 ? ",1" : ",0", Safety::Unsafe);
+}
+
+void ValuesPass::check_flags(const Item& value) {
+  const auto range = range_of(value);
+  for (const auto& row : spec::basic_flags)
+    if (range.constant() && (range.lo & static_cast<std::int32_t>(row.flag)) != 0 &&
+        row.since > target_.version)
+      findings_.add(rules::NewerThanTarget, value.span,
+                    fmt::format("flag {} ({}) needs orbBasic {}, the target has {}",
+                                static_cast<int>(row.flag), row.symbol, spec::info(row.since).text,
+                                spec::info(target_.version).text));
+  const auto all = spec::value_of(spec::Limit::GreatestBasicFlags);
+  if (range.lo > all &&
+      !range.misses(0, spec::info(spec::Statement::Basflg).parameters()[0].greatest))
+    findings_.add(rules::UnknownFlags, value.span,
+                  fmt::format("the flags are 1, 2, 4 and 8, found {}", shown(range)));
+}
+
+void ValuesPass::check_sleep(const Item& value) {
+  const auto range = range_of(value);
+  if (!range.constant() || range.lo < 1 ||
+      range.misses(1, spec::value_of(spec::Limit::GreatestLineNumber)))
+    return;
+  const auto* number = flow_.find(static_cast<std::uint32_t>(range.lo));
+  if (number != nullptr && number->code != none)
+    return;
+  auto& d = findings_.add(number == nullptr ? rules::MissingTarget : rules::EmptyTarget, value.span,
+                          fmt::format("there is no line {} to wake up at", range.lo));
+  if (target_.area == Area::Ram) {
+    d.severity = Severity::Info;
+    d.help = "the line is looked up in the flash area, which this program does not fill";
+  }
+}
+
+void ValuesPass::check_let(const LetView& let) {
+  const auto& [variable, value] = let;
+  if (variable.kind == ItemKind::Indexed) {
+    check_index(variable.span);
+  } else if (variable.kind != ItemKind::Letter &&
+             static_cast<spec::Variable>(variable.value) != spec::Variable::Ctrl) {
+    const auto& row = spec::variables[variable.value];
+    check_range(value, row.word, {"", row.least, row.greatest, row.unit});
+  }
+}
+
+void ValuesPass::check_for(const ForView& loop) {
+  const auto& variable = loop.variable;
+  const auto start = range_of(loop.start);
+  const auto end = range_of(loop.end);
+  const auto step = loop.step != nullptr ? range_of(*loop.step) : Range::only(1);
+  if (step == Range::only(0))
+    findings_.add(rules::ZeroStep, loop.step->span, "the step of the loop is 0");
+  const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
+  if (away) {
+    auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
+                            fmt::format("the loop counts from {} away from {}, so it runs once",
+                                        shown(start), shown(end)));
+    if (loop.step == nullptr)
+      d.help = "to count down write `step -1`";
+  }
+  if (variable.kind == ItemKind::Indexed) {
+    findings_.add(rules::IndexedLoop, variable.span, "the loop counts in `Z`",
+                  "count in one of A to X");
+    check_index(variable.span);
+    return;
+  }
+  begin_block(); // the body is entered from here and from `next`
+  if (letters_[variable.value].assigned)
+    return;
+  if (start.constant() && end.constant() && step.constant() && step.lo != 0 && !away &&
+      !conditional_)
+    counting_ |= bit(variable.value);
+}
+
+void ValuesPass::forget(std::span<const Item> variables) {
+  for (const auto& variable : variables)
+    if (variable.kind == ItemKind::Letter)
+      set_letter(variable.value, {});
+}
+
+void ValuesPass::check_indexed(std::span<const Item> variables) {
+  for (const auto& variable : variables)
+    if (variable.kind == ItemKind::Indexed)
+      check_index(variable.span);
+}
+
+void ValuesPass::check_index(Span span) {
+  indexed_used_ = true;
+  const auto& index = letters_[index_letter];
+  const auto range = now_.ranges[index_letter];
+  index_doubt_ = index_doubt_ || !is_exact(index_letter);
+  const auto most = spec::value_of(spec::Limit::IndexedVariables);
+  if (range.misses(1, most)) {
+    auto& d = findings_.add(
+        rules::IndexRange, span,
+        index.first_set == nullptr
+            ? "`Z` is used, but `Y` is never set and 0 names no element"
+            : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
+    if (index.first_set == nullptr)
+      d.help = "`Z` is the list element that `Y` names; use another letter";
+  } else if (index_begins_ && (*index_begins_ < 1 || *index_begins_ > most)) {
+    findings_.add(
+        rules::MayLeaveRange, span,
+        fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", *index_begins_, most),
+        *index_begins_ == 0 ? "let `Y` count from 1" : "");
+    index_begins_.reset();
+  } else if (is_exact(index_letter) && (range.lo < 1 || range.hi > most)) {
+    findings_.add(
+        rules::MayLeaveRange, span,
+        fmt::format("`Z` is used while `Y` can be {}; it must be 1 to {}", shown(range), most),
+        fmt::format("keep `Y` within 1 to {}", most));
+  } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ && in_order_ &&
+             !before_y_) {
+    before_y_ = true;
+    findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",
+                  "set `Y` to 1 … 25 first");
+  }
+}
+
+void ValuesPass::check_on(const OnView& on) {
+  const auto& [selector, targets] = on;
+  const auto count = static_cast<std::int32_t>(targets.size());
+  const auto range = range_of(selector);
+  if (range.misses(1, count))
+    findings_.add(
+        rules::SelectorRange, selector.span,
+        fmt::format("the list has {}, found {}", plural(targets.size(), "line"), shown(range)));
+  else if (exact_[selector.value] == 0)
+    doubt(selector, 1, count);
+  else if (range.lo < 1 || range.hi > count)
+    add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line")),
+                  range.hi > count ? fmt::format("write {} more",
+                                                 plural(static_cast<std::size_t>(range.hi - count),
+                                                        "line number"))
+                                   : "");
+}
+
+void ValuesPass::check_condition(const IfView& condition) {
+  check_answer(condition.first);
+  if (condition.second)
+    check_answer(*condition.second);
+}
+
+void ValuesPass::check_answer(const Comparison& comparison) {
+  const auto letter = letter_in(program_, comparison.left);
+  if (!letter || !number_in(program_, comparison.right) ||
+      static_cast<spec::Relation>(comparison.relation.value) != spec::Relation::Equal)
+    return;
+  if ((now_.dense & bit(*letter)) == 0) {
+    if (!now_.ranges[*letter].constant() && !followed_)
+      questions_.push_back({*letter, range_of(comparison.right).lo});
+    return;
+  }
+  const auto& range = now_.ranges[*letter];
+  const auto& value = range_of(comparison.right);
+  if (range.constant() || range.has(value.lo))
+    return;
+  findings_.add(rules::ConstantComparison,
+                Span{comparison.left.span.begin, comparison.right.span.end},
+                fmt::format("`{} = {}` is never true: `{}` is {} here", spec::letter_name(*letter),
+                            value.lo, spec::letter_name(*letter), shown(range)),
+                fmt::format("compare with a number from {} to {}", range.lo, range.hi));
+}
+
+void ValuesPass::check_print(const StatementNode& statement) {
+  std::uint64_t least = 0;
+  std::uint64_t most = 0;
+  const auto items = program_.items_of(statement);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto& part = items[i];
+    if (part.kind == ItemKind::String) {
+      least += part.span.size() - 2;
+      most += part.span.size() - 2;
+    } else if (part.kind == ItemKind::Expression) {
+      const auto digits = printed(range_of(part));
+      least += digits.least;
+      most += digits.most;
+    } else if (part.kind == ItemKind::Semicolon) {
+    } else {
+      ++least;
+      ++most;
+    }
+  }
+  const auto limit = static_cast<std::uint64_t>(spec::value_of(spec::Limit::PrintBytes));
+  if (least > limit)
+    findings_.add(rules::PrintTooLong, statement.span,
+                  fmt::format("the print takes at least {} bytes; the limit is {}", least, limit),
+                  "end the first part with `;` and print the rest on the next line");
+  else if (most > limit)
+    findings_.add(rules::PrintMayBeTooLong, statement.span,
+                  fmt::format("the print can take {} bytes; the limit is {}", most, limit));
+}
+
+void ValuesPass::check_input(const StatementNode& statement) {
+  const auto input = program_.as<InputView>(statement);
+  check_indexed({&input.variable, 1});
+  const auto& row = spec::info(statement.kind);
+  if (input.milliseconds != nullptr)
+    check_range(*input.milliseconds, row.word, row.parameters()[0]);
+}
+
+void ValuesPass::check_data(const StatementNode& statement) {
+  if (data_.unread != nullptr && !conditional_) {
+    auto& d = findings_.add(rules::DataReplaced, statement.word,
+                            "these values replace those of the line before, which were never read",
+                            "put all values on one line");
+    add_note(d, data_.unread->span, "the values that are lost");
+  }
+  const auto count = static_cast<std::uint32_t>(program_.items_of(statement).size());
+  data_.size = std::min(count, static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues)));
+  data_.left = conditional_ ? DataSet::unknown : data_.size;
+  data_.unread = conditional_ ? nullptr : &statement;
+}
+
+void ValuesPass::check_read(const StatementNode& statement) {
+  const auto variables = program_.items_of(statement);
+  const auto count = static_cast<std::uint32_t>(variables.size());
+  check_indexed(variables);
+  data_.unread = nullptr;
+  if (conditional_) {
+    data_.left = DataSet::unknown;
+  } else if (data_.left == DataSet::unknown) {
+    if (!has_data())
+      findings_.add(rules::ReadPastData, statement.span, "there is no `data` to read",
+                    "add a `data` line above");
+  } else if (count > data_.left) {
+    findings_.add(rules::ReadPastData, statement.span,
+                  fmt::format("{} value{} left in the data, {} read here", data_.left,
+                              data_.left == 1 ? " is" : "s are", count));
+    data_.left = DataSet::unknown;
+  } else {
+    data_.left -= count;
+  }
+}
+
+bool ValuesPass::has_data() {
+  if (!has_data_)
+    has_data_ = std::any_of(program_.statements.begin(), program_.statements.end(),
+                            [](const StatementNode& statement) {
+                              return statement.error || statement.kind == spec::Statement::Data;
+                            });
+  return *has_data_;
+}
+
+void ValuesPass::check_quotient(const Node& node, std::uint32_t index) {
+  const auto& right = program_.nodes[index - 1];
+  const auto& left = program_.nodes[right.first - 1];
+  if (left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0)
+    return;
+  findings_.add(rules::ZeroQuotient, node.span,
+                fmt::format("`{} / {}` is 0: values are whole numbers", left.value, right.value),
+                fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,306 @@
+#pragma once
+
+#include "base/text.h"
+#include "compiler/lint/letters.h"
+#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/range.h"
+#include "compiler/lint/reading.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace orb::compiler {
+
+using spec::letter_name;
+
+inline constexpr auto letters = spec::letter_count;
+inline constexpr std::uint32_t index_letter = letters - 1; // Y
+inline constexpr std::int32_t full_turn =
+    spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1; // degrees
+
+constexpr std::uint32_t bit(std::uint32_t n) {
+  return std::uint32_t{1} << n;
+}
+
+inline std::string shown(Range range) {
+  return range.constant() ? fmt::format("{}", range.lo)
+                          : fmt::format("{} to {}", range.lo, range.hi);
+}
+
+/// How a letter gets its values, over the whole program.
+struct Letter {
+  const Item* first_set = nullptr;  ///< null where nothing sets it
+  const Node* first_used = nullptr; ///< null where nothing reads it
+  bool assigned = false;            ///< by let, read or input
+  bool counted = false;             ///< by for
+};
+
+/// What is known about the values that `read` takes.
+struct DataSet {
+  static constexpr std::uint32_t unknown = none;
+
+  std::uint32_t size = unknown;
+  std::uint32_t left = unknown;
+  const StatementNode* unread = nullptr; ///< the `data` that nothing has read yet
+};
+
+/// What is known of a `for`, over all times that it runs.
+struct Loop {
+  std::uint32_t code = 0;   ///< a line of code
+  std::uint32_t letter = 0; ///< that it counts in
+  Range end;
+  Range step;
+  Range body; ///< what its letter is in the body
+};
+
+/// Follows the values of letters along all ways of the program, then goes through its lines in the
+/// order of the text and says what is wrong with the values that expressions have there.
+class ValuesPass {
+public:
+  ValuesPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
+      : program_(program), flow_(flow), target_(target), findings_(findings),
+        ranges_(program.nodes.size()), exact_(program.nodes.size()), ways_(program, flow) {}
+
+  /// Carries values through straight runs of lines only, and forgets them where a jump comes in.
+  void run();
+
+  /// Whether following all ways could say more: something that is not known here is set, somewhere,
+  /// to what is not allowed here.
+  bool may_say_more();
+
+  /// The same with all ways followed.
+  void run_followed();
+
+private:
+  /// An expression that nothing is said about, as its letters are not known.
+  struct Doubt {
+    std::uint32_t root;
+    std::int64_t least; ///< what is allowed
+    std::int64_t greatest;
+  };
+
+  /// A letter that is not known here, compared by `=`.
+  struct Question {
+    std::uint32_t letter;
+    std::int32_t number;
+  };
+
+  void doubt(const Item& value, std::int64_t least, std::int64_t greatest);
+
+  /// Notes what a letter is set to, where that is known by itself.
+  void note_given(std::uint32_t letter, Range range, const Node* root);
+
+  /// Whether a value is a sum wrapped around by `%`, which is never negative where its parts are
+  /// not.
+  bool is_wrapped(const Node& root) const;
+
+  // ---- letters
+
+  void collect_letters();
+
+  void collect_set(const StatementNode& statement);
+
+  /// Whether some `let` of the letter clears a sensor by reading it, which then is the purpose.
+  bool clears(std::uint32_t letter) const;
+
+  bool reads_clearing(const Item& expression) const;
+
+  void check_letters();
+
+  /// Forgets what letters are.
+  void forget_letters();
+
+  void set_letter(std::uint32_t index, Range range) { set_letter(index, range, 0, 0); }
+  /// `exact` and `dense`: 1 or 0.
+  void set_letter(std::uint32_t index, Range range, std::uint32_t exact, std::uint32_t dense);
+
+  // ---- ways
+
+  void follow();
+
+  void follow(std::uint32_t begin);
+
+  /// The values that `read` can take.
+  void find_data();
+
+  /// Runs a line on what is known; whether the one below can be next.
+  bool go(std::uint32_t code);
+
+  bool go_branches(const StatementNode& statement, std::uint32_t code);
+
+  bool go_branch(const IfView& condition, Holds holds, const StatementNode* branch,
+                 std::uint32_t code);
+
+  /// Narrows the letters of a condition to where it holds or not; false where that cannot be.
+  bool assume(const IfView& condition, Holds holds);
+
+  bool assume(const Comparison& comparison, Holds holds);
+
+  void narrow(const Item& side, const Range& from, const Range& to);
+
+  /// What a statement does to letters and where it leads; whether the line below can be next.
+  bool move(const StatementNode& statement, std::uint32_t code);
+
+  void set(const LetView& let);
+
+  /// All that the letter of a loop is in its body, where nothing else sets it.
+  Range rounds(const ForView& loop, const Range& start, const Range& end, const Range& step) const;
+
+  void begin_loop(const ForView& loop, std::uint32_t code);
+
+  /// `next` leads back to the line below each `for` of its letter that can be open.
+  bool end_loop(const NextView& next);
+
+  bool followed_or_following() const { return following_ || followed_; }
+
+  /// Goes back to the body of a loop; what its letter is where the loop is over, if it can be.
+  std::optional<Range> next_of(const Loop& loop, const Letters& before);
+
+  void read(std::span<const Item> variables);
+
+  bool jump(const StatementNode& statement, std::uint32_t code);
+
+  // ---- lines
+
+  /// Forgets what was noted on the way: the line can be reached from elsewhere.
+  void begin_block();
+
+  void check_lines();
+
+  /// Takes up what is known of the letters at a line.
+  void begin_line(std::uint32_t code, bool falls);
+
+  /// Looks for mistakes in a statement, unless the ways are still being followed.
+  void look(const StatementNode& statement);
+
+  const Range& range_of(const Item& expression) const { return ranges_[expression.value]; }
+
+  void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
+
+  void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
+
+  void add_may_leave(const Item& value, const std::string& allowed, const std::string& help);
+
+  void add_out_of_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
+
+  /// A loop that nothing leaves early reaches both ends of its range, and so does what is computed
+  /// from its letter by `+`, `-` and `*` alone.
+  /// Whether it said so.
+  bool check_loop_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
+
+  static bool keeps_ends(const Node& node);
+
+  void check_arguments(const StatementNode& statement);
+
+  void add_missing_go(const StatementNode& statement, const Item& last);
+
+  void check_flags(const Item& value);
+
+  /// The line that runs after waking lies in flash; that is this program only when it is meant for
+  /// flash.
+  void check_sleep(const Item& value);
+
+  void check_let(const LetView& let);
+
+  void check_for(const ForView& loop);
+
+  /// A variable gets a value that is not known.
+  void forget(std::span<const Item> variables);
+
+  void check_indexed(std::span<const Item> variables);
+
+  void check_index(Span span);
+
+  void check_on(const OnView& on);
+
+  void check_condition(const IfView& condition);
+
+  /// A letter that holds what a sensor or `rnd` gave, compared with what that never is. Sensors
+  /// themselves are compared elsewhere.
+  void check_answer(const Comparison& comparison);
+
+  void check_print(const StatementNode& statement);
+
+  void check_input(const StatementNode& statement);
+
+  void check_data(const StatementNode& statement);
+
+  void check_read(const StatementNode& statement);
+
+  bool has_data();
+
+  // ---- expressions
+
+  /// Goes through the nodes of a statement in the order in which they are computed. They stand
+  /// right after those of the statement before.
+  void evaluate(const StatementNode& statement);
+
+  /// The range of an expression, without looking for mistakes.
+  Range compute(const Item& item);
+
+  Range compute(std::uint32_t index);
+
+  bool is_exact(std::uint32_t letter) const { return (now_.exact & bit(letter)) != 0; }
+
+  /// Whether both ends of a node's range are values that it takes.
+  bool exact(std::uint32_t index) const;
+
+  /// Directions, switches and what clients send take all their values; a ball is never as fast as
+  /// its sensors could tell.
+  static bool reaches_ends(const spec::VariableInfo& row);
+
+  bool is_exact_sum(const Node& node, std::uint32_t right) const;
+
+  Range evaluate(std::uint32_t index);
+
+  Range read_system(const Node& node);
+
+  void note_clearing(const Node& node, const spec::VariableInfo& row);
+
+  Range evaluate_binary(const Node& node, std::uint32_t index);
+
+  void check_quotient(const Node& node, std::uint32_t index);
+
+  Range evaluate_call(const Node& node, std::uint32_t index);
+
+  const Program& program_;
+  const Flow& flow_;
+  const Target& target_;
+  Findings& findings_;
+  std::array<Letter, letters> letters_{};
+  std::vector<Range> ranges_;       ///< by node
+  std::vector<std::uint8_t> exact_; ///< by node: whether it takes both ends of its range
+  std::uint32_t evaluated_ = 0;     ///< how many of them are known
+
+  // what is known on the way
+  Letters now_;
+  LetterFlow ways_;
+  std::vector<Loop> loops_; ///< that have been entered
+  std::vector<Doubt> doubts_;
+  std::vector<Question> questions_;
+  bool index_doubt_ = false;                          ///< `Z` is used while `Y` is not known
+  std::array<std::optional<Range>, letters> given_{}; ///< what is known by itself, over all lines
+  Range data_range_;                                  ///< of the values of all `data`
+  std::uint32_t block_ = 0;                           ///< the line from which `now_` is followed
+  std::uint32_t tested_ = 0; ///< letters that the condition of this line narrows
+  bool following_ = false;
+  bool followed_ = false;
+  std::optional<std::int32_t> index_begins_; ///< where the loop around counts in `Y`: from there
+
+  DataSet data_;
+  std::uint32_t cleared_ = 0;         ///< variables that are 0 because they have been read
+  std::uint32_t cleared_on_line_ = 0; ///< the same, by this line
+  std::uint32_t counting_ = 0;        ///< letters of loops that reach their ends for certain
+  std::uint32_t line_end_ = 0;
+  bool conditional_ = false; ///< in a branch
+
+  bool indexed_used_ = false;
+  bool in_order_ = true; ///< nothing above leads away and back, or past lines
+  bool before_y_ = false;
+  std::optional<bool> has_data_;
+};
+
+} // namespace orb::compiler

@@ -1,0 +1,382 @@
+#include "compiler/lint/values_pass.h"
+
+namespace orb::compiler {
+
+void ValuesPass::doubt(const Item& value, std::int64_t least, std::int64_t greatest) {
+  if (!followed_)
+    doubts_.push_back({value.value, least, greatest});
+}
+
+void ValuesPass::note_given(std::uint32_t letter, Range range, const Node* root) {
+  if (followed_ || following_ || range == Range{})
+    return;
+  if (range.lo < 0 && root != nullptr && is_wrapped(*root))
+    range.lo = 0;
+  auto& given = given_[letter];
+  given = given ? join(*given, range) : range;
+}
+
+bool ValuesPass::is_wrapped(const Node& root) const {
+  if (root.kind != NodeKind::Binary ||
+      static_cast<spec::Operator>(root.what) != spec::Operator::Remainder)
+    return false;
+  for (const auto* node = &program_.nodes[root.first]; node != &root; ++node)
+    if (node->kind == NodeKind::Negate ||
+        (node->kind == NodeKind::Binary &&
+         static_cast<spec::Operator>(node->what) == spec::Operator::Subtract))
+      return false;
+  return true;
+}
+
+void ValuesPass::collect_letters() {
+  for (const auto& statement : program_.statements)
+    collect_set(statement);
+}
+
+void ValuesPass::collect_set(const StatementNode& statement) {
+  auto items = program_.items_of(statement);
+  if (statement.error || items.empty() || statement.kind == spec::Statement::Next)
+    return;
+  if (statement.kind != spec::Statement::Read) // all others set one variable, which comes first
+    items = items.first(1);
+  for (const auto& item : items) {
+    if (item.kind != ItemKind::Letter)
+      continue;
+    auto& letter = letters_[item.value];
+    if (letter.first_set == nullptr)
+      letter.first_set = &item;
+    (statement.kind == spec::Statement::For ? letter.counted : letter.assigned) = true;
+  }
+}
+
+bool ValuesPass::clears(std::uint32_t letter) const {
+  return std::any_of(program_.statements.begin(), program_.statements.end(),
+                     [&](const auto& statement) {
+                       if (statement.error || statement.kind != spec::Statement::Let)
+                         return false;
+                       const auto let = program_.as<LetView>(statement);
+                       return let.variable.kind == ItemKind::Letter &&
+                              let.variable.value == letter && reads_clearing(let.expression);
+                     });
+}
+
+bool ValuesPass::reads_clearing(const Item& expression) const {
+  for (auto n = program_.nodes[expression.value].first; n <= expression.value; ++n)
+    if (program_.nodes[n].kind == NodeKind::System &&
+        spec::variables[program_.nodes[n].what].access == spec::Access::ReadClears)
+      return true;
+  return false;
+}
+
+void ValuesPass::check_letters() {
+  const bool silent = !program_.faults.empty(); // a line that does not parse may hold the rest
+  for (std::uint32_t i = 0; i < letters && !silent; ++i) {
+    const auto& letter = letters_[i];
+    const bool used = letter.first_used != nullptr;
+    const bool set = letter.first_set != nullptr;
+    if (set && !used && !letter.counted && !(i == index_letter && indexed_used_) && !clears(i)) {
+      findings_.add(rules::UnusedVariable, letter.first_set->span,
+                    fmt::format("`{}` is set but never used", letter_name(i)));
+    } else if (used && !set) {
+      findings_.add(rules::NeverAssigned, letter.first_used->span,
+                    fmt::format("`{}` is used but never set, so it is 0", letter_name(i)));
+    }
+  }
+}
+
+void ValuesPass::forget_letters() {
+  now_ = Letters::zero();
+  for (std::uint32_t i = 0; i < letters; ++i)
+    if (letters_[i].first_set != nullptr)
+      set_letter(i, {});
+}
+
+void ValuesPass::set_letter(std::uint32_t index, Range range, std::uint32_t exact,
+                            std::uint32_t dense) {
+  now_.ranges[index] = range;
+  now_.exact = (now_.exact & ~bit(index)) | exact << index;
+  now_.dense = (now_.dense & ~bit(index)) | (exact & dense) << index;
+  if (index == index_letter)
+    index_begins_.reset();
+}
+
+void ValuesPass::follow() {
+  following_ = true;
+  find_data();
+  ways_.enter(0, Letters::zero());
+  for (auto code = ways_.take(); code != none; code = ways_.take())
+    follow(code);
+  following_ = false;
+  followed_ = true;
+}
+
+void ValuesPass::follow(std::uint32_t begin) {
+  now_ = *ways_.before(begin);
+  block_ = begin;
+  for (auto i = begin; i < flow_.code.size(); ++i) {
+    if (i > begin && ways_.is_kept(i)) {
+      ways_.enter(i, now_);
+      return;
+    }
+    if (!go(i))
+      return;
+  }
+}
+
+void ValuesPass::find_data() {
+  bool any = false;
+  forget_letters();
+  for (const auto& statement : program_.statements) {
+    if (statement.error || statement.kind != spec::Statement::Data)
+      continue;
+    for (const auto& item : program_.items_of(statement)) {
+      const auto range = compute(item);
+      data_range_ = any ? join(data_range_, range) : range;
+      any = true;
+    }
+  }
+}
+
+bool ValuesPass::go(std::uint32_t code) {
+  const auto& statement = program_.statements[flow_.code[code].statement];
+  look(statement);
+  if (statement.error) {
+    forget_letters(); // it may do anything, once corrected
+    return flow_.code[code].falls;
+  }
+  if (statement.then_branch == none)
+    return move(statement, code);
+  if (following_)
+    for (const auto& item : program_.items_of(statement))
+      if (item.kind == ItemKind::Expression)
+        compute(item);
+  return go_branches(statement, code);
+}
+
+bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code) {
+  const auto before = now_;
+  const auto condition = program_.as<IfView>(statement);
+  const auto* otherwise =
+      statement.else_branch == none ? nullptr : &program_.statements[statement.else_branch];
+  conditional_ = true;
+  const auto cleared = cleared_on_line_;
+  const bool then_falls =
+      go_branch(condition, Holds::Yes, &program_.statements[statement.then_branch], code);
+  auto after = now_;
+  now_ = before;
+  cleared_on_line_ = cleared;
+  const bool else_falls = go_branch(condition, Holds::No, otherwise, code);
+  conditional_ = false;
+  if (then_falls && else_falls) {
+    const auto looked_at = now_.exact | after.exact;
+    join_into(now_, after);
+    // What a test looks at and both ways keep is treated by the other statement somehow.
+    now_.exact &= ~(looked_at & tested_);
+  } else if (then_falls) {
+    now_ = after;
+  }
+  tested_ = 0;
+  return then_falls || else_falls;
+}
+
+bool ValuesPass::go_branch(const IfView& condition, Holds holds, const StatementNode* branch,
+                           std::uint32_t code) {
+  const bool can_be = assume(condition, holds);
+  if (branch == nullptr)
+    return can_be;
+  if (!can_be && following_)
+    return false;
+  look(*branch);
+  if (branch->error) {
+    forget_letters();
+    return true;
+  }
+  const bool falls = move(*branch, code);
+  if (branch->kind == spec::Statement::Let)
+    tested_ &= ~bit(program_.as<LetView>(*branch).variable.value);
+  return falls && can_be;
+}
+
+bool ValuesPass::assume(const IfView& condition, Holds holds) {
+  if (condition.joint == nullptr)
+    return assume(condition.first, holds);
+  if ((condition.joint->kind == ItemKind::And) != (holds == Holds::Yes))
+    return true; // either of the two
+  return assume(condition.first, holds) && assume(*condition.second, holds);
+}
+
+bool ValuesPass::assume(const Comparison& comparison, Holds holds) {
+  const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+  const auto left = ranges_[comparison.left.value];
+  const auto right = ranges_[comparison.right.value];
+  const auto left_where = where(relation, holds, left, right);
+  const auto right_where = where(mirrored(relation), holds, right, left);
+  if (!left_where || !right_where)
+    return false;
+  narrow(comparison.left, left, *left_where);
+  narrow(comparison.right, right, *right_where);
+  return true;
+}
+
+void ValuesPass::narrow(const Item& side, const Range& from, const Range& to) {
+  const auto letter = letter_in(program_, side);
+  if (!letter || now_.ranges[*letter] != from || from == to)
+    return;
+  tested_ |= bit(*letter);
+  const auto dense = now_.dense >> *letter & 1;
+  set_letter(*letter, to, dense, dense);
+}
+
+bool ValuesPass::move(const StatementNode& statement, std::uint32_t code) {
+  switch (spec::info(statement.kind).form) {
+  case spec::Form::Assignment: set(program_.as<LetView>(statement)); return true;
+  case spec::Form::Loop: begin_loop(program_.as<ForView>(statement), code); return true;
+  case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement));
+  case spec::Form::Entry: forget(program_.items_of(statement).first(1)); return true;
+  case spec::Form::Variables: read(program_.items_of(statement)); return true;
+  case spec::Form::Branch:
+  case spec::Form::IndexedBranch: return jump(statement, code);
+  case spec::Form::Arguments:
+    if (statement.kind == spec::Statement::Return && following_)
+      ways_.leave(code, now_);
+    if (statement.kind == spec::Statement::Reset && following_)
+      ways_.enter(0, Letters::zero());
+    return spec::info(statement.kind).after != spec::After::Ends;
+  case spec::Form::Conditional:
+  case spec::Form::Output:
+  case spec::Form::Values: break;
+  }
+  return true;
+}
+
+void ValuesPass::set(const LetView& let) {
+  if (let.variable.kind != ItemKind::Letter)
+    return;
+  const auto range = compute(let.expression);
+  const auto& root = program_.nodes[let.expression.value];
+  const bool spread = root.kind == NodeKind::Binary &&
+                      static_cast<spec::Operator>(root.what) == spec::Operator::Multiply;
+  const std::uint32_t exact = exact_[let.expression.value];
+  const bool number = range.constant();
+  note_given(let.variable.value, range, &root);
+  set_letter(let.variable.value, range, exact, spread || number ? 0 : exact);
+}
+
+Range ValuesPass::rounds(const ForView& loop, const Range& start, const Range& end,
+                         const Range& step) const {
+  if (step.lo <= 0 && step.hi >= 0)
+    return {};
+  const bool up = step.lo > 0;
+  if (start.constant() && end.constant() && step.constant() &&
+      (up ? start.lo <= end.lo : start.lo >= end.lo) && !letters_[loop.variable.value].assigned) {
+    const auto last = (std::int64_t{end.lo} - start.lo) / step.lo * step.lo + start.lo;
+    return join(start, Range::only(static_cast<std::int32_t>(last)));
+  }
+  return up ? Range{start.lo, std::max(start.hi, end.hi)}
+            : Range{std::min(start.lo, end.lo), start.hi};
+}
+
+void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
+  if (loop.variable.kind != ItemKind::Letter)
+    return;
+  const auto start = compute(loop.start);
+  set_letter(loop.variable.value, start); // before the end is computed
+  const auto end = compute(loop.end);
+  const auto step = loop.step != nullptr ? compute(*loop.step) : Range::only(1);
+  const auto body = rounds(loop, start, end, step);
+  note_given(loop.variable.value, body, nullptr);
+  set_letter(loop.variable.value, body);
+  if (loop.variable.value == index_letter && start.constant())
+    index_begins_ = start.lo;
+  if (!following_)
+    return;
+  const auto at =
+      std::find_if(loops_.begin(), loops_.end(), [&](const Loop& one) { return one.code == code; });
+  if (at == loops_.end())
+    loops_.push_back({code, loop.variable.value, end, step, body});
+  else
+    *at = {code, at->letter, join(at->end, end), join(at->step, step), join(at->body, body)};
+}
+
+bool ValuesPass::end_loop(const NextView& next) {
+  if (next.variable.kind != ItemKind::Letter)
+    return true;
+  const auto letter = next.variable.value;
+  const auto before = now_;
+  std::optional<Range> past;
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    if (loops_[i].letter != letter)
+      continue;
+    if (const auto left = next_of(loops_[i], before))
+      past = past ? join(*past, *left) : *left;
+  }
+  now_ = before;
+  if (!followed_or_following()) {
+    set_letter(letter, {});
+    return true;
+  }
+  if (!past)
+    return false;
+  set_letter(letter, *past);
+  return true;
+}
+
+std::optional<Range> ValuesPass::next_of(const Loop& loop, const Letters& before) {
+  const auto stepped = apply(spec::Operator::Add, before.ranges[loop.letter], loop.step);
+  const bool fixed = loop.step.lo > 0 || loop.step.hi < 0;
+  const auto over = loop.step.lo > 0 ? spec::Relation::Greater : spec::Relation::Less;
+  const auto within = fixed ? where(over, Holds::No, stepped, loop.end) : stepped;
+  if (within && following_) {
+    now_ = before;
+    set_letter(loop.letter, letters_[loop.letter].assigned ? *within : loop.body);
+    ways_.enter(loop.code + 1, now_);
+  }
+  return fixed ? where(over, Holds::Yes, stepped, loop.end) : stepped;
+}
+
+void ValuesPass::read(std::span<const Item> variables) {
+  for (const auto& variable : variables)
+    if (variable.kind == ItemKind::Letter)
+      set_letter(variable.value, data_range_);
+}
+
+bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
+  const bool calls =
+      statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;
+  if (!following_ && !calls)
+    return false;
+  const auto before = now_;
+  std::optional<Letters> after;
+  for (const auto& way : flow_.jumps_of(flow_.code[code])) {
+    if (way.item < statement.items_begin || way.item >= statement.items_end || way.to == none)
+      continue;
+    if (!way.call) {
+      ways_.enter(way.to, before);
+      continue;
+    }
+    now_ = before;
+    if (!followed_or_following() || !ways_.call(way.to, block_, now_))
+      continue;
+    if (after)
+      join_into(*after, now_);
+    else
+      after = now_;
+  }
+  now_ = before;
+  if (!calls)
+    return false;
+  if (after)
+    now_ = *after;
+  else if (!following_)
+    forget_letters();
+  return after.has_value() || !following_;
+}
+
+void ValuesPass::begin_block() {
+  data_ = {};
+  cleared_ = 0;
+  counting_ = 0;
+  index_begins_.reset();
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,196 @@
+#pragma once
+
+#include "base/suggest.h"
+#include "base/text.h"
+#include "report/course.h"
+#include "report/rules.h"
+#include "report/svg_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <pugixml.hpp>
+#include <set>
+
+namespace orb::report {
+
+using svg::Matrix;
+using svg::Outline;
+using svg::Outlines;
+using vm::Point;
+
+// What a course may hold: the explanation of course-too-large says it, too.
+inline constexpr std::size_t most_bytes = 4 << 20;
+inline constexpr int most_groups = 64;
+inline constexpr std::size_t most_elements = 100'000;
+inline constexpr std::size_t most_points = 10'000; ///< of all lines together, and so of walls
+inline constexpr double farthest_cm = 100'000;
+inline constexpr std::size_t most_findings = 50;
+
+enum class Role : std::uint8_t { None, Wall, Zone, Start };
+
+struct RoleName {
+  std::string_view word;
+  Role role;
+};
+// The plural is what people call a layer.
+inline constexpr auto role_names = std::to_array<RoleName>({
+    {"wall", Role::Wall},
+    {"walls", Role::Wall},
+    {"zone", Role::Zone},
+    {"zones", Role::Zone},
+    {"start", Role::Start},
+});
+
+inline std::string_view name_of(Role role) {
+  const auto* const found = std::find_if(role_names.begin(), role_names.end(),
+                                         [&](const RoleName& row) { return row.role == role; });
+  return found->word;
+}
+
+/// Elements whose children are not drawn where they stand.
+inline constexpr auto hidden_elements =
+    std::to_array<std::string_view>({"defs", "symbol", "clipPath", "mask", "pattern", "marker",
+                                     "metadata", "style", "title", "desc"});
+
+struct Unit {
+  std::string_view name;
+  double cm;
+};
+inline constexpr double cm_in_inch = 2.54;
+inline constexpr auto units = std::to_array<Unit>({
+    {"mm", 0.1},
+    {"cm", 1},
+    {"in", cm_in_inch},
+    {"px", cm_in_inch / 96}, // Source: CSS: 96 to the inch
+    {"pt", cm_in_inch / 72},
+    {"pc", cm_in_inch / 6},
+});
+
+/// A millionth of a centimetre: what is left of rounding in a transform vanishes.
+inline double rounded(double cm) {
+  return std::round(cm * 1e6) / 1e6 + 0.0;
+}
+
+inline std::string_view local_name(std::string_view name) {
+  return name.starts_with("svg:") ? name.substr(4) : name;
+}
+
+/// A property of CSS in a `style` attribute, or the attribute of its name.
+inline std::string_view property(const pugi::xml_node& node, std::string_view name) {
+  std::string_view style = node.attribute("style").value();
+  while (!style.empty()) {
+    const auto end = std::min(style.find(';'), style.size());
+    const auto one = style.substr(0, end);
+    const auto colon = one.find(':');
+    if (colon != std::string_view::npos && trim(one.substr(0, colon)) == name)
+      return trim(one.substr(colon + 1));
+    style.remove_prefix(std::min(end + 1, style.size()));
+  }
+  return node.attribute(std::string(name).c_str()).value();
+}
+
+/// An element on its way into the course: from its units to centimetres, y up.
+struct Element {
+  pugi::xml_node node;
+  std::string_view name;
+  Matrix to_cm;
+  Role role = Role::None;
+};
+
+struct Piece {
+  Point from;
+  Point to;
+};
+struct Arrow {
+  Span span;
+  Point place;
+  std::optional<Point> toward; ///< of a circle, where it faces; of an arrow, its last point
+  bool circle = false;
+};
+
+class Reader {
+public:
+  explicit Reader(const Source& source) : source_(source), text_(source.text()) {}
+
+  CourseReading read();
+
+private:
+  // Findings and their places.
+  void say(const Rule& rule, Span span, std::string message, std::string help = {});
+  bool failed() const { return any_error(out_.findings); }
+  /// `<name` in the text.
+  Span place(const pugi::xml_node& node) const;
+  std::uint32_t size() const { return static_cast<std::uint32_t>(text_.size()); }
+  /// The value of an attribute in the text; the element where it has none.
+  Span place(const pugi::xml_node& node, std::string_view attribute) const;
+  Span place(const pugi::xml_node& node, std::string_view attribute, Span within) const;
+
+  // XML.
+  bool is_text();
+  bool parse();
+
+  // The drawing.
+  void read_drawing();
+
+  /// How many centimetres 1 is.
+  double scale(const pugi::xml_node& root);
+  /// `210mm` in centimetres; nothing where it has no unit of length.
+  std::optional<double> size_cm(const pugi::xml_node& root, const char* attribute);
+
+  void walk(const Element& parent, int depth);
+
+  void enter(const Element& parent, const pugi::xml_node& node, int depth);
+
+  /// What its class, or the label that Inkscape gives it, says an element is.
+  Role role_of(const pugi::xml_node& node);
+  /// A word with a letter too many, too few or in the wrong place is a slip. Another letter is
+  /// another word: `hall`, `ball`.
+  void doubt(const pugi::xml_node& node, std::string_view attribute, std::string_view word);
+
+  // Attributes.
+  Matrix transform(const pugi::xml_node& node);
+  void tell(const pugi::xml_node& node, std::string_view attribute,
+            const std::optional<svg::Mistake>& mistake);
+  std::vector<double> attribute_numbers(const pugi::xml_node& node, const char* attribute);
+  double number(const pugi::xml_node& node, const char* attribute);
+
+  // Shapes.
+  /// The lines of an element in its own units; nothing, with a finding, where it has none.
+  std::optional<Outlines> outlines(const Element& element);
+  std::optional<Outlines> points(const Element& element);
+  std::optional<Outlines> rectangle(const Element& element);
+  bool is_round(const Element& element) const;
+  void refuse(const Element& element);
+  /// Into centimetres; with a finding where that is too far or too much.
+  std::vector<Point> placed(const Element& element, const std::vector<Point>& points);
+
+  void wall(const Element& element);
+  void add_pieces(const std::vector<Point>& points, bool closed);
+
+  void zone(const Element& element);
+  /// The middle of a circle or ellipse and its two radii.
+  std::optional<Matrix> round_shape(const Element& element);
+  void round_zone(const Element& element, Zone& zone);
+
+  // The start.
+  void start(const Element& element);
+
+  /// Moves and turns everything so that the start is 0,0 facing +Y. False where there is none.
+  bool find_start();
+  void move_to(const Arrow& start, Point ahead);
+
+  const Source& source_;
+  std::string_view text_;
+  pugi::xml_document document_;
+  CourseReading out_;
+  std::vector<Piece> pieces_; ///< of walls, before they are moved to the start
+  std::vector<Arrow> starts_;
+  std::set<std::string> ids_;
+  std::size_t elements_ = 0;
+  std::size_t points_ = 0;
+  bool stop_ = false;
+};
+
+} // namespace orb::report

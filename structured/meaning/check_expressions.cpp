@@ -1,0 +1,227 @@
+#include "structured/meaning/checker.h"
+
+namespace orb::structured {
+
+void Checker::note_timer(const Statement& statement) {
+  if (statement.kind != Kind::Assign || size(statement) < 2)
+    return;
+  const auto& place = program_.nodes[item(statement, 0).value];
+  const auto value = value_of(item(statement, 1));
+  if (place.kind == NodeKind::System && (!value || value->value != 0))
+    timers_.set_above_0(static_cast<spec::Variable>(place.what));
+}
+
+void Checker::check_expressions(const Statement& statement) {
+  for (const auto& part : program_.items_of(statement)) {
+    if (part.kind != ItemKind::Expression && part.kind != ItemKind::Place &&
+        part.kind != ItemKind::Character)
+      continue;
+    const auto root = part.value;
+    for (auto n = program_.nodes[root].first; n <= root; ++n)
+      check_node(n, n == root);
+    const bool condition_fits = statement.kind == Kind::If || statement.kind == Kind::ElseIf ||
+                                statement.kind == Kind::While || statement.kind == Kind::Until;
+    if (!program_.nodes[root].is_condition())
+      continue;
+    if (!condition_fits)
+      report_condition(root);
+    else
+      check_sides(root);
+  }
+}
+
+void Checker::report_condition(std::uint32_t node) {
+  if (names_unknown(node))
+    return;
+  report(rules::ConditionAsValue, program_.nodes[node].span, "a condition is not a number",
+         "write `if … then` and set the value there");
+}
+
+bool Checker::names_unknown(std::uint32_t root) const {
+  for (auto n = program_.nodes[root].first; n <= root; ++n)
+    if (program_.nodes[n].kind == NodeKind::Name && names_.of_node[n] == none)
+      return true;
+  return false;
+}
+
+void Checker::check_node(std::uint32_t n, bool is_root) {
+  const auto& node = program_.nodes[n];
+  check_number(n, is_root);
+  if (node.kind == NodeKind::System)
+    check_version(node.span, spec::variables[node.what].word, spec::variables[node.what].since,
+                  spec::variables[node.what].old_word == program_.text_of(node.span));
+  if (node.kind == NodeKind::Element)
+    check_index(n);
+  if (node.kind == NodeKind::Relation)
+    check_sensor(n);
+  if (node.kind == NodeKind::Binary)
+    check_quotient(n);
+  const bool takes_conditions =
+      node.kind == NodeKind::Not || node.kind == NodeKind::And || node.kind == NodeKind::Or;
+  if (takes_conditions || node.first == n)
+    return;
+  for (auto operand = n - 1;; operand = program_.nodes[operand].first - 1) {
+    if (program_.nodes[operand].is_condition())
+      report_condition(operand);
+    if (program_.nodes[operand].first == node.first || program_.nodes[operand].first == 0)
+      break;
+  }
+}
+
+void Checker::check_sensor(std::uint32_t n) {
+  const auto& nodes = program_.nodes;
+  const auto right = n - 1;
+  const auto left = program_.before(right);
+  const bool sensor_right = nodes[right].kind == NodeKind::System;
+  if (sensor_right == (nodes[left].kind == NodeKind::System))
+    return;
+  const auto number = evaluate(program_, names_, sensor_right ? left : right);
+  if (!number)
+    return;
+  const auto comparison = static_cast<Comparison>(nodes[n].what);
+  const auto sensor = static_cast<spec::Variable>(nodes[sensor_right ? right : left].what);
+  auto question =
+      question_of(sensor_right ? mirrored(comparison) : comparison, sensor, number->value);
+  if (!question)
+    return;
+  if (number->duration)
+    question->written = 0; // it says its unit
+  const auto answer = compiler::judge(*question, program_.text_of(nodes[n].span), timers_);
+  if (answer)
+    report(*answer->rule, nodes[n].span, answer->message, answer->help);
+}
+
+Comparison Checker::mirrored(Comparison comparison) {
+  switch (comparison) {
+  case Comparison::Less: return Comparison::Greater;
+  case Comparison::Greater: return Comparison::Less;
+  case Comparison::LessEqual: return Comparison::GreaterEqual;
+  case Comparison::GreaterEqual: return Comparison::LessEqual;
+  case Comparison::Equal:
+  case Comparison::NotEqual: break;
+  }
+  return comparison;
+}
+
+std::optional<compiler::SensorQuestion>
+Checker::question_of(Comparison comparison, spec::Variable sensor, std::int32_t number) {
+  using spec::Relation;
+  const auto ask = [&](Relation relation, std::int64_t asked,
+                       std::string symbol) -> std::optional<compiler::SensorQuestion> {
+    if (asked < std::numeric_limits<std::int32_t>::min() ||
+        asked > std::numeric_limits<std::int32_t>::max())
+      return std::nullopt;
+    return compiler::SensorQuestion{sensor, relation, static_cast<std::int32_t>(asked),
+                                    std::move(symbol), number};
+  };
+  switch (comparison) {
+  case Comparison::Equal: return ask(Relation::Equal, number, "=");
+  case Comparison::NotEqual: return ask(Relation::NotEqual, number, "!");
+  case Comparison::Less: return ask(Relation::Less, number, "<");
+  case Comparison::Greater: return ask(Relation::Greater, number, ">");
+  case Comparison::LessEqual: return ask(Relation::Less, std::int64_t{number} + 1, "<=");
+  case Comparison::GreaterEqual: return ask(Relation::Greater, std::int64_t{number} - 1, ">=");
+  }
+  return std::nullopt;
+}
+
+void Checker::check_quotient(std::uint32_t n) {
+  const auto& nodes = program_.nodes;
+  const auto& right = nodes[n - 1];
+  const auto& left = nodes[program_.before(n - 1)];
+  if (static_cast<spec::Operator>(nodes[n].what) != spec::Operator::Divide ||
+      left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0 ||
+      left.value >= right.value)
+    return;
+  report(compiler::rules::ZeroQuotient, nodes[n].span,
+         fmt::format("`{} / {}` is 0: values are whole numbers", left.value, right.value),
+         fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+}
+
+void Checker::check_sides(std::uint32_t root) {
+  const auto& nodes = program_.nodes;
+  for (auto n = nodes[root].first; n <= root; ++n) {
+    if (nodes[n].kind != NodeKind::And && nodes[n].kind != NodeKind::Or)
+      continue;
+    const auto right = n - 1;
+    const auto left = program_.before(right);
+    check_side(left, right);
+    check_side(right, left);
+  }
+}
+
+void Checker::check_side(std::uint32_t side, std::uint32_t other) {
+  const auto& nodes = program_.nodes;
+  if (nodes[side].kind != NodeKind::Number)
+    return;
+  const auto number = program_.text_of(nodes[side].span);
+  std::string help;
+  if (nodes[other].kind == NodeKind::Relation)
+    help = fmt::format("write `{}{}`",
+                       program_.text_of({nodes[other].span.begin, nodes[other - 1].span.begin}),
+                       number);
+  report(rules::NumberAsCondition, nodes[side].span,
+         fmt::format("`{}` alone is a condition that {} holds", number,
+                     nodes[side].value == 0 ? "never" : "always"),
+         std::move(help));
+}
+
+void Checker::check_number(std::uint32_t n, bool is_root) {
+  const auto& node = program_.nodes[n];
+  if (node.kind != NodeKind::Number || node.value != std::numeric_limits<std::int32_t>::min())
+    return;
+  if (is_root || program_.nodes[n + 1].kind != NodeKind::Negate || program_.nodes[n + 1].first != n)
+    report(rules::BadNumber, node.span,
+           fmt::format("`{}` is above {}", program_.text_of(node.span),
+                       spec::value_of(spec::Limit::GreatestInteger)));
+}
+
+void Checker::check_index(std::uint32_t n) {
+  const auto index = names_.of_node[n];
+  if (index == none)
+    return;
+  const auto& symbol = names_.symbols[index];
+  const auto value = evaluate(program_, names_, n - 1);
+  if (value && symbol.value > 0 && (value->value < 1 || value->value > symbol.value))
+    report(rules::ArrayIndex, program_.nodes[n - 1].span,
+           fmt::format("`{}` has the elements 1 to {}, found {}", program_.name(symbol.name),
+                       symbol.value, value->value));
+}
+
+void Checker::check_version(Span span, std::string_view word, spec::BasicVersion since,
+                            bool old_name) {
+  if (since > target_.version && !old_name)
+    report(compiler::rules::NewerThanTarget, span,
+           fmt::format("`{}` needs orbBasic {}, the target has {}", word, spec::info(since).text,
+                       spec::info(target_.version).text));
+}
+
+void Checker::check_range(const Item& part, std::string_view word,
+                          const spec::Parameter& parameter) {
+  if (part.kind != ItemKind::Expression)
+    return;
+  const auto value = value_of(part);
+  if (!value || (value->value >= parameter.least && value->value <= parameter.greatest))
+    return;
+  const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
+  report(compiler::rules::ValueOutOfRange, part.span,
+         fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
+                     parameter.greatest, value->value));
+}
+
+bool Checker::require_constant(const Item& part) {
+  if (value_of(part))
+    return true;
+  if (program_.nodes[part.value].is_condition() || names_unknown(part.value))
+    return false; // said already
+  report(rules::NotConstant, part.span, "the value is not known when the program is compiled",
+         "use literals and constants that are declared above");
+  return false;
+}
+
+bool Checker::is_quotient(std::uint32_t node) const {
+  const auto divide = static_cast<std::uint8_t>(spec::Operator::Divide);
+  return program_.nodes[node].kind == NodeKind::Binary && program_.nodes[node].what == divide;
+}
+
+} // namespace orb::structured

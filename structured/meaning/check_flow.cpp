@@ -1,0 +1,176 @@
+#include "structured/meaning/checker.h"
+
+namespace orb::structured {
+
+void Checker::check_jumps() {
+  std::vector<std::uint32_t> labels;
+  for (const auto i : program_.order)
+    if (at(i).kind == Kind::Label)
+      labels.push_back(i);
+  constexpr std::size_t most = 4096;
+  if (labels.size() > most)
+    labels.resize(most);
+  for (std::size_t n = 0; n < labels.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m)
+      if (at(labels[m]).name == at(labels[n]).name &&
+          names_.routine_of[labels[m]] == names_.routine_of[labels[n]]) {
+        report(rules::NameTaken, at(labels[n]).name_span,
+               fmt::format("`{}` is a label already", program_.text_of(at(labels[n]).name_span)));
+        break;
+      }
+  for (const auto i : program_.order)
+    if (at(i).kind == Kind::Goto)
+      check_goto(i, labels);
+}
+
+void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labels) {
+  const auto& jump = at(i);
+  const auto label = std::find_if(labels.begin(), labels.end(), [&](std::uint32_t l) {
+    return at(l).name == jump.name && names_.routine_of[l] == names_.routine_of[i];
+  });
+  if (label == labels.end()) {
+    report(rules::GotoTarget, jump.name_span,
+           fmt::format("there is no label `{}:` here", program_.text_of(jump.name_span)));
+    return;
+  }
+  if (!encloses(*label, i))
+    report(rules::GotoTarget, jump.name_span,
+           fmt::format("the label `{}` lies inside a block", program_.text_of(jump.name_span)),
+           "a `goto` may leave blocks, never enter one");
+  else
+    report(rules::Unstructured, jump.span, "a `goto` stands in the program");
+}
+
+bool Checker::encloses(std::uint32_t label, std::uint32_t other) const {
+  std::uint32_t depth = at(label).depth;
+  for (auto n = label; depth > 0;) {
+    if (n == 0)
+      return false;
+    --n;
+    if (!opens_block(at(n).kind) || at(n).depth != depth - 1)
+      continue;
+    --depth;
+    auto end = n;
+    std::uint32_t part = n;
+    while (at(end).next != none) {
+      end = at(end).next;
+      if (end <= label)
+        part = end;
+    }
+    const auto part_end = at(part).next;
+    if (other < part || part_end == none || other > part_end)
+      return false;
+  }
+  return true;
+}
+
+void Checker::check_recursion() {
+  const auto calls = calls_of(program_, names_);
+  std::vector<std::uint8_t> state(calls.size(), 0); // 1 open, 2 done
+  for (std::uint32_t root = 1; root < calls.size(); ++root) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> path;
+    if (state[root] == 0) {
+      path.push_back({root, 0});
+      state[root] = 1;
+    }
+    while (!path.empty()) {
+      auto& [routine, next] = path.back();
+      if (next == calls[routine].size()) {
+        state[routine] = 2;
+        path.pop_back();
+        continue;
+      }
+      const auto callee = calls[routine][next++];
+      if (state[callee] == 1) {
+        report_circle(path, callee);
+        return;
+      }
+      if (state[callee] == 0) {
+        state[callee] = 1;
+        path.push_back({callee, 0});
+      }
+    }
+  }
+}
+
+void Checker::report_circle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
+                            std::uint32_t callee) {
+  std::string circle;
+  bool inside = false;
+  for (const auto& [routine, next] : path) {
+    inside = inside || routine == callee;
+    if (inside)
+      circle += fmt::format("`{}` calls ", name_of(routine));
+  }
+  const auto& symbol = names_.symbols[names_.routines[callee].symbol];
+  report(rules::Recursion, symbol.span, fmt::format("{}`{}`", circle, name_of(callee)),
+         "use a loop");
+}
+
+void Checker::check_loops() {
+  for (const auto i : program_.order) {
+    if (at(i).kind == Kind::Loop)
+      check_endless(i);
+    if (at(i).kind == Kind::For)
+      check_counter(i);
+  }
+}
+
+void Checker::check_endless(std::uint32_t i) {
+  const auto end = at(i).next;
+  std::uint32_t loops = 0;
+  for (auto n = i + 1; n < end; ++n) {
+    const auto kind = at(n).kind;
+    if (kind == Kind::Goto || (kind == Kind::Exit && loops == 0))
+      return;
+    loops += is_loop(kind) ? 1 : 0;
+    loops -= at(n).opener != none && is_loop(at(at(n).opener).kind) ? 1 : 0;
+  }
+  const auto after = end + 1;
+  if (after >= program_.statements.size() || names_.routine_of[after] != names_.routine_of[i] ||
+      at(after).depth != at(i).depth || at(after).kind == Kind::Label || declares(at(after).kind) ||
+      parts_block(at(after).kind) || closes_block(at(after).kind))
+    return;
+  report(compiler::rules::UnreachableLine, at(after).span,
+         "this never runs: nothing leaves the loop above",
+         "leave the loop with `exit`, as in `if speed = 0 then exit`");
+}
+
+void Checker::check_counter(std::uint32_t i) {
+  const auto& loop = at(i);
+  const auto counter = names_.of_node[item(loop, 0).value];
+  const auto first = value_of(item(loop, 1));
+  const auto last = value_of(item(loop, 2));
+  if (counter == none || !first || !last || size(loop) > 3 || first->value > last->value)
+    return;
+  for (auto n = i + 1; n < loop.next; ++n) {
+    const auto& statement = at(n);
+    if (statement.kind == Kind::Exit || statement.kind == Kind::Continue ||
+        statement.kind == Kind::Goto || statement.kind == Kind::Return)
+      return;
+    if (statement.depth != loop.depth + 1)
+      continue;
+    for (const auto& part : program_.items_of(statement)) {
+      if (part.kind != ItemKind::Expression && part.kind != ItemKind::Place &&
+          part.kind != ItemKind::Character)
+        continue;
+      for (auto node = program_.nodes[part.value].first + 1; node <= part.value; ++node) {
+        if (program_.nodes[node].kind != NodeKind::Element || names_.of_node[node] == none ||
+            program_.nodes[node - 1].kind != NodeKind::Name || names_.of_node[node - 1] != counter)
+          continue;
+        const auto& array = names_.symbols[names_.of_node[node]];
+        const bool never = last->value < 1 || first->value > array.value; // an error elsewhere
+        if (never || (first->value >= 1 && last->value <= array.value))
+          continue;
+        const auto name = program_.name(names_.symbols[counter].name);
+        report(compiler::rules::LoopLeavesRange, program_.nodes[node - 1].span,
+               fmt::format("`{}` counts from {} to {}, and `{}` has the elements 1 to {}", name,
+                           first->value, last->value, program_.name(array.name), array.value),
+               fmt::format("write `for {} = 1 to {}`", name, array.value));
+        return;
+      }
+    }
+  }
+}
+
+} // namespace orb::structured

@@ -1,0 +1,198 @@
+#include "structured/meaning/checker.h"
+
+namespace orb::structured {
+
+void Checker::check_place(std::uint32_t i, const Statement& statement) {
+  const auto routine = names_.routine_of[i];
+  const auto word = program_.text_of(statement.word);
+  if (declares(statement.kind) && statement.depth > 0)
+    misplaced(statement, fmt::format("`{}` stands inside a block", word),
+              "declarations stand at top level");
+  if ((statement.kind == Kind::Exit || statement.kind == Kind::Continue) && !in_loop())
+    stands_outside(statement, "loops");
+  if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1) &&
+      !in_broken_routine())
+    misplaced(statement,
+              routine == 0 ? "`local` stands outside of subs and functions"
+                           : "`local` stands inside a block",
+              routine == 0 ? "the variables of the main program need no declaration"
+                           : "move it to the beginning of the sub");
+  if (statement.kind == Kind::Return)
+    check_return(routine, statement);
+  if (!open_.empty() && at(open_.back()).kind == Kind::Select &&
+      at(open_.back()).next == none_yet(i) && !parts_block(statement.kind) &&
+      !closes_block(statement.kind) && statement.kind != Kind::Broken)
+    misplaced(statement, "a statement stands between `select` and its first `case`");
+}
+
+void Checker::check_return(std::uint32_t routine, const Statement& statement) {
+  if (routine == 0) {
+    if (!in_broken_routine())
+      stands_outside(statement, "subs and functions", "`end` ends the program");
+    return;
+  }
+  const auto& symbol = names_.symbols[names_.routines[routine].symbol];
+  const bool function = symbol.kind == SymbolKind::Function;
+  if (function && size(statement) == 0)
+    report(rules::ArgumentCount, statement.span, "a function returns a value", "write `return e`");
+  else if (!function && size(statement) > 0)
+    report(rules::ArgumentCount, item(statement, 0).span, "a sub returns no value",
+           "make it a `function`");
+}
+
+void Checker::check_assign(const Statement& statement) {
+  const auto& target = program_.nodes[item(statement, 0).value];
+  if (target.kind != NodeKind::System || statement.operation != Statement::none_operation)
+    return;
+  const auto& row = spec::variables[target.what];
+  if (row.variable != spec::Variable::Ctrl)
+    check_range(item(statement, 1), row.word, {"", row.least, row.greatest, row.unit});
+}
+
+void Checker::check_robot(const Statement& statement) {
+  const auto& row = spec::info(statement.robot);
+  // With two values `goroll` is older: the robot's lines are checked for its go value.
+  if (statement.robot != spec::Statement::Goroll || size(statement) == row.parameters().size())
+    check_version(statement.word, row.word, row.since, false);
+  if (statement.robot == spec::Statement::Data) {
+    check_data(statement);
+    return;
+  }
+  if (statement.robot == spec::Statement::Sleep) {
+    check_sleep(statement);
+    return;
+  }
+  if (statement.robot == spec::Statement::Rgb && size(statement) < 3) {
+    check_colour(statement);
+    return;
+  }
+  if (statement.robot == spec::Statement::Input && size(statement) == 3) {
+    check_range(item(statement, 1), row.word, row.parameters()[0]);
+    return;
+  }
+  for (std::uint32_t n = 0; n < size(statement) && n < row.parameters().size(); ++n)
+    check_range(item(statement, n), row.word, row.parameters()[n]);
+}
+
+void Checker::check_colour(const Statement& statement) {
+  const auto& part = item(statement, 0);
+  if (part.kind == ItemKind::Colour)
+    return;
+  const auto& node = program_.nodes[part.value];
+  const bool named =
+      size(statement) == 1 && node.kind == NodeKind::Name && names_.of_node[part.value] == none;
+  if (named)
+    return; // a colour, or reported as unknown
+  report(rules::ArgumentCount, statement.span,
+         fmt::format("`RGB` takes 3 values or a colour, found {}", size(statement)));
+}
+
+void Checker::check_data(const Statement& statement) {
+  const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues));
+  for (const auto& part : program_.items_of(statement))
+    require_constant(part);
+  if (size(statement) > most)
+    report(compiler::rules::TooManyDataValues, item(statement, most).span,
+           fmt::format("the line holds {} values; the robot ignores those after the {}th",
+                       size(statement), most));
+}
+
+void Checker::check_sleep(const Statement& statement) {
+  const auto parameters = spec::info(statement.robot).parameters();
+  const auto& time = item(statement, 0);
+  bool written = false;
+  for (auto n = program_.nodes[time.value].first; n <= time.value; ++n) {
+    const auto& node = program_.nodes[n];
+    if (node.kind == NodeKind::Duration) {
+      written = true;
+      if (node.value % 1000 != 0)
+        report(rules::BadNumber, node.span,
+               fmt::format("`{}` is not a whole number of seconds", program_.text_of(node.span)),
+               "`sleep` counts in seconds");
+    } else if (node.kind == NodeKind::Name && names_.of_node[n] != none &&
+               names_.symbols[names_.of_node[n]].duration && !is_quotient(time.value)) {
+      written = true;
+      report(rules::SecondsExpected, node.span,
+             fmt::format("`{}` is in milliseconds, `sleep` counts in seconds",
+                         program_.text_of(node.span)),
+             "write the duration here, or divide by 1000");
+    }
+  }
+  if (!written)
+    check_range(time, "sleep", parameters[0]);
+  if (size(statement) > 1)
+    check_range(item(statement, 1), "sleep", parameters[1]);
+  if (size(statement) > 2 && item(statement, 2).kind != ItemKind::Restart)
+    report(rules::MalformedLine, item(statement, 2).span,
+           "the third value of `sleep` is the word `restart`, or nothing");
+}
+
+std::uint32_t Checker::variable_of(const Statement& loop) const {
+  return names_.of_node[item(loop, 0).value];
+}
+
+void Checker::check_for(const Statement& statement) {
+  const auto variable = variable_of(statement);
+  const auto around = std::find_if(open_.rbegin(), open_.rend(), [&](std::uint32_t opener) {
+    return variable != none && at(opener).kind == Kind::For && variable_of(at(opener)) == variable;
+  });
+  if (around != open_.rend()) {
+    const auto name = program_.text_of(item(statement, 0).span);
+    auto& d = report(rules::LoopVariable, item(statement, 0).span,
+                     fmt::format("the loop around this one counts in `{}` already", name));
+    d.notes.push_back({at(*around).span, fmt::format("this loop counts in `{}`", name)});
+  }
+  if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
+    report(rules::WrongUse, item(statement, 0).span, "a loop counts in a variable");
+  if (size(statement) < 4 || !require_constant(item(statement, 3)))
+    return;
+  if (value_of(item(statement, 3))->value == 0)
+    report(compiler::rules::ZeroStep, item(statement, 3).span, "the step of the loop is 0");
+}
+
+void Checker::check_next(const Statement& statement) {
+  if (size(statement) == 0 || statement.opener == none)
+    return;
+  const auto& loop = at(statement.opener);
+  if (loop.kind != Kind::For)
+    return;
+  const auto& named = program_.nodes[item(statement, 0).value];
+  const auto& counter = program_.nodes[item(loop, 0).value];
+  if (counter.kind == NodeKind::Name &&
+      (named.kind != NodeKind::Name || counter.value != named.value))
+    report(rules::LoopVariable, item(statement, 0).span,
+           fmt::format("the innermost loop counts in `{}`", program_.text_of(counter.span)),
+           fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
+}
+
+void Checker::check_case(const Statement& statement) {
+  for (std::uint32_t n = 0; n < size(statement); ++n) {
+    const auto& first = item(statement, n);
+    const bool range = n + 2 < size(statement) && item(statement, n + 1).kind == ItemKind::To;
+    const auto& last = range ? item(statement, n + 2) : first;
+    n += range ? 2 : 0;
+    if (!require_constant(first) || (range && !require_constant(last)))
+      continue;
+    add_case({value_of(first)->value, value_of(last)->value, statement.opener},
+             {first.span.begin, last.span.end});
+  }
+}
+
+void Checker::add_case(CaseRange range, Span span) {
+  if (range.lo > range.hi) {
+    report(rules::CaseValue, span, fmt::format("{} is above {}", range.lo, range.hi),
+           "write the smaller value first");
+    return;
+  }
+  for (const auto& other : cases_)
+    if (other.select == range.select && other.lo <= range.hi && range.lo <= other.hi) {
+      report(rules::CaseValue, span,
+             fmt::format("{} has a `case` above already", std::max(other.lo, range.lo)));
+      return;
+    }
+  constexpr std::size_t most = 1024; // no robot holds more; looking for doubles takes pairs
+  if (cases_.size() < most)
+    cases_.push_back(range);
+}
+
+} // namespace orb::structured

@@ -1,0 +1,178 @@
+#pragma once
+
+#include "compiler/lint/sensor_tests.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+#include "structured/meaning/check.h"
+#include "structured/text/blocks.h"
+#include "structured/text/rules.h"
+#include "structured/text/words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+namespace orb::structured {
+
+class Checker {
+public:
+  Checker(Program& program, const Names& names, const compiler::Target& target)
+      : program_(program), names_(names), target_(target) {}
+
+  void run();
+
+private:
+  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {});
+  const Statement& at(std::uint32_t i) const { return program_.statements[i]; }
+  const Item& item(const Statement& statement, std::uint32_t n) const;
+  static std::uint32_t size(const Statement& statement);
+  std::optional<Constant> value_of(const Item& part) const;
+
+  void note_timer(const Statement& statement);
+
+  // ---- expressions
+
+  void check_expressions(const Statement& statement);
+
+  void report_condition(std::uint32_t node);
+
+  /// Whether a name in an expression is unknown, which has been reported.
+  bool names_unknown(std::uint32_t root) const;
+
+  void check_node(std::uint32_t n, bool is_root);
+
+  /// A sensor that is compared with a number, whichever side it stands on.
+  void check_sensor(std::uint32_t n);
+
+  static Comparison mirrored(Comparison comparison);
+
+  /// The same question as the robot asks it, which has no `<=` and `>=`.
+  static std::optional<compiler::SensorQuestion>
+  question_of(Comparison comparison, spec::Variable sensor, std::int32_t number);
+
+  /// `1 / 2` is 0.
+  void check_quotient(std::uint32_t n);
+
+  /// `x = 1 or 6`: the number was meant to be compared like the one before it.
+  void check_sides(std::uint32_t root);
+
+  void check_side(std::uint32_t side, std::uint32_t other);
+
+  /// 2147483648 can only be written with a minus sign before it.
+  void check_number(std::uint32_t n, bool is_root);
+
+  void check_index(std::uint32_t n);
+
+  void check_version(Span span, std::string_view word, spec::BasicVersion since, bool old_name);
+
+  // ---- where statements stand
+
+  /// Keeps the open blocks; the end of a block has its opener's depth.
+  void follow(std::uint32_t i, const Statement& statement);
+
+  bool in_loop() const;
+
+  bool in_select() const;
+
+  /// Whether the line that begins the sub around a statement does not parse.
+  bool in_broken_routine() const;
+
+  void misplaced(const Statement& statement, std::string message, std::string help = {});
+
+  /// Of what nothing is around to be left, also where the words are those of another language,
+  /// which is not a second mistake.
+  void stands_outside(const Statement& statement, std::string_view of, std::string help = {});
+
+  void check_place(std::uint32_t i, const Statement& statement);
+
+  /// The first part of the innermost block where it lies after statement `i`.
+  std::uint32_t none_yet(std::uint32_t i) const;
+
+  void check_return(std::uint32_t routine, const Statement& statement);
+
+  // ---- statements
+
+  void check_statement(const Statement& statement);
+
+  void check_assign(const Statement& statement);
+
+  void check_range(const Item& part, std::string_view word, const spec::Parameter& parameter);
+
+  void check_robot(const Statement& statement);
+
+  void check_colour(const Statement& statement);
+
+  void check_data(const Statement& statement);
+
+  bool require_constant(const Item& part);
+
+  bool is_quotient(std::uint32_t node) const;
+
+  void check_sleep(const Statement& statement);
+
+  // ---- loops
+
+  std::uint32_t variable_of(const Statement& loop) const;
+
+  void check_for(const Statement& statement);
+
+  void check_next(const Statement& statement);
+
+  // ---- select
+
+  void check_case(const Statement& statement);
+
+  struct CaseRange {
+    std::int32_t lo;
+    std::int32_t hi;
+    std::uint32_t select;
+  };
+
+  void add_case(CaseRange range, Span span);
+
+  // ---- jumps and calls
+
+  void check_jumps();
+
+  void check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labels);
+
+  /// Whether every block around `label` is also around `other`.
+  bool encloses(std::uint32_t label, std::uint32_t other) const;
+
+  void check_recursion();
+
+  void report_circle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
+                     std::uint32_t callee);
+
+  // ---- loops
+
+  void check_loops();
+
+  /// What stands after a loop that nothing leaves.
+  void check_endless(std::uint32_t i);
+
+  /// A loop whose counter is an index in each turn, and not always that of an element.
+  void check_counter(std::uint32_t i);
+
+  // ---- unused names
+
+  void check_unused();
+
+  void report_unused(const Symbol& symbol, std::string_view how);
+
+  bool in_main_file(Span span) const;
+
+  /// Not only declarations, for others to include.
+  bool main_file_runs() const;
+
+  std::string_view name_of(std::uint32_t routine) const;
+
+  compiler::Timers timers_;
+  Program& program_;
+  const Names& names_;
+  const compiler::Target& target_;
+  std::vector<std::uint32_t> open_;
+  std::vector<CaseRange> cases_;
+};
+
+} // namespace orb::structured

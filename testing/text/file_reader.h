@@ -1,0 +1,183 @@
+#pragma once
+
+#include "base/duration.h"
+#include "base/suggest.h"
+#include "base/text.h"
+#include "repair/repair.h"
+#include "spec/limits.h"
+#include "structured/text/words.h"
+#include "testing/text/cursor.h"
+#include "testing/text/rules.h"
+#include "testing/text/test_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <span>
+
+namespace orb::testing {
+
+inline constexpr int most_points = 1000;
+inline constexpr std::int64_t most_times = 1'000'000'000;
+
+template <class Row>
+inline const Row* find_word(std::span<const Row> rows, std::string_view word) {
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.word == word; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+/// What was written of an expectation's place in time and number.
+struct Said {
+  Span when{};  ///< empty: nothing
+  Span times{}; ///< empty: nothing
+  Span order{}; ///< empty: nothing
+};
+
+class FileReader {
+public:
+  explicit FileReader(const Source& source) : source_(source) {}
+
+  TestFile read();
+
+private:
+  std::string_view first_word(std::uint32_t line);
+
+  Test new_test() const;
+
+  void read_line(std::uint32_t line);
+
+  void read_row(LineWord word, Cursor& cursor, Span span, std::uint32_t line);
+
+  void end_of_line(Cursor& cursor);
+
+  // Stimuli.
+
+  void read_stimulus(Cursor& cursor, std::string_view word, std::uint32_t line);
+
+  void unknown_word(Cursor& cursor, std::string_view word);
+
+  template <class Rows>
+  static std::string words_of(const Rows& rows) {
+    std::vector<std::string_view> words;
+    for (const auto& row : rows)
+      words.push_back(row.word);
+    return fmt::format("{}", fmt::join(words, ", "));
+  }
+
+  // The head.
+
+  void read_file(Cursor& cursor, std::optional<Named>& into);
+
+  static void read_file(Cursor& cursor, Named& into);
+
+  void read_target(Cursor& cursor);
+
+  void read_firmware(Cursor& cursor);
+
+  void read_area(Cursor& cursor);
+
+  static std::optional<Seeds> read_seeds(Cursor& cursor);
+
+  static std::optional<Duration> read_bound(Cursor& cursor);
+
+  // Tests.
+
+  Test& current() { return file_.tests.back(); }
+
+  void read_test(Cursor& cursor, Span span, std::uint32_t line);
+
+  void read_test_option(Cursor& cursor, Test& test);
+
+  /// What only the whole file can say about a test.
+  void complete(Test& test);
+
+  // Expectations.
+
+  void read_reach(Cursor& cursor, Span span, std::uint32_t line);
+
+  void read_expectation(Cursor& cursor, Span span, std::uint32_t line, bool never);
+
+  /// The word of what is expected; false, and a finding, where it is none.
+  static bool read_what(Cursor& cursor, Expectation& one);
+
+  static void unknown_expectation(Cursor& cursor, std::string_view word);
+
+  /// Whether `NAME =` stands here; the cursor stays where it is.
+  static bool begins_variable(Cursor& cursor);
+
+  void read_operands(Cursor& cursor, Expectation& one);
+
+  static void take(Expectation& one, Cursor::Range range);
+
+  void read_print(Cursor& cursor, Expectation& one);
+
+  static void read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most);
+
+  static void read_near(Cursor& cursor, Expectation& one);
+
+  static void read_beyond(Cursor& cursor, Expectation& one);
+
+  static void read_name(Cursor& cursor, Expectation& one, std::string_view what);
+
+  static vm::Color color_of(std::uint32_t rgb);
+
+  void read_color(Cursor& cursor, Expectation& one);
+
+  /// `#` without six digits: a comment may follow a colour, but here the colour itself is missing.
+  static void read_bad_hex(Cursor& cursor);
+
+  static void read_marker(Cursor& cursor, Expectation& one);
+
+  void read_error(Cursor& cursor, Expectation& one);
+
+  static void read_below(Cursor& cursor, Expectation& one);
+
+  static void read_variable(Cursor& cursor, Expectation& one);
+
+  // How often and when.
+
+  static bool is_when(std::string_view word);
+
+  static bool is_join(std::string_view word);
+
+  /// Whether `TIME after` stands here.
+  static bool is_lag(Cursor& cursor);
+
+  /// Whether `N times` or `A to B times` stands here.
+  static bool is_times(Cursor& cursor);
+
+  void read_times(Cursor& cursor, Expectation& one, Said& said);
+
+  void read_when(Cursor& cursor, Expectation& one, Said& said);
+
+  /// `and STATE`.
+  void read_joined(Cursor& cursor, Expectation& one, const Said& said);
+
+  /// `for TIME`.
+  static void read_lasts(Cursor& cursor, Expectation& one);
+
+  /// `after WHAT` and `before WHAT`.
+  void read_order(Cursor& cursor, Expectation& one, Said& said);
+
+  void finish(Cursor& cursor, Expectation& one, Span span, std::uint32_t line);
+
+  /// Whether `after` and `before` fit the rest.
+  static void check_order(Cursor& cursor, const Expectation& one, const Said& said);
+
+  static void left_over(Cursor& cursor, const Expectation& one);
+
+  /// Whether what was said of time fits the word.
+  static void check_when(Cursor& cursor, const Expectation& one, const Said& said, Span first);
+
+  const Source& source_;
+  TestFile file_;
+  bool has_tests_ = false;
+  bool prints_ = false; ///< the last expectation is `prints`, and its lines may follow
+  std::optional<Seeds> seeds_;
+  std::optional<Duration> bound_;
+  std::vector<vm::TimedStimulus> head_; ///< the stimuli of every test
+  std::vector<std::string> head_lines_;
+};
+
+} // namespace orb::testing
