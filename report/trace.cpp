@@ -91,6 +91,13 @@ std::string trace_head(TraceFormat format) {
   return head + '\n';
 }
 
+std::string room_trace_head(TraceFormat format, bool sources) {
+  auto head = trace_head(format);
+  if (!head.empty())
+    head.insert(head.size() - 1, sources ? ",source,ball,with" : ",ball,with");
+  return head;
+}
+
 std::string trace_line(TraceFormat format, Duration t, std::string_view event,
                        const std::vector<TraceField>& fields) {
   std::string out;
@@ -179,6 +186,8 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
             return line("stop", {{"reason", std::string("not acknowledged")}});
           },
           [&](const e::Bump& x) {
+            if (!x.ball.empty())
+              return line("bump", {{"with", x.ball}, {"speed", n(x.speed)}});
             if (x.wall.axis == vm::Wall::Axis::None)
               return line("bump", {{"wall", vm::to_string(x.wall)}, {"speed", n(x.speed)}});
             return line("bump",
@@ -203,9 +212,11 @@ int line_of(const vm::Event& event) {
 } // namespace
 
 TraceWriter::TraceWriter(TraceFormat format, TraceLines lines,
-                         std::function<void(std::string_view)> put, LinePlaces places)
-    : format_(format), lines_(lines), put_(std::move(put)), places_(std::move(places)) {
-  put_(with_source(trace_head(format_), "source"));
+                         std::function<void(std::string_view)> put, LinePlaces places, TraceOf of)
+    : format_(format), lines_(lines), put_(std::move(put)), places_(std::move(places)),
+      of_(std::move(of)) {
+  if (of_.ball.empty())
+    put_(with_source(trace_head(format_), "source"));
 }
 
 void TraceWriter::add(Duration t, const vm::Event& event) {
@@ -213,12 +224,14 @@ void TraceWriter::add(Duration t, const vm::Event& event) {
     return;
   const auto place = places_.find(line_of(event));
   const bool known = place != places_.end();
-  put_(with_source(trace_line(format_, t, event),
-                   known ? printed(format_, {"source", place->second}) : std::string()));
+  const auto* bump = std::get_if<vm::event::Bump>(&event);
+  tell(trace_line(format_, t, event),
+       known ? printed(format_, {"source", place->second}) : std::string(),
+       bump == nullptr ? std::string() : bump->ball);
 }
 
 std::string TraceWriter::with_source(std::string line, const std::string& source) const {
-  if (line.empty() || places_.empty())
+  if (line.empty() || (places_.empty() && !of_.sources))
     return line;
   if (format_ == TraceFormat::Csv)
     line.insert(line.size() - 1, "," + source);
@@ -227,22 +240,34 @@ std::string TraceWriter::with_source(std::string line, const std::string& source
   return line;
 }
 
+/// Writes a line with what it knows of its place and, in a room, of its ball and of another one.
+void TraceWriter::tell(std::string line, const std::string& source, const std::string& other) {
+  if (line.empty())
+    return;
+  line = with_source(std::move(line), source);
+  if (!of_.ball.empty() && format_ == TraceFormat::Csv)
+    line.insert(line.size() - 1, fmt::format(",{},{}", csv_string(of_.ball),
+                                             other.empty() ? "" : csv_string(other)));
+  else if (!of_.ball.empty())
+    line.insert(line.find(','), ",\"ball\":" + json_string(of_.ball));
+  put_(line);
+}
+
 void TraceWriter::add(Duration t, std::string_view event, const std::vector<TraceField>& fields) {
   const auto line = std::find_if(fields.begin(), fields.end(),
                                  [](const auto& field) { return field.key == "line"; });
   const auto place = line == fields.end()
                          ? places_.end()
                          : places_.find(static_cast<int>(std::get<std::int64_t>(line->value)));
-  put_(with_source(trace_line(format_, t, event, fields),
-                   place == places_.end() ? std::string()
-                                          : printed(format_, {"source", place->second})));
+  tell(trace_line(format_, t, event, fields),
+       place == places_.end() ? std::string() : printed(format_, {"source", place->second}));
 }
 
 void TraceWriter::finish(Duration t, std::string_view reason, std::uint64_t lines) {
   const auto line =
       trace_line(format_, t, "end",
                  {{"reason", std::string(reason)}, {"lines", static_cast<std::int64_t>(lines)}});
-  put_(with_source(line, {}));
+  tell(line, {});
 }
 
 } // namespace orb::report

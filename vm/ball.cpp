@@ -30,9 +30,10 @@ ProgramOptions program_options(const BallOptions& options) {
 
 Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
-      body_(options.seed, options.driving), link_(options.wire), drive_(body_, settings_),
-      power_(settings_), programs_(program_options(options), options.seed),
-      macros_(asks_->of_macro), dispatcher_(asks_->of_client, options.seed, options.firmware) {
+      body_(options.seed, options.driving, options.start), link_(options.wire),
+      drive_(body_, settings_), power_(settings_),
+      programs_(program_options(options), options.seed), macros_(asks_->of_macro),
+      dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
 }
 
@@ -44,7 +45,8 @@ Ball::Ball(const Ball& other)
       streamer_(other.streamer_), dispatcher_(other.dispatcher_, asks_->of_client),
       script_(other.script_), interrupted_(other.interrupted_), idle_since_(other.idle_since_),
       double_shake_(other.double_shake_), deaf_until_(other.deaf_until_),
-      watch_at_(other.watch_at_), felt_at_(other.felt_at_), was_moving_(other.was_moving_) {}
+      watch_at_(other.watch_at_), felt_at_(other.felt_at_), was_moving_(other.was_moving_),
+      rest_unseen_(other.rest_unseen_) {}
 
 Ball::~Ball() = default;
 
@@ -134,16 +136,16 @@ Instant Ball::next_event() const {
       now_, std::min({next_of_others(), next_step(), programs_.next_event(), link_.next_event()}));
 }
 
-void Ball::advance_to(Instant target) {
-  advance(target, Until::Target);
+void Ball::advance_to(Instant target, Halt halt) {
+  advance(target, Until::Target, halt);
 }
 
-void Ball::advance_until_quiet(Instant target) {
+void Ball::advance_until_quiet(Instant target, Halt halt) {
   interrupted_ = false;
-  advance(target, Until::Quiet);
+  advance(target, Until::Quiet, halt);
 }
 
-void Ball::advance(Instant target, Until until) {
+void Ball::advance(Instant target, Until until, Halt halt) {
   programs_.let_go();
   for (;;) {
     if (until == Until::Quiet) {
@@ -165,6 +167,11 @@ void Ball::advance(Instant target, Until until) {
       finish_program();
       continue;
     }
+    const Instant due = std::min(others, programs_.next_event());
+    if (rest_unseen_ && (due <= target || halt == Halt::Look)) {
+      run_events(std::min(due, target));
+      continue;
+    }
     if (programs_.next_event() < limit) {
       now_ = std::max(now_, programs_.run(limit, asks_->of_program));
       finish_program();
@@ -176,7 +183,10 @@ void Ball::advance(Instant target, Until until) {
     }
     if (event > target)
       break;
-    run_events(std::min({others, programs_.next_event(), target}));
+    if (halt == Halt::Pass && due > target && !power_.falls_asleep())
+      pass(target);
+    else
+      run_events(std::min(due, target));
     if (macros_.held())
       return;
   }
@@ -190,6 +200,14 @@ bool Ball::idle() const {
   });
   return (!programs_.running() || (programs_.waits_in_vain() && nobody_answers)) &&
          !macros_.running() && power_.wake_at() == never && !power_.falls_asleep();
+}
+
+/// Moves on to the target, up to which nothing but motion is due, or to what motion causes.
+void Ball::pass(Instant target) {
+  now_ = std::max(now_, body_.advance_to(target));
+  rest_unseen_ = was_moving_ && !body_.moving();
+  if (body_.struck())
+    run_events(now_);
 }
 
 void Ball::run_events(Instant others) {
@@ -288,6 +306,7 @@ void Ball::watch_motion() {
     watch_at_ = moving ? now_ + pose_interval : never;
   }
   was_moving_ = moving;
+  rest_unseen_ = false;
 }
 
 // Stimuli.

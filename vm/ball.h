@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace orb::vm {
@@ -29,6 +30,7 @@ struct BallOptions : ProgramOptions {
   std::uint64_t seed = 1;
   spec::Firmware firmware = spec::default_firmware;
   spec::Driving driving; ///< how it drives
+  Placement start;       ///< where it stands in its world
   Wire wire = Wire::Paced;
   Observer* observer = nullptr;  ///< must outlive the ball
   StepObserver* steps = nullptr; ///< the same; sees every step of the body
@@ -63,10 +65,14 @@ public:
 
   // Time.
   Instant now() const { return now_; }
+  /// Whether the target of an advance is itself a moment at which the ball is looked at: then a
+  /// ball that has come to rest since it was last seen is seen to rest there, not only at what
+  /// happens next. With `Pass` it does not matter into how many pieces time is cut.
+  enum class Halt : std::uint8_t { Look, Pass };
   /// Lets everything happen that is due up to and including `target`.
-  void advance_to(Instant target);
+  void advance_to(Instant target, Halt halt = Halt::Look);
   /// The same, but comes back as soon as the ball is quiet(), or its observer calls interrupt().
-  void advance_until_quiet(Instant target);
+  void advance_until_quiet(Instant target, Halt halt = Halt::Look);
   /// Nothing runs or will run by itself: no program, no macro, no wake-up, and all output has left.
   /// A program that waits for a number that nobody will bring is quiet, too.
   bool quiet() const { return idle() && link_.waiting(now_) == 0; }
@@ -89,6 +95,11 @@ public:
   void apply(const Stimulus& stimulus);
   /// Lets the events of a script happen, their times counted from now().
   void schedule(std::span<const TimedStimulus> script);
+
+  /// Other balls press on it or have run into it, now; `names` are those of all balls.
+  void meet(const Shove& shove, std::span<const std::string> names);
+  /// So fast it can be within `time` from now unless another ball runs into it, cm/s.
+  double most_speed_cm_s(Duration time) const;
 
   // Elsewhere.
   /// From now on a robot that is elsewhere is its body and its lamps; it must outlive the ball. The
@@ -145,12 +156,13 @@ private:
   struct Asks; ///< what programs, macros and the API ask: vm/ball_asks.h
 
   enum class Until : std::uint8_t { Target, Quiet };
-  void advance(Instant target, Until until);
+  void advance(Instant target, Until until, Halt halt);
   Instant next_of_others() const;
   Instant next_step() const { return asleep() ? never : body_.next_step(); }
   Instant next_step_of_note() const;
   void catch_up();
   void run_events(Instant others);
+  void pass(Instant target);
   void run_script();
   void keep_house();
   void settle();
@@ -199,6 +211,7 @@ private:
   Instant watch_at_ = never;
   std::optional<Instant> felt_at_; ///< when a robot elsewhere said something last
   bool was_moving_ = false;
+  bool rest_unseen_ = false; ///< it has come to rest while it was not looked at
 };
 
 } // namespace orb::vm

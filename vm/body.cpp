@@ -19,7 +19,10 @@ double on_scale(double speed_cm_s) {
 
 } // namespace
 
-Body::Body(std::uint64_t seed, const spec::Driving& numbers) : drive_(numbers), sensors_(seed) {}
+Body::Body(std::uint64_t seed, const spec::Driving& numbers, const Placement& start)
+    : drive_(numbers), sensors_(seed), world_(start.place) {
+  drive_.start_facing(start.facing_deg);
+}
 
 Instant Body::next_step() const {
   return moving() && !felt_ ? grid_after(now_) : never;
@@ -181,6 +184,33 @@ void Body::push(int heading_deg, int strength) {
   // A push to the right is a blow on the left side.
   strike({-velocity.x, -velocity.y}, drive_.course().speed);
   drive_.push(velocity);
+}
+
+void Body::meet(const Shove& shove) {
+  if (shove.shift != Point{})
+    move_aside(shove.shift);
+  if (shove.change == Point{})
+    return;
+  if (shove.knocks.empty())
+    return drive_.press(shove.change);
+  const auto going = drive_.course();
+  drive_.bounce({going.vx + shove.change.x, going.vy + shove.change.y});
+}
+
+/// Out of another ball, but into no wall.
+void Body::move_aside(Point shift) {
+  Point place{world_.x + shift.x, world_.y + shift.y};
+  auto still = drive_; // that it drives into the wall is for its next step
+  if (!walls_.empty())
+    walls_.meet(world_, place, still);
+  move_to(place, 0, 0);
+}
+
+Mover Body::mover() const {
+  if (felt_)
+    return {world_, {felt_->velocity_cm_s.x, felt_->velocity_cm_s.y}};
+  const auto going = drive_.course();
+  return {world_, {going.vx, going.vy}};
 }
 
 Movement Body::movement() const {

@@ -9,6 +9,7 @@
 #include "vm/body/motion.h"
 #include "vm/body/motion_sensors.h"
 #include "vm/body/place.h"
+#include "vm/body/shove.h"
 #include "vm/body/walls.h"
 
 #include <cstdint>
@@ -34,8 +35,8 @@ class Body {
 public:
   static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 
-  /// `numbers`: how this robot drives.
-  explicit Body(std::uint64_t seed, const spec::Driving& numbers = {});
+  /// `numbers`: how this robot drives; `start`: where it wakes up in its world.
+  explicit Body(std::uint64_t seed, const spec::Driving& numbers = {}, const Placement& start = {});
 
   /// `observer` sees every step; null: nobody. It must outlive the body.
   void observe(StepObserver* observer) { observer_ = observer; }
@@ -53,6 +54,8 @@ public:
   bool rolls_freely() const {
     return drive_.strives() && walls_.empty() && observer_ == nullptr && !felt_;
   }
+  /// Whether the last step brought a blow that nobody has taken.
+  bool struck() const { return impact_.has_value(); }
   /// The blow of the last step, once.
   std::optional<Impact> take_impact();
 
@@ -84,6 +87,10 @@ public:
   void add_wall(const Wall& wall) { walls_.add(wall, world_); }
   /// A blow that sets the ball moving toward `heading_deg` of the world; strength 0..255.
   void push(int heading_deg, int strength);
+  /// Other balls press on it, or have run into it. Each knock is felt when it comes: take_impact().
+  void meet(const Shove& shove);
+  /// It feels a blow of this velocity, cm/s in world axes, and goes at `speed` then.
+  void feel_blow(Point velocity, double speed) { strike(velocity, speed); }
   void shake() { sensors_.shake(now_); }
   /// Free fall for `time`, then a hard landing.
   void toss(Duration time) { sensors_.toss(now_, time); }
@@ -118,9 +125,13 @@ public:
   Pose pose() const;
   /// The place of pose().
   Point locator_cm() const { return locator_; }
-  /// The same in the world in which the ball woke up at 0,0 facing +Y, whatever the program calls
-  /// its place and its heading since.
+  /// The same in its world, in which it woke up at its placement (0,0 facing +Y where it has none),
+  /// whatever the program calls its place and its heading since.
   Pose world_pose() const;
+  /// Where it is and goes in its world.
+  Mover mover() const;
+  /// No way of it to be faster at once, whatever it is ordered, cm/s; only time, pushes and blows.
+  double most_speed_cm_s() const { return drive_.most_speed_cm_s(); }
   Vector3 velocity_cm_s() const; ///< locator axes; z is 0
   double heading_setpoint_deg() const { return drive_.heading_setpoint_deg(); }
   int speed_setpoint() const { return drive_.speed_setpoint(); }
@@ -156,6 +167,7 @@ private:
   void travel();
   void move_to(Point place, double way_cm, double speed);
   void strike(Point velocity, double speed);
+  void move_aside(Point shift);
 
   Instant now_{};
   StepObserver* observer_ = nullptr;

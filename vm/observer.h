@@ -63,10 +63,12 @@ struct Collision {
   int y_magnitude = 0;
   int speed = 0;
 };
-/// The ball ran into a wall, whether or not anybody asked it to detect collisions.
+/// The ball ran into a wall or another ball, or that into it, whether or not anybody asked it to
+/// detect collisions.
 struct Bump {
   Wall wall;
-  int speed = 0; ///< 0..255 at the moment of the blow
+  int speed = 0;         ///< 0..255 at the moment of the blow
+  std::string ball = {}; ///< the name of the other ball; empty where it was the wall
 };
 /// A macro came to its end, by itself or not.
 struct MacroEnd {
@@ -104,6 +106,11 @@ using Event =
     std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
                  event::Position, event::Marker, event::Macro, event::Line, event::Collision,
                  event::Sleep, event::End, event::MacroEnd, event::Bump, event::StopLost>;
+
+/// `ran into the wall x=70`, `met ball blue`.
+inline std::string words_of(const event::Bump& bump) {
+  return bump.ball.empty() ? "ran into the wall " + to_string(bump.wall) : "met ball " + bump.ball;
+}
 
 /// Sees what happens to a ball, in the order in which it happens.
 class Observer {

@@ -165,6 +165,17 @@ void Drivetrain::bounce(Point velocity) {
   forward_ = slip_ = left_wheel_ = right_wheel_ = 0;
 }
 
+void Drivetrain::press(Point change) {
+  if (forward_ == 0 && slip_ == 0)
+    return push(change);
+  const auto& way = way_.of(yaw_deg_ + world_offset_deg_);
+  const double forward = change.x * way.sine() + change.y * way.cosine();
+  forward_ += forward;
+  left_wheel_ += forward;
+  right_wheel_ += forward;
+  slip_ += change.x * way.cosine() - change.y * way.sine();
+}
+
 void Drivetrain::step() {
   take_orders();
   turn();

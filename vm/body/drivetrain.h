@@ -50,6 +50,9 @@ public:
   /// not change.
   void power_on();
 
+  /// Heading 0 points there in the world; before the first step.
+  void start_facing(double world_deg) { world_offset_deg_ = world_deg; }
+
   // Set-points. Refused where they have no effect: while the control system is off most have none.
   Outcome obey(const Roll& roll);
   Outcome obey(const Rotate& turn);
@@ -69,6 +72,10 @@ public:
   void push(Point velocity);
   /// A wall leaves nothing but `velocity`, in world axes.
   void bounce(Point velocity);
+
+  /// Something that touches it, and is no blow, changes its velocity by `change`, in world axes:
+  /// the wheels go on with what is left, and a ball that they do not drive drifts.
+  void press(Point change);
 
   /// A step of the control system: turns, speeds up or slows down.
   void step();
@@ -106,6 +113,11 @@ public:
     const double vx = own.x + drift_x_;
     const double vy = own.y + drift_y_;
     return {vx, vy, std::sqrt(vx * vx + vy * vy)};
+  }
+  /// Its speed where wheels and drift pull the same way: only acceleration, pushes and blows lead
+  /// beyond it.
+  double most_speed_cm_s() const {
+    return std::hypot(forward_, slip_) + std::hypot(drift_x_, drift_y_);
   }
   bool stabilized() const { return stabilized_; }
   double yaw_deg() const { return yaw_deg_; } ///< 0 <= yaw < 360

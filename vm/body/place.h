@@ -36,6 +36,14 @@ struct Point {
   friend constexpr bool operator==(Point, Point) = default;
 };
 
+/// Where a ball starts in its world, and which way it faces there: degrees clockwise from +Y.
+struct Placement {
+  Point place;
+  double facing_deg = 0;
+
+  friend constexpr bool operator==(const Placement&, const Placement&) = default;
+};
+
 /// A straight wall: endless at `x=` or `y=`, or between two points.
 struct Wall {
   enum class Axis : std::uint8_t { X, Y, None };
