@@ -156,8 +156,9 @@ tl::expected<void, ConfigError> take_setting(Config& config, const std::string& 
   return {};
 }
 
-/// What the library says, without its preface.
-std::string in_our_words(std::string_view description) {
+} // namespace
+
+std::string toml_words(std::string_view description) {
   if (const auto colon = description.find(": ");
       description.starts_with("Error while") && colon != description.npos)
     description.remove_prefix(colon + 2);
@@ -166,6 +167,8 @@ std::string in_our_words(std::string_view description) {
     text.front() = to_lower(text.front());
   return text;
 }
+
+namespace {
 
 /// A value that is no TOML, mostly because it stands without quotes: `for = 60s`.
 std::string quotes_help(const std::string& text, std::uint32_t number) {
@@ -188,7 +191,7 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
   if (!parsed) {
     const auto& error = parsed.error();
     return tl::unexpected(problem(place_in(file, error.source().begin),
-                                  fmt::format("not TOML: {}{}", in_our_words(error.description()),
+                                  fmt::format("not TOML: {}{}", toml_words(error.description()),
                                               quotes_help(text, error.source().begin.line))));
   }
   for (const auto& [key, node] : parsed.table()) {

@@ -47,6 +47,9 @@ tl::expected<Config, ConfigError> load_config();
 /// stronger. An unknown section, option or value is an error.
 tl::expected<void, ConfigError> apply_config(const Config& config, const Command& orb);
 
+/// Why a text is no TOML, as the library says it, without its preface.
+std::string toml_words(std::string_view description);
+
 /// The URL that `port` stands for: the ball's URL for `@name`, else `port` itself.
 tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port);
 

@@ -46,6 +46,7 @@ struct RunOptions {
   bool lenient = false;
   bool watch = false;
   bool open = false;
+  bool together = false; ///< each file is a ball of one room
   run::Options run;
 
   /// The trace's format; nothing where there is no trace.

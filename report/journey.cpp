@@ -143,8 +143,7 @@ void Journey::see(Duration t, const vm::event::Collision& seen) {
 }
 
 void Journey::see(Duration t, const vm::event::Bump& seen) {
-  happen(t, Happening::Kind::Bump,
-         fmt::format("ran into the wall {} at speed {}", vm::to_string(seen.wall), seen.speed));
+  happen(t, Happening::Kind::Bump, fmt::format("{} at speed {}", vm::words_of(seen), seen.speed));
 }
 
 void Journey::see(Duration t, const vm::event::Sleep& seen) {

@@ -213,4 +213,10 @@ private:
   std::string line_; ///< printed and not ended yet
 };
 
+/// A ball of a room and what it did, in places of the room.
+struct RoomRun {
+  std::string name;
+  const Journey* journey = nullptr;
+};
+
 } // namespace orb::report

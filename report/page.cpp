@@ -20,6 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::string_view schema = "orb.report/1";
+constexpr std::string_view room_schema = "orb.room/1";
 
 /// Poses come this often while the ball moves (docs/ball.md); over a longer gap it stood still.
 constexpr Duration pose_period = std::chrono::milliseconds{50};
@@ -452,8 +453,9 @@ std::optional<std::string> run_of_page(std::string_view page) {
   return script_safe(run);
 }
 
-std::string report_page(const Journey& journey, std::string_view title, std::string_view before,
-                        std::span<const std::string_view> keywords) {
+namespace {
+
+std::string page_of(std::string_view run, std::string_view before) {
   std::string_view rest = page_html;
   std::string page;
   const auto fill = [&](std::string_view place, std::string_view with) {
@@ -463,10 +465,29 @@ std::string report_page(const Journey& journey, std::string_view title, std::str
     rest.remove_prefix(at + place.size());
   };
   fill("/*{style}*/", page_css);
-  fill("/*{run}*/", run_json(journey, title, keywords));
+  fill("/*{run}*/", run);
   fill("/*{before}*/", before.empty() ? "null" : before);
   fill("/*{script}*/", page_js);
   return page += rest;
+}
+
+} // namespace
+
+std::string report_page(const Journey& journey, std::string_view title, std::string_view before,
+                        std::span<const std::string_view> keywords) {
+  return page_of(run_json(journey, title, keywords), before);
+}
+
+std::string room_page(std::span<const RoomRun> balls, std::string_view title,
+                      std::span<const std::string_view> keywords) {
+  auto list = ordered_json::array();
+  for (const auto& ball : balls)
+    list.push_back(
+        {{"name", to_valid_utf8(ball.name)},
+         {"run", run_data(*ball.journey, fmt::format("{}: {}", title, ball.name), keywords)}});
+  const ordered_json room = {
+      {"schema", room_schema}, {"title", to_valid_utf8(title)}, {"balls", std::move(list)}};
+  return page_of(script_safe(room), {});
 }
 
 } // namespace orb::report

@@ -16,6 +16,10 @@ std::string report_page(const Journey& journey, std::string_view title,
                         std::string_view before = {},
                         std::span<const std::string_view> keywords = {});
 
+/// The same for all balls of a room, in one page.
+std::string room_page(std::span<const RoomRun> balls, std::string_view title,
+                      std::span<const std::string_view> keywords = {});
+
 /// What such a page plays back, as JSON of schema `orb.report/1` that may stand in a script.
 std::string run_json(const Journey& journey, std::string_view title,
                      std::span<const std::string_view> keywords = {});

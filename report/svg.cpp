@@ -358,18 +358,67 @@ std::string picture(const Journey& journey, const Journey* planned, double* heig
          marks(journey, frame) + ball(end, 10, last);
 }
 
+/// Around all places of all balls, and the course.
+Extent extent_of(std::span<const RoomRun> balls) {
+  Extent box;
+  bool first = true;
+  for (const auto& one : balls) {
+    const auto own = extent(*one.journey, nullptr);
+    box = first ? own
+                : Extent{std::min(box.left, own.left), std::max(box.right, own.right),
+                         std::min(box.low, own.low), std::max(box.high, own.high)};
+    first = false;
+  }
+  const auto& course = balls.front().journey->course();
+  return course ? with_course(box, *course) : box;
+}
+
+/// A ball of a room with its name.
+std::string named_ball(const RoomRun& one, const Frame& frame) {
+  constexpr double least_radius = 4;
+  constexpr double most_radius = 20;
+  const auto& poses = one.journey->poses().entries();
+  const auto where = poses.empty() ? frame(vm::Point{}) : frame(poses.back().value);
+  const double radius = std::clamp(spec::ball::radius * frame.scale, least_radius, most_radius);
+  return ball(where, radius, last_lit(*one.journey)) +
+         fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", number(where.x),
+                     number(where.y - radius - 4), escape_markup(to_valid_utf8(one.name)));
+}
+
+std::string room_picture(std::span<const RoomRun> balls, double* height) {
+  const auto frame = frame_for(extent_of(balls));
+  *height = frame.height;
+  const auto& first = *balls.front().journey;
+  auto out = grid(frame) + (first.course() ? zones(*first.course(), frame) : std::string()) +
+             walls(first, frame);
+  for (const auto& one : balls)
+    out += path(*one.journey, frame);
+  for (const auto& one : balls)
+    out += named_ball(one, frame);
+  return out;
+}
+
+std::string card(const std::string& body, double height, std::string_view more_style) {
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
+                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}{4}"
+                     "<rect class=\"card\" width=\"{0}\" height=\"{1}\" rx=\"10\"/>\n{3}</svg>\n",
+                     number(card_width), number(height), style, body, more_style);
+}
+
 } // namespace
 
 std::string path_svg(const Journey& journey, const Journey* planned) {
   double height = 0;
   const auto body = picture(journey, planned, &height);
-  const auto width = number(card_width);
-  const auto tall = number(height);
-  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
-                     "width=\"{0}\" height=\"{1}\" role=\"img\">\n{2}{4}{5}"
-                     "<rect class=\"card\" width=\"{0}\" height=\"{1}\" rx=\"10\"/>\n{3}</svg>\n",
-                     width, tall, style, body, journey.course() ? zone_style : "",
-                     planned != nullptr ? planned_style : "");
+  return card(body, height,
+              fmt::format("{}{}", journey.course() ? zone_style : "",
+                          planned != nullptr ? planned_style : ""));
+}
+
+std::string room_svg(std::span<const RoomRun> balls) {
+  double height = 0;
+  const auto body = room_picture(balls, &height);
+  return card(body, height, balls.front().journey->course() ? zone_style : "");
 }
 
 } // namespace orb::report

@@ -2,6 +2,7 @@
 
 #include "report/journey.h"
 
+#include <span>
 #include <string>
 
 namespace orb::report {
@@ -11,5 +12,8 @@ namespace orb::report {
 /// round it, clockwise from the start to the end. The same journey makes the same bytes. The path
 /// of `planned`, which may be null, lies pale behind it.
 std::string path_svg(const Journey& journey, const Journey* planned = nullptr);
+
+/// The paths of all balls of a room, each ball with its name and as large as it is.
+std::string room_svg(std::span<const RoomRun> balls);
 
 } // namespace orb::report

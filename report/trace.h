@@ -37,6 +37,15 @@ std::string trace_head(TraceFormat format);
 /// where the source has numbers itself.
 using LinePlaces = std::map<int, std::string>;
 
+/// A trace that is one of several: of a ball of a room. Its lines name the ball.
+struct TraceOf {
+  std::string ball;     ///< empty: of one ball alone, and then the trace has its own head
+  bool sources = false; ///< the program of some ball of the room has places: CSV has their column
+};
+
+/// The first line of the CSV form for the balls of a room. Empty for JSON.
+std::string room_trace_head(TraceFormat format, bool sources);
+
 /// Which events a trace has.
 enum class TraceLines : std::uint8_t { Leave, Keep };
 
@@ -44,7 +53,7 @@ enum class TraceLines : std::uint8_t { Leave, Keep };
 class TraceWriter {
 public:
   TraceWriter(TraceFormat format, TraceLines lines, std::function<void(std::string_view)> put,
-              LinePlaces places = {});
+              LinePlaces places = {}, TraceOf of = {});
   void add(Duration t, const vm::Event& event);
   /// An event of which more is known than the ball says.
   void add(Duration t, std::string_view event, const std::vector<TraceField>& fields);
@@ -52,11 +61,13 @@ public:
 
 private:
   std::string with_source(std::string line, const std::string& source) const;
+  void tell(std::string line, const std::string& source, const std::string& other = {});
 
   TraceFormat format_;
   TraceLines lines_; ///< a report needs every line even where the trace leaves them out
   std::function<void(std::string_view)> put_;
   LinePlaces places_;
+  TraceOf of_;
 };
 
 } // namespace orb::report

@@ -106,6 +106,7 @@ std::string story(const Ending& ending) {
   tell(way(sight));
   tell(sight.color ? name_of(*sight.color) : "");
   tell(blows(sight));
+  tell(sight.met.empty() ? "" : fmt::format("met {}", fmt::join(sight.met, " and ")));
   tell(ending.waits_for.empty() ? "" : "waits for " + ending.waits_for);
   return told;
 }

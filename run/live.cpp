@@ -39,8 +39,9 @@ private:
 class Watcher final : public vm::Observer, public vm::StepObserver {
 public:
   Watcher(const Load& load, const Options& options, Listener& listener, report::Journey* journey)
-      : load_(load), target_(options.target), until_(options.until), listener_(listener),
-        journey_(journey), expected_(options.expect), forbidden_(options.fail_text) {}
+      : load_(load), target_(options.target), until_(options.until), among_(options.among),
+        listener_(listener), journey_(journey), expected_(options.expect),
+        forbidden_(options.fail_text) {}
 
   /// From when on the ball's events are those of the run.
   enum class From : std::uint8_t {
@@ -53,29 +54,17 @@ public:
     ball_ = &ball;
     start_ = ball.now();
     from_ = from;
+    if (among_ == Among::Others && journey_ != nullptr) // one that stays where it is stands there
+      journey_->add({}, vm::event::Position{ball.body().world_pose()});
   }
 
   void on_event(Instant at, const vm::Event& event) override {
     if (ball_ == nullptr || enough_)
       return;
-    if (over_)
-      return roll_out(at, event);
-    if (from_ == From::FirstCommand) {
-      if (!std::holds_alternative<vm::event::Macro>(event))
-        return;
-      start_ = at;
-      from_ = From::Now;
-    }
-    // Of what goes on afterwards only how it ended counts.
-    const bool was_idle = ball_->idle() && !may_be_answered();
-    if (!take(event) && was_idle) {
-      over_ = at;
-      roll_out(at, event);
-      return;
-    }
-    if (std::holds_alternative<vm::event::End>(event) && was_idle)
-      over_ = at;
-    tell(at - start_, event);
+    if (among_ == Among::Others && std::holds_alternative<vm::event::Position>(event))
+      hear(at, vm::event::Position{ball_->body().world_pose()});
+    else
+      hear(at, event);
   }
 
   void on_step(Instant at, const vm::Body& body) override {
@@ -107,7 +96,7 @@ public:
   Sight sight() const {
     Sight seen = sight_;
     const auto& body = ball_->body();
-    seen.pose = body.pose();
+    seen.pose = among_ == Among::Others ? body.world_pose() : body.pose();
     seen.way_cm = body.rolled_cm();
     seen.motion = body.speed_setpoint() != 0 ? Sight::Motion::Driven
                   : body.stopped()           ? Sight::Motion::Still
@@ -117,6 +106,27 @@ public:
 
 private:
   bool may_be_answered() const { return waits_on_ && ball_->machine().waits_for_input(); }
+
+  void hear(Instant at, const vm::Event& event) {
+    if (over_)
+      return roll_out(at, event);
+    if (from_ == From::FirstCommand) {
+      if (!std::holds_alternative<vm::event::Macro>(event))
+        return;
+      start_ = at;
+      from_ = From::Now;
+    }
+    // Of what goes on afterwards only how it ended counts.
+    const bool was_idle = ball_->idle() && !may_be_answered();
+    if (!take(event) && was_idle) {
+      over_ = at;
+      roll_out(at, event);
+      return;
+    }
+    if (std::holds_alternative<vm::event::End>(event) && was_idle)
+      over_ = at;
+    tell(at - start_, event);
+  }
 
   /// After the end of the program only what the ball's motion leads to counts.
   void roll_out(Instant at, const vm::Event& event) {
@@ -193,6 +203,10 @@ private:
              led != nullptr && !ball_->blinks())
       sight_.color = led->color;
     else if (const auto* bump = std::get_if<vm::event::Bump>(&event)) {
+      if (!bump->ball.empty()) {
+        sight_.met.insert(bump->ball);
+        return;
+      }
       ++sight_.bumps;
       if (std::find(sight_.walls.begin(), sight_.walls.end(), bump->wall) == sight_.walls.end())
         sight_.walls.push_back(bump->wall);
@@ -205,6 +219,7 @@ private:
   const Load& load_;
   const compiler::Target& target_;
   Until until_;
+  Among among_;
   bool enough_ = false;
   bool waits_on_ = false;
   Listener& listener_;
@@ -338,7 +353,7 @@ struct Live::State {
 
   tl::expected<void, Failure> begin();
   bool rolls() const;
-  bool advance(Instant target);
+  bool advance(Instant target, vm::Ball::Halt halt);
   Ending so_far() const { return ending_of(inputs, options, watcher, ball, limit); }
   tl::expected<Ending, Failure> finish();
 
@@ -377,15 +392,15 @@ bool Live::State::rolls() const {
   return options.until == Until::Rest && ball.quiet() && ball.body().moving();
 }
 
-bool Live::State::advance(Instant target) {
+bool Live::State::advance(Instant target, vm::Ball::Halt halt) {
   constexpr Duration glance = 100ms; // a ball that rolls out is looked at that often
   if (started == Started::Refused || watcher.is_over_early() || ball.now() >= limit)
     return false;
   target = std::min(target, limit);
   if (rolls()) {
-    ball.advance_to(std::min(target, ball.now() + glance));
+    ball.advance_to(std::min(target, ball.now() + glance), halt);
   } else {
-    ball.advance_until_quiet(target);
+    ball.advance_until_quiet(target, halt);
     answer.take(ball.take_output());
     if (watcher.is_over_early())
       return false;
@@ -426,12 +441,12 @@ tl::expected<std::unique_ptr<Live>, Failure> Live::start(std::span<const Input> 
   return std::unique_ptr<Live>(new Live(std::move(state)));
 }
 
-bool Live::advance(Duration t) {
-  return state_->advance(state_->watcher.start() + t);
+bool Live::advance(Duration t, vm::Ball::Halt halt) {
+  return state_->advance(state_->watcher.start() + t, halt);
 }
 
-void Live::wait(Duration t) {
-  state_->ball.advance_to(std::max(state_->ball.now(), state_->watcher.start() + t));
+void Live::wait(Duration t, vm::Ball::Halt halt) {
+  state_->ball.advance_to(std::max(state_->ball.now(), state_->watcher.start() + t), halt);
 }
 
 void Live::keep_waiting() {
@@ -448,6 +463,14 @@ void Live::give(std::int32_t number) {
 
 void Live::apply(const vm::Stimulus& stimulus) {
   state_->ball.apply(stimulus);
+}
+
+void Live::meet(const vm::Shove& shove, std::span<const std::string> names) {
+  state_->ball.meet(shove, names);
+}
+
+bool Live::over_early() const {
+  return state_->watcher.is_over_early();
 }
 
 void Live::feel(const vm::Sample& sample) {

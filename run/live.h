@@ -22,9 +22,9 @@ public:
   ~Live();
 
   /// Goes on to robot time `t` since the start, or less far; false: the run is over.
-  bool advance(Duration t);
+  bool advance(Duration t, vm::Ball::Halt halt = vm::Ball::Halt::Look);
   /// Time passes to `t` though the run may be over: while the program waits for a number.
-  void wait(Duration t);
+  void wait(Duration t, vm::Ball::Halt halt = vm::Ball::Halt::Look);
   /// From now on a program that waits for a number is not over: give() may bring it.
   void keep_waiting();
   /// From now on it is over.
@@ -32,6 +32,11 @@ public:
 
   void give(std::int32_t number); ///< for `input`
   void apply(const vm::Stimulus& stimulus);
+
+  /// Other balls of its room press on it or have run into it, at time().
+  void meet(const vm::Shove& shove, std::span<const std::string> names);
+  /// It has printed what was looked for.
+  bool over_early() const;
 
   /// What the robot elsewhere says, at time().
   void feel(const vm::Sample& sample);

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +42,10 @@ enum class Steps : std::uint8_t { Ignored, Heard };
 /// Whether the listener has numbers for `input`.
 enum class Asks : std::uint8_t { No, Yes };
 
+/// Whether the ball is one of a room: then its places are those of the room, and a streamed macro
+/// begins when the room does.
+enum class Among : std::uint8_t { Nobody, Others };
+
 struct Options {
   Duration bound = 60s;              ///< of robot time; zero: none
   std::optional<std::uint16_t> line; ///< where the program starts; else at its first line
@@ -62,6 +67,8 @@ struct Options {
   Until until = Until::Quiet;
   Duration slice = 1s; ///< how often the listener hears of the time
   std::vector<vm::TimedStimulus> stimuli;
+  vm::Placement start; ///< where it stands, in a room
+  Among among = Among::Nobody;
   const report::Course* course = nullptr; ///< what it drives through; must outlive the run
   vm::Elsewhere* robot = nullptr; ///< what it drives instead of a body; must outlive the run
   vm::Sample robot_sample;        ///< what that said of itself before the start
@@ -135,6 +142,7 @@ struct Sight {
   std::optional<vm::Color> color; ///< of the LED, where it changed
   std::vector<vm::Wall> walls;    ///< that it ran into, each once
   std::uint64_t bumps = 0;        ///< how often
+  std::set<std::string> met;      ///< the names of the balls that it met
 };
 
 struct Ending {

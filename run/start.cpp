@@ -132,6 +132,7 @@ std::optional<Failure> objection(const Load& load) {
 vm::BallOptions ball_options(const Options& options) {
   vm::BallOptions ball;
   ball.seed = options.seed;
+  ball.start = options.start;
   ball.lines_per_second = options.lines_per_second;
   ball.firmware = options.firmware;
   ball.driving = spec::driving(options.model);

@@ -21,8 +21,8 @@ report::LinePlaces places(std::span<const Input> inputs) {
 } // namespace
 
 Trace::Trace(report::TraceFormat format, report::TraceLines lines, std::span<const Input> inputs,
-             std::function<void(std::string_view)> put)
-    : writer_(format, lines, std::move(put), places(inputs)) {}
+             std::function<void(std::string_view)> put, report::TraceOf of)
+    : writer_(format, lines, std::move(put), places(inputs), std::move(of)) {}
 
 void Trace::add(Duration t, const ProgramError& fault) {
   const auto& cause = fault.cause;

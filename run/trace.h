@@ -14,7 +14,7 @@ namespace orb::run {
 class Trace {
 public:
   Trace(report::TraceFormat format, report::TraceLines lines, std::span<const Input> inputs,
-        std::function<void(std::string_view)> put);
+        std::function<void(std::string_view)> put, report::TraceOf of = {});
   void add(Duration t, const vm::Event& event) { writer_.add(t, event); }
   void add(Duration t, const ProgramError& fault);
   void finish(const Ending& ending);

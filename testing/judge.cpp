@@ -192,7 +192,7 @@ public:
   void on_bump(const Moment& at, const vm::event::Bump& bump) override {
     if (one_.word != Word::Collision || certain() || !in_time(at.t))
       return;
-    happen(at, fmt::format("it ran into the wall {}", vm::to_string(bump.wall)));
+    happen(at, "it " + vm::words_of(bump));
   }
 
   void on_error(const Moment& at, const run::ProgramError& error) override {

@@ -1,11 +1,12 @@
 #include "run/run.h"
-#include "base/duration.h"
 #include "cli/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/on_robot.h"
+#include "cli/room/run_together.h"
 #include "cli/run_console.h"
+#include "cli/run_options.h"
 #include "cli/target.h"
 #include "cli/terminal/browser.h"
 #include "cli/terminal/watch.h"
@@ -18,7 +19,6 @@
 #include "spec/firmware.h"
 #include "structured/text/words.h"
 
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -36,67 +36,8 @@ namespace orb::cli {
 
 namespace {
 
-/// `1,2,-3`; nothing where that is not a list of 32-bit numbers.
-std::optional<std::vector<std::int32_t>> read_numbers(std::string_view text) {
-  std::vector<std::int32_t> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (;;) {
-    std::int32_t value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc{})
-      return std::nullopt;
-    numbers.push_back(value);
-    if (next == end)
-      return numbers;
-    if (*next != ',')
-      return std::nullopt;
-    at = next + 1;
-  }
-}
-
 tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
-}
-
-/// What the words of the command line mean.
-tl::expected<run::Options, Failure> read_options(const Context& context, const RunOptions& given) {
-  auto options = given.run;
-  const auto time = parse_duration(given.time, 1s);
-  if (!time)
-    return refuse(ExitCode::Usage, fmt::format("`--for {}` is not a time; write it like 90s, 500ms "
-                                               "or 2min",
-                                               given.time));
-  options.bound = *time;
-  if (!given.input.empty() && given.input != from_stdin) {
-    auto numbers = read_numbers(given.input);
-    if (!numbers)
-      return refuse(
-          ExitCode::Usage,
-          fmt::format("`--input {}` is not a list of numbers such as 1,2,3", given.input));
-    options.numbers = *std::move(numbers);
-  }
-  options.firmware = spec::find_firmware(given.firmware)->firmware; // the options are checked
-  if (!given.robot.empty())
-    options.model = spec::find_robot(given.robot)->robot;
-  options.native = given.native == "on"    ? vm::Native::On
-                   : given.native == "off" ? vm::Native::Off
-                                           : vm::Native::Auto;
-  options.client = given.disconnected ? run::Client::Absent : run::Client::Connected;
-  if (given.lenient)
-    options.ranges = spec::Ranges::Lenient;
-  options.target = given.target.target();
-  if (given.target.ram != 0)
-    options.ram_bytes = static_cast<std::size_t>(given.target.ram);
-  constexpr Duration frame = 20ms;
-  if (given.realtime)
-    options.slice = frame;
-  options.asks = given.input == from_stdin ? run::Asks::Yes : run::Asks::No;
-  auto stimuli = read_stimuli(context, given.stimuli);
-  if (!stimuli)
-    return tl::unexpected(stimuli.error());
-  options.stimuli = *std::move(stimuli);
-  return options;
 }
 
 /// The run of the page to compare with; empty where none is given.
@@ -219,6 +160,8 @@ void plan(const std::vector<run::Input>& inputs, const run::Options& given, spec
 }
 
 tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
+  if (is_room(given))
+    return run_together(context, given);
   auto options = read_options(context, given);
   if (!options)
     return tl::unexpected(options.error());
@@ -358,7 +301,8 @@ void run_with_report(Context& context, RunOptions& options) {
 }
 
 void add_program_options(const Command& command, RunOptions& options) {
-  command.add_option("FILE", options.files, "programs and macros; the first one runs").required();
+  command.add_option("FILE", options.files, "programs and macros; the first one runs. Or a room: ROOM.toml")
+      .required();
   add_language_option(command, options.language);
   command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")
       .show_default();
@@ -435,6 +379,11 @@ void add_output_options(const Command& command, RunOptions& options) {
   command.add_flag("--watch", options.watch, "runs again whenever a file changes");
 }
 
+void add_room_options(const Command& command, RunOptions& options) {
+  command.add_flag("--together", options.together,
+                   "each FILE drives a ball of its own, in one room");
+}
+
 } // namespace
 
 void add_run(const Command& orb, Context& context) {
@@ -444,12 +393,14 @@ void add_run(const Command& orb, Context& context) {
       "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
       "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
       "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
-      "waltz.sphero --expect done\norb run square.orb --port ble://SB-1A2B");
+      "waltz.sphero --expect done\norb run red.orb blue.orb --together --open\norb "
+      "run square.orb --port ble://SB-1A2B");
   auto options = std::make_shared<RunOptions>();
   add_program_options(command, *options);
   add_robot_options(command, *options);
   add_tether_options(command, *options);
   add_output_options(command, *options);
+  add_room_options(command, *options);
   command.callback([&context, options] { run_with_report(context, *options); });
 }
 

@@ -6,7 +6,7 @@ import { deflateRawSync } from "node:zlib";
 import MarkdownIt from "markdown-it";
 
 const groups = [
-  ["Learn", ["examples/lessons/README.md", "docs/structured.md", "docs/language.md", "docs/macros.md", "docs/courses.md", "docs/testing.md",
+  ["Learn", ["examples/lessons/README.md", "docs/structured.md", "docs/language.md", "docs/macros.md", "docs/courses.md", "docs/rooms.md", "docs/testing.md",
     "docs/debugging.md", "docs/gallery.md", "docs/cheatsheet.md", "docs/playground.md"]],
   ["Use", ["docs/installing.md", "docs/uploading.md", "docs/reliability.md", "docs/ball.md", "docs/reports.md", "docs/editors/README.md",
     "docs/ci.md", "docs/findings.md", "docs/json.md"]],

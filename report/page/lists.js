@@ -1,4 +1,4 @@
-// Which of two runs the lists show.
+// Which of two runs, or which ball of a room, the lists show.
 
 import { $, element } from "./dom.js";
 import { list_events } from "./events.js";
@@ -8,10 +8,31 @@ import { list_variables } from "./variables.js";
 
 export function choose(one) {
   playback.shown = one;
-  for (const button of $("whose")?.children ?? []) button.setAttribute("aria-pressed", String(button.dataset.run === (one === playback.main ? "run" : "before")));
+  if (!playback.room.length) for (const button of $("whose")?.children ?? []) button.setAttribute("aria-pressed", String(button.dataset.run === (one === playback.main ? "run" : "before")));
   list_files();
   list_variables();
   list_events();
+}
+const most_buttons = 6; // beyond that the balls stand in a list
+/** The balls of a room; `take(one)` is called with the one that is chosen. */
+export function list_balls(take) {
+  const whose = $("whose"), { room, main } = playback;
+  whose.replaceChildren();
+  whose.hidden = false;
+  whose.setAttribute("aria-label", "Ball that is looked at");
+  if (room.length > most_buttons) {
+    const list = element("select", { "aria-label": "Ball that is looked at" });
+    room.forEach((one, i) => list.append(element("option", { value: i }, one.ball)));
+    list.value = room.indexOf(main);
+    list.addEventListener("change", () => take(room[Number(list.value)]));
+    whose.append(list);
+    return;
+  }
+  for (const one of room) {
+    const button = element("button", { type: "button", "data-ball": one.ball, "aria-pressed": String(one === main) }, one.ball);
+    button.addEventListener("click", () => take(one));
+    whose.append(button);
+  }
 }
 export function list_runs() {
   if (!$("whose")) return;

@@ -1,15 +1,31 @@
 // The maps: of the run, and of the one before it.
 
-import { $, clamp, css_color, length_words, position_words, shape, speed_words } from "./dom.js";
-import { area, grid_step, is_turned, look_at, make_chart, measure, outgrown, survey, turned_by, view } from "./map_chart.js";
+import { $, clamp, length_words, position_words, shape, speed_words } from "./dom.js";
+import { area, grid_step, is_turned, look_at, make_chart, measure, outgrown, survey, view } from "./map_chart.js";
 import { draw_grid, draw_paper_scale, draw_walls, draw_zones } from "./map_ground.js";
 import { draw_event, draw_marks, list_signs } from "./map_marks.js";
-import { draw_ball, draw_path, draw_progress, draw_stretches } from "./map_path.js";
-import { playback, show, watch } from "./playback.js";
+import { draw_ball, draw_path, draw_progress, draw_stretches, place_ball } from "./map_path.js";
+import { others, playback, show, watch } from "./playback.js";
 
 function make_map(map) {
   const chart = make_chart(map);
   let layers = null;
+  let guests = []; // the other balls of a room
+  /** The other balls: their paths lie below that of the one that is looked at, they themselves above all paths. */
+  function draw_guests() {
+    guests = others().map(one => Object.assign(Object.create(chart), { one, path: null }));
+    for (const guest of guests) draw_path(guest, shape("g", { class: "guest-path" }, map));
+  }
+  function draw_guest_balls() {
+    for (const guest of guests) {
+      guest.layers = draw_ball(guest, map, `-${playback.room.indexOf(guest.one)}`);
+      guest.layers.ball.dataset.ball = guest.one.ball;
+      guest.layers.ball.addEventListener("pointerdown", event => {
+        event.stopPropagation();
+        on_choice(guest.one);
+      });
+    }
+  }
   function draw() {
     measure(chart);
     for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
@@ -20,11 +36,13 @@ function make_map(map) {
     const kept_clear = draw_zones(chart, floor, words);
     draw_walls(chart, shape("g", {}, map));
     draw_grid(chart, grid, shape("g", {}, map));
+    draw_guests();
     draw_path(chart);
     map.append(words); // names of zones lie on the path
     const marks = shape("g", {}, map);
     draw_marks(chart, marks, kept_clear);
     draw_paper_scale(chart, shape("g", { class: "paper-scale" }, map));
+    draw_guest_balls();
     layers = { marks, ...draw_ball(chart, map) };
   }
   /** Following moves the map only when the ball comes near its edge. */
@@ -33,16 +51,14 @@ function make_map(map) {
     return x < .2 || x > .8 || y < .2 || y > .8;
   }
   function show_ball(state) {
-    const lamp = chart.one.lamp_at(playback.now), lamp_color = lamp ? css_color(lamp) : "transparent";
     if (view.follow && leaves_view(state)) draw();
+    for (const guest of guests) {
+      const there = guest.one.state_at(playback.now);
+      draw_progress(guest, there);
+      place_ball(guest, guest.layers, there);
+    }
     draw_progress(chart, state);
-    const there = chart.at(state.x, state.y);
-    layers.ball.setAttribute("transform", `translate(${there.x.toFixed(2)} ${there.y.toFixed(2)})`);
-    layers.nose.setAttribute("transform", `rotate(${(state.heading + turned_by()).toFixed(1)})`);
-    layers.lamp.setAttribute("fill", lamp_color);
-    layers.tail.setAttribute("opacity", (chart.one.tail_at(playback.now) / 255).toFixed(3));
-    layers.halo.setAttribute("opacity", lamp ? 1 : 0);
-    for (const stop of layers.lamp_stops) stop.setAttribute("stop-color", lamp_color);
+    place_ball(chart, layers, state);
   }
   map.addEventListener("wheel", event => {
     if (!event.ctrlKey && !event.metaKey) return; // a plain wheel scrolls the page
@@ -68,6 +84,9 @@ function make_map(map) {
   }
   return { grow, load: one => { chart.one = one; }, draw, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
 }
+let on_choice = () => {};
+/** `take(one)` is called with the ball of a room that somebody points at. */
+export function on_ball_chosen(take) { on_choice = take; }
 const all_maps = [make_map($("map")), make_map($("map-before"))]; // the run's comes first
 let maps = [];
 export function list_maps() {

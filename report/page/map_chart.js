@@ -1,6 +1,6 @@
 // Where things lie on a map: the area it holds, the part that is looked at, centimetres in pixels.
 
-import { playback } from "./playback.js";
+import { others, playback } from "./playback.js";
 
 export const view = { zoom: 1, x: 0, y: 0, follow: false, as_drawn: true };
 /** What the maps hold: its corners, whether the ball moved, whether there is anything to measure by, and where
@@ -29,7 +29,7 @@ const most = list => list.reduce((a, b) => Math.max(a, b), list[0] ?? 0);
 export function survey() {
   area.ahead = playback.main.run.course?.ahead ?? upright;
   const corners = playback.runs.flatMap(one => one.run.course ? [one.run.course] : []).flatMap(({ low, high }) => [low, high, [low[0], high[1]], [high[0], low[1]]]);
-  const poses = playback.runs.flatMap(({ pose }) => pose.x.map((x, i) => [x, pose.y[i]]));
+  const poses = [...playback.runs, ...others()].flatMap(({ pose }) => pose.x.map((x, i) => [x, pose.y[i]]));
   const places = [...poses, ...corners].map(([x, y]) => place(x, y));
   const x = places.map(([right]) => right), y = places.map(([, up]) => up);
   const [left, right, low, high] = [least(x), most(x), least(y), most(y)];

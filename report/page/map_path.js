@@ -1,7 +1,7 @@
 // The path of the ball, and the ball.
 
 import { brightness, css_color, shape } from "./dom.js";
-import { area } from "./map_chart.js";
+import { area, turned_by } from "./map_chart.js";
 import { playback } from "./playback.js";
 
 function line_from(chart, from, to) {
@@ -11,13 +11,12 @@ function line_from(chart, from, to) {
   return d;
 }
 /** All of the path, faded; the part that lies before the moment shown is laid over it by draw_progress(). */
-export function draw_path(chart) {
-  const { map } = chart;
-  for (const old of map.parentElement.querySelectorAll(".ground")) old.remove();
-  const ahead = shape("g", { class: "ahead" }, map);
-  const halos = shape("g", { class: "halo" }, map);
-  const kept = kept_in(playback.live ? ground_of(chart) : map);
-  const fresh = shape("g", {}, map);
+export function draw_path(chart, parent = chart.map) {
+  for (const old of chart.map.parentElement.querySelectorAll(".ground")) old.remove();
+  const ahead = shape("g", { class: "ahead" }, parent);
+  const halos = shape("g", { class: "halo" }, parent);
+  const kept = kept_in(playback.live ? ground_of(chart) : parent);
+  const fresh = shape("g", {}, parent);
   chart.path = { ahead, halos, ...kept, fresh, drawn: 0, kept: 0 };
   draw_stretches(chart);
 }
@@ -80,21 +79,23 @@ export function draw_progress(chart, state) {
     stretch.state = wanted;
   }
 }
-export function draw_ball(chart, parent) {
-  const defs = shape("defs", {}, parent);
-  const glow = shape("radialGradient", { id: `${chart.map.id}-glow` }, defs);
+/** `tag` tells the balls of a room apart. */
+export function draw_ball(chart, parent, tag = "") {
+  const defs = shape("defs", {}, parent), id = `${chart.map.id}${tag}`;
+  const glow = shape("radialGradient", { id: `${id}-glow` }, defs);
   const lamp_stops = [shape("stop", { offset: .2, "stop-opacity": .75 }, glow), shape("stop", { offset: 1, "stop-opacity": 0 }, glow)];
-  const shine = shape("radialGradient", { id: `${chart.map.id}-shine`, cx: .36, cy: .3, r: .75 }, defs);
+  const shine = shape("radialGradient", { id: `${id}-shine`, cx: .36, cy: .3, r: .75 }, defs);
   shape("stop", { offset: 0, "stop-color": "#fff", "stop-opacity": .85 }, shine);
   shape("stop", { offset: .45, "stop-color": "#fff", "stop-opacity": .12 }, shine);
   shape("stop", { offset: 1, "stop-color": "#000", "stop-opacity": .28 }, shine);
   const ball = shape("g", { class: "ball", ...chart.one === playback.main ? { id: "ball" } : {} }, parent);
-  const halo = shape("circle", { r: area.mapped ? 40 : 90, fill: `url(#${chart.map.id}-glow)` }, ball);
-  const r = area.mapped ? 13 : 34;
+  const small = playback.room.length > 1;
+  const halo = shape("circle", { r: small ? 28 : area.mapped ? 40 : 90, fill: `url(#${id}-glow)` }, ball);
+  const r = small ? ball_radius(chart) : area.mapped ? 13 : 34;
   shape("ellipse", { cx: 2, cy: 4, rx: r, ry: r, class: "ball-shadow" }, ball);
   shape("circle", { r, class: "ball-body" }, ball);
   const lamp = shape("circle", { ...chart.one === playback.main ? { id: "ball-lamp" } : {}, r: r - .7 }, ball);
-  shape("circle", { r, fill: `url(#${chart.map.id}-shine)` }, ball);
+  shape("circle", { r, fill: `url(#${id}-shine)` }, ball);
   const nose = shape("g", {}, ball);
   shape("path", { d: `M0 ${-r - 9}l5 8h-10z`, class: "mark-end" }, nose);
   const eyes = shape("g", { class: "eyes" }, nose);
@@ -103,5 +104,20 @@ export function draw_ball(chart, parent) {
     shape("circle", { cx: side * r * .36, cy: -r * .4, r: r * .13, class: "pupil" }, eyes);
   }
   const tail = shape("circle", { cy: r - 2, r: r / 5 + 1, fill: "#4a8dff" }, nose);
+  if (small) shape("text", { y: -r - 12, class: "mark-word ball-name", "text-anchor": "middle" }, ball).textContent = chart.one.ball;
   return { ball, lamp, nose, tail, halo, lamp_stops };
+}
+const radius_cm = 3.65;
+/** The balls of a room are as large as they are, so that those that meet are seen to touch; but never too small to see. */
+const ball_radius = chart => Math.min(34, Math.max(5, radius_cm * chart.scale));
+/** Puts a ball where it is, with what it shows. */
+export function place_ball(chart, layers, state) {
+  const lamp = chart.one.lamp_at(playback.now), lamp_color = lamp ? css_color(lamp) : "transparent";
+  const there = chart.at(state.x, state.y);
+  layers.ball.setAttribute("transform", `translate(${there.x.toFixed(2)} ${there.y.toFixed(2)})`);
+  layers.nose.setAttribute("transform", `rotate(${(state.heading + turned_by()).toFixed(1)})`);
+  layers.lamp.setAttribute("fill", lamp_color);
+  layers.tail.setAttribute("opacity", (chart.one.tail_at(playback.now) / 255).toFixed(3));
+  layers.halo.setAttribute("opacity", lamp ? 1 : 0);
+  for (const stop of layers.lamp_stops) stop.setAttribute("stop-color", lamp_color);
 }

@@ -6,11 +6,11 @@ import { lengthen } from "./journey.js";
 import { next_theme, show_heading } from "./heading.js";
 import { take_keys } from "./keys.js";
 import { draw_lanes, draw_track, list_lanes } from "./lanes.js";
-import { choose, list_runs } from "./lists.js";
-import { draw_maps, grow_maps, list_maps, show_still } from "./map.js";
+import { choose, list_balls, list_runs } from "./lists.js";
+import { draw_maps, grow_maps, list_maps, on_ball_chosen, show_still } from "./map.js";
 import { survey, view } from "./map_chart.js";
 import { list_signs } from "./map_marks.js";
-import { playback, seek, show, take, watch } from "./playback.js";
+import { look_at_ball, playback, seek, show, take, take_room, watch } from "./playback.js";
 import { lines_now } from "./source.js";
 import { set_playing, set_rate, slider } from "./transport.js";
 import "./paper.js";
@@ -46,6 +46,32 @@ function load(run, run_before = null, goes_on = false) {
   playback.live = goes_on;
   draw_track();
   playback.now = clamp(playback.now, 0, playback.end);
+  draw_everything();
+}
+/** Shows a room of balls as it ended, and its first ball. */
+function load_room(room) {
+  take_room(room);
+  playback.live = false;
+  playback.now = playback.end;
+  set_playing(false);
+  slider.max = playback.end;
+  set_rate();
+  on_ball_chosen(show_ball);
+  show_ball(playback.room[0]);
+}
+/** Looks at one ball of the room, at the same moment. */
+function show_ball(one) {
+  look_at_ball(one);
+  forget_events();
+  show_heading();
+  survey();
+  list_maps();
+  list_signs();
+  show_still();
+  list_balls(show_ball);
+  list_lanes();
+  choose(one);
+  draw_track();
   draw_everything();
 }
 /** More of a run that goes on, up to `t` microseconds. */
@@ -96,7 +122,7 @@ export function orb_player({ keys = document, on_moment = null } = {}) {
   take_keys(keys);
   if (on_moment) watch(() => on_moment(lines_now()));
   return {
-    load, grow, settle, seek, seek_asked, next_theme,
+    load, load_room, grow, settle, seek, seek_asked, next_theme,
     play: () => set_playing(true), pause: () => set_playing(false),
     end: () => playback.end,
   };

@@ -1,8 +1,10 @@
-// The page of one run: it holds what it plays back.
+// The page of one run, or of a room of balls: it holds what it plays back.
 
 import { orb_player } from "./player.js";
 
 const data = id => JSON.parse(document.getElementById(id).textContent);
 const player = orb_player();
-player.load(data("run"), data("before"));
+const run = data("run");
+if (run.balls) player.load_room(run);
+else player.load(run, data("before"));
 player.seek_asked();

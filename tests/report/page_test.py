@@ -556,6 +556,30 @@ class Report(unittest.TestCase):
         self.assertIn("goroll 0,60,1", page.evaluate("document.getElementById('source').textContent"))
 
 
+    def test_the_balls_of_a_room_are_played_back_together(self):
+        red = self.file("red.orb", "RGB 255, 0, 0\ngoroll 270, 60, 1\ndelay 1500\ngoroll 270, 0, 0\nprint \"red\"\n")
+        blue = self.file("blue.orb", "RGB 0, 0, 255\ndelay 2s\nprint \"blue\"\n")
+        room = Run(self.folder.name, "room", red, blue, "--together")
+        page = self.open(room)
+        place = lambda name: page.evaluate(f"[...document.querySelectorAll('#map .ball')].find(one => one.querySelector('.ball-name').textContent === '{name}').getAttribute('transform').match(/[-0-9.]+/g).map(Number)")
+        centimetres = page.evaluate("document.getElementById('scale-bar').getBoundingClientRect().width") / float(page.evaluate("document.getElementById('scale-words').textContent").split()[0])
+        for ms in (100, 700, 1400, 2900):
+            page.evaluate(f"{seek}({micro(ms)})")
+            there = {}
+            for name in ("red", "blue"):
+                poses = [event for event in room.of("pose") if event["ball"] == name and event["t"] <= ms]
+                there[name] = (poses[-1]["x"], poses[-1]["y"]) if poses else (0, 0)
+            for axis, sign in ((0, 1), (1, -1)):
+                apart = (place("red")[axis] - place("blue")[axis]) / centimetres * sign
+                self.assertAlmostEqual(apart, there["red"][axis] - there["blue"][axis], delta=4) # it moves on between two poses
+        words = "[...document.querySelectorAll('#events .words')].map(one => one.textContent).join(', ')"
+        self.assertIn("met ball red", page.evaluate(words))
+        page.evaluate("document.querySelector('[data-ball=red]').click()")
+        self.assertIn("met ball blue", page.evaluate(words))
+        self.assertIn("goroll 270, 60, 1", page.evaluate("document.getElementById('source').textContent"))
+        self.assertEqual(page.evaluate("document.querySelector('[data-ball=red]').getAttribute('aria-pressed')"), "true")
+        self.assertEqual(page.evaluate("document.querySelectorAll('#map .ball').length"), 2)
+
     # ---- variables and lines
 
     variable = staticmethod(lambda name: f"document.querySelector('[data-variable=\"{name}\"] .value')?.textContent")
