@@ -301,7 +301,9 @@ void run_with_report(Context& context, RunOptions& options) {
 }
 
 void add_program_options(const Command& command, RunOptions& options) {
-  command.add_option("FILE", options.files, "programs and macros; the first one runs. Or a room: ROOM.toml")
+  command
+      .add_option("FILE", options.files,
+                  "programs and macros; the first one runs. Or a room: ROOM.toml")
       .required();
   add_language_option(command, options.language);
   command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")

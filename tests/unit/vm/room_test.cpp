@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <deque>
+#include <fmt/format.h>
 
 namespace orb::vm {
 namespace {
