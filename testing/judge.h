@@ -21,6 +21,7 @@ struct Meaning {
   std::optional<int> macro;            ///< the id
   std::optional<std::size_t> variable; ///< of vm::Machine::variable()
   std::size_t packed_bytes = 0;        ///< of the program's image
+  std::string other_ball;              ///< the name of Expectation::other_ball
   std::string problem; ///< why it can never be met: the program has no such name; else empty
   std::vector<Meaning> joined;          ///< of Expectation::joined
   std::shared_ptr<const Meaning> other; ///< of Expectation::other
@@ -38,6 +39,7 @@ struct Sighting {
   bool asleep = false;
   vm::Color color;
   int back = 0;
+  std::vector<vm::Point> balls; ///< where all balls of the room are; empty for one ball
 };
 
 /// What ran: a line of the robot's program, or a command of a macro. Zeros: nothing any more.

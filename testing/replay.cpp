@@ -73,7 +73,9 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
     auto command = fmt::format("orb test {}{} --seeds {}..{}", path_word(file.source->name()),
                                option("--only", test.name.text), seed, seed);
-    return fmt::format("{} --program {} --report report", command, path_word(program.name));
+    return group.room.empty()
+               ? fmt::format("{} --program {} --report report", command, path_word(program.name))
+               : command + " --report report";
   }
   std::string command = "orb run " + path_word(program.name);
   for (const auto& with : file.file.with)

@@ -39,8 +39,8 @@ struct CaseResult {
   Duration lasted{}; ///< robot time
   std::uint64_t lines = 0;
   std::vector<Miss> misses;
-  std::string problem;  ///< with Verdict::Error
-  std::string again;    ///< the command that shows a failure; empty where none does
+  std::string problem; ///< with Verdict::Error
+  std::string again;   ///< the command that shows a failure; empty where none does
   /// What was seen of it; null where running it once more shows the same.
   std::shared_ptr<const report::Journey> journey;
   bool omitted = false; ///< it did not pass, and these three are not kept

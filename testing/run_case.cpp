@@ -1,8 +1,10 @@
+#include "run/room.h"
 #include "spec/firmware.h"
 #include "testing/replay.h"
 #include "testing/run_suite.h"
 
 #include <algorithm>
+#include <deque>
 #include <fmt/format.h>
 
 namespace orb::testing {
@@ -17,20 +19,38 @@ public:
   /// How far a run goes.
   enum class Goes : std::uint8_t { UntilKnown, ToTheEnd };
 
-  Court(const Test& test, const Group& group, Goes goes) : keeps_on_(goes == Goes::ToTheEnd) {
+  /// All balls of a room, in their order.
+  using Balls = std::vector<const vm::Ball*>;
+
+  /// Of a room: that of its ball `own`, which sees the others, too.
+  Court(const Test& test, const Group& group, Goes goes, std::optional<std::size_t> own = {},
+        Balls* all = nullptr)
+      : keeps_on_(goes == Goes::ToTheEnd), own_(own), all_(all) {
     judges_.reserve(test.expectations.size());
     for (std::size_t i = 0; i < test.expectations.size(); ++i) {
       const auto& one = test.expectations[i];
+      if (one.ball != own_ && one.line != 0)
+        continue;
+      places_.push_back(i);
       judges_.push_back(make_judge(one, group.meanings[i]));
       if (one.line == 0)
         silent_ = judges_.back().get();
     }
   }
 
-  const std::vector<std::unique_ptr<Judge>>& judges() const { return judges_; }
+  /// The places of the expectations that were missed, each with its judge.
+  std::vector<std::pair<std::size_t, const Judge*>> missed() const {
+    std::vector<std::pair<std::size_t, const Judge*>> found;
+    for (std::size_t i = 0; i < judges_.size(); ++i)
+      if (judges_[i]->verdict() == Judge::Verdict::Missed)
+        found.emplace_back(places_[i], judges_[i].get());
+    return found;
+  }
 
   void on_start(const vm::Ball& ball) override {
     ball_ = &ball;
+    if (all_ != nullptr)
+      (*all_)[*own_] = &ball;
     sighting_.color = ball.led();
     look(ball.body());
   }
@@ -127,6 +147,16 @@ private:
     sighting_.speed = pose.speed_cm_s;
     sighting_.moving = !body.stopped();
     sighting_.has_moved = sighting_.has_moved || sighting_.moving;
+    if (all_ != nullptr)
+      look_around();
+  }
+
+  /// Where all balls of the room are; one that has not begun yet is where nobody looks.
+  void look_around() {
+    sighting_.balls.resize(all_->size());
+    for (std::size_t i = 0; i < all_->size(); ++i)
+      if ((*all_)[i] != nullptr)
+        sighting_.balls[i] = (*all_)[i]->body().mover().place;
   }
 
   /// Tells what was seen until `t`.
@@ -186,6 +216,9 @@ private:
   const Judge* silent_ = nullptr;
   const vm::Ball* ball_ = nullptr;
   bool keeps_on_;
+  std::optional<std::size_t> own_; ///< which ball of the room
+  Balls* all_;
+  std::vector<std::size_t> places_; ///< of the judges' expectations
   bool enough_ = false;
   bool uncertain_states_ = true;
   bool started_ = false; ///< something has run
@@ -204,12 +237,13 @@ std::string expected(const SuiteFile& file, const Expectation& one) {
   return one.line == 0 ? "never error" : std::string(file.source->text(one.span));
 }
 
-Miss miss_of(const Suite& suite, const Group& group, const Expectation& one, const Judge& judge) {
+Miss miss_of(const Suite& suite, const Group& group, const Expectation& one, const Judge& judge,
+             std::size_t program) {
   const auto& file = suite.files[group.file];
   Miss miss{
       one.line == 0 ? suite.test_of(group).line : one.line, expected(file, one), judge.seen(), {}};
   if (judge.moment())
-    miss.where = place_of(suite.programs[group.program], judge.moment()->running);
+    miss.where = place_of(suite.programs[program], judge.moment()->running);
   return miss;
 }
 
@@ -254,14 +288,78 @@ CaseResult judge_case(const Suite& suite, const Group& group, const run::Options
     return fail(ending.error().message + "\n");
   result.lasted = ending->lasted;
   result.lines = ending->lines;
-  for (std::size_t i = 0; i < test.expectations.size(); ++i)
-    if (const auto& judge = *court.judges()[i]; judge.verdict() == Judge::Verdict::Missed)
-      result.misses.push_back(miss_of(suite, group, test.expectations[i], judge));
+  for (const auto& [place, judge] : court.missed())
+    result.misses.push_back(miss_of(suite, group, test.expectations[place], *judge, group.program));
   if (!result.misses.empty()) {
     result.verdict = Verdict::Failed;
     constexpr Duration little = 250ms; // that it rolls on, nobody sees
     result.again =
         replay_command(suite, group, options.seed, ending->seen_to - ending->lasted > little);
+  }
+  return result;
+}
+
+/// What the balls of a room run.
+std::vector<run::RoomBall> room_of(const Suite& suite, const Group& group,
+                                   const run::Options& options) {
+  std::vector<run::RoomBall> balls;
+  const auto& placed = suite.files[group.file].file.balls;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    auto& ball = balls.emplace_back();
+    ball.name = placed[i].name.text;
+    ball.inputs = suite.programs[group.room[i]].inputs;
+    ball.options = options;
+    ball.options.start = placed[i].start;
+    ball.options.seed = run::seed_of(options.seed, ball.name);
+  }
+  return balls;
+}
+
+/// Runs a room and says how long that took, or why it cannot be run.
+void run_and_add(std::span<const run::RoomBall> balls, CaseResult& result) {
+  const auto endings = run::run_room(balls);
+  if (!endings) {
+    result.problem = endings.error().message + "\n";
+    return;
+  }
+  for (const auto& ending : *endings) {
+    result.lasted = std::max(result.lasted, ending.lasted);
+    result.lines += ending.lines;
+  }
+}
+
+/// Judges all balls of a room; `journey` is that of the first one.
+CaseResult judge_room(const Suite& suite, const Group& group, const run::Options& options,
+                      Court::Goes goes, report::Journey* journey) {
+  const auto& test = suite.test_of(group);
+  CaseResult result;
+  result.seed = options.seed;
+  for (const auto program : group.room)
+    result.problem += suite.programs[program].problem;
+  auto balls = room_of(suite, group, options);
+  Court::Balls all(balls.size());
+  std::deque<Court> courts;
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    balls[i].listener = &courts.emplace_back(test, group, goes, i, &all);
+  balls.front().journey = journey;
+  if (result.problem.empty())
+    run_and_add(balls, result);
+  if (!result.problem.empty()) {
+    result.verdict = Verdict::Error;
+    return result;
+  }
+  for (std::size_t i = 0; i < courts.size(); ++i)
+    for (const auto& [place, judge] : courts[i].missed()) {
+      auto& miss = result.misses.emplace_back(
+          miss_of(suite, group, test.expectations[place], *judge, group.room[i]));
+      if (test.expectations[place].line == 0)
+        miss.expected = fmt::format("never {} error", balls[i].name);
+    }
+  std::stable_sort(result.misses.begin(), result.misses.end(),
+                   [](const auto& a, const auto& b) { return a.line < b.line; });
+  if (!result.misses.empty()) {
+    result.verdict = Verdict::Failed;
+    result.again = replay_command(suite, group, options.seed, true);
   }
   return result;
 }
@@ -273,6 +371,8 @@ CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
   auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
   options.native_programs = native;
   const auto goes = journey == nullptr ? Court::Goes::UntilKnown : Court::Goes::ToTheEnd;
+  if (!group.room.empty())
+    return judge_room(suite, group, options, goes, journey);
   return judge_case(
       suite, group, options, goes, [&](const run::Options& given, run::Listener& listener) {
         return run::run(suite.programs[group.program].inputs, given, listener, journey);

@@ -55,10 +55,16 @@ double turn(double from, double to) {
   return std::min(way, spec::ball::full_circle - way);
 }
 
+/// How far the ball is from the place, or from the other ball.
+double apart(const Expectation& one, const Sighting& s) {
+  const auto place = one.other_ball ? s.balls[*one.other_ball] : vm::Point{one.x, one.y};
+  return std::hypot(s.x - place.x, s.y - place.y);
+}
+
 /// How far a sighting is from what is expected of it; 0 where it is met.
 double off_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
   switch (one.word) {
-  case Word::Near: return std::max(0.0, std::hypot(s.x - one.x, s.y - one.y) - one.by);
+  case Word::Near: return std::max(0.0, apart(one, s) - one.by);
   case Word::Beyond:
     switch (one.side) {
     case Side::AboveX: return s.x > one.most ? 0 : std::max(one.most - s.x, 1e-12);
@@ -99,8 +105,9 @@ double off_alone(const Expectation& one, const Meaning& meaning, const Sighting&
 std::string describe_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
   switch (one.word) {
   case Word::Near:
-    return fmt::format("{} cm from {},{}", above(std::hypot(s.x - one.x, s.y - one.y), one.by),
-                       plain(one.x, 2), plain(one.y, 2));
+    return fmt::format("{} cm from {}", above(apart(one, s), one.by),
+                       one.other_ball ? meaning.other_ball
+                                      : fmt::format("{},{}", plain(one.x, 2), plain(one.y, 2)));
   case Word::Beyond: {
     const bool x = one.side == Side::AboveX || one.side == Side::BelowX;
     return fmt::format("{} {:.1f}", x ? 'x' : 'y', x ? s.x : s.y);

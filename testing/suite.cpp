@@ -4,6 +4,7 @@
 #include "base/suggest.h"
 #include "compiler/text/image.h"
 #include "spec/limits.h"
+#include "testing/check_room.h"
 #include "testing/text/rules.h"
 
 #include <algorithm>
@@ -182,7 +183,8 @@ Diagnostic cannot_read(const std::string& path, Span span) {
 std::optional<std::string> program_path(SuiteFile& file, structured::Files& files) {
   const auto& name = file.source->name();
   auto& findings = file.file.diagnostics;
-  if (const auto& given = file.file.program) {
+  const auto& balls = file.file.balls;
+  if (const auto& given = balls.empty() ? file.file.program : std::optional(balls[0].program)) {
     auto path = structured::resolve_path(name, given->text);
     if (files.read(path))
       return path;
@@ -284,6 +286,8 @@ void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
 Lookup look_up_alone(const Expectation& one, const SuiteFile& file, const Prepared& program) {
   Lookup found;
   found.meaning.packed_bytes = program.packed_bytes;
+  if (one.other_ball)
+    found.meaning.other_ball = file.file.balls[*one.other_ball].name.text;
   if (one.word == Word::Inside || one.word == Word::Stay)
     find_zone(one, file, found);
   else if (one.word == Word::Marker && !one.name.text.empty())
@@ -342,6 +346,8 @@ void check_names(SuiteFile& file, const Suite& suite, Reader& reader,
       tell_of_kept(file, test, *own);
     for (const auto& whole : test.expectations)
       for (const auto* one : parts_of(whole)) {
+        if (whole.ball && *whole.ball > 0 && one->word == Word::Variable)
+          continue; // of another ball's program: told by its verdict
         const bool of_course = one->word == Word::Inside || one->word == Word::Stay;
         if (of_course ? file.file.course && !file.course // told of the course already
                       : own == nullptr || !own->problem.empty())
@@ -398,9 +404,16 @@ void add_groups(Suite& suite, Reader& reader, std::size_t index, const SuiteOpti
       continue;
     for (const auto given : programs) {
       const auto program = reader.program_of(test, given, file);
-      Group group{index, t, program, options.seeds.value_or(test.seeds), suite.cases, {}};
-      for (const auto& one : test.expectations)
-        group.meanings.push_back(look_up(one, file, suite.programs[program]));
+      Group group{index, t, program, options.seeds.value_or(test.seeds), suite.cases, {}, {}};
+      for (const auto& ball : file.file.balls)
+        group.room.push_back(reader.program_of(
+            test,
+            reader.program(structured::resolve_path(file.source->name(), ball.program.text), file),
+            file));
+      for (const auto& one : test.expectations) {
+        const auto whose = one.ball ? group.room[*one.ball] : program;
+        group.meanings.push_back(look_up(one, file, suite.programs[whose]));
+      }
       suite.cases += group.seeds.count();
       suite.groups.push_back(std::move(group));
     }
@@ -446,12 +459,19 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
     file.file = parse(*file.source);
     check_files(file, files);
     read_course(file, files);
+    check_room(file, files);
     auto& own = programs.emplace_back();
     if (options.programs.empty())
       if (const auto path = program_path(file, files))
         own.push_back(reader.program(*path, file));
-    for (const auto& path : wanted)
+    for (const auto& path : wanted) {
+      if (!file.file.balls.empty())
+        return tl::unexpected(
+            Failure{ExitCode::Usage, fmt::format("{} tests a room, whose programs stand in it; "
+                                                 "leave `--program` out",
+                                                 file.source->name())});
       own.push_back(reader.program(path, file));
+    }
     const bool named = options.programs.empty() && !own.empty();
     check_names(file, suite, reader, named ? std::optional(own.front()) : std::nullopt);
     suite.files.push_back(std::move(file));

@@ -49,6 +49,7 @@ struct Group {
   Seeds seeds;
   std::uint64_t first = 0;       ///< the number of its first case
   std::vector<Meaning> meanings; ///< one for each expectation
+  std::vector<std::size_t> room; ///< the programs of the balls of a room; empty for one ball
 };
 
 /// What is to be run: cases are numbered over file, test, program and seed, in that order.

@@ -8,6 +8,8 @@ void FileReader::read_expectation(Cursor& cursor, Span span, std::uint32_t line,
   if (cursor.at_end())
     return cursor.fail_at(span, rules::Syntax, fmt::format("`{}` what?", source_.text(span)),
                           fmt::format("what can be expected: {}", words_of(expectations)));
+  if (!read_whose(cursor, one))
+    return;
   const auto word_span = cursor.peek_span();
   const auto word = std::string(cursor.peek());
   if (!read_what(cursor, one))
@@ -129,9 +131,14 @@ void FileReader::read_by(Cursor& cursor, Expectation& one, std::string_view unit
 }
 
 void FileReader::read_near(Cursor& cursor, Expectation& one) {
-  one.x = cursor.number("x");
-  cursor.character(',', "a place is `X,Y`, in centimetres");
-  one.y = cursor.number("y");
+  one.other_ball = ball_called(cursor.peek());
+  if (one.other_ball) {
+    cursor.word();
+  } else {
+    one.x = cursor.number("x");
+    cursor.character(',', "a place is `X,Y`, in centimetres");
+    one.y = cursor.number("y");
+  }
   if (cursor.failed())
     return;
   if (!cursor.take_word("by"))

@@ -81,6 +81,15 @@ private:
 
   static std::optional<Duration> read_bound(Cursor& cursor);
 
+  // Rooms.
+
+  void read_ball(Cursor& cursor);
+
+  std::optional<std::size_t> ball_called(std::string_view name) const;
+
+  /// In a room: of which ball it is expected. False, and a finding, where none is named.
+  bool read_whose(Cursor& cursor, Expectation& one);
+
   // Tests.
 
   Test& current() { return file_.tests.back(); }
@@ -114,7 +123,7 @@ private:
 
   static void read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most);
 
-  static void read_near(Cursor& cursor, Expectation& one);
+  void read_near(Cursor& cursor, Expectation& one);
 
   static void read_beyond(Cursor& cursor, Expectation& one);
 

@@ -57,6 +57,7 @@ void FileReader::read_line(std::uint32_t line) {
 void FileReader::read_row(LineWord word, Cursor& cursor, Span span, std::uint32_t line) {
   switch (word) {
   case LineWord::Program: read_file(cursor, file_.program); break;
+  case LineWord::Ball: read_ball(cursor); break;
   case LineWord::With:
     do
       read_file(cursor, file_.with.emplace_back());

@@ -110,6 +110,8 @@ void FileReader::read_test_option(Cursor& cursor, Test& test) {
 void FileReader::read_reach(Cursor& cursor, Span span, std::uint32_t line) {
   Expectation one;
   one.word = Word::Inside;
+  if (!read_whose(cursor, one))
+    return;
   read_name(cursor, one, "zone");
   finish(cursor, one, span, line);
 }

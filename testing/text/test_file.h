@@ -83,6 +83,8 @@ struct Expectation {
   int number = 0;                ///< Marker
   std::optional<spec::BasicError> error; ///< Error: nothing for any
   Named name; ///< of a zone, a macro or a variable; empty where none is given
+  std::optional<std::size_t> ball;  ///< of whom it is expected, of TestFile::balls; nothing: of all
+  std::optional<std::size_t> other_ball; ///< Near: in place of x and y
 
   std::vector<Expectation> joined; ///< states that are true at the same moment
   Duration lasts{};                ///< states: true for so long without a break
@@ -114,8 +116,16 @@ struct Test {
   std::vector<Expectation> expectations;   ///< as written, then the silent one
 };
 
+/// A ball of a room.
+struct TestBall {
+  Named name;
+  Named program;
+  vm::Placement start;
+};
+
 struct TestFile {
   std::optional<Named> program;
+  std::vector<TestBall> balls; ///< of the room; empty where one ball is tested alone
   std::vector<Named> with;
   std::optional<Named> course;
   compiler::Target target;

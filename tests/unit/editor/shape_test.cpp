@@ -119,7 +119,7 @@ TEST(Signatures, SayWhatComesNext) {
   EXPECT_EQ(signed_at(structured_service, "x = min(1|"), "min(E, E)");
   EXPECT_EQ(signed_at(macro_service, "roll speed=3, |"), "roll speed, <heading>, delay");
   EXPECT_EQ(signed_at(macro_service, "roll delay=|"), "roll speed, heading, <delay>");
-  EXPECT_EQ(signed_at(test_service, "test \"a\"\nexpect near |"), "near X,Y by LENGTH");
+  EXPECT_EQ(signed_at(test_service, "test \"a\"\nexpect near |"), "near X,Y|BALL by LENGTH");
   EXPECT_EQ(signed_at(stimulus_service, "at 3s push |"), "push HEADING STRENGTH");
 }
 

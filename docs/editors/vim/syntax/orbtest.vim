@@ -4,9 +4,10 @@ if exists('b:current_syntax')
   finish
 endif
 syntax case match
-syntax keyword orbtestKeyword program with course target firmware area seeds for
-syntax keyword orbtestKeyword test expect reach never within at during and
-syntax keyword orbtestKeyword after before by to times points end macro
+syntax keyword orbtestKeyword program ball with course target firmware area seeds
+syntax keyword orbtestKeyword for test expect reach never within at during
+syntax keyword orbtestKeyword and after before by to times points end
+syntax keyword orbtestKeyword macro
 syntax keyword orbtestExpectation print prints near beyond inside stay heading speed
 syntax keyword orbtestExpectation moving resting distance color backled marker collision error
 syntax keyword orbtestExpectation asleep end lines bytes

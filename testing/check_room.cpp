@@ -1,0 +1,40 @@
+#include "testing/check_room.h"
+
+#include "run/room.h"
+#include "testing/text/rules.h"
+
+#include <fmt/format.h>
+
+namespace orb::testing {
+
+void check_room(SuiteFile& file, structured::Files& files) {
+  auto& findings = file.file.diagnostics;
+  const auto& balls = file.file.balls;
+  if (!balls.empty() && file.file.program)
+    findings.push_back(finding(rules::Place, file.file.program->span,
+                               "a room has no program beside those of its balls",
+                               "leave `program` out, or the balls"));
+  std::vector<run::RoomBall> placed;
+  for (const auto& ball : balls) {
+    auto& one = placed.emplace_back();
+    one.name = ball.name.text;
+    one.options.start = ball.start;
+    one.options.course = file.course.get();
+    if (&ball != &balls.front()) // of the first one program_path() tells
+      if (const auto path = structured::resolve_path(file.source->name(), ball.program.text);
+          !files.read(path))
+        findings.push_back(finding(rules::File, ball.program.span,
+                                   fmt::format("cannot read {}", path),
+                                   "paths count from the folder of the test file"));
+  }
+  for (const auto& clash : run::clashes(placed))
+    findings.push_back(
+        finding(rules::Value, balls[clash.ball].name.span,
+                clash.other ? fmt::format("`{}` starts inside `{}`", placed[clash.ball].name,
+                                          placed[*clash.other].name)
+                            : fmt::format("`{}` starts inside the wall {}", placed[clash.ball].name,
+                                          vm::to_string(*clash.wall)),
+                "give it another place: `at X,Y`"));
+}
+
+} // namespace orb::testing
