@@ -340,12 +340,6 @@ std::string with_ball(const std::string& text, const std::string& name, const st
   return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
-bool is_ball_name(const std::string& name) {
-  return !name.empty() && std::ranges::all_of(name, [](char c) {
-    return is_letter(c) || is_digit(c) || c == '-' || c == '_';
-  });
-}
-
 bool same_but_for_place(const Setting& one, const Setting& other) {
   return one.section.name == other.section.name && one.option == other.option &&
          one.values == other.values;
@@ -357,19 +351,33 @@ tl::unexpected<Failure> unsaved(ExitCode code, std::string message) {
 
 } // namespace
 
+bool is_ball_name(const std::string& name) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) {
+    return is_letter(c) || is_digit(c) || c == '-' || c == '_';
+  });
+}
+
+tl::expected<std::string, Failure> settings_folder() {
+  const auto path = user_file();
+  if (!path)
+    return unsaved(ExitCode::File, "there is no place for a configuration: neither "
+                                   "XDG_CONFIG_HOME nor HOME is set");
+  return path->parent_path().string();
+}
+
 tl::expected<std::string, Failure> save_ball(const std::string& name, const std::string& url) {
   if (!is_ball_name(name))
     return unsaved(ExitCode::Usage,
                    fmt::format("`{}` is not a name for a ball: letters, digits, - and _", name));
   if (url.find_first_of("\"\\\n\r") != url.npos)
     return unsaved(ExitCode::Usage, fmt::format("`{}` cannot stand in a configuration file", url));
+  const auto folder = settings_folder();
+  if (!folder)
+    return tl::unexpected(folder.error());
   const auto path = user_file();
-  if (!path)
-    return unsaved(ExitCode::File, "there is no place for a configuration: neither "
-                                   "XDG_CONFIG_HOME nor HOME is set");
   const auto file = path->string();
   std::error_code error;
-  if (fs::create_directories(path->parent_path(), error); error)
+  if (fs::create_directories(*folder, error); error)
     return unsaved(ExitCode::File,
                    fmt::format("cannot make the folder of {}: {}", file, error.message()));
   // From reading it to writing it again nobody else may.

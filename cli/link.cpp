@@ -183,9 +183,9 @@ std::optional<spec::Robot> named_robot(const Context& context, const PortOptions
 
 namespace {
 
-void open_sim(Link& link, spec::Robot robot) {
+void open_sim(Link& link, spec::Robot robot, const spec::Driving& driving) {
   vm::BallOptions ball;
-  ball.driving = spec::driving(robot);
+  ball.driving = driving;
   ball.loader = compiler::load;
   link.first_seq = sim_first_seq;
   link.ball = std::make_unique<vm::Ball>(ball);
@@ -252,7 +252,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
   if (link.is_sim)
-    open_sim(link, options.robot);
+    open_sim(link, options.robot, options.driving.value_or(spec::driving(options.robot)));
   else if (endpoint->scheme == Scheme::Replay)
     opened = open_replay(link, endpoint->path);
   else

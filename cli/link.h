@@ -29,6 +29,7 @@ class Command;
 struct PortOptions {
   std::string port = "sim:";
   spec::Robot robot = spec::Robot::Sphero; ///< that `sim:` is
+  std::optional<spec::Driving> driving;    ///< how that drives; else like `robot`
   uploader::Accepts accepts = uploader::Accepts::V1;
   std::string record;        ///< a file for the bytes of both directions; empty for none
   std::string answer = "2s"; ///< the wait for one answer

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "disk/disk.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
 #include <limits>
@@ -33,6 +34,10 @@ void Console::on_event(Duration t, const vm::Event& event) {
   if (const auto* print = std::get_if<vm::event::Print>(&event);
       print != nullptr && (!trace_ || !options_.trace_out.empty()))
     print_out(print->text);
+  if (const auto* drive = std::get_if<vm::event::Drive>(&event);
+      drive != nullptr && drive->roll.speed > 0)
+    speeds_ = {std::min(speeds_.slowest, drive->roll.speed),
+               std::max(speeds_.fastest, drive->roll.speed)};
   if (trace_)
     trace_->add(t, event);
 }

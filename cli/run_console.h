@@ -37,6 +37,7 @@ struct RunOptions {
   TargetOptions target;
   PortOptions port; ///< of a robot; empty for the virtual ball
   std::string robot;
+  std::string ball;   ///< the profile of how it drives; empty for the model's
   std::string record; ///< the file for a recording of the drive; empty for none
   std::string replay;
   bool keep_aim = false;
@@ -73,6 +74,13 @@ public:
   std::optional<std::int32_t> ask_number() override;
   bool has_more_numbers() const override;
 
+  /// Between which speeds, other than 0, it was told to drive.
+  struct Told {
+    int slowest = spec::ball::greatest;
+    int fastest = 0;
+  };
+  const Told& speeds() const { return speeds_; }
+
   /// What came instead of a number, for a message; empty for nothing.
   const std::string& no_number() const { return no_number_; }
 
@@ -85,6 +93,7 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<run::Trace> trace_;
   std::string no_number_;
+  Told speeds_;
   std::string text_; ///< of a trace that goes to a file, which appears whole at the end
 };
 

@@ -56,6 +56,7 @@ struct Options {
   compiler::Target target; ///< its area is where the program lies
   spec::Firmware firmware = spec::default_firmware;
   spec::Robot model = spec::Robot::Sphero;        ///< whose way of driving it has
+  std::optional<spec::Driving> driving;           ///< else that of `model`
   std::optional<std::size_t> ram_bytes;           ///< else what the firmware has
   spec::Ranges ranges = spec::Ranges::Documented; ///< Lenient also where the firmware is
   std::uint32_t lines_per_second =

@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "cli/ball_profile.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/model/checks.h"
@@ -24,6 +25,7 @@ struct BallArguments {
   std::uint64_t seed = 1;
   std::string firmware{spec::info(spec::default_firmware).name};
   std::string robot{spec::info(spec::Robot::Sphero).name};
+  std::string profile;
   std::string fault;
   std::vector<std::string> stimuli;
   std::string course;
@@ -64,6 +66,15 @@ void run_ball(Context& context, const BallArguments& arguments) {
   }
   const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
   options.robot = spec::find_robot(arguments.robot)->robot;        // checked, too
+  options.ball.driving = spec::driving(options.robot);
+  if (!arguments.profile.empty()) {
+    const bool named = options.robot != spec::Robot::Sphero;
+    const auto profile = read_profile(arguments.profile, named ? arguments.robot : "");
+    if (!profile)
+      return fail(context, profile.error());
+    options.robot = profile->robot;
+    options.ball.driving = profile->driving;
+  }
   const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
   if (is_v2 && !arguments.state.empty())
     return fail(context, {ExitCode::Usage, fmt::format("a {} keeps no programs and no settings; "
@@ -152,6 +163,8 @@ void add_ball(const Command& orb, Context& context) {
                   "which robot it is; those after SPRK+ speak packets v2")
       .check(one_of(names_of(spec::robots)))
       .show_default();
+  add_ball_option(command, arguments->profile,
+                  "how it drives: a profile of `orb calibrate`, by name or file");
   command
       .add_option("--fault", arguments->fault,
                   "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")

@@ -1,4 +1,5 @@
 #include "run/run.h"
+#include "cli/ball_profile.h"
 #include "cli/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
@@ -38,6 +39,32 @@ namespace {
 
 tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
+}
+
+/// What a virtual ball does as the robot that was measured.
+tl::expected<std::optional<run::Profile>, Failure> take_profile(RunOptions& given,
+                                                                run::Options& options) {
+  if (given.ball.empty())
+    return std::nullopt;
+  const auto profile = read_profile(given.ball, given.robot);
+  if (!profile)
+    return tl::unexpected(profile.error());
+  options.model = profile->robot;
+  options.driving = given.port.driving = profile->driving;
+  if (given.port.port == "sim:")
+    given.robot = spec::info(profile->robot).name;
+  return *profile;
+}
+
+/// Nobody has measured how it drives there.
+void hint_at_guesses(const Context& context, const RunOptions& given, const run::Profile& profile,
+                     const Console& console) {
+  const auto& [slowest, fastest] = console.speeds();
+  if (fastest > profile.fastest || slowest < profile.slowest)
+    print_note(context, fmt::format("hint: it drove at {0}; `{1}` was measured from {2} to {3}, "
+                                    "beyond that its way is a guess",
+                                    fastest > profile.fastest ? fastest : slowest, given.ball,
+                                    profile.slowest, profile.fastest));
 }
 
 /// The run of the page to compare with; empty where none is given.
@@ -155,16 +182,21 @@ void plan(const std::vector<run::Input>& inputs, const run::Options& given, spec
     void on_fault(Duration, const run::ProgramError&) override {}
   } nobody;
   auto options = given;
+  if (options.model != robot) // what was measured is of another
+    options.driving.reset();
   options.model = robot;
   static_cast<void>(run::run(inputs, options, nobody, &journey)); // without it there is no plan
 }
 
-tl::expected<void, Failure> run_files(Context& context, const RunOptions& given) {
+tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (is_room(given))
     return run_together(context, given);
   auto options = read_options(context, given);
   if (!options)
     return tl::unexpected(options.error());
+  const auto profile = take_profile(given, *options);
+  if (!profile)
+    return tl::unexpected(profile.error());
   if (!given.port.port.empty() || !given.replay.empty())
     if (auto fits = check_for_robot(given, *options); !fits)
       return fits;
@@ -218,6 +250,8 @@ tl::expected<void, Failure> run_files(Context& context, const RunOptions& given)
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
   tell(context, given, *ending, run::why(*inputs, *options, *ending));
+  if (*profile)
+    hint_at_guesses(context, given, **profile, console);
   if (ending->robot_stopped)
     print_note(context, stop_note(*ending));
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
@@ -358,6 +392,8 @@ void add_robot_options(const Command& command, RunOptions& options) {
 
 void add_tether_options(const Command& command, RunOptions& options) {
   add_robot_port_options(command, options.port, options.robot);
+  add_ball_option(command, options.ball,
+                  "the virtual ball drives like the robot that `orb calibrate` measured");
   command.add_option("--record", options.record,
                      "writes what the robot says and is told to this file");
   command.add_option("--replay", options.replay,
@@ -396,7 +432,7 @@ void add_run(const Command& orb, Context& context) {
       "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
       "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
       "waltz.sphero --expect done\norb run red.orb blue.orb --together --open\norb "
-      "run square.orb --port ble://SB-1A2B");
+      "run square.orb --port ble://SB-1A2B\norb run square.orb --ball red");
   auto options = std::make_shared<RunOptions>();
   add_program_options(command, *options);
   add_robot_options(command, *options);
