@@ -1,0 +1,224 @@
+#include "run/calibrate/course.h"
+
+#include "vm/body.h"
+#include "vm/body/angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <span>
+
+namespace orb::run {
+namespace {
+
+constexpr int legs = 24;
+constexpr Duration to_turn = 700ms; ///< on the spot, before a leg
+constexpr Duration to_bend = 600ms; ///< the way after the bend
+constexpr Duration to_rest = 900ms; ///< after the brake
+constexpr Duration longest_gap = 300ms;
+constexpr double straight_cm = 50;  ///< about so long is the way before the bend
+constexpr double shortest_s = 0.75; ///< shorter than a tether's repetition of an order
+constexpr double longest_s = 1.5;
+constexpr double fastest_cm_s = 75; ///< that the square has room for
+constexpr int least_range = 20;     ///< of ordered speeds, to tell a line
+constexpr std::size_t least_seen = 12;
+
+/// How a leg bends: to both sides, and not always at right angles.
+constexpr int bends_deg[] = {90, -90, 120, -60, 60, -120};
+/// In which order the speeds come: far ones follow each other. Sixths of the range.
+constexpr int sixths[] = {6, 0, 3, 5, 1, 4, 2, 6, 3, 0, 4, 6};
+
+Failure refused(std::string message) {
+  return {ExitCode::Refused, std::move(message)};
+}
+
+struct Shape {
+  int speed = 0;
+  int bend_deg = 0;
+  vm::Go bend = vm::Go::Drive;
+  Duration straight{};
+};
+
+Shape shape_of(int leg, spec::Robot robot, const Speeds& speeds) {
+  const int share = sixths[leg % std::size(sixths)];
+  const int speed = speeds.slowest + (speeds.fastest - speeds.slowest) * share / 6;
+  double straight = std::clamp(straight_cm / spec::speed_cm_s(spec::driving(robot), speed),
+                               shortest_s, longest_s);
+  if (straight < shortest_s + 0.2) // an order is repeated 0.8 s after it: no other comes near that
+    straight = shortest_s;
+  // Where it turns slowly enough, it does not slip, and says nothing of its grip.
+  const auto bend = leg % 4 == 0 ? vm::Go::FastTurn : vm::Go::Drive;
+  return {speed, bends_deg[leg % std::size(bends_deg)], bend,
+          Duration{static_cast<Duration::rep>(straight * 1e9)}};
+}
+
+/// Where the model's robot goes on a leg toward heading 0, beginning at 0,0.
+std::vector<vm::Point> way_of(const Shape& shape, spec::Robot robot) {
+  vm::Body body(1, spec::driving(robot));
+  std::vector<vm::Point> way;
+  const auto live = [&](Duration from, Duration until) {
+    for (auto at = from; at < until; at += 100ms) {
+      body.advance_to(Instant{} + at);
+      way.push_back(body.locator_cm());
+    }
+  };
+  const int bent = (shape.bend_deg + spec::ball::full_circle) % spec::ball::full_circle;
+  body.obey(vm::Roll{0, shape.speed, vm::Go::Drive});
+  live(0ms, shape.straight);
+  body.obey(vm::Roll{bent, shape.speed, shape.bend});
+  live(shape.straight, shape.straight + to_bend);
+  body.obey(vm::Roll{bent, 0, vm::Go::Brake});
+  live(shape.straight + to_bend, shape.straight + to_bend + to_rest);
+  return way;
+}
+
+/// How far from the middle the way leads that begins at `place` toward `heading`: of all its
+/// places, and of the last one once more. A robot may go half as far again as the model.
+double farthest(std::span<const vm::Point> way, vm::Point place, int heading) {
+  const double sine = std::sin(heading * vm::to_radians);
+  const double cosine = std::cos(heading * vm::to_radians);
+  double far = 0;
+  double last = 0;
+  for (const double times : {1.0, 1.5})
+    for (const auto& at : way) {
+      last = std::max(std::abs(place.x + times * (at.x * cosine + at.y * sine)),
+                      std::abs(place.y + times * (at.y * cosine - at.x * sine)));
+      far = std::max(far, last);
+    }
+  return far + last;
+}
+
+/// The heading on which the way from `place` stays nearest to the middle.
+int best_heading(std::span<const vm::Point> way, vm::Point place) {
+  constexpr int grain = 15;
+  constexpr double better = 1e-6; // of equals the first, on every machine
+  int best = 0;
+  double least = HUGE_VAL;
+  for (int heading = 0; heading < spec::ball::full_circle; heading += grain)
+    if (const double far = farthest(way, place, heading); far < least - better) {
+      least = far;
+      best = heading;
+    }
+  return best;
+}
+
+class Course {
+public:
+  Course(HeldRobot& robot, spec::Robot which, const Speeds& speeds)
+      : robot_(robot), which_(which), speeds_(speeds), place_(robot.first().place_cm),
+        middle_(place_) {}
+
+  tl::expected<Leg, Failure> drive(int number) {
+    const auto shape = shape_of(number, which_, speeds_);
+    const int heading = best_heading(way_of(shape, which_), from_middle());
+    const int bent = (heading + shape.bend_deg + spec::ball::full_circle) % spec::ball::full_circle;
+    leg_ = {};
+    began_ = robot_.time();
+    const std::pair<Order, Duration> plan[] = {{{{}, heading, 0}, to_turn},
+                                               {{{}, heading, shape.speed}, shape.straight},
+                                               {{{}, bent, shape.speed, shape.bend}, to_bend}};
+    auto until = began_;
+    for (const auto& [order, time] : plan) {
+      give(order);
+      until += time;
+      if (auto heard = hear(until); !heard)
+        return tl::unexpected(heard.error());
+    }
+    auto leg = std::move(leg_);
+    robot_.obey(vm::Roll{bent, 0, vm::Go::Brake});
+    if (auto heard = hear(until + to_rest); !heard)
+      return tl::unexpected(heard.error());
+    leg.broken = leg.broken || leg.seen.size() < least_seen;
+    return leg;
+  }
+
+private:
+  vm::Point from_middle() const { return {place_.x - middle_.x, place_.y - middle_.y}; }
+
+  void give(Order order) {
+    order.at = robot_.time() - began_;
+    leg_.orders.push_back(order);
+    robot_.obey(vm::Roll{order.heading_deg, order.speed, order.go});
+  }
+
+  tl::expected<void, Failure> hear(Duration until) {
+    while (robot_.time() < until) {
+      const auto felt = robot_.hear(until);
+      if (!felt)
+        return tl::unexpected(felt.error());
+      for (const auto& one : *felt)
+        if (std::holds_alternative<vm::event::Collision>(one))
+          return tl::unexpected(refused("the robot ran into something; clear 2 m x 2 m of floor "
+                                        "and begin again"));
+        else if (const auto* sample = std::get_if<vm::Sample>(&one))
+          take(*sample);
+      const auto here = from_middle();
+      if (std::max(std::abs(here.x), std::abs(here.y)) > square_half_cm)
+        return tl::unexpected(refused("the robot left the 2 m x 2 m; put it in the middle of a "
+                                      "level floor, facing along one side, and begin again"));
+    }
+    return {};
+  }
+
+  void take(const vm::Sample& sample) {
+    place_ = sample.place_cm;
+    const auto at = robot_.time() - began_;
+    const auto before = leg_.seen.empty() ? Duration{} : leg_.seen.back().at;
+    leg_.broken = leg_.broken || at - before > longest_gap;
+    leg_.seen.push_back({at, sample.place_cm, sample.yaw_deg});
+  }
+
+  HeldRobot& robot_;
+  spec::Robot which_;
+  Speeds speeds_;
+  vm::Point place_;
+  vm::Point middle_;
+  Duration began_{};
+  Leg leg_;
+};
+
+} // namespace
+
+tl::expected<Speeds, Failure> course_speeds(spec::Robot robot) {
+  const auto numbers = spec::driving(robot);
+  Speeds speeds{spec::ball::slowest_driven, spec::ball::fastest_driven};
+  while (speeds.fastest > speeds.slowest &&
+         spec::speed_cm_s(numbers, speeds.fastest) > fastest_cm_s)
+    --speeds.fastest;
+  if (speeds.fastest < speeds.slowest + least_range)
+    return tl::unexpected(refused(fmt::format("a robot as fast as {} cannot be measured in 2 m x "
+                                              "2 m: at speed {} it does {:.0f} cm/s",
+                                              spec::info(robot).title, speeds.slowest,
+                                              spec::speed_cm_s(numbers, speeds.slowest))));
+  return speeds;
+}
+
+Duration course_time(spec::Robot robot) {
+  Duration time{};
+  if (const auto speeds = course_speeds(robot))
+    for (int leg = 0; leg < legs; ++leg)
+      time += to_turn + shape_of(leg, robot, *speeds).straight + to_bend + to_rest;
+  return time;
+}
+
+tl::expected<std::vector<Leg>, Failure> drive_course(HeldRobot& robot, spec::Robot which,
+                                                     const std::function<void(int, int)>& tell) {
+  const auto speeds = course_speeds(which);
+  if (!speeds)
+    return tl::unexpected(speeds.error());
+  if (auto goes = robot.go_on({}); !goes)
+    return tl::unexpected(goes.error());
+  Course course(robot, which, *speeds);
+  std::vector<Leg> driven;
+  while (driven.size() < legs) {
+    auto leg = course.drive(static_cast<int>(driven.size()));
+    if (!leg)
+      return tl::unexpected(leg.error());
+    driven.push_back(*std::move(leg));
+    if (tell)
+      tell(static_cast<int>(driven.size()), legs);
+  }
+  return driven;
+}
+
+} // namespace orb::run

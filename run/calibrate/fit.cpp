@@ -1,0 +1,302 @@
+#include "run/calibrate/fit.h"
+
+#include "vm/body.h"
+#include "vm/body/angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <vector>
+
+namespace orb::run {
+namespace {
+
+constexpr std::size_t rows = driving_rows.size();
+/// Each number as the logarithm of how many times the model's it is: all are positive.
+using Vector = std::array<double, rows>;
+using Matrix = std::array<Vector, rows>;
+using Residuals = std::vector<double>;
+
+constexpr double yaw_cm_per_deg = 0.2; ///< what a degree counts beside places
+constexpr double furthest = 3;         ///< times the model's number, or a third of it
+constexpr double open_share = 0.15;    ///< a greater spread leaves a number open
+constexpr double misfit_share = 0.5;   ///< of the error before, left after
+constexpr double misfit_cm = 4;
+
+Failure refused(std::string message) {
+  return {ExitCode::Refused, std::move(message)};
+}
+
+/// Where the model is when the robot was seen.
+void follow(const Leg& leg, const spec::Driving& numbers, std::vector<Seen>& places) {
+  vm::Body body(1, numbers);
+  auto order = leg.orders.begin();
+  places.clear();
+  for (const auto& seen : leg.seen) {
+    for (; order != leg.orders.end() && order->at <= seen.at; ++order) {
+      body.advance_to(Instant{} + order->at);
+      body.obey(vm::Roll{order->heading_deg, order->speed, order->go});
+    }
+    body.advance_to(Instant{} + seen.at);
+    places.push_back({seen.at, body.locator_cm(), body.yaw_deg()});
+  }
+}
+
+/// The instant from which on a leg counts: it has turned on the spot, and still rests.
+Duration counts_from(const Leg& leg) {
+  constexpr Duration before = 150ms;
+  return leg.orders[1].at - before;
+}
+
+/// What the model is off by, in cm. Where a leg began nobody knows better than all that was seen of
+/// it, so the mean of its places is taken off.
+void append_leg(const Leg& leg, const spec::Driving& numbers, Residuals& residuals) {
+  std::vector<Seen> places;
+  follow(leg, numbers, places);
+  const auto from = counts_from(leg);
+  vm::Point mean;
+  double count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].at >= from) {
+      mean.x += leg.seen[i].place_cm.x - places[i].place_cm.x;
+      mean.y += leg.seen[i].place_cm.y - places[i].place_cm.y;
+      ++count;
+    }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].at >= from) {
+      residuals.push_back(leg.seen[i].place_cm.x - places[i].place_cm.x - mean.x / count);
+      residuals.push_back(leg.seen[i].place_cm.y - places[i].place_cm.y - mean.y / count);
+      residuals.push_back(yaw_cm_per_deg *
+                          vm::shortest_turn(places[i].yaw_deg, leg.seen[i].yaw_deg));
+    }
+}
+
+/// Its dead time lies between two steps of the control system, and so do the residuals. An order
+/// that is followed comes right after a step; a real one comes half a step later on average.
+Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving& model,
+                       const Vector& at) {
+  spec::Driving numbers;
+  numbers = model;
+  double steps = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double times = std::exp(at[row]);
+    if (driving_rows[row].place == nullptr)
+      steps = std::clamp(model.dead_steps * times - 0.5, 0.0, spec::most_dead_steps - 1.0);
+    else
+      set_value(numbers, driving_rows[row], value_of(model, driving_rows[row]) * times);
+  }
+  Residuals below, above;
+  for (const auto* leg : legs) {
+    numbers.dead_steps = static_cast<int>(steps);
+    append_leg(*leg, numbers, below);
+    ++numbers.dead_steps;
+    append_leg(*leg, numbers, above);
+  }
+  const double share = steps - std::floor(steps);
+  for (std::size_t i = 0; i < below.size(); ++i)
+    below[i] += share * (above[i] - below[i]);
+  return below;
+}
+
+double squares(const Residuals& residuals) {
+  double sum = 0;
+  for (const double one : residuals)
+    sum += one * one;
+  return sum;
+}
+
+/// What the squares look like around a place: half their slope and half their curvature.
+struct Slope {
+  Vector down{};
+  Matrix curve{};
+};
+
+Slope slope_at(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& at,
+               const Residuals& here) {
+  constexpr double step = 0.02;
+  std::array<Residuals, rows> change;
+  for (std::size_t row = 0; row < rows; ++row) {
+    auto more = at, less = at;
+    more[row] += step;
+    less[row] -= step;
+    change[row] = residuals_of(legs, model, more);
+    const auto other = residuals_of(legs, model, less);
+    for (std::size_t i = 0; i < other.size(); ++i)
+      change[row][i] = (change[row][i] - other[i]) / (2 * step);
+  }
+  Slope slope;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      slope.down[row] -= change[row][i] * here[i];
+      for (std::size_t column = 0; column < rows; ++column)
+        slope.curve[row][column] += change[row][i] * change[column][i];
+    }
+  return slope;
+}
+
+/// The inverse, by elimination with pivots; of a matrix that has none, one of huge numbers.
+Matrix inverse(Matrix of) {
+  Matrix result{};
+  for (std::size_t row = 0; row < rows; ++row)
+    result[row][row] = 1;
+  for (std::size_t column = 0; column < rows; ++column) {
+    std::size_t pivot = column;
+    for (std::size_t row = column; row < rows; ++row)
+      if (std::abs(of[row][column]) > std::abs(of[pivot][column]))
+        pivot = row;
+    std::swap(of[column], of[pivot]);
+    std::swap(result[column], result[pivot]);
+    const double by = std::abs(of[column][column]) < 1e-12 ? 1e-12 : of[column][column];
+    for (std::size_t k = 0; k < rows; ++k) {
+      of[column][k] /= by;
+      result[column][k] /= by;
+    }
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double times = row == column ? 0 : of[row][column];
+      for (std::size_t k = 0; k < rows; ++k) {
+        of[row][k] -= times * of[column][k];
+        result[row][k] -= times * result[column][k];
+      }
+    }
+  }
+  return result;
+}
+
+Vector step_down(const Slope& slope, double damping, Vector at) {
+  auto damped = slope.curve;
+  for (std::size_t row = 0; row < rows; ++row)
+    damped[row][row] *= 1 + damping;
+  const auto inverted = inverse(damped);
+  const double bound = std::log(furthest);
+  for (std::size_t row = 0; row < rows; ++row) {
+    double step = 0;
+    for (std::size_t column = 0; column < rows; ++column)
+      step += inverted[row][column] * slope.down[column];
+    at[row] = std::clamp(at[row] + step, -bound, bound);
+  }
+  return at;
+}
+
+struct Found {
+  Vector at{};
+  Vector spread{}; ///< of the logarithms
+};
+
+Found lowest(const std::vector<const Leg*>& legs, const spec::Driving& model) {
+  constexpr int rounds = 40;
+  constexpr double hardest = 1e6;
+  Found found;
+  auto here = residuals_of(legs, model, found.at);
+  double damping = 1e-2;
+  for (int round = 0; round < rounds && damping < hardest; ++round) {
+    const auto slope = slope_at(legs, model, found.at, here);
+    for (bool fell = false; !fell && damping < hardest;) {
+      const auto next = step_down(slope, damping, found.at);
+      auto there = residuals_of(legs, model, next);
+      fell = squares(there) < squares(here);
+      if (fell && squares(there) > squares(here) * (1 - 1e-7))
+        round = rounds;
+      damping *= fell ? 0.2 : 5;
+      if (fell) {
+        found.at = next;
+        here = std::move(there);
+      }
+    }
+  }
+  const auto inverted = inverse(slope_at(legs, model, found.at, here).curve);
+  const double one =
+      squares(here) / static_cast<double>(std::max<std::size_t>(here.size(), rows + 1) - rows);
+  for (std::size_t row = 0; row < rows; ++row)
+    found.spread[row] = std::sqrt(std::abs(inverted[row][row]) * one);
+  return found;
+}
+
+/// What the places of the legs are off by, root mean square.
+double error_cm(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& at) {
+  const auto residuals = residuals_of(legs, model, at);
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < residuals.size(); i += 3)
+    sum += residuals[i] * residuals[i] + residuals[i + 1] * residuals[i + 1];
+  return residuals.empty() ? 0 : std::sqrt(sum * 3 / static_cast<double>(residuals.size()));
+}
+
+/// Those that the numbers found do not fit much worse than the others: an order may be lost.
+std::vector<const Leg*> fitting(const std::vector<const Leg*>& legs, const spec::Driving& model,
+                                const Vector& at) {
+  constexpr double much = 4;
+  constexpr double little_cm = 1;
+  std::vector<double> errors;
+  for (const auto* leg : legs)
+    errors.push_back(error_cm({leg}, model, at));
+  auto sorted = errors;
+  std::sort(sorted.begin(), sorted.end());
+  const double most = std::max(little_cm, much * sorted[sorted.size() / 2]);
+  std::vector<const Leg*> kept;
+  for (std::size_t leg = 0; leg < legs.size(); ++leg)
+    if (errors[leg] <= most)
+      kept.push_back(legs[leg]);
+  return kept;
+}
+
+tl::expected<void, Failure> believable(const Calibration& result, const Found& found) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto& info = driving_rows[row];
+    if (std::abs(found.at[row]) > 0.99 * std::log(furthest))
+      return tl::unexpected(refused(
+          fmt::format("`{}` would be more than {} times as far as the {} of the model: see that "
+                      "`--robot` names this robot, and that nothing holds it",
+                      info.name, furthest, value_of(result.before, info))));
+    if (found.spread[row] > open_share)
+      return tl::unexpected(refused(
+          fmt::format("this drive leaves `{}` open: {:.3g} ± {:.2g}; begin again on a level floor",
+                      info.name, value_of(result.after, info), result.spread[row])));
+  }
+  if (result.error_after_cm > misfit_cm &&
+      result.error_after_cm > misfit_share * result.error_before_cm)
+    return tl::unexpected(refused(fmt::format(
+        "no numbers of the model tell where this robot went: {:.1f} cm off before, {:.1f} cm after",
+        result.error_before_cm, result.error_after_cm)));
+  return {};
+}
+
+} // namespace
+
+tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot robot) {
+  const auto model = spec::driving(robot);
+  std::vector<const Leg*> used;
+  for (const auto& leg : legs)
+    if (!leg.broken)
+      used.push_back(&leg);
+  const auto enough = [&] { return 4 * used.size() >= 3 * legs.size() && !used.empty(); };
+  const auto too_few = [&] {
+    return tl::unexpected(refused(fmt::format(
+        "only {} of {} legs of the drive can be used, the link lost the others; go nearer to the "
+        "robot and begin again",
+        used.size(), legs.size())));
+  };
+  if (!enough())
+    return too_few();
+  auto found = lowest(used, model);
+  if (const auto kept = fitting(used, model, found.at); kept.size() < used.size()) {
+    used = kept;
+    if (!enough())
+      return too_few();
+    found = lowest(used, model);
+  }
+  Calibration result;
+  result.before = result.after = model;
+  result.legs = legs.size();
+  result.used = used.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double value = value_of(model, driving_rows[row]) * std::exp(found.at[row]);
+    set_value(result.after, driving_rows[row], value);
+    result.spread[row] = value * found.spread[row];
+  }
+  result.error_before_cm = error_cm(used, model, {});
+  result.error_after_cm = error_cm(used, model, found.at);
+  if (auto good = believable(result, found); !good)
+    return tl::unexpected(good.error());
+  return result;
+}
+
+} // namespace orb::run
