@@ -35,6 +35,7 @@ constexpr auto commands = std::to_array<Row>({
     {"asm", add_asm},
     {"ball", add_ball},
     {"build", add_build},
+    {"calibrate", add_calibrate},
     {"check", add_check},
     {"commit", add_commit},
     {"completion", add_completion},

@@ -24,6 +24,7 @@ void add_abort(const Command& orb, Context& context);
 void add_asm(const Command& orb, Context& context);
 void add_ball(const Command& orb, Context& context);
 void add_build(const Command& orb, Context& context);
+void add_calibrate(const Command& orb, Context& context);
 void add_check(const Command& orb, Context& context);
 void add_commit(const Command& orb, Context& context);
 void add_completion(const Command& orb, Context& context);

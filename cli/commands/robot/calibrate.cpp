@@ -1,0 +1,167 @@
+#include "cli/ball_profile.h"
+#include "cli/commands.h"
+#include "cli/driven_robot.h"
+#include "cli/terminal/interrupt.h"
+#include "disk/disk.h"
+#include "run/calibrate/fit.h"
+#include "run/tether/held_robot.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+struct CalibrateOptions {
+  PortOptions port;
+  std::string robot;
+  std::string output; ///< the name of the profile; empty for none
+  std::string ball;   ///< by which the robot of `sim:` drives
+  bool yes = false;
+};
+
+tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
+  return tl::unexpected(Failure{code, std::move(message)});
+}
+
+/// Says what will happen, and waits for Enter.
+tl::expected<void, Failure> ask(spec::Robot robot) {
+  const auto time = std::chrono::round<std::chrono::seconds>(run::course_time(robot)).count();
+  print_err(fmt::format("the {} will drive by itself for about {} s, within 2 m x 2 m\n"
+                        "  put it in the middle of a clear, level floor, facing along one side\n"
+                        "  press Enter to start: ",
+                        spec::info(robot).title, time));
+  std::string line;
+  if (std::getline(std::cin, line)) {
+    if (::isatty(STDIN_FILENO) == 0)
+      print_err("\n"); // as a terminal would show it
+    return {};
+  }
+  print_err("\n");
+  if (InterruptGuard::asked() > 0)
+    return refuse(ExitCode::Interrupted, "interrupted");
+  return refuse(ExitCode::Usage, "nobody presses Enter; `--yes` says that the floor is clear");
+}
+
+void print_result(const run::Calibration& found, const run::Speeds& speeds) {
+  print_out(fmt::format("{:<13}{:>9}{:>12}\n", "", "model", "this one"));
+  for (std::size_t row = 0; row < run::driving_rows.size(); ++row) {
+    const auto& info = run::driving_rows[row];
+    const auto spread = fmt::format("{:.2g}", found.spread[row]);
+    print_out(fmt::format("{:<13}{:>9.4g}{:>12.4g} ± {}\n", info.name,
+                          run::value_of(found.before, info), run::value_of(found.after, info),
+                          info.unit.empty() ? spread : fmt::format("{:<7} {}", spread, info.unit)));
+  }
+  print_out(
+      fmt::format("its places were {:.1f} cm off by the model, and are {:.1f} cm off by these "
+                  "numbers, over {} of {} legs\n",
+                  found.error_before_cm, found.error_after_cm, found.used, found.legs));
+  print_out(fmt::format("not measured: speeds below {} and above {}; they stay the model's guess\n",
+                        speeds.slowest, speeds.fastest));
+}
+
+tl::expected<void, Failure> save(const Context& context, const std::string& name,
+                                 const run::Profile& profile) {
+  const auto file = profile_file(name);
+  if (!file)
+    return tl::unexpected(file.error());
+  const auto folder = std::filesystem::path(*file).parent_path();
+  if (std::error_code error; !folder.empty() && !std::filesystem::create_directories(folder, error))
+    if (error)
+      return refuse(ExitCode::File,
+                    fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  if (const auto written = disk::write(*file, as_bytes(run::to_text(profile))); !written)
+    return refuse(ExitCode::File, written.error().message);
+  print_note(context, fmt::format("saved; `orb run --ball {}` drives like it", name));
+  return {};
+}
+
+/// Whoever drives is held at the end, whatever came of the drive.
+tl::expected<std::vector<run::Leg>, Failure> drive(Context& context, DrivenRobot& robot) {
+  auto held = run::hold_robot(*robot.link.transport, robot.tether);
+  if (!held)
+    return tl::unexpected(held.error());
+  const bool shows = !context.quiet && ::isatty(STDERR_FILENO) == 1;
+  auto legs = run::drive_course(**held, robot.tether.robot, [&](int done, int all) {
+    if (shows)
+      print_err(fmt::format("\r\033[K{} of {}{}", done, all, done == all ? "\n" : ""));
+  });
+  const auto stopped = (*held)->hold();
+  print_note(context, stopped ? run::stop_done : run::stop_lost);
+  if (legs && !stopped)
+    return tl::unexpected(stopped.error());
+  return legs;
+}
+
+/// What is told before anything moves. The virtual robot of `sim:` gets its numbers here.
+tl::expected<void, Failure> check(CalibrateOptions& options) {
+  if (!options.output.empty())
+    if (const auto file = profile_file(options.output); !file)
+      return tl::unexpected(file.error());
+  if (options.ball.empty())
+    return {};
+  if (options.port.port != "sim:")
+    return refuse(ExitCode::Usage, "`--ball` says how the virtual robot of `--port sim:` drives; "
+                                   "leave it out");
+  const auto profile = read_profile(options.ball, options.robot);
+  if (!profile)
+    return tl::unexpected(profile.error());
+  options.port.driving = profile->driving;
+  options.robot = spec::info(profile->robot).name;
+  return {};
+}
+
+tl::expected<void, Failure> calibrate(Context& context, CalibrateOptions options) {
+  if (auto good = check(options); !good)
+    return good;
+  const InterruptGuard guard;
+  auto connected = connect_robot(context, options.port, options.robot);
+  if (!connected)
+    return tl::unexpected(connected.error());
+  const auto robot = (*connected)->tether.robot;
+  const auto speeds = run::course_speeds(robot);
+  if (!speeds)
+    return tl::unexpected(speeds.error());
+  if (!options.yes)
+    if (auto asked = ask(robot); !asked)
+      return asked;
+  const auto legs = drive(context, **connected);
+  if (!legs)
+    return tl::unexpected(legs.error());
+  const auto found = run::fit(*legs, robot);
+  if (!found)
+    return tl::unexpected(found.error());
+  print_result(*found, *speeds);
+  if (options.output.empty())
+    return {};
+  return save(context, options.output, {robot, found->after, speeds->slowest, speeds->fastest});
+}
+
+} // namespace
+
+void add_calibrate(const Command& orb, Context& context) {
+  const auto command = orb.add_command(
+      "calibrate", "measure how a robot drives, for virtual balls that drive like it",
+      "orb calibrate --port ble://SB-1A2B -o red\n"
+      "orb calibrate --port sim: --ball red --yes");
+  auto options = std::make_shared<CalibrateOptions>();
+  add_robot_port_options(command, options->port, options->robot);
+  command.find("--port")->required();
+  command
+      .add_option("-o,--output", options->output,
+                  "saves what was found under this name, or in a file such as ./red.toml")
+      .type_name("NAME");
+  command.add_flag("--yes", options->yes, "drives at once: the floor is clear");
+  add_ball_option(command, options->ball,
+                  "how the virtual robot of `--port sim:` drives: a profile");
+  command.callback([&context, options] {
+    if (const auto done = calibrate(context, *options); !done)
+      fail(context, done.error());
+  });
+}
+
+} // namespace orb::cli
