@@ -1,6 +1,7 @@
 #include "cli/run_options.h"
 
 #include "base/duration.h"
+#include "cli/ball_profile.h"
 #include "cli/inputs.h"
 
 #include <charconv>
@@ -53,6 +54,13 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
   options.firmware = spec::find_firmware(given.firmware)->firmware; // the options are checked
   if (!given.robot.empty())
     options.model = spec::find_robot(given.robot)->robot;
+  if (!given.ball.empty()) {
+    const auto profile = read_profile(given.ball, given.robot);
+    if (!profile)
+      return tl::unexpected(profile.error());
+    options.model = profile->robot;
+    options.driving = profile->driving;
+  }
   options.native = given.native == "on"    ? vm::Native::On
                    : given.native == "off" ? vm::Native::Off
                                            : vm::Native::Auto;

@@ -41,16 +41,14 @@ tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
 }
 
-/// What a virtual ball does as the robot that was measured.
-tl::expected<std::optional<run::Profile>, Failure> take_profile(RunOptions& given,
-                                                                run::Options& options) {
+/// What is known of the robot that virtual balls drive like; the one of `sim:` does, too.
+tl::expected<std::optional<run::Profile>, Failure> take_profile(RunOptions& given) {
   if (given.ball.empty())
     return std::nullopt;
   const auto profile = read_profile(given.ball, given.robot);
   if (!profile)
     return tl::unexpected(profile.error());
-  options.model = profile->robot;
-  options.driving = given.port.driving = profile->driving;
+  given.port.driving = profile->driving;
   if (given.port.port == "sim:")
     given.robot = spec::info(profile->robot).name;
   return *profile;
@@ -194,7 +192,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   auto options = read_options(context, given);
   if (!options)
     return tl::unexpected(options.error());
-  const auto profile = take_profile(given, *options);
+  const auto profile = take_profile(given);
   if (!profile)
     return tl::unexpected(profile.error());
   if (!given.port.port.empty() || !given.replay.empty())
