@@ -1,0 +1,46 @@
+# The files that are not compiled together with others of their room (ORB_AT_ONCE): they use a name for something of
+# their own that another file of the room uses, too; or, those of Bluetooth LE, cli/bluez/load.cpp stands in for them.
+set(alone
+  ${ORB_ROOT}/assembler/assemble.cpp
+  ${ORB_ROOT}/assembler/lint.cpp
+  ${ORB_ROOT}/assembler/parse.cpp
+  ${ORB_ROOT}/base/render/sarif.cpp
+  ${ORB_ROOT}/disk/lock.cpp
+  ${ORB_ROOT}/editor/languages/macro.cpp
+  ${ORB_ROOT}/editor/languages/macro_names.cpp
+  ${ORB_ROOT}/editor/languages/macro_shape.cpp
+  ${ORB_ROOT}/editor/languages/structured.cpp
+  ${ORB_ROOT}/editor/languages/structured_names.cpp
+  ${ORB_ROOT}/editor/languages/structured_shape.cpp
+  ${ORB_ROOT}/editor/languages/test.cpp
+  ${ORB_ROOT}/editor/lsp/methods.cpp
+  ${ORB_ROOT}/editor/shape_answers.cpp
+  ${ORB_ROOT}/editor/wording.cpp
+  ${ORB_ROOT}/reference/markdown.cpp
+  ${ORB_ROOT}/report/journey.cpp
+  ${ORB_ROOT}/report/reload.cpp
+  ${ORB_ROOT}/report/trace.cpp
+  ${ORB_ROOT}/run/input.cpp
+  ${ORB_ROOT}/run/live.cpp
+  ${ORB_ROOT}/run/named_values.cpp
+  ${ORB_ROOT}/run/start.cpp
+  ${ORB_ROOT}/run/tether/held_robot.cpp
+  ${ORB_ROOT}/serve/fake_bluez.cpp
+  ${ORB_ROOT}/serve/private_bus.cpp
+  ${ORB_ROOT}/structured/optimise/inline.cpp
+  ${ORB_ROOT}/structured/optimise/thread.cpp
+  ${ORB_ROOT}/structured/text/blocks.cpp
+  ${ORB_ROOT}/testing/sighting.cpp
+  ${ORB_ROOT}/testing/verdicts/render_json.cpp
+  ${ORB_ROOT}/uploader/bluez.cpp
+  ${ORB_ROOT}/uploader/bluez_bus.cpp
+  ${ORB_ROOT}/uploader/open.cpp
+  ${ORB_ROOT}/uploader/upload.cpp
+  ${ORB_ROOT}/uploader/upload_run.cpp
+  ${ORB_ROOT}/vm/machine/switch.cpp
+  ${ORB_ROOT}/vm/macros/system_macros.cpp
+  ${ORB_ROOT}/vm/power.cpp
+  ${ORB_ROOT}/vm/programs.cpp
+  ${ORB_ROOT}/vm/robot_v2.cpp
+  ${ORB_ROOT}/vm/state.cpp
+)
