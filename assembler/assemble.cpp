@@ -15,7 +15,7 @@ Assembly Assembler::run() {
     add(statement);
   end_macro();
   if (program_.statements.size() == constants_ && assembly_.diagnostics.empty())
-    report(rules::EmptyFile, {0, 0}, "the file holds no macro command",
+    report(rules::EmptyFile, {0, 0}, "the file has no macro command",
            "write one, such as `marker 20`");
   sort_by_place(assembly_.diagnostics);
   return std::move(assembly_);
@@ -92,8 +92,8 @@ void Assembler::add(const Statement& statement) {
   }
   if (!inside_) {
     if (!outside_reported_)
-      report(rules::OutsideMacro, statement.span, "this stands before the first `.macro` line",
-             "move it below a `.macro` line, or write one above it");
+      report(rules::OutsideMacro, statement.span, "this is above the first `.macro` line",
+             "move it below a `.macro` line, or add one above it");
     outside_reported_ = true;
     return;
   }
@@ -138,8 +138,8 @@ void Assembler::add_command(const Statement& statement) {
   auto& out = macro();
   if (out.has_end && out.id != spec::macro_id_stream) {
     if (!after_end_reported_)
-      report(rules::AfterEnd, statement.span, "this comes after `end`",
-             "remove `end`, or begin another macro with `.macro`");
+      report(rules::AfterEnd, statement.span, "this is after `end`",
+             "remove `end`, or start another macro with `.macro`");
     after_end_reported_ = true;
     return;
   }
@@ -219,7 +219,7 @@ std::optional<Diagnostic> unreadable(const Source& source) {
   if (text.size() > largest_source)
     return finding(
         rules::SourceTooLarge, {0, 0},
-        fmt::format("the file has {} bytes; the limit is {}", text.size(), largest_source));
+        fmt::format("the file is {} bytes; the limit is {}", text.size(), largest_source));
   // One pass without branches first: nearly every file is text.
   bool any = false;
   for (const char c : text)

@@ -100,24 +100,25 @@ private:
     case MacroIdKind::None:
     case MacroIdKind::System:
     case MacroIdKind::User:
-      report(rules::TooLarge, macro.span,
-             fmt::format("the macro has {} bytes; a user macro has at most {}, with id, flags and "
-                         "end",
-                         size, spec::macro_max_packet),
-             "split it and chain the parts with `goto`");
+      report(
+          rules::TooLarge, macro.span,
+          fmt::format(
+              "the macro is {} bytes; a user macro can be at most {}, including id, flags and end",
+              size, spec::macro_max_packet),
+          "split it and chain the parts with `goto`");
       return;
     case MacroIdKind::Temporary:
       if (size <= spec::macro_buffer_size)
         report(rules::NeedsChunks, macro.span,
-               fmt::format("the macro has {} bytes and goes in chunks", size));
+               fmt::format("the macro is {} bytes and is sent in chunks", size));
       else if (macro.id)
         report(rules::TooLarge, macro.span,
-               fmt::format("the macro has {} bytes; the temporary macro has at most {}", size,
+               fmt::format("the macro is {} bytes; the temporary macro can be at most {}", size,
                            spec::macro_buffer_size),
                fmt::format("stream it: `id={}`", spec::macro_id_stream));
       else
         report(rules::NeedsStream, macro.span,
-               fmt::format("the macro has {} bytes; the ball's buffer has {}", size,
+               fmt::format("the macro is {} bytes; the ball's buffer is {}", size,
                            spec::macro_buffer_size),
                fmt::format("stream it: `id={}`", spec::macro_id_stream));
     }
@@ -156,10 +157,10 @@ private:
                fmt::format("the stream macro ignores `{}`", word),
                kind == MacroCommand::End ? "`stream_end` ends it" : "");
       if (leaves != nullptr && kind != MacroCommand::End && kind != MacroCommand::Comment) {
-        report(rules::Unreachable, command.span,
-               fmt::format("`{}` is never reached: nothing comes back from `{}`", word,
-                           leaves->info->mnemonic))
-            .notes.push_back({leaves->span, "the macro is left here"});
+        report(
+            rules::Unreachable, command.span,
+            fmt::format("`{}` is unreachable: `{}` does not return", word, leaves->info->mnemonic))
+            .notes.push_back({leaves->span, "control leaves the macro here"});
         leaves = nullptr;
       }
       if (kind == MacroCommand::Goto || kind == MacroCommand::Sleep ||
@@ -170,7 +171,7 @@ private:
     }
     if (!macro.has_end && !stream)
       report(rules::MissingEnd, macro.commands.empty() ? macro.span : macro.commands.back().span,
-             "the macro has no end", "remove `.noend`");
+             "missing `end`", "remove `.noend`");
   }
 
   void check_values(const PlacedCommand& command) {
@@ -178,15 +179,16 @@ private:
     if (leads_elsewhere(kind))
       check_target(command);
     if (kind == MacroCommand::Marker && command.value[0] == spec::macro_end_marker)
-      report(rules::MarkerZero, command.operand, "marker 0 is what the end of a macro emits",
+      report(rules::MarkerZero, command.operand, "marker 0 is emitted at the end of a macro",
              fmt::format("use one from {}", spec::macro_reserved_markers + 1));
     if (kind == MacroCommand::Marker && command.value[0] > 0 &&
         command.value[0] <= spec::macro_reserved_markers)
-      report(
-          rules::MarkerReserved, command.operand,
-          fmt::format("markers 1 to {} pace the vendor's streams", spec::macro_reserved_markers));
+      report(rules::MarkerReserved, command.operand,
+             fmt::format("the vendor's client uses markers 1 to {} to pace streams",
+                         spec::macro_reserved_markers));
     if (kind == MacroCommand::LoopStart && command.value[0] == 0)
-      report(rules::LoopZero, command.operand, "a loop of 0 runs once", "write 1, or remove it");
+      report(rules::LoopZero, command.operand, "a loop count of 0 runs once",
+             "write 1, or remove it");
   }
 
   void check_target(const PlacedCommand& command) {
@@ -202,12 +204,12 @@ private:
       return;
     case MacroIdKind::None:
       if (command.info->command != MacroCommand::OnCollision)
-        report(rules::UnknownTarget, command.operand, "no macro has the id 0");
+        report(rules::UnknownTarget, command.operand, "id 0 is not a macro");
       return;
     case MacroIdKind::User:
       if (!known_[id])
         report(rules::UnknownTarget, command.operand,
-               fmt::format("no macro here has the id {}", id),
+               fmt::format("no macro in these files has id {}", id),
                fmt::format("check it together with the file that defines `id={}`", id));
       return;
     case MacroIdKind::System:
@@ -221,7 +223,7 @@ private:
     for (const auto& command : macro.commands) {
       if (is(command, MacroCommand::LoopStart) || is(command, MacroCommand::LoopStartSystem)) {
         if (open != nullptr) {
-          report(rules::NestedLoop, command.span, "this loop replaces the one before it",
+          report(rules::NestedLoop, command.span, "this loop replaces the previous one",
                  "loops do not nest; multiply the counts, or repeat the commands")
               .notes.push_back({open->span, "which begins here"});
           ++replaced;
@@ -231,13 +233,13 @@ private:
         if (open == nullptr && replaced > 0)
           --replaced; // explained by the nesting
         else if (open == nullptr)
-          report(rules::LoopEnd, command.span, "there is no loop to end here",
-                 "remove it, or write `loop_start` above");
+          report(rules::LoopEnd, command.span, "`loop_end` without `loop_start`",
+                 "remove it, or add `loop_start` above");
         open = nullptr;
       }
     }
     if (open != nullptr)
-      report(rules::LoopOpen, open->span, "this loop has no end", "write `loop_end` below");
+      report(rules::LoopOpen, open->span, "unterminated loop", "write `loop_end` below");
   }
 
   /// The user macros of a file share the heap and the index of a ball.
@@ -254,9 +256,9 @@ private:
       report(
           rules::HeapFull, macro.span,
           entries > spec::macro_heap_entries
-              ? fmt::format("this is user macro {}; the ball's index has {} entries", entries,
+              ? fmt::format("this is user macro number {}; the ball has room for {}", entries,
                             spec::macro_heap_entries)
-              : fmt::format("with this one the user macros have {} bytes; the ball's heap has {}",
+              : fmt::format("with this one the user macros total {} bytes; the ball's heap is {}",
                             heap, spec::macro_heap_size),
           "run some of them as temporary macros");
       return;
@@ -278,8 +280,8 @@ private:
         if (outer.from != inner.from &&
             inner.from->id.value_or(spec::macro_id_temporary) == outer.command->value[0]) {
           report(rules::GosubDepth, inner.command->span,
-                 "this gosub is ignored when the macro is itself called",
-                 "calls are one deep; let the caller call both")
+                 "this `gosub` is ignored when the macro itself was called",
+                 "calls are one level deep; let the caller call both")
               .notes.push_back({outer.command->span, "it is called here"});
           break;
         }
@@ -299,7 +301,7 @@ private:
       return;
     auto& diagnostic = report(
         rules::CutShort, background.command->span,
-        fmt::format("this {} takes {} and has {}",
+        fmt::format("this {} needs {} but has {}",
                     background.command->info->background == MacroBackground::Fade ? "fade"
                                                                                   : "rotation",
                     print_time(background.end_ms - background.begin_ms),
@@ -360,14 +362,14 @@ private:
     if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
         first_time(rules::RollDuringRotation, command.span))
       report(rules::RollDuringRotation, command.span,
-             "this roll is ignored: a rotation is still running",
+             "this roll is ignored: a rotation is still in progress",
              fmt::format("add `delay {}` before it", rotation.end_ms - now))
           .notes.push_back({rotation.command->span, "the rotation begins here"});
     if ((rolls(kind) || kind == MacroCommand::SetSpeed) && ongoing.unstabilized != nullptr &&
         first_time(rules::RollUnstabilized, command.span))
       report(rules::RollUnstabilized, command.span,
-             fmt::format("`{}` does nothing while stabilization is off", command.info->mnemonic),
-             "write `stabilization on` before it")
+             fmt::format("`{}` has no effect while stabilization is off", command.info->mnemonic),
+             "add `stabilization on` before it")
           .notes.push_back({ongoing.unstabilized->span, "switched off here"});
   }
 
@@ -384,7 +386,7 @@ private:
     const auto kind = command.info->command;
     const auto now = visit.latest_ms;
     if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
-      cut(ongoing.fade, now, command.span, "another colour is set");
+      cut(ongoing.fade, now, command.span, "another colour is set here");
       ongoing.fade = {};
     }
     if (command.info->background == MacroBackground::Fade) {

@@ -6,7 +6,7 @@ void Assembler::define_macro(const Statement& statement) {
   AssembledMacro defined;
   const auto* value = values(statement);
   if (statement.count == 0 || value->kind != Value::Kind::Word || value->name.size() != 0) {
-    report(rules::Header, statement.head, "`.macro` takes a name",
+    report(rules::Header, statement.head, "`.macro` needs a name",
            "write `.macro NAME id=40 flags=motor_control`");
     defined.span = statement.head;
     assembly_.macros.push_back(std::move(defined));
@@ -44,9 +44,9 @@ void Assembler::read_attribute(AssembledMacro& defined, std::string_view attribu
   }
   constexpr std::string_view attributes[] = {"id", "flags", "ext"};
   report(rules::Header, value.name.size() != 0 ? value.name : value.span,
-         attribute.empty() ? "a macro has one name"
+         attribute.empty() ? "unexpected second name"
                            : fmt::format("`.macro` has no `{}=`", attribute),
-         did_you_mean(attribute, attributes, "there are `id=`, `flags=` and `ext=`"));
+         did_you_mean(attribute, attributes, "use `id=`, `flags=` or `ext=`"));
 }
 
 std::optional<std::uint8_t> Assembler::header_byte(const Value& value, int minimum,
@@ -76,8 +76,8 @@ void Assembler::read_id(AssembledMacro& defined, const Value& value) {
                        spec::macro_id_user_last));
   if (kind == spec::MacroIdKind::System)
     report(rules::Header, value.span,
-           fmt::format("ids {} to {} are the ball's own macros", spec::macro_id_system_first,
-                       spec::macro_id_system_last),
+           fmt::format("ids {} to {} are reserved for the ball's own macros",
+                       spec::macro_id_system_first, spec::macro_id_system_last),
            fmt::format("write an id from {} to {}", spec::macro_id_user_first,
                        spec::macro_id_user_last))
         .severity = Severity::Warning;

@@ -17,13 +17,13 @@ bool Assembler::bind(const Statement& statement, const spec::MacroCommandInfo& i
       if (i == info.operand_count)
         return unknown_operand(info, value->name);
     } else if (named) {
-      report(rules::OperandCount, value->span, "an operand without a name follows a named one",
+      report(rules::OperandCount, value->span, "positional operand after a named one",
              fmt::format("`{}` takes {}", info.mnemonic, operand_list(info)));
       return false;
     } else if (position == info.operand_count) {
       report(rules::OperandCount, value->span,
              info.operand_count == 0
-                 ? fmt::format("`{}` takes no operand", info.mnemonic)
+                 ? fmt::format("`{}` takes no operands", info.mnemonic)
                  : fmt::format("`{}` takes {}, found {}", info.mnemonic,
                                plural(info.operand_count, "operand"), statement.count),
              info.operand_count == 0 ? std::string()
@@ -32,7 +32,7 @@ bool Assembler::bind(const Statement& statement, const spec::MacroCommandInfo& i
     }
     if (bound[i] != nullptr) {
       report(rules::OperandCount, value->span,
-             fmt::format("`{}` is given twice", info.operand[i].name));
+             fmt::format("duplicate operand `{}`", info.operand[i].name));
       return false;
     }
     bound[i] = value;
@@ -41,7 +41,7 @@ bool Assembler::bind(const Statement& statement, const spec::MacroCommandInfo& i
   for (std::size_t i = 0; i < info.operand_count; ++i)
     if (bound[i] == nullptr && info.operand[i].kind != MacroOperandKind::Delay) {
       report(rules::OperandCount, statement.span,
-             fmt::format("`{}` needs its operand `{}`", info.mnemonic, info.operand[i].name),
+             fmt::format("`{}` is missing its operand `{}`", info.mnemonic, info.operand[i].name),
              fmt::format("it takes {}, as in `{}`", operand_list(info), info.example));
       return false;
     }
@@ -93,7 +93,7 @@ std::optional<std::int32_t> Assembler::resolve(const Value& value, const MacroOp
     return to_number(value, value.span, operand, command);
   if (value.kind == Value::Kind::Text) {
     report(rules::OutOfRange, value.span,
-           fmt::format("`{}` of `{}` is a number, found text", operand.name, command));
+           fmt::format("`{}` of `{}` must be a number, found text", operand.name, command));
     return std::nullopt;
   }
   const auto word = text(value.span);
@@ -128,7 +128,7 @@ std::optional<std::int32_t> Assembler::macro_id(Span span, const Name& name,
     return *target.id;
   if (assembly_.macros.size() == 1)
     return spec::macro_id_temporary;
-  report(rules::UnknownName, span, fmt::format("`{}` has no id to go to", text(span)),
+  report(rules::UnknownName, span, fmt::format("`{}` has no id to jump to", text(span)),
          fmt::format("write `.macro {} id={}`", text(span), spec::macro_id_user_first))
       .notes.push_back({target.span, "defined here"});
   return std::nullopt;
@@ -158,7 +158,7 @@ std::optional<std::int32_t> Assembler::unknown_name(Span span, const MacroOperan
                        range_of(operand), text(span), operand.maximum);
   auto& diagnostic = report(
       rules::UnknownName, span,
-      fmt::format("`{}` means nothing as `{}` of `{}`", text(span), operand.name, command), help);
+      fmt::format("`{}` is not valid as `{}` of `{}`", text(span), operand.name, command), help);
   if (meant)
     diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
   return std::nullopt;
@@ -194,14 +194,14 @@ void Assembler::wrong_unit(const Value& number, Span span, const MacroOperand& o
     const auto word = text(number.span);
     const bool hex = word.ends_with('h') || word.ends_with('H');
     report(rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
-           hex ? fmt::format("hex is written `0x{}`", word.substr(0, word.size() - 1))
+           hex ? fmt::format("write hexadecimal as `0x{}`", word.substr(0, word.size() - 1))
                : "units are `ms`, `s` and `deg`, with at most three decimals before them");
     return;
   }
-  report(
-      rules::WrongUnit, span,
-      fmt::format("`{}` of `{}` has no unit `{}`", operand.name, command, unit_word(number.unit)),
-      fmt::format("it is {}", range_of(operand)));
+  report(rules::WrongUnit, span,
+         fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
+                     unit_word(number.unit)),
+         fmt::format("it is {}", range_of(operand)));
 }
 
 std::string Assembler::waits_for(std::int64_t ms) {
@@ -235,7 +235,7 @@ void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
 
 std::string Assembler::read_text(const Value& value) {
   if (value.kind != Value::Kind::Text) {
-    report(rules::OutOfRange, value.span, "a comment takes text in quotes",
+    report(rules::OutOfRange, value.span, "a comment needs text in quotes",
            fmt::format("write `comment \"{}\"`", text(value.span)));
     return {};
   }

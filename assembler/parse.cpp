@@ -160,9 +160,9 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
                    "write a number or a name");
   case Stop::Expected::ClosingQuote:
     if (stop.at != end)
-      return finding(rules::Syntax, span, "this is not an escape sequence",
+      return finding(rules::Syntax, span, "invalid escape sequence",
                      "write one of `\\\"`, `\\\\`, `\\n`, `\\r`, `\\t`, `\\0`, `\\x41`");
-    return finding(rules::Syntax, span, "the text has no end", "add `\"`");
+    return finding(rules::Syntax, span, "unterminated string", "add `\"`");
   case Stop::Expected::Operand:
     return finding(rules::Syntax, span,
                    fmt::format("expected an operand after the comma, found {}", found), {});
@@ -170,14 +170,14 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
   }
   std::string help;
   if (*stop.at == '\'' || *stop.at == '/' || *stop.at == '*')
-    help = "a remark begins with `#`";
+    help = "remarks begin with `#`";
   else if (*stop.at == '=')
     help = "write `name=value`";
   else if (*stop.at == ':')
-    help = "there are no labels in a macro; `.macro NAME id=40` begins one that goto can reach";
+    help = "macros have no labels; `.macro NAME id=40` starts one that `goto` can reach";
   else if (*stop.at == '\\')
     help = "text needs quotes: `\"...\"`";
-  return finding(rules::Syntax, span, fmt::format("{} does not belong here", found), help);
+  return finding(rules::Syntax, span, fmt::format("unexpected {}", found), help);
 }
 
 Diagnostic unknown_command(std::string_view word, Span span) {
@@ -196,8 +196,9 @@ Diagnostic unknown_directive(std::string_view word, Span span) {
   std::array<std::string_view, std::size(directives)> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = directives[i].word;
-  return finding(rules::UnknownDirective, span, fmt::format("`{}` is not a directive", word),
-                 did_you_mean(word, names, "there are `.macro`, `.const`, `.raw` and `.noend`"));
+  return finding(
+      rules::UnknownDirective, span, fmt::format("`{}` is not a directive", word),
+      did_you_mean(word, names, "the directives are `.macro`, `.const`, `.raw` and `.noend`"));
 }
 
 /// Takes the line over, or says why not.

@@ -20,8 +20,14 @@ consteval bool ids_are_unique(std::span<const Rule> table) {
   return true;
 }
 
-/// The rule of that id, or null.
+/// The id that a rule has now, of one that it had before; every other word is returned as it is.
+constexpr std::string_view current_id(std::string_view id) {
+  return id == "include-circle" ? "include-cycle" : id;
+}
+
+/// The rule of that id, or of that former id; or null.
 constexpr const Rule* find_rule(std::span<const Rule> table, std::string_view id) {
+  id = current_id(id);
   for (const auto& rule : table)
     if (rule.id == id)
       return &rule;

@@ -39,7 +39,7 @@ void silence(std::string_view text, std::span<const AllowComment> comments,
       if (const auto* rule = find_rule(table, name))
         allowed.push_back({rule, about});
       else
-        findings.push_back(finding(unknown, span, fmt::format("there is no rule `{}`", name)));
+        findings.push_back(finding(unknown, span, fmt::format("unknown rule `{}`", name)));
     }
   std::erase_if(findings, [&](const Diagnostic& d) {
     return std::any_of(allowed.begin(), allowed.end(), [&](const Allowed& entry) {

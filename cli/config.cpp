@@ -439,7 +439,7 @@ tl::expected<std::string, ConfigError> resolve_port(const Config& config, const 
   for (const auto& [known, url] : config.balls)
     names.push_back(known);
   return tl::unexpected(ConfigError{fmt::format(
-      "no ball is called `{}`{}", name,
+      "unknown ball `{}`{}", name,
       names.empty() ? fmt::format("; `orb ports --save {}=URL` gives one that name", name)
                     : meant_instead(name, names))});
 }

@@ -1,5 +1,6 @@
 #include "cli/policy.h"
 
+#include "base/rules.h"
 #include "base/suggest.h"
 #include "cli/model/command.h"
 #include "reference/knowledge.h"
@@ -12,7 +13,8 @@ namespace orb::cli {
 namespace {
 
 bool names(const std::vector<std::string>& rules, std::string_view id) {
-  return std::find(rules.begin(), rules.end(), id) != rules.end();
+  return std::any_of(rules.begin(), rules.end(),
+                     [&](const std::string& one) { return current_id(one) == id; });
 }
 
 /// The rules of both linters.
@@ -45,10 +47,10 @@ bool check_rules(Context& context, const Policy& policy) {
   const auto ids = rule_ids();
   for (const auto* list : {&policy.deny, &policy.warn, &policy.allow})
     for (const auto& id : *list) {
-      if (names(ids, id) || (list == &policy.deny && id == "all"))
+      if (names(ids, current_id(id)) || (list == &policy.deny && id == "all"))
         continue;
       fail(context,
-           {ExitCode::Usage, fmt::format("there is no rule `{}`; {}", id,
+           {ExitCode::Usage, fmt::format("unknown rule `{}`; {}", id,
                                          did_you_mean(id, ids, "`orb spec rules` lists them"))});
       return false;
     }

@@ -73,8 +73,8 @@ tl::expected<void, Failure> RobotStage::await_hands(const testing::Suite& suite,
   print_err("\n");
   if (InterruptGuard::asked() > 0)
     return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
-  return tl::unexpected(
-      cannot("nobody presses Enter; `--yes` says that the robot is on its mark for every test"));
+  return tl::unexpected(cannot("standard input is not a terminal; `--yes` confirms that the robot "
+                               "is on its mark for every test"));
 }
 
 tl::expected<void, Failure> RobotStage::ready(const testing::Suite& suite,
@@ -104,8 +104,9 @@ tl::expected<void, Failure> RobotStage::ready(const testing::Suite& suite,
     return {};
   }
   if (home == run::Home::Missed) {
-    broken_ = Failure{ExitCode::Refused, "the robot did not find back to its mark: something "
-                                         "stands in its way, or it slips"};
+    broken_ = Failure{
+        ExitCode::Refused,
+        "the robot did not find its way back to its mark: something is in its way, or it slips"};
     return tl::unexpected(*broken_);
   }
   // Its mark is where it first stood, not where it happened to come to rest.

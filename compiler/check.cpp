@@ -62,8 +62,8 @@ std::optional<Diagnostic> refuse_text(std::string_view text) {
   const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
   if (text.size() > most)
     return finding(rules::SourceTooLarge, {0, 0},
-                   fmt::format("the file has {} bytes; the limit is {}", text.size(), most),
-                   fmt::format("no area of the robot takes more than {}",
+                   fmt::format("the file is {} bytes; the limit is {}", text.size(), most),
+                   fmt::format("the largest area of any robot is {} bytes",
                                spec::value_of(spec::Limit::FlashBytes)));
   if (is_binary(text))
     return finding(rules::BinaryFile, {0, 0}, "the file is binary, not an orbBasic program",
@@ -80,7 +80,7 @@ Checked check(std::string_view text, const Target& target) {
   checked.program = parse(text);
   if (!holds_program(checked.program)) {
     checked.diagnostics.push_back(
-        finding(rules::EmptyProgram, {0, 0}, "the file holds no program line",
+        finding(rules::EmptyProgram, {0, 0}, "the file has no program line",
                 "a line is a number, a space and a statement: `10 print \"hello\"`"));
     return checked;
   }

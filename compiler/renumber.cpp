@@ -18,7 +18,7 @@ public:
 
   std::variant<std::string, Obstacle> run() {
     for (const auto& fault : program_.faults)
-      return Obstacle{fault.span, "the line does not parse, so its numbers cannot be followed"};
+      return Obstacle{fault.span, "the line does not parse, so its line numbers cannot be updated"};
     if (auto obstacle = number_lines())
       return *obstacle;
     if (auto obstacle = follow_targets())
@@ -40,7 +40,7 @@ private:
       if (next > static_cast<std::uint64_t>(greatest))
         return Obstacle{
             line.number_span,
-            fmt::format("this line would get number {}; the highest is {}", next, greatest)};
+            fmt::format("this line would become {}; the highest number is {}", next, greatest)};
       numbers_[i] = static_cast<std::uint32_t>(next);
       edits_.push_back({line.number_span, std::to_string(next)});
       next += numbering_.step;
@@ -54,9 +54,10 @@ private:
         continue;
       const auto* number = flow_.find(item.value);
       if (number == nullptr)
-        return Obstacle{item.span, fmt::format("there is no line {}; after renumbering there "
-                                               "might be one",
-                                               program_.text_of(item.span))};
+        return Obstacle{
+            item.span,
+            fmt::format("there is no line {} now, but there may be one after renumbering",
+                        program_.text_of(item.span))};
       edits_.push_back({item.span, std::to_string(numbers_[number->line])});
     }
     return std::nullopt;
@@ -71,7 +72,7 @@ private:
       const auto& item = program_.as<SleepView>(statement).line;
       const auto& root = program_.nodes[item.value];
       if (root.kind != NodeKind::Number)
-        return Obstacle{item.span, "the wake-up line is computed, so it cannot be followed"};
+        return Obstacle{item.span, "the wake-up line is computed, so it cannot be updated"};
       const auto* number =
           root.value > 0 ? flow_.find(static_cast<std::uint32_t>(root.value)) : nullptr;
       if (number != nullptr)

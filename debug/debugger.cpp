@@ -578,7 +578,7 @@ std::string Debugger::missing(std::string_view name) const {
                          "compiler knew its value",
                          name);
   }
-  return fmt::format("there is no variable `{}` here", name);
+  return fmt::format("unknown variable `{}`", name);
 }
 
 std::optional<std::int32_t> Debugger::variable(std::string_view name) const {

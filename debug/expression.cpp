@@ -120,7 +120,7 @@ private:
   static Value binary(spec::Operator op, std::int32_t a, std::int32_t b) {
     if (const auto value = bytecode::calculate(op, a, b))
       return *value;
-    return tl::unexpected(b == 0 ? std::string("a division by 0")
+    return tl::unexpected(b == 0 ? std::string("division by zero")
                                  : fmt::format("a shift by {}", b));
   }
 
@@ -133,7 +133,7 @@ private:
 tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
   text = trim(text);
   if (text.empty())
-    return tl::unexpected(std::string("an expression is missing"));
+    return tl::unexpected(std::string("missing expression"));
   Expression expression;
   expression.text_ = text;
   auto program = std::make_shared<structured::Program>();
@@ -147,13 +147,13 @@ tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
                       program->statements.front().kind == structured::Kind::Print &&
                       !program->items_of(program->statements.front()).empty();
   if (!is_one)
-    return tl::unexpected(fmt::format("`{}` is not an expression", text));
+    return tl::unexpected(fmt::format("invalid expression `{}`", text));
   const auto items = program->items_of(program->statements.front());
   const auto& item = items.front();
   const bool is_whole = items.size() == 1 && !text.ends_with(',') && !text.ends_with(';') &&
                         text.find('\'') == std::string_view::npos;
   if (item.kind != structured::ItemKind::Expression || !is_whole)
-    return tl::unexpected(fmt::format("`{}` is not one expression", text));
+    return tl::unexpected(fmt::format("`{}` is more than one expression", text));
   expression.root_ = item.value;
   expression.program_ = std::move(program);
   return expression;

@@ -70,17 +70,17 @@ std::span<const Shell::Row> Shell::rows() {
   static constexpr Row table[] = {
       {"break",        "b",   "b LINE|FILE:LINE|SUB [if COND]", "stops before a line, or where a sub begins", &Shell::add_break},
       {"watch",        "w",   "watch EXPR",      "stops when a value changes, or a condition becomes true", &Shell::add_watch},
-      {"log",          "",    "log LINE TEXT",   "says a text in place of stopping; `{EXPR}` in it is filled in", &Shell::add_log},
-      {"delete",       "d",   "d [NUMBER]",      "takes a breakpoint away, or all", &Shell::drop},
-      {"continue",     "c",   "c",               "goes on to the next breakpoint", &Shell::go_on, Repeats::Yes},
+      {"log",          "",    "log LINE TEXT",   "prints a text instead of stopping; `{EXPR}` in it is replaced by its value", &Shell::add_log},
+      {"delete",       "d",   "d [NUMBER]",      "deletes a breakpoint, or all of them", &Shell::drop},
+      {"continue",     "c",   "c",               "continues to the next breakpoint", &Shell::go_on, Repeats::Yes},
       {"step",         "s",   "s",               "goes to the next line, also into a sub", &Shell::go<Move::In, Direction::Forward>, Repeats::Yes},
       {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::go<Move::Over, Direction::Forward>, Repeats::Yes},
-      {"finish",       "fin", "fin",             "goes on until this sub has returned", &Shell::go<Move::Out, Direction::Forward>, Repeats::Yes},
-      {"until",        "u",   "until TIME",      "goes on to a time of the run: `until 3.5s`", &Shell::until},
+      {"finish",       "fin", "fin",             "continues until this sub has returned", &Shell::go<Move::Out, Direction::Forward>, Repeats::Yes},
+      {"until",        "u",   "until TIME",      "continues to a time of the run: `until 3.5s`", &Shell::until},
       {"reverse-continue", "rc", "rc",           "goes back to the breakpoint before", &Shell::go<Move::Continue, Direction::Back>, Repeats::Yes},
       {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::go<Move::In, Direction::Back>, Repeats::Yes},
       {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::go<Move::Over, Direction::Back>, Repeats::Yes},
-      {"goto",         "g",   "goto LINE",       "the program goes on at another line", &Shell::jump},
+      {"goto",         "g",   "goto LINE",       "continues at another line", &Shell::jump},
       {"restart",      "r",   "r",               "goes back to the beginning and forgets what was changed", &Shell::again},
       {"print",        "p",   "p EXPR",          "prints a value: `p turns * 2`, `p xpos`, `p time`", &Shell::print},
       {"set",          "",    "set NAME = EXPR", "changes a variable", nullptr},
@@ -223,7 +223,7 @@ std::optional<Spot> Shell::spot_of(std::string_view text) const {
 std::string Shell::no_place(std::string_view text) const {
   const auto colon = text.rfind(':');
   if (colon != std::string_view::npos && !debugger_.sources().file(text.substr(0, colon)))
-    return fmt::format("`{}` is no file of this run", text.substr(0, colon));
+    return fmt::format("`{}` is not a file of this run", text.substr(0, colon));
   const auto line = trim(text.substr(colon == std::string_view::npos ? 0 : colon + 1));
   if (parse_number<std::uint32_t>(line))
     return fmt::format("nothing runs from line {} on", line);

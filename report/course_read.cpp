@@ -170,7 +170,7 @@ std::optional<double> Reader::size_cm(const pugi::xml_node& root, const char* at
 void Reader::walk(const Element& parent, int depth) {
   if (depth > most_groups) {
     say(rules::CourseTooLarge, place(parent.node),
-        fmt::format("more than {} groups lie inside each other", most_groups),
+        fmt::format("more than {} nested groups", most_groups),
         "in Inkscape ungroup what is not one thing (Shift+Ctrl+G)");
     return;
   }

@@ -95,12 +95,12 @@ void Reader::wall(const Element& element) {
                                       : place(element.node, "rx"),
                element.name == "path" ? "this part of the wall is curved"
                                       : "the corners of this wall are round",
-               std::string(element.name == "path" ? help : "take `rx` and `ry` away"));
+               std::string(element.name == "path" ? help : "remove `rx` and `ry`"));
   const auto before = pieces_.size();
   for (const auto& line : lines->lines)
     add_pieces(placed(element, line.points), line.closed);
   if (pieces_.size() == before && out_.findings.size() == said)
-    say(rules::CourseShape, place(element.node), "this wall has no length");
+    say(rules::CourseShape, place(element.node), "a wall of zero length");
 }
 
 void Reader::add_pieces(const std::vector<Point>& points, bool closed) {
@@ -118,11 +118,11 @@ void Reader::zone(const Element& element) {
   Zone zone;
   zone.id = element.node.attribute("id").value();
   if (zone.id.empty())
-    say(rules::CourseZone, place(element.node), "this zone has no `id`",
+    say(rules::CourseZone, place(element.node), "missing `id` of a zone",
         "give it one, such as `id=\"goal\"`: tests call it by that");
   else if (!ids_.insert(zone.id).second)
     say(rules::CourseZone, place(element.node, "id"),
-        fmt::format("another zone is called `{}`, too", zone.id), "each zone has an id of its own");
+        fmt::format("duplicate zone id `{}`", zone.id), "each zone has an id of its own");
   if (is_round(element))
     round_zone(element, zone);
   else if (const auto lines = element.name == "line" ? std::nullopt : outlines(element))
@@ -182,7 +182,7 @@ void Reader::start(const Element& element) {
       return refuse(element);
     if (lines->lines.size() != 1 || lines->lines.front().closed ||
         lines->lines.front().points.size() < 2)
-      return say(rules::CourseStart, arrow.span, "this shape does not say where the ball faces",
+      return say(rules::CourseStart, arrow.span, "this shape gives no direction for the ball",
                  "a start is a circle, or an arrow: one line or open path from its tail to its "
                  "head");
     auto tail = lines->lines.front().points.front();
@@ -221,7 +221,7 @@ bool Reader::find_start() {
   const Point way{start.toward->x - start.place.x, start.toward->y - start.place.y};
   const double length = std::hypot(way.x, way.y);
   if (!(length > 0) || !std::isfinite(length)) {
-    say(rules::CourseStart, start.span, "this start does not say where the ball faces",
+    say(rules::CourseStart, start.span, "this start gives no direction for the ball",
         "its first and its last point are in the same place");
     return false;
   }

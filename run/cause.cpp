@@ -266,7 +266,7 @@ public:
     cause.seen =
         fmt::format("{} subroutines are open, called in lines {}", core.frames.call_depth, lines);
     if (calls_itself && statement_.kind == Statement::Gosub)
-      cause.help = fmt::format("to go round again, write `{} goto {}`", line_.number,
+      cause.help = fmt::format("to repeat, write `{} goto {}`", line_.number,
                                program_.as<compiler::BranchView>(statement_).target.value);
     else
       cause.help = "a subroutine ends at its `return`; a `goto` out of it leaves it open";
@@ -325,10 +325,10 @@ public:
     const auto count = machine_->core().data_count;
     const auto before = free_number();
     if (count == 0)
-      return {.seen = "no `data` has run yet",
+      return {.seen = "no `data` line has run yet",
               .help = before ? fmt::format("write `{} data 1,2,3`", *before) : ""};
     return {.seen = fmt::format("all {} values of `data` are read", count),
-            .help = before ? fmt::format("to begin again, write `{} rstr`", *before) : ""};
+            .help = before ? fmt::format("to start again, write `{} rstr`", *before) : ""};
   }
 
 private:
@@ -428,10 +428,9 @@ const structured::Symbol* only_array(const structured::Compiled& compiled,
 Cause wrong_index(const structured::Compiled& compiled, const structured::Statement& statement) {
   const auto* array = only_array(compiled, statement);
   if (array == nullptr)
-    return {.seen = "an index is outside of its array"};
+    return {.seen = "array index out of bounds"};
   const auto name = compiled.program.name(array->name);
-  return {.seen =
-              fmt::format("the index is outside of `{0}[1]` to `{0}[{1}]`", name, array->value)};
+  return {.seen = fmt::format("the index is outside `{0}[1]` to `{0}[{1}]`", name, array->value)};
 }
 
 /// The cause of a fault in the words of a structured program: with its names, and without lines of
@@ -451,7 +450,7 @@ Cause structured_cause(const structured::Compiled& compiled, const compiler::Pro
     names[robot.names[n].letter] =
         compiled.program.name(compiled.names.symbols[robot.names[n].symbol].name);
   auto cause = cause_of(program, line, code, machine, &names);
-  cause.help = code == BasicError::OutOfData ? "`rstr` begins with the first value again" : "";
+  cause.help = code == BasicError::OutOfData ? "`rstr` starts again with the first value" : "";
   return cause;
 }
 

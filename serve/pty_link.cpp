@@ -104,7 +104,7 @@ tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
   if (::symlink(our_target(slave_).c_str(), path.c_str()) != 0) {
     if (errno == EEXIST)
       return tl::unexpected(
-          IoError{fmt::format("`{}` exists and is not a link; give another name", path)});
+          IoError{fmt::format("`{}` exists and is not a symbolic link; give another name", path)});
     return tl::unexpected(failure("make link " + path));
   }
   path_ = path;

@@ -53,7 +53,7 @@ void report_crowd(Compiled& compiled) {
   const auto& statement = program.statements[compiled.code.lines[letters.crowded_line].origin];
   program.diagnostics.push_back(
       finding(rules::TooManyVariables, statement.span,
-              fmt::format("{} variables are in use at once here; the robot has {} letters for them",
+              fmt::format("{} variables are live at once here; the robot has {} letters for them",
                           letters.crowd.size(), letters.available),
               fmt::format("in use: {}", names)));
 }
@@ -76,10 +76,10 @@ bool report_chain(Compiled& compiled, const Plan& plan) {
                          program.name(compiled.names.symbols[routine.symbol].name));
   }
   const auto& last = compiled.names.symbols[compiled.names.routines[plan.chain.back()].symbol];
-  program.diagnostics.push_back(finding(
-      rules::CallDepth, last.span,
-      fmt::format("calls go more than {} deep: {}", spec::value_of(spec::Limit::GosubDepth), chain),
-      "put the lines of one of them into its caller"));
+  program.diagnostics.push_back(finding(rules::CallDepth, last.span,
+                                        fmt::format("calls are more than {} levels deep: {}",
+                                                    spec::value_of(spec::Limit::GosubDepth), chain),
+                                        "inline one of them into its caller"));
   return true;
 }
 
@@ -102,7 +102,7 @@ Diagnostic wrong_index(const Compiled& compiled, const WrongIndex& wrong) {
   const auto elements = elements_of(compiled, statement);
   if (elements.size() != 1)
     return finding(rules::ArrayIndex, statement.span,
-                   "an index is outside of its array wherever this runs");
+                   "this always accesses an array out of bounds");
   const auto& array = compiled.names.symbols[compiled.names.of_node[elements.front()]];
   const auto found = wrong.index.constant() ? fmt::format("found {}", wrong.index.lo - array.base)
                                             : std::string("and the index is none of them");
@@ -203,8 +203,8 @@ void compile(Compiled& compiled, const compiler::Target& target,
              const std::vector<std::string>& kept, Shape shape) {
   if (compiled.program.statements.empty() && !compiled.has_errors())
     compiled.program.diagnostics.push_back(
-        finding(rules::NothingToRun, {0, 0}, "the file holds no statement",
-                "a program is a line such as `print \"hello\"`"));
+        finding(rules::NothingToRun, {0, 0}, "the file has no statement",
+                "write at least one line such as `print \"hello\"`"));
   compiled.names = resolve(compiled.program);
   check(compiled.program, compiled.names, target);
   compiled.runs = has_program(compiled.program);
@@ -297,8 +297,8 @@ void offer_lines(Compiled& compiled, std::string_view text, const compiler::Targ
 } // namespace
 
 Compiled compile(std::string name, std::string path, std::string_view text,
-                 const compiler::Target& target, Files& files,
-                 const std::vector<std::string>& kept, Shape shape) {
+                 const compiler::Target& target, Files& files, const std::vector<std::string>& kept,
+                 Shape shape) {
   Compiled compiled;
   compiled.program = read(std::move(name), std::move(path), text, files);
   compile(compiled, target, kept, shape);
@@ -317,8 +317,8 @@ std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view
 }
 
 Diagnostic nothing_to_run() {
-  return finding(rules::NothingToRun, {0, 0}, "the file holds declarations only",
-                 "include it from a program, or add a statement outside of its subs");
+  return finding(rules::NothingToRun, {0, 0}, "the file has only declarations",
+                 "include it from a program, or add a statement outside its subs");
 }
 
 std::string readable(const Compiled& compiled) {

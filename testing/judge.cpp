@@ -175,8 +175,7 @@ public:
     case Pattern::Found::GaveUp:
       // At once: with the next lines it would be no better, and nobody would wait for it.
       return miss(
-          fmt::format("the pattern takes too many steps on {}; write it simpler", quote(line.text)),
-          at);
+          fmt::format("the pattern takes too many steps on {}; simplify it", quote(line.text)), at);
     }
   }
 
@@ -299,8 +298,8 @@ private:
 
   std::string nothing() const {
     return one_.word == Word::Print       ? "nothing was printed"
-           : one_.word == Word::Marker    ? "no marker was passed"
-           : one_.word == Word::Collision ? "it ran into nothing"
+           : one_.word == Word::Marker    ? "no marker was emitted"
+           : one_.word == Word::Collision ? "there was no collision"
                                           : "no error happened";
   }
 
@@ -346,9 +345,9 @@ public:
       return;
     const auto& texts = one_.texts;
     if (next_ == texts.size())
-      return miss(fmt::format("a line more: {} at {}", quote(line.text), words(at.t)), at);
+      return miss(fmt::format("unexpected line: {} at {}", quote(line.text), words(at.t)), at);
     if (line.text != texts[next_])
-      return miss(fmt::format("line {} is {} at {}, not {}", next_ + 1, quote(line.text),
+      return miss(fmt::format("line {} is {} at {}, expected {}", next_ + 1, quote(line.text),
                               words(at.t), quote(texts[next_])),
                   at);
     ++next_;
@@ -359,7 +358,7 @@ public:
       return;
     if (next_ == one_.texts.size())
       return meet();
-    miss(fmt::format("{} of {} lines; line {} is missing: {}", next_, one_.texts.size(), next_ + 1,
+    miss(fmt::format("{} of {} lines; missing line {}: {}", next_, one_.texts.size(), next_ + 1,
                      quote(one_.texts[next_])));
   }
 
@@ -378,8 +377,8 @@ public:
     const auto reason = outcome.ending->reason;
     if (reason == Reason::TimeLimit || reason == Reason::Input)
       return miss(outcome.ending->waits_for.empty()
-                      ? fmt::format("it still ran at {}", words(outcome.over))
-                      : fmt::format("it waits for {}", outcome.ending->waits_for),
+                      ? fmt::format("it was still running at {}", words(outcome.over))
+                      : fmt::format("it is waiting for {}", outcome.ending->waits_for),
                   at);
     if (outcome.over <= one_.when.to)
       return meet();

@@ -61,7 +61,7 @@ public:
       return hear([&](Judge& judge) { judge.on_end(at, outcome); });
     if (one_.never)
       return meet();
-    miss(fmt::format("what comes first never came: {}", first_->seen()), first_->moment());
+    miss(fmt::format("the first event never happened: {}", first_->seen()), first_->moment());
   }
 
 private:
@@ -161,7 +161,7 @@ private:
     const bool other_came = other_->verdict() == Verdict::Met;
     if (other_came && (!came || time_of(*other_) < time_of(*first_)))
       return never_ ? meet(other_->moment())
-                    : miss(fmt::format("the other came first, at {}", words(time_of(*other_))),
+                    : miss(fmt::format("the other one came first, at {}", words(time_of(*other_))),
                            other_->moment());
     if (came)
       return never_ ? miss(fmt::format("it came first, at {}", words(time_of(*first_))),

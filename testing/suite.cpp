@@ -147,7 +147,7 @@ private:
       return;
     }
     if (text->find('\0') != std::string::npos) {
-      made.problem += fmt::format("{} is no text; a program is saved as plain text\n", path);
+      made.problem += fmt::format("{} is not a text file; programs are plain text\n", path);
       return;
     }
     auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_,
@@ -176,7 +176,7 @@ std::string beside(const std::string& name, std::string_view ending) {
 
 Diagnostic cannot_read(const std::string& path, Span span) {
   return finding(rules::File, span, fmt::format("cannot read {}", path),
-                 "paths count from the folder of the test file");
+                 "paths are relative to the folder of the test file");
 }
 
 /// Where the program of a test file is; nothing, and a finding, where there is none.
@@ -272,7 +272,7 @@ void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
   found.rule = &rules::Zone;
   if (!file.course) {
     found.meaning.problem = fmt::format("`{}` is a zone, and the file names no course", name);
-    found.help = "write `course hall.svg` at its beginning";
+    found.help = "add `course hall.svg` at its top";
     return;
   }
   std::vector<std::string_view> known;
@@ -391,7 +391,7 @@ void read_course(SuiteFile& file, structured::Files& files) {
   findings.push_back(finding(rules::File, given->span,
                              fmt::format("the course has mistakes: {}:{}:{}: {}", path, place.line,
                                          place.column, wrong->message),
-                             fmt::format("`orb check {}` tells them all", path)));
+                             fmt::format("`orb check {}` lists them all", path)));
 }
 
 /// Adds the groups of one file, for the given programs or its own.

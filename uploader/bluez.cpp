@@ -168,7 +168,7 @@ private:
     if (auto error = bluez::trouble(*bus_, adapter_))
       return tl::unexpected(*std::move(error));
     if (call.is("AccessDenied"))
-      return tl::unexpected(BleError{BleFailure::NotAllowed, "you may not use Bluetooth"});
+      return tl::unexpected(BleError{BleFailure::NotAllowed, "no permission to use Bluetooth"});
     if (failure != BleFailure::NotConnected && !connected())
       return tl::unexpected(BleError{
           BleFailure::Lost, step_ ? fmt::format("the link was lost while {}", info(*step_).doing)
@@ -298,7 +298,7 @@ private:
       return tl::unexpected(interrupted());
     if (lost() || !flag("ServicesResolved"))
       return failed(BleFailure::NotResolved,
-                    fmt::format("the robot did not say within {:.1f} s what it can do",
+                    fmt::format("the robot did not describe its services within {:.1f} s",
                                 seconds(patience.deadline - start)),
                     {});
     return std::string("its services are known");
@@ -337,7 +337,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
   std::map<std::string, SeenDevice> seen; // by path; what advertises itself seldom stays in
   const bluez::Discovery discovery(**bus, *adapter, answers);
   if (!discovery.started() && discovery.started().error().is("AccessDenied"))
-    return tl::unexpected(BleError{BleFailure::NotAllowed, "you may not use Bluetooth"});
+    return tl::unexpected(BleError{BleFailure::NotAllowed, "no permission to use Bluetooth"});
   const Patience patience{bluez::steady_now() + time, stop};
   std::optional<BleError> error;
   static_cast<void>((*bus)->wait(patience, [&] {
@@ -370,7 +370,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
 namespace orb::uploader {
 namespace {
 
-const BleError not_built{BleFailure::NotBuilt, "this orb was built without Bluetooth LE"};
+const BleError not_built{BleFailure::NotBuilt, "this build of orb has no Bluetooth LE"};
 
 } // namespace
 

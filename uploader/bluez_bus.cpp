@@ -17,9 +17,9 @@ BleError describe(const CallError& error) {
   if (error.interrupted)
     return interrupted();
   if (error.is("AccessDenied"))
-    return {BleFailure::NotAllowed, "you may not use Bluetooth"};
+    return {BleFailure::NotAllowed, "no permission to use Bluetooth"};
   if (error.name.empty())
-    return {BleFailure::NoDaemon, "bluetoothd does not answer"};
+    return {BleFailure::NoDaemon, "bluetoothd does not respond"};
   return {BleFailure::NoDaemon, "bluetoothd is not running"};
 }
 
@@ -102,7 +102,7 @@ tl::expected<void, CallError> Bus::finish(sdbus::IProxy& proxy, const sdbus::Met
   if (wait(patience, [&] { return result.has_value(); }))
     return *result;
   pending.cancel();
-  return tl::unexpected(CallError{{}, "no answer came in time", patience.stopped()});
+  return tl::unexpected(CallError{{}, "the answer timed out", patience.stopped()});
 }
 
 bool Bus::wait(const Patience& patience, const std::function<bool()>& done) {
@@ -188,7 +188,7 @@ void Bus::take_in(sdbus::Message& signal) {
 tl::expected<std::string, BleError> find_adapter(const Bus& bus) {
   const auto adapters = bus.all(adapter_interface);
   if (adapters.empty())
-    return tl::unexpected(BleError{BleFailure::NoAdapter, "there is no Bluetooth adapter"});
+    return tl::unexpected(BleError{BleFailure::NoAdapter, "no Bluetooth adapter found"});
   for (const auto& path : adapters)
     if (bus.get<bool>(path, adapter_interface, "Powered").value_or(false))
       return path;

@@ -81,7 +81,7 @@ tl::expected<Endpoint, std::string> read_ble(Endpoint endpoint, std::string_view
 
 tl::expected<Endpoint, std::string> read_path(Endpoint endpoint, std::string_view rest) {
   if (rest.empty())
-    return wrong(endpoint.text, "a path is missing");
+    return wrong(endpoint.text, "missing path");
   endpoint.path = rest;
   return endpoint;
 }

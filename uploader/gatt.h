@@ -7,7 +7,8 @@
 
 namespace orb::uploader {
 
-inline constexpr std::string_view held_by_another = "another program has the robot's answers";
+inline constexpr std::string_view held_by_another =
+    "another program is subscribed to the robot's answers";
 
 /// How long something is waited for.
 struct Patience {

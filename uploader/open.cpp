@@ -89,7 +89,7 @@ public:
   }
 
 private:
-  static constexpr auto takes_nothing = "the link takes no bytes any more";
+  static constexpr auto takes_nothing = "the link no longer accepts data";
 
   /// Runs the operation to its end or to the deadline; whether it has ended.
   bool run(const std::optional<asio::error_code>& result, Instant deadline) {
@@ -123,7 +123,7 @@ private:
     if (error == asio::error::eof || error.value() == EIO ||
         error == asio::error::connection_reset || error == asio::error::broken_pipe ||
         error == asio::error::timed_out || error.value() == ENODEV)
-      return failed(LinkError::Kind::Closed, "the other end hung up");
+      return failed(LinkError::Kind::Closed, "the other end closed the connection");
     return failed(LinkError::Kind::Broken, error.message());
   }
 

@@ -145,7 +145,7 @@ bool is_temporary(Route route) {
 }
 
 std::string_view note_of(Route route) {
-  return route == Route::UserMacro ? "the ball forgets user macros when it sleeps"
+  return route == Route::UserMacro ? "user macros are lost when the ball sleeps"
          : route == Route::StreamedMacro
              ? "a streamed macro runs while it arrives and is not stored"
              : "";

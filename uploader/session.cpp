@@ -190,7 +190,7 @@ tl::expected<protocol::Response, NoAnswer> Session::ask(ApiCommand command, cons
       also_.set(static_cast<std::uint8_t>(next_seq_ - 1));
       continue;
     }
-    if (spec::retry_of(answer->code) != Retry::SameAgain && !comes_round(answer->code)) {
+    if (spec::retry_of(answer->code) != Retry::SameAgain && !is_transient(answer->code)) {
       also_.reset();
       return answer;
     }
@@ -220,7 +220,7 @@ void Session::watch_duplicates() {
   duplicate_seen_ = false;
 }
 
-bool comes_round(std::uint8_t code) {
+bool is_transient(std::uint8_t code) {
   return code == static_cast<std::uint8_t>(spec::ResponseCode::MemoryBusy);
 }
 

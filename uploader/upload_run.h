@@ -110,7 +110,7 @@ tl::expected<std::optional<Response>, NoAnswer> inline send_once(Session& sessio
       return tl::unexpected(answer.error());
     if (!answer || (duplicates == Duplicates::Matter && session.duplicate_seen()))
       return std::nullopt;
-    if (comes_round(answer->code)) {
+    if (is_transient(answer->code)) {
       if (const auto waited = session.listen(session.now() + session.budgets().backoff(resend + 1));
           !waited)
         return tl::unexpected(waited.error());

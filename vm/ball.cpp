@@ -219,7 +219,7 @@ void Ball::run_events(Instant others) {
     detect_collision(*impact);
   }
   watch_motion();
-  keep_house();
+  run_housekeeping();
   run_script();
   if (dispatcher_.next_event() <= now_)
     dispatcher_.run(now_);
@@ -243,7 +243,7 @@ void Ball::run_script() {
   }
 }
 
-void Ball::keep_house() {
+void Ball::run_housekeeping() {
   if (now_ >= power_.wake_at())
     wake();
   drive_.run(now_);

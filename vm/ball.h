@@ -164,7 +164,7 @@ private:
   void run_events(Instant others);
   void pass(Instant target);
   void run_script();
-  void keep_house();
+  void run_housekeeping();
   void settle();
   void finish_program();
   void watch_motion();

@@ -110,9 +110,9 @@ private:
     if (next_ < words_.size())
       value = read(words_[next_].text);
     if (!value && problem_.empty()) {
-      problem_ = next_ < words_.size()
-                     ? fmt::format("the {} is {}, found `{}`", what, wanted, words_[next_].text)
-                     : fmt::format("the {} is missing: {}", what, wanted);
+      problem_ = next_ < words_.size() ? fmt::format("the {} must be {}, found `{}`", what, wanted,
+                                                     words_[next_].text)
+                                       : fmt::format("missing {}: expected {}", what, wanted);
       if (next_ < words_.size())
         where_ = words_[next_].span;
     }

@@ -1,3 +1,4 @@
+#include "base/rules.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "cli/commands.h"
@@ -71,8 +72,8 @@ void run(Context& context, const reference::CommandLine& line, const std::string
   const auto near = nearest(word, views, most);
   fail(context,
        {ExitCode::BadInput,
-        fmt::format("nothing is known about `{}`; {}", word,
-                    near.empty() ? "`orb spec` lists all there is"
+        fmt::format("unknown word `{}`; {}", word,
+                    near.empty() ? "`orb spec` lists everything"
                                  : fmt::format("did you mean `{}`?", fmt::join(near, "`, `")))});
 }
 
@@ -89,7 +90,8 @@ void add_explain(const Command& orb, Context& context) {
           "a statement, variable, colour, error, limit, rule, command or option; or a line of "
           "another language")
       .required();
-  command.callback([orb, &context, word] { run(context, as_data(orb), *word); });
+  command.callback(
+      [orb, &context, word] { run(context, as_data(orb), std::string(current_id(*word))); });
 }
 
 } // namespace orb::cli

@@ -49,7 +49,7 @@ void print_page(Context& context, const std::vector<reference::ManualPage>& page
       names.push_back(names.back().substr(4));
   }
   fail(context,
-       {ExitCode::Usage, fmt::format("there is no page `{}`; {}", name,
+       {ExitCode::Usage, fmt::format("unknown page `{}`; {}", name,
                                      did_you_mean(name, names, "`orb man orb` lists them"))});
 }
 

@@ -46,7 +46,7 @@ bool select(std::vector<reference::Section>& sections, const std::string& id,
   if (!sections.empty())
     return true;
   print_error(context,
-              fmt::format("there is no section `{}`; {}", id,
+              fmt::format("unknown section `{}`; {}", id,
                           did_you_mean(id, ids, fmt::format("one of {}", fmt::join(ids, ", ")))));
   return false;
 }

@@ -35,14 +35,14 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
   if (size > room) {
     const auto line = line_at_byte(program, flow, room);
     findings.add(rules::ProgramTooLarge, program.lines[line].span,
-                 fmt::format("the program takes {} bytes, {} more than the {} of the {} area", size,
+                 fmt::format("the program is {} bytes, {} more than the {} of the {} area", size,
                              size - room, room, in_ram ? "RAM" : "flash"),
                  "`orb build --pack` makes it smaller");
   } else if (in_ram && !target.ram_bytes && size > oldest) {
     const auto line = line_at_byte(program, flow, oldest);
     findings.add(
         rules::LargerThanOldRam, program.lines[line].span,
-        fmt::format("the program takes {} bytes; older robots have room for {}", size, oldest),
+        fmt::format("the program is {} bytes; older robots have room for {}", size, oldest),
         fmt::format("give `--ram {}` if yours has more", spec::value_of(spec::Limit::RamBytes)));
   }
 }

@@ -109,10 +109,10 @@ private:
       const auto& line = program_.lines[line_of(first)];
       if (!line.has_number())
         continue;
-      findings_.add(
-          rules::UnreachableLine, line.number_span,
-          i == first ? fmt::format("line {} is never reached", line.number)
-                     : fmt::format("lines {} to {} are never reached", line.number, number_of(i)));
+      findings_.add(rules::UnreachableLine, line.number_span,
+                    i == first
+                        ? fmt::format("line {} is unreachable", line.number)
+                        : fmt::format("lines {} to {} are unreachable", line.number, number_of(i)));
     }
   }
 
@@ -172,8 +172,8 @@ private:
       reported = true;
       auto& d = findings_.add(
           rules::FallIntoSubroutine, statement(i - 1).span,
-          fmt::format("the program runs on into the subroutine at line {}", number_of(i)),
-          "put an `end` after this line");
+          fmt::format("execution falls through into the subroutine at line {}", number_of(i)),
+          "add `end` after this line");
       add_note(d, statement(i).span, "the subroutine begins here");
     }
     if (reported)
@@ -183,7 +183,7 @@ private:
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (!jump.call && jump.to != none && inside_[jump.to] != 0 && returns_from(jump.to))
             findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
-                          fmt::format("line {} belongs to a subroutine and leads to its `return`",
+                          fmt::format("line {} is part of a subroutine and leads to its `return`",
                                       number_of(jump.to)),
                           "call it with `gosub`");
   }
@@ -242,11 +242,12 @@ private:
       return; // ends the program on purpose, where something has gone wrong
     const auto number = number_of(last);
     findings_.add(rules::NeverReturns, program_.items[jump.item].span,
-                  fmt::format("line {} never comes back: no way from it leads to a `return`",
+                  fmt::format("line {} never returns: no path from it reaches a `return`",
                               number_of(jump.to)),
-                  flow_.code[last].falls ? fmt::format("below line {} write `return`", number)
-                                         : fmt::format("in place of `{}` in line {} write `return`",
-                                                       program_.text_of(end.span), number));
+                  flow_.code[last].falls
+                      ? fmt::format("add `return` below line {}", number)
+                      : fmt::format("in line {1} write `return` instead of `{0}`",
+                                    program_.text_of(end.span), number));
   }
 
   static bool is_return(const StatementNode& node) {
@@ -289,7 +290,7 @@ private:
           if (jump.call) {
             findings_.add(rules::GosubDepth, statement(i).span,
                           fmt::format("{} calls are already open here", most),
-                          "put the subroutine's lines here, or call it from further up");
+                          "inline the subroutine here, or call it from further up");
             break;
           }
   }
@@ -353,7 +354,7 @@ private:
           leaves_or_waits(jump.to, i))
         continue;
       findings_.add(rules::BusyLoop, node.span,
-                    fmt::format("lines {} to {} run forever and never wait", number_of(jump.to),
+                    fmt::format("lines {} to {} loop forever without waiting", number_of(jump.to),
                                 number_of(i)),
                     "add a `delay`");
     }

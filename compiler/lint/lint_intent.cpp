@@ -211,27 +211,26 @@ private:
     if (fate.kind == Fate::Kind::Ends && what == Shows::Colour && is_light(statement) &&
         is_only_colour(statement))
       findings_.add(rules::MissingDelay, statement.span,
-                    "this colour is never seen: the program ends, and its colour with it",
-                    "put a `delay 1000` below it");
+                    "this colour is never seen: the program ends right after it",
+                    "add `delay 1000` below it");
     if (fate.kind != Fate::Kind::Replaced || (fate.at == code && !fate.round))
       return;
     const auto& next = statement_of(fate.at);
     if (fate.at == code) {
       if (what != Shows::BackLed)
-        findings_.add(
-            rules::MissingDelay, statement.span,
-            fmt::format("only the last {} of the loop is seen: nothing waits in it", name_of(what)),
-            "put a `delay 50` below this line");
+        findings_.add(rules::MissingDelay, statement.span,
+                      fmt::format("only the last {} of the loop is seen: the loop never waits",
+                                  name_of(what)),
+                      "add `delay 50` below this line");
       return;
     }
     if (what == Shows::Roll && (fate.round || fate.at < code))
       return; // rolls that steer replace each other, and turns come before them
-    auto& d = findings_.add(rules::MissingDelay, statement.span,
-                            fmt::format("this {0} is never seen: another {0} follows at once{1}",
-                                        name_of(what),
-                                        fate.round || fate.at < code ? ", in the next round" : ""),
-                            fate.at < code || fate.round ? "put a `delay 500` below it"
-                                                         : "put a `delay 500` between them");
+    auto& d = findings_.add(
+        rules::MissingDelay, statement.span,
+        fmt::format("this {0} is never seen: another {0} follows at once{1}", name_of(what),
+                    fate.round || fate.at < code ? ", in the next iteration" : ""),
+        fate.at < code || fate.round ? "add `delay 500` below it" : "add `delay 500` between them");
     add_note(d, next.span, fmt::format("the next {}", name_of(what)));
   }
 
@@ -344,13 +343,14 @@ private:
 
   void judge_end(Motion motion, Span where) {
     if (motion.kind == Motion::Kind::Drives) {
-      auto& d = findings_.add(rules::DrivesOn, where, "the program ends while the ball drives",
-                              "stop it first: `goroll 0,0,0`");
-      add_note(d, statement_of(motion.roll).span, "it has been driving since here");
+      auto& d =
+          findings_.add(rules::DrivesOn, where, "the program ends while the ball is still driving",
+                        "stop it first: `goroll 0,0,0`");
+      add_note(d, statement_of(motion.roll).span, "it starts driving here");
     }
     if (motion.kind == Motion::Kind::Coasts)
       add_go(rules::WeakBrake, statement_of(motion.roll),
-             "speed 0 with a go value above 0 lets the ball roll out", '0');
+             "speed 0 with a go value above 0 lets the ball coast", '0');
   }
 
   void judge_start(const StatementNode& roll) {
@@ -358,7 +358,7 @@ private:
     const auto speed = number_in(program_, items[1]);
     if (items.size() == 3 && speed.value_or(0) > 0 && number_in(program_, items[2]) == 0)
       add_go(rules::GoZero, roll,
-             fmt::format("go 0 brakes, whatever the speed: {} is not driven", *speed), '1');
+             fmt::format("go 0 brakes whatever the speed: {} has no effect", *speed), '1');
   }
 
   void add_go(const Rule& rule, const StatementNode& roll, std::string message, char go) {
@@ -468,9 +468,9 @@ private:
     const auto bounded = fmt::format("({}) % {}", text, turn);
     auto& d = findings_.add(
         heading ? rules::HeadingGrows : rules::ValueGrows, sum.span,
-        heading ? fmt::format("`{}` is a heading and grows forever; headings end at {}", letter,
-                              turn - 1)
-                : fmt::format("`{}` grows forever; the {} of `{}` ends at {}", letter,
+        heading ? fmt::format("`{}` is a heading and grows without limit; headings end at {}",
+                              letter, turn - 1)
+                : fmt::format("`{}` grows without limit; the {} of `{}` ends at {}", letter,
                               given.parameter->name, given.row->word, turn - 1),
         fmt::format("write `{}`", bounded));
     d.fix = Fix{d.help,

@@ -208,7 +208,7 @@ private:
             (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end)) {
           auto& d = findings_.add(
               rules::JumpOutOfFor, program_.items[jump.item].span,
-              fmt::format("line {} is outside the loop, which stays open", number_of(jump.to)),
+              fmt::format("line {} is outside the loop, which is left open", number_of(jump.to)),
               "set the loop variable to its end value and go to the `next`");
           add_note(d, statement(pairs_[pair].begin).span, "the loop");
         }
@@ -415,7 +415,7 @@ private:
 
   void add_stray_next(const StatementNode& node, Loops loops) {
     if (loops.count() == 0) {
-      findings_.add(rules::NextWithoutFor, node.span, "no loop is open here");
+      findings_.add(rules::NextWithoutFor, node.span, "`next` without `for`");
       return;
     }
     const auto innermost = spec::letter_name(loops.innermost());

@@ -42,8 +42,8 @@ void TextPass::check_bytes_of(std::uint32_t index) {
 }
 
 void TextPass::add_tab(std::uint32_t index, std::uint32_t first, std::uint32_t end) {
-  auto& d = findings_.add(rules::Tab, {first, first + 1}, "a tab stands where a space belongs",
-                          "write a space");
+  auto& d =
+      findings_.add(rules::Tab, {first, first + 1}, "tab instead of a space", "write a space");
   Fix fix{"write spaces", {}, Safety::Safe};
   bool in_string = false;
   for (auto i = program_.lines[index].span.begin; i < end; ++i) {
@@ -81,15 +81,15 @@ void TextPass::check_numbers() {
       continue;
     if (line.number == 0)
       findings_.add(rules::LineNumberRange, line.number_span,
-                    fmt::format("line number 0 is not {} to {}",
+                    fmt::format("line number 0 is out of range: {} to {}",
                                 spec::value_of(spec::Limit::LeastLineNumber),
                                 spec::value_of(spec::Limit::GreatestLineNumber)));
     if (line.number <= last && i > 0)
       ascending = false;
     if (line.number < last)
       findings_.add(rules::UnsortedLines, line.number_span,
-                    fmt::format("line {} stands below line {}", line.number, last),
-                    "lines run in the order of the text; `orb fmt --renumber` puts it right");
+                    fmt::format("line {} is below line {}", line.number, last),
+                    "lines run in the order of the text; `orb fmt --renumber` renumbers them");
     last = line.number;
     if (!line.has_statement())
       add_empty_line(line);
@@ -100,7 +100,7 @@ void TextPass::check_numbers() {
 
 void TextPass::add_empty_line(const Line& line) {
   auto& d = findings_.add(rules::LineWithoutStatement, line.number_span,
-                          fmt::format("line {} holds no statement and is dropped", line.number),
+                          fmt::format("line {} has no statement and is dropped", line.number),
                           line.comment.size() > 0 ? "a comment needs no number" : "");
   if (line.number == none - 1 || is_target(line.number))
     return;

@@ -199,14 +199,15 @@ private:
       return;
     constexpr std::int32_t brisk = 100; // for a first try
     add_tiny(statement, speed,
-             fmt::format("speed {} of {} hardly moves the ball", *value, spec::ball::greatest),
+             fmt::format("speed {} of {} barely moves the ball", *value, spec::ball::greatest),
              brisk);
   }
 
   void check_back_led(const StatementNode& statement) {
     const auto& value = program_.items_of(statement)[0];
     if (number(value) == 1)
-      add_tiny(statement, value, fmt::format("brightness 1 of {} is dark", spec::ball::greatest),
+      add_tiny(statement, value,
+               fmt::format("brightness 1 of {} is invisible", spec::ball::greatest),
                spec::ball::greatest);
   }
 
@@ -230,7 +231,7 @@ private:
     }
     if (sum == 0)
       return;
-    auto& d = findings_.add(rules::TinyValue, statement.span, "brightness 1 of 255 is dark",
+    auto& d = findings_.add(rules::TinyValue, statement.span, "brightness 1 of 255 is invisible",
                             fmt::format("write `{}`", line));
     d.fix = single_fix(d.help, statement.span, line, Safety::Unsafe);
   }

@@ -99,8 +99,8 @@ private:
     if (rounds < least_rounds || ms > most)
       return;
     findings_.add(rules::EmptyLoop, Span{statement.span.begin, loop.last().span.end},
-                  fmt::format("the loop does nothing for about {} milliseconds", ms),
-                  fmt::format("in place of the loop write `delay {}`", ms));
+                  fmt::format("the loop is a busy wait of about {} milliseconds", ms),
+                  fmt::format("write `delay {}` instead of the loop", ms));
   }
 
   // ---- values that are read in loops
@@ -148,14 +148,13 @@ private:
       read = statement_of(i).kind == Statement::Read ? &statement_of(i) : nullptr;
     auto& d = findings_.add(
         rules::ReadPastData, read->span,
-        reads ? fmt::format("{} values are read by the end of the loop, and `data` has {}", *reads,
-                            values)
-              : fmt::format("the loop reads on forever, and `data` has {}",
+        reads ? fmt::format("the loop reads {} values, but `data` has {}", *reads, values)
+              : fmt::format("the loop reads forever, but `data` has {}",
                             plural(static_cast<std::size_t>(values), "value")),
         reads ? fmt::format("add {} to `{}`, or let the loop end earlier",
                             plural(static_cast<std::size_t>(*reads - values), "value"),
                             program_.text_of(data->span))
-              : "write `rstr` where the values are to begin again");
+              : "write `rstr` where the values should start again");
     d.severity = Severity::Warning;
     add_note(d, data->span, "the values");
   }
@@ -188,7 +187,7 @@ private:
       return; // the loop ends after this round
     auto& d = findings_.add(
         rules::LoopVariableSet, inside.span,
-        fmt::format("the loop never ends: each round sets its variable to {} again", *value),
+        fmt::format("the loop never ends: each iteration sets its variable back to {}", *value),
         "use another variable");
     add_note(d, statement.span, "the loop");
   }
@@ -229,7 +228,7 @@ private:
     if (row.access == spec::Access::ReadClears && holds(*test, row.greatest) &&
         !holds(*test, row.least))
       return add_inverted(statement, condition.first, row,
-                          fmt::format("`{}` is {} for one reading only: this goes on at once",
+                          fmt::format("`{}` is {} for one reading only: this does not wait",
                                       row.word, row.greatest),
                           fmt::format("{} = {}", row.word, row.least));
     const auto set = is_timer(test->sensor) ? set_above(test->sensor, code) : std::nullopt;
@@ -237,7 +236,7 @@ private:
       return;
     const bool down = *set > 0;
     add_inverted(statement, condition.first, row,
-                 fmt::format("`{}` begins at {}: this goes on at once", row.word, *set),
+                 fmt::format("`{}` starts at {}: this does not wait", row.word, *set),
                  fmt::format("{} {} {}", row.word, down ? ">" : "<",
                              down ? test->number : std::max(test->number, 0)));
   }
@@ -320,10 +319,10 @@ private:
         rules::StaleSensor, copy.span,
         fmt::format("`{}` is read once, before the loop that waits for it",
                     spec::info(*sensor).word),
-        fmt::format("in the loop write `if {}{}`", program_.text_of(value.span),
+        fmt::format("write `if {}{}` in the loop", program_.text_of(value.span),
                     program_.text_of({condition.first.left.span.end,
                                       program_.statements[test->then_branch].span.end})));
-    add_note(d, test->span, "the loop asks the copy here");
+    add_note(d, test->span, "the loop tests the copy here");
   }
 
   const Program& program_;

@@ -7,7 +7,7 @@ void TextPass::check_branch(const StatementNode& statement) {
   if (row.in_then == spec::InThen::Unlisted)
     findings_.add(rules::UndocumentedInBranch, statement.word,
                   fmt::format("`{}` is not documented inside `then` and `else`", row.word),
-                  "put it on a line of its own and jump there");
+                  "move it to a line of its own and jump there");
 }
 
 void TextPass::check(const StatementNode& statement) {
@@ -41,7 +41,7 @@ void TextPass::check_age_of_goroll(const StatementNode& statement) {
     return;
   add_newer(statement.word, row.word, row.since);
   findings_.all().back().help =
-      fmt::format("it had two values then: write `{}`",
+      fmt::format("in those versions it took two values: write `{}`",
                   program_.text_of({statement.word.begin, values[values.size() - 2].span.end}));
 }
 
@@ -55,7 +55,7 @@ void TextPass::check_age_of_timer(const LetView& let) {
     return;
   auto& d = findings_.add(
       rules::NewerThanTarget, let.variable.span,
-      fmt::format("a timer that is set to 0 counts up since orbBasic {}, the target has {}",
+      fmt::format("a timer that is set to 0 counts up since orbBasic {}; the target is {}",
                   spec::info(row.since).text, spec::info(target_.version).text),
       "set it to a number and see how far it has counted down");
   d.severity = Severity::Warning;
@@ -63,7 +63,7 @@ void TextPass::check_age_of_timer(const LetView& let) {
 
 void TextPass::add_newer(Span span, std::string_view word, spec::BasicVersion since) {
   findings_.add(rules::NewerThanTarget, span,
-                fmt::format("`{}` needs orbBasic {}, the target has {}", word,
+                fmt::format("`{}` needs orbBasic {}; the target is {}", word,
                             spec::info(since).text, spec::info(target_.version).text));
 }
 
@@ -117,7 +117,7 @@ void TextPass::check_targets() {
 
 void TextPass::add_empty_target(const Item& target, std::uint32_t index) {
   auto& d = findings_.add(rules::EmptyTarget, target.span,
-                          fmt::format("line {} holds no statement and is dropped", target.value),
+                          fmt::format("line {} has no statement and is dropped", target.value),
                           "jump to the line below it");
   const auto at = program_.lines.begin() + index;
   const auto below = std::find_if(at, program_.lines.end(), [](const Line& line) {
@@ -158,7 +158,7 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
     return;
   const auto quoted = fmt::format("\"{}\"", text.substr(1, last - 1));
   auto& d = findings_.add(rules::SingleQuotes, {statement.span.begin, comment.end},
-                          "`'` begins a comment, so this prints an empty line",
+                          "`'` starts a comment, so this prints an empty line",
                           fmt::format("write `print {}`", quoted));
   if (quoted.find('"', 1) == quoted.size() - 1)
     d.fix = single_fix(
@@ -167,8 +167,8 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
 
 void TextPass::add_semicolon(const Item& semicolon, const Item& next) {
   auto& d = findings_.add(rules::SemicolonInPrint, semicolon.span,
-                          "a `;` means something only at the end of a print",
-                          "leave it out, or write `,` for a space");
+                          "`;` only has an effect at the end of a `print`",
+                          "remove it, or write `,` for a space");
   // A blank keeps what stands on both sides apart; a minus sign would join them.
   if (program_.text[next.span.begin] != '-')
     d.fix = single_fix("write a space", {semicolon.span.begin, next.span.begin}, " ");
@@ -178,16 +178,16 @@ void TextPass::check_data(std::span<const Item> values) {
   const auto count = static_cast<std::uint32_t>(values.size());
   const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues));
   if (count > most)
-    findings_.add(rules::TooManyDataValues, values[most].span,
-                  fmt::format("the line holds {} values; the robot ignores those after the {}th",
-                              count, most));
+    findings_.add(
+        rules::TooManyDataValues, values[most].span,
+        fmt::format("the line has {} values; the robot ignores those after the {}th", count, most));
   for (const auto& value : values) {
     const auto& root = program_.nodes[value.value];
     const bool negative =
         root.kind == NodeKind::Negate && program_.nodes[value.value - 1].kind == NodeKind::Number;
     if (root.kind != NodeKind::Number && !negative) {
       findings_.add(rules::DataExpression, value.span,
-                    "a `data` value is a plain number in the documents");
+                    "the documents only allow plain numbers in `data`");
       break;
     }
   }
@@ -216,8 +216,8 @@ void TextPass::add_missing_blank(std::uint32_t at, std::string_view what) {
   if (blank_missing_)
     return; // one for a line is enough
   blank_missing_ = true;
-  auto& d = findings_.add(rules::MissingBlank, {at, at},
-                          fmt::format("a space is missing next to {}", what));
+  auto& d =
+      findings_.add(rules::MissingBlank, {at, at}, fmt::format("missing space next to {}", what));
   d.fix = single_fix("insert a space", {at, at}, " ");
 }
 
@@ -264,8 +264,8 @@ void TextPass::check_depth(const Node& node) {
   const auto most = spec::value_of(spec::Limit::ExpressionLevels);
   if (node.depth == most + 1)
     findings_.add(rules::ExpressionLevels, node.span,
-                  fmt::format("more than {} parentheses and functions are open at once", most),
-                  "compute part of it on a line of its own");
+                  fmt::format("more than {} nested parentheses and functions", most),
+                  "compute part of it on a separate line");
 }
 
 void TextPass::add_negative(const Node& node) {
@@ -304,14 +304,14 @@ void TextPass::check_system(const Node& node) {
   const bool old_name = !row.old_word.empty() && program_.text_of(node.span) == row.old_word;
   if (old_name && target_.version >= row.since) {
     auto& d = findings_.add(rules::OldName, node.span,
-                            fmt::format("`{}` has been called `{}` since orbBasic {}", row.old_word,
+                            fmt::format("`{}` was renamed to `{}` in orbBasic {}", row.old_word,
                                         row.word, spec::info(row.since).text),
                             fmt::format("write `{}`", row.word));
     d.fix = single_fix(d.help, node.span, std::string(row.word));
   } else if (!old_name && row.since > target_.version) {
     add_newer(node.span, row.word, row.since);
     if (!row.old_word.empty())
-      findings_.all().back().help = fmt::format("it was called `{}` then", row.old_word);
+      findings_.all().back().help = fmt::format("in that version write `{}`", row.old_word);
   }
 }
 
@@ -323,11 +323,11 @@ void TextPass::check_operand(const Node& node, const Node& operand) {
   const bool parenthesis = program_.text[operand.span.begin] == '(';
   if (op.level != spec::Level::Low && !parenthesis)
     return;
-  auto& d =
-      findings_.add(rules::FunctionOperand, node.span,
-                    fmt::format("`{}` takes all of `{}`", row.word, program_.text_of(operand.span)),
-                    fmt::format("write `{} ({})`, or `({} …)` for less", row.word,
-                                program_.text_of(operand.span), row.word));
+  auto& d = findings_.add(
+      rules::FunctionOperand, node.span,
+      fmt::format("`{}` applies to all of `{}`", row.word, program_.text_of(operand.span)),
+      fmt::format("write `{} ({})`, or `({} …)` for less", row.word, program_.text_of(operand.span),
+                  row.word));
   // Other fixes of the same round may put parentheses around and into this operand.
   const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
   if (levels <= spec::value_of(spec::Limit::ExpressionLevels))

@@ -93,7 +93,7 @@ void ValuesPass::check_may_leave(const Item& value, std::string_view word,
   else if (turn == full_turn && range.lo >= -full_turn)
     help = fmt::format("write `({} + {}) % {}`", text, full_turn, full_turn);
   else
-    help = fmt::format("where it is outside, set it to {} or {} first", parameter.least,
+    help = fmt::format("set it to {} or {} first when it is out of range", parameter.least,
                        parameter.greatest);
   const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
   add_may_leave(
@@ -148,7 +148,7 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
          {{value.span.end, value.span.end}, fmt::format("{} % {}", single ? "" : ")", full_turn)}},
         Safety::Safe};
   } else if (single && range_of(value).hi > parameter.greatest) {
-    d.help = fmt::format("let the loop end at {}", parameter.greatest);
+    d.help = fmt::format("end the loop at {}", parameter.greatest);
   }
   return true;
 }
@@ -192,7 +192,7 @@ void ValuesPass::check_flags(const Item& value) {
     if (range.constant() && (range.lo & static_cast<std::int32_t>(row.flag)) != 0 &&
         row.since > target_.version)
       findings_.add(rules::NewerThanTarget, value.span,
-                    fmt::format("flag {} ({}) needs orbBasic {}, the target has {}",
+                    fmt::format("flag {} ({}) needs orbBasic {}; the target is {}",
                                 static_cast<int>(row.flag), row.symbol, spec::info(row.since).text,
                                 spec::info(target_.version).text));
   const auto all = spec::value_of(spec::Limit::GreatestBasicFlags);
@@ -211,10 +211,10 @@ void ValuesPass::check_sleep(const Item& value) {
   if (number != nullptr && number->code != none)
     return;
   auto& d = findings_.add(number == nullptr ? rules::MissingTarget : rules::EmptyTarget, value.span,
-                          fmt::format("there is no line {} to wake up at", range.lo));
+                          fmt::format("no line {} to wake up at", range.lo));
   if (target_.area == Area::Ram) {
     d.severity = Severity::Info;
-    d.help = "the line is looked up in the flash area, which this program does not fill";
+    d.help = "the line is looked up in the flash area, where this program is not stored";
   }
 }
 
@@ -245,7 +245,7 @@ void ValuesPass::check_for(const ForView& loop) {
       d.help = "to count down write `step -1`";
   }
   if (variable.kind == ItemKind::Indexed) {
-    findings_.add(rules::IndexedLoop, variable.span, "the loop counts in `Z`",
+    findings_.add(rules::IndexedLoop, variable.span, "`Z` as a loop variable",
                   "count in one of A to X");
     check_index(variable.span);
     return;
@@ -370,11 +370,11 @@ void ValuesPass::check_print(const StatementNode& statement) {
   const auto limit = static_cast<std::uint64_t>(spec::value_of(spec::Limit::PrintBytes));
   if (least > limit)
     findings_.add(rules::PrintTooLong, statement.span,
-                  fmt::format("the print takes at least {} bytes; the limit is {}", least, limit),
+                  fmt::format("the print is at least {} bytes; the limit is {}", least, limit),
                   "end the first part with `;` and print the rest on the next line");
   else if (most > limit)
     findings_.add(rules::PrintMayBeTooLong, statement.span,
-                  fmt::format("the print can take {} bytes; the limit is {}", most, limit));
+                  fmt::format("the print can be {} bytes; the limit is {}", most, limit));
 }
 
 void ValuesPass::check_input(const StatementNode& statement) {
@@ -388,9 +388,9 @@ void ValuesPass::check_input(const StatementNode& statement) {
 void ValuesPass::check_data(const StatementNode& statement) {
   if (data_.unread != nullptr && !conditional_) {
     auto& d = findings_.add(rules::DataReplaced, statement.word,
-                            "these values replace those of the line before, which were never read",
+                            "these values replace the previous `data`, which was never read",
                             "put all values on one line");
-    add_note(d, data_.unread->span, "the values that are lost");
+    add_note(d, data_.unread->span, "these values are lost");
   }
   const auto count = static_cast<std::uint32_t>(program_.items_of(statement).size());
   data_.size = std::min(count, static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues)));
@@ -407,7 +407,7 @@ void ValuesPass::check_read(const StatementNode& statement) {
     data_.left = DataSet::unknown;
   } else if (data_.left == DataSet::unknown) {
     if (!has_data())
-      findings_.add(rules::ReadPastData, statement.span, "there is no `data` to read",
+      findings_.add(rules::ReadPastData, statement.span, "`read` without `data`",
                     "add a `data` line above");
   } else if (count > data_.left) {
     findings_.add(rules::ReadPastData, statement.span,
@@ -434,7 +434,7 @@ void ValuesPass::check_quotient(const Node& node, std::uint32_t index) {
   if (left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0)
     return;
   findings_.add(rules::ZeroQuotient, node.span,
-                fmt::format("`{} / {}` is 0: values are whole numbers", left.value, right.value),
+                fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
                 fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
 }
 

@@ -130,8 +130,8 @@ void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) 
   if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
     findings_.add(
         rules::ClearedByReading, node.span,
-        fmt::format("`{}` is read again, but the previous read has already set it to 0", row.word),
-        "copy it into a variable and use that");
+        fmt::format("`{}` is read again, but reading it has already reset it to 0", row.word),
+        "copy it into a variable and use the copy");
   cleared_on_line_ |= bit(slot);
   if (!conditional_)
     cleared_ |= bit(slot);
@@ -146,13 +146,13 @@ Range ValuesPass::evaluate_binary(const Node& node, std::uint32_t index) {
   const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
   if (divides && right == Range::only(0)) {
-    findings_.add(rules::DivisionByZero, right_span, "the divisor is 0");
+    findings_.add(rules::DivisionByZero, right_span, "division by zero");
     return {};
   }
   const auto most = spec::value_of(spec::Limit::GreatestShift);
   if (shifts && right.misses(0, most)) {
     findings_.add(rules::ValueOutOfRange, right_span,
-                  fmt::format("a shift is by 0 to {} bits, found {}", most, shown(right)));
+                  fmt::format("a shift must be 0 to {} bits, found {}", most, shown(right)));
     return {};
   }
   const auto result = apply(op, left, right);

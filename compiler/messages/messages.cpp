@@ -48,7 +48,7 @@ public:
       return make(rules::SyntaxError, fmt::format("`{}` cannot begin a statement", token()));
     case Reason::ReadOnly: return read_only();
     case Reason::IndexedParenthesis:
-      return make(rules::IndexedParenthesis, "`Z` takes no index in parentheses",
+      return make(rules::IndexedParenthesis, "`Z` does not take an index in parentheses",
                   "set `Y` on an earlier line, then use `Z` alone");
     case Reason::ImpliedGoto: {
       auto d = make(rules::ImpliedGoto, fmt::format("`{}` is not a statement", token()),
@@ -58,9 +58,9 @@ public:
     }
     case Reason::TooDeep:
       return make(rules::ExpressionLevels,
-                  fmt::format("far more than {} parentheses and functions are open at once",
+                  fmt::format("far more than {} nested parentheses and functions",
                               spec::value_of(spec::Limit::ExpressionLevels)),
-                  "compute part of it on a line of its own");
+                  "compute part of it on a separate line");
     case Reason::ExpectedStatement: return expected_statement();
     case Reason::ExpectedExpression: return expected_expression();
     case Reason::ExpectedTarget: return expected_target();
@@ -77,10 +77,10 @@ public:
     case Reason::ExpectedGotoOrGosub: return expected("`goto` or `gosub`");
     case Reason::Trailing: return trailing();
     case Reason::NestedIf:
-      return make(rules::NestedIf, "an `if` cannot stand inside another `if`",
-                  "join two comparisons with `and`, or write the second on a line of its own");
+      return make(rules::NestedIf, "`if` cannot be nested",
+                  "join two comparisons with `and`, or write the second on a separate line");
     case Reason::ExpectedQuote:
-      return make(rules::SyntaxError, "unterminated string", "add `\"` at its end");
+      return make(rules::SyntaxError, "unterminated string", "add `\"` at the end");
     case Reason::MissingNumber: break; // of all lines at once: lint/lint_numbers.cpp
     }
     return make(rules::SyntaxError, "malformed line");
@@ -131,7 +131,7 @@ private:
       if (name.starts_with(prefix) &&
           find_word(name.substr(prefix.size())).kind != WordKind::Unknown) {
         auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a statement", name),
-                      fmt::format("put a space after `{}`", prefix));
+                      fmt::format("add a space after `{}`", prefix));
         const auto at = fault_.span.begin + static_cast<std::uint32_t>(prefix.size());
         set_fix(d, d.help, {at, at}, " ", Safety::Safe);
         return d;
@@ -261,12 +261,12 @@ private:
     auto end = begin;
     while (end < line_.span.end && is_digit(text_[end]))
       ++end;
-    d.help = fmt::format("values are whole numbers: write `A {} B {} 1` for `A {}= B`", sign,
+    d.help = fmt::format("values are integers: write `A {} B {} 1` for `A {}= B`", sign,
                          step > 0 ? '+' : '-', sign);
     if (const auto name = word_at(begin); name.size() > 0 && ends_comparison(name.end)) {
       const auto changed =
           fmt::format("{} {} {} 1", sign, program_.text_of(name), step > 0 ? '+' : '-');
-      d.help = fmt::format("values are whole numbers: write `{}`", changed);
+      d.help = fmt::format("values are integers: write `{}`", changed);
       offer(d, fmt::format("write `{}`", changed), {{{span.begin, name.end}, changed}});
       return;
     }
@@ -276,7 +276,7 @@ private:
       return;
     // Older robots have no negative numbers.
     const auto other = *value + step < 0 ? std::string("0 - 1") : std::to_string(*value + step);
-    d.help = fmt::format("values are whole numbers: write `{} {}`", sign, other);
+    d.help = fmt::format("values are integers: write `{} {}`", sign, other);
     d.fix = Fix{fmt::format("write `{} {}`", sign, other),
                 {Edit{span, std::string(1, sign)}, Edit{{begin, end}, other}},
                 Safety::Safe};
@@ -304,8 +304,8 @@ private:
 
   Diagnostic expected_then() const {
     if (token() == "and" || token() == "or")
-      return make(rules::TooManyRelations, "an `if` takes at most two comparisons",
-                  "put the third in an `if` on a line of its own");
+      return make(rules::TooManyRelations, "`if` takes at most two comparisons",
+                  "put the third in a separate `if`");
     if (token().size() > 1 && is_relation(token()[0]))
       return bad_operator(fault_.span);
     return expected("`then`");
@@ -332,8 +332,8 @@ private:
   Diagnostic expected_parenthesis() const {
     if (!token().empty() && is_relation(token()[0]))
       return fault_.statement == spec::Statement::If
-                 ? make(rules::ParenthesizedRelation, "a comparison cannot stand in parentheses",
-                        "leave the parentheses out: `if A > 1 and B < 2 then`")
+                 ? make(rules::ParenthesizedRelation, "a comparison cannot be in parentheses",
+                        "remove the parentheses: `if A > 1 and B < 2 then`")
                  : make(rules::SyntaxError, "comparisons are only allowed in `if`");
     if (token() == ".")
       return unsupported_number();
@@ -364,8 +364,8 @@ private:
       ++end;
     const Span span{begin, end};
     return make_at(rules::UnsupportedNumber, span,
-                   fmt::format("`{}` is not a whole decimal number", program_.text_of(span)),
-                   "orbBasic computes with whole numbers; count in tenths or hundredths");
+                   fmt::format("`{}` is not a decimal integer", program_.text_of(span)),
+                   "orbBasic has only integers; count in tenths or hundredths");
   }
 
   Diagnostic trailing() const {

@@ -39,7 +39,7 @@ private:
     const auto parts = repair::split(line, repair::Language::Basic);
     if (!parts.tokens.empty() || parts.comment.empty())
       return std::nullopt;
-    auto d = finding(rules::Rem, fault_.span, "comments begin with `'`",
+    auto d = finding(rules::Rem, fault_.span, "comments start with `'`",
                      fmt::format("write `{}`", parts.comment));
     d.fix = Fix{d.help, {{{begin(), line_.span.end}, parts.comment}}, Safety::Safe};
     return d;
@@ -51,7 +51,7 @@ private:
       return std::nullopt;
     const auto colon = skip_blanks(end());
     auto d = finding(rules::UnknownStatement, {begin(), colon + 1},
-                     fmt::format("`{}:` is a label; orbBasic has none", token()),
+                     fmt::format("`{}:` is a label; orbBasic has no labels", token()),
                      fmt::format("jump to the line by its number: `goto {}`", line_.number));
     if (edits_of_name({}).size() > 1)
       return d; // the jumps to it come first
@@ -155,8 +155,8 @@ private:
     if (!at || is(Reason::MissingNumber))
       return std::nullopt;
     auto d = finding(rules::Colon, {*at, *at + 1},
-                     "a line takes one statement; `:` does not separate statements",
-                     "put what follows on a line of its own");
+                     "one statement per line; `:` does not separate statements",
+                     "put the rest on a separate line");
     // After `then` the rest belongs to the branch, which holds one statement.
     const bool branch = program_.text_of(word_at(skip_blanks(line_.number_span.end))) == "if";
     if (!line_.has_number() || line_.number_span.size() == 0 || branch)
@@ -165,7 +165,7 @@ private:
     const auto rest = skip_blanks(*at + 1);
     if (!number || rest == code_end())
       return d;
-    d.help = fmt::format("put what follows on a line of its own: `{} {}`", *number,
+    d.help = fmt::format("put the rest on a separate line: `{} {}`", *number,
                          text_.substr(rest, code_end() - rest));
     d.fix = Fix{fmt::format("make it line {}", *number),
                 {{{skip_back(*at), rest}, fmt::format("\n{} ", *number)}},

@@ -108,7 +108,7 @@ debug::Launch wanted_by(const Json& arguments) {
 
 Answer Session::launch(const Json& arguments) {
   if (debugger != nullptr)
-    return refuse("a program is launched already");
+    return refuse("a program is already launched");
   if (auto wrong = mistyped(arguments))
     return refuse(*std::move(wrong));
   auto wanted = wanted_by(arguments);

@@ -40,7 +40,7 @@ Answer Session::reverse_continue(const Json& arguments) {
 
 Answer Session::move(debug::Move move, debug::Direction direction, const Json& arguments) {
   if (over)
-    return refuse("the run is over; `restart` begins it again");
+    return refuse("the run is over; `restart` starts it again");
   if (robot != nullptr && direction == debug::Direction::Back)
     return refuse(std::string(debug::no_way_back));
   go(move, direction, thread_of(arguments));
@@ -49,7 +49,7 @@ Answer Session::move(debug::Move move, debug::Direction direction, const Json& a
 
 Answer Session::pause(const Json&) {
   if (!going)
-    return refuse("the program stands still already");
+    return refuse("the program is already stopped");
   afterwards = [this] {
     going = false;
     debugger->timeline().hold();

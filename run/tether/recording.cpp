@@ -160,9 +160,8 @@ tl::expected<DriveRecording, std::string> parse_drive_recording(std::string_view
     if (!known) {
       known = line == schema;
       if (!known)
-        return tl::unexpected(fmt::format("it is no recording of a drive: its first line is not "
-                                          "`{}`",
-                                          schema));
+        return tl::unexpected(
+            fmt::format("not a recording of a drive: its first line is not `{}`", schema));
       continue;
     }
     Words words(line);

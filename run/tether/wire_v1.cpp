@@ -148,7 +148,7 @@ public:
   Duration interval() const override { return spec::info(spec::Robot::Sphero).interval; }
   std::string describe(std::uint8_t error) const override { return uploader::describe_code(error); }
   bool means_later(std::uint8_t error) const override {
-    return spec::retry_of(error) == spec::Retry::SameAgain || uploader::comes_round(error);
+    return spec::retry_of(error) == spec::Retry::SameAgain || uploader::is_transient(error);
   }
 
 private:

@@ -123,15 +123,15 @@ private:
                              Diagnostic& told) const {
     const auto& program = compiled_.program;
     if (found.rule == &robot::BusyLoop)
-      told.message = "the loop runs forever and never waits";
+      told.message = "the loop runs forever without waiting";
     if (found.rule == &robot::IndexRange)
-      told.message = "the index lies outside of the array";
+      told.message = "index out of bounds";
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
       tell_of_heading(statement, told);
     if (found.rule == &robot::StaleSensor)
       told.help = "read it in the loop";
     if (found.rule == &robot::InvertedWait)
-      told.help = "turn the comparison round";
+      told.help = "reverse the comparison";
     if (found.fix && found.fix->edits.size() == 1)
       put_fix_into_source(*found.fix, statement, told);
     if (found.rule == &robot::LoopLeavesRange || found.rule == &robot::MayLeaveRange) {
@@ -172,8 +172,8 @@ private:
       sum = fmt::format("{} {} {}", name,
                         spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
     const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
-    told.message =
-        fmt::format("`{}` is a heading and grows forever; headings end at {}", name, turn - 1);
+    told.message = fmt::format("`{}` is a heading and grows without limit; headings end at {}",
+                               name, turn - 1);
     told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
   }
 
@@ -194,13 +194,13 @@ private:
     if (size > room)
       program.diagnostics.push_back(
           finding(robot::ProgramTooLarge, span,
-                  fmt::format("the program takes {} bytes, {} more than the {} of the {} area",
-                              size, size - room, room, in_ram ? "RAM" : "flash"),
+                  fmt::format("the program is {} bytes, {} more than the {} of the {} area", size,
+                              size - room, room, in_ram ? "RAM" : "flash"),
                   parts(image)));
     else
       program.diagnostics.push_back(
           finding(robot::LargerThanOldRam, span,
-                  fmt::format("the program takes {} bytes; older robots have {}", size, oldest),
+                  fmt::format("the program is {} bytes; older robots have {}", size, oldest),
                   "give `--ram 4096` if yours has more"));
   }
 

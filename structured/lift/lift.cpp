@@ -138,7 +138,7 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
       const auto line = nth < lifted.lines.size() ? lifted.lines[nth] : 0;
       findings.push_back(lifting::obstacle(
           program.lines[line].span,
-          fmt::format("structured, the line would have an error: {}", found.message)));
+          fmt::format("as a structured program, the line would have an error: {}", found.message)));
       return;
     }
 }
@@ -154,7 +154,7 @@ Lifted lift(const compiler::Checked& checked) {
     return lifted;
   auto ways = lifting::read_ways(program);
   if (ways.steps.empty())
-    ways.obstacle = lifting::obstacle({}, "the program holds no statement");
+    ways.obstacle = lifting::obstacle({}, "the program has no statement");
   if (ways.obstacle) {
     lifted.findings.push_back(*ways.obstacle);
     return lifted;

@@ -119,7 +119,7 @@ private:
     ways_.steps[state.step].reached = true;
     work_.push_back(state);
     if (seen_.size() > most_states)
-      stop(state, "the jumps of the program mix its loops and calls in too many ways to follow",
+      stop(state, "the jumps mix loops and calls in too many ways to follow",
            "let loops run to their `next` and subroutines to their `return`");
   }
 

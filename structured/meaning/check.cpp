@@ -76,7 +76,7 @@ void Checker::stands_outside(const Statement& statement, std::string_view of, st
     return same;
   });
   report(rules::MisplacedStatement, words,
-         fmt::format("`{}` stands outside of {}", program_.text_of(words), of), std::move(help));
+         fmt::format("`{}` outside {}", program_.text_of(words), of), std::move(help));
 }
 
 std::uint32_t Checker::none_yet(std::uint32_t i) const {

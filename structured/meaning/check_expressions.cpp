@@ -33,8 +33,8 @@ void Checker::check_expressions(const Statement& statement) {
 void Checker::report_condition(std::uint32_t node) {
   if (names_unknown(node))
     return;
-  report(rules::ConditionAsValue, program_.nodes[node].span, "a condition is not a number",
-         "write `if … then` and set the value there");
+  report(rules::ConditionAsValue, program_.nodes[node].span,
+         "a condition cannot be used as a number", "write `if … then` and set the value there");
 }
 
 bool Checker::names_unknown(std::uint32_t root) const {
@@ -134,7 +134,7 @@ void Checker::check_quotient(std::uint32_t n) {
       left.value >= right.value)
     return;
   report(compiler::rules::ZeroQuotient, nodes[n].span,
-         fmt::format("`{} / {}` is 0: values are whole numbers", left.value, right.value),
+         fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
          fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
 }
 
@@ -161,7 +161,7 @@ void Checker::check_side(std::uint32_t side, std::uint32_t other) {
                        program_.text_of({nodes[other].span.begin, nodes[other - 1].span.begin}),
                        number);
   report(rules::NumberAsCondition, nodes[side].span,
-         fmt::format("`{}` alone is a condition that {} holds", number,
+         fmt::format("`{}` alone is a condition that is {} true", number,
                      nodes[side].value == 0 ? "never" : "always"),
          std::move(help));
 }
@@ -192,7 +192,7 @@ void Checker::check_version(Span span, std::string_view word, spec::BasicVersion
                             bool old_name) {
   if (since > target_.version && !old_name)
     report(compiler::rules::NewerThanTarget, span,
-           fmt::format("`{}` needs orbBasic {}, the target has {}", word, spec::info(since).text,
+           fmt::format("`{}` needs orbBasic {}; the target is {}", word, spec::info(since).text,
                        spec::info(target_.version).text));
 }
 
@@ -214,8 +214,8 @@ bool Checker::require_constant(const Item& part) {
     return true;
   if (program_.nodes[part.value].is_condition() || names_unknown(part.value))
     return false; // said already
-  report(rules::NotConstant, part.span, "the value is not known when the program is compiled",
-         "use literals and constants that are declared above");
+  report(rules::NotConstant, part.span, "not a constant expression",
+         "use literals and constants declared above");
   return false;
 }
 

@@ -15,7 +15,7 @@ void Checker::check_jumps() {
       if (at(labels[m]).name == at(labels[n]).name &&
           names_.routine_of[labels[m]] == names_.routine_of[labels[n]]) {
         report(rules::NameTaken, at(labels[n]).name_span,
-               fmt::format("`{}` is a label already", program_.text_of(at(labels[n]).name_span)));
+               fmt::format("duplicate label `{}`", program_.text_of(at(labels[n]).name_span)));
         break;
       }
   for (const auto i : program_.order)
@@ -30,15 +30,15 @@ void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labe
   });
   if (label == labels.end()) {
     report(rules::GotoTarget, jump.name_span,
-           fmt::format("there is no label `{}:` here", program_.text_of(jump.name_span)));
+           fmt::format("unknown label `{}:`", program_.text_of(jump.name_span)));
     return;
   }
   if (!encloses(*label, i))
     report(rules::GotoTarget, jump.name_span,
-           fmt::format("the label `{}` lies inside a block", program_.text_of(jump.name_span)),
-           "a `goto` may leave blocks, never enter one");
+           fmt::format("the label `{}` is inside a block", program_.text_of(jump.name_span)),
+           "`goto` may leave blocks but not enter one");
   else
-    report(rules::Unstructured, jump.span, "a `goto` stands in the program");
+    report(rules::Unstructured, jump.span, "the program uses `goto`");
 }
 
 bool Checker::encloses(std::uint32_t label, std::uint32_t other) const {
@@ -82,7 +82,7 @@ void Checker::check_recursion() {
       }
       const auto callee = calls[routine][next++];
       if (state[callee] == 1) {
-        report_circle(path, callee);
+        report_cycle(path, callee);
         return;
       }
       if (state[callee] == 0) {
@@ -93,7 +93,7 @@ void Checker::check_recursion() {
   }
 }
 
-void Checker::report_circle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
+void Checker::report_cycle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
                             std::uint32_t callee) {
   std::string circle;
   bool inside = false;
@@ -132,7 +132,7 @@ void Checker::check_endless(std::uint32_t i) {
       parts_block(at(after).kind) || closes_block(at(after).kind))
     return;
   report(compiler::rules::UnreachableLine, at(after).span,
-         "this never runs: nothing leaves the loop above",
+         "unreachable: nothing leaves the loop above",
          "leave the loop with `exit`, as in `if speed = 0 then exit`");
 }
 

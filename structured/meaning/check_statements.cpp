@@ -6,23 +6,22 @@ void Checker::check_place(std::uint32_t i, const Statement& statement) {
   const auto routine = names_.routine_of[i];
   const auto word = program_.text_of(statement.word);
   if (declares(statement.kind) && statement.depth > 0)
-    misplaced(statement, fmt::format("`{}` stands inside a block", word),
-              "declarations stand at top level");
+    misplaced(statement, fmt::format("`{}` inside a block", word),
+              "declarations must be at top level");
   if ((statement.kind == Kind::Exit || statement.kind == Kind::Continue) && !in_loop())
     stands_outside(statement, "loops");
   if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1) &&
       !in_broken_routine())
     misplaced(statement,
-              routine == 0 ? "`local` stands outside of subs and functions"
-                           : "`local` stands inside a block",
-              routine == 0 ? "the variables of the main program need no declaration"
+              routine == 0 ? "`local` outside a sub or function" : "`local` inside a block",
+              routine == 0 ? "variables of the main program need no declaration"
                            : "move it to the beginning of the sub");
   if (statement.kind == Kind::Return)
     check_return(routine, statement);
   if (!open_.empty() && at(open_.back()).kind == Kind::Select &&
       at(open_.back()).next == none_yet(i) && !parts_block(statement.kind) &&
       !closes_block(statement.kind) && statement.kind != Kind::Broken)
-    misplaced(statement, "a statement stands between `select` and its first `case`");
+    misplaced(statement, "statement between `select` and its first `case`");
 }
 
 void Checker::check_return(std::uint32_t routine, const Statement& statement) {
@@ -34,9 +33,10 @@ void Checker::check_return(std::uint32_t routine, const Statement& statement) {
   const auto& symbol = names_.symbols[names_.routines[routine].symbol];
   const bool function = symbol.kind == SymbolKind::Function;
   if (function && size(statement) == 0)
-    report(rules::ArgumentCount, statement.span, "a function returns a value", "write `return e`");
+    report(rules::ArgumentCount, statement.span, "a function must return a value",
+           "write `return e`");
   else if (!function && size(statement) > 0)
-    report(rules::ArgumentCount, item(statement, 0).span, "a sub returns no value",
+    report(rules::ArgumentCount, item(statement, 0).span, "a sub cannot return a value",
            "make it a `function`");
 }
 
@@ -93,7 +93,7 @@ void Checker::check_data(const Statement& statement) {
     require_constant(part);
   if (size(statement) > most)
     report(compiler::rules::TooManyDataValues, item(statement, most).span,
-           fmt::format("the line holds {} values; the robot ignores those after the {}th",
+           fmt::format("the line has {} values; the robot ignores those after the {}th",
                        size(statement), most));
 }
 
@@ -106,9 +106,10 @@ void Checker::check_sleep(const Statement& statement) {
     if (node.kind == NodeKind::Duration) {
       written = true;
       if (node.value % 1000 != 0)
-        report(rules::BadNumber, node.span,
-               fmt::format("`{}` is not a whole number of seconds", program_.text_of(node.span)),
-               "`sleep` counts in seconds");
+        report(
+            rules::BadNumber, node.span,
+            fmt::format("`{}` is not an integral number of seconds", program_.text_of(node.span)),
+            "`sleep` counts in seconds");
     } else if (node.kind == NodeKind::Name && names_.of_node[n] != none &&
                names_.symbols[names_.of_node[n]].duration && !is_quotient(time.value)) {
       written = true;
@@ -124,7 +125,7 @@ void Checker::check_sleep(const Statement& statement) {
     check_range(item(statement, 1), "sleep", parameters[1]);
   if (size(statement) > 2 && item(statement, 2).kind != ItemKind::Restart)
     report(rules::MalformedLine, item(statement, 2).span,
-           "the third value of `sleep` is the word `restart`, or nothing");
+           "the third value of `sleep` must be the word `restart`");
 }
 
 std::uint32_t Checker::variable_of(const Statement& loop) const {
@@ -139,11 +140,11 @@ void Checker::check_for(const Statement& statement) {
   if (around != open_.rend()) {
     const auto name = program_.text_of(item(statement, 0).span);
     auto& d = report(rules::LoopVariable, item(statement, 0).span,
-                     fmt::format("the loop around this one counts in `{}` already", name));
+                     fmt::format("the enclosing loop already counts in `{}`", name));
     d.notes.push_back({at(*around).span, fmt::format("this loop counts in `{}`", name)});
   }
   if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
-    report(rules::WrongUse, item(statement, 0).span, "a loop counts in a variable");
+    report(rules::WrongUse, item(statement, 0).span, "a loop needs a variable to count in");
   if (size(statement) < 4 || !require_constant(item(statement, 3)))
     return;
   if (value_of(item(statement, 3))->value == 0)
@@ -187,7 +188,7 @@ void Checker::add_case(CaseRange range, Span span) {
   for (const auto& other : cases_)
     if (other.select == range.select && other.lo <= range.hi && range.lo <= other.hi) {
       report(rules::CaseValue, span,
-             fmt::format("{} has a `case` above already", std::max(other.lo, range.lo)));
+             fmt::format("duplicate `case` {}", std::max(other.lo, range.lo)));
       return;
     }
   constexpr std::size_t most = 1024; // no robot holds more; looking for doubles takes pairs

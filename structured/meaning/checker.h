@@ -141,7 +141,7 @@ private:
 
   void check_recursion();
 
-  void report_circle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
+  void report_cycle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
                      std::uint32_t callee);
 
   // ---- loops

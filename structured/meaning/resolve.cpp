@@ -109,7 +109,7 @@ private:
     const auto& first = names_.symbols[other];
     auto& d = report(
         rules::NameTaken, symbol.span,
-        fmt::format("`{}` is a {} already", program_.text_of(symbol.span), kind_word(first.kind)),
+        fmt::format("`{}` is already a {}", program_.text_of(symbol.span), kind_word(first.kind)),
         "choose another name");
     d.notes.push_back({first.span, "declared here"});
   }
@@ -165,7 +165,7 @@ private:
     if (size && (size->value < 1 || size->value > most - names_.elements)) {
       report(rules::ArraySize, program_.items[statement.items_begin].span,
              names_.elements == 0
-                 ? fmt::format("an array has 1 to {} elements, found {}", most, size->value)
+                 ? fmt::format("an array can have 1 to {} elements, found {}", most, size->value)
                  : fmt::format("{} of {} elements are left, found {}", most - names_.elements, most,
                                size->value));
     } else if (size) {
@@ -204,7 +204,7 @@ private:
       symbol.read = true;
       if (shared_[macro.name] != none) {
         report(rules::NameTaken, symbol.span,
-               fmt::format("the macro `{}` has a name that is taken", program_.name(macro.name)));
+               fmt::format("duplicate macro name `{}`", program_.name(macro.name)));
         continue;
       }
       declare(symbol);
@@ -237,8 +237,8 @@ private:
       for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
         known = known && (program_.nodes[n].kind != NodeKind::Name || names_.of_node[n] != none);
       if (known)
-        report(rules::NotConstant, part.span, "the value is not known when the program is compiled",
-               "use literals and constants that are declared above");
+        report(rules::NotConstant, part.span, "not a constant expression",
+               "use literals and constants declared above");
     }
   }
 
@@ -388,10 +388,10 @@ private:
       report_wrong(node, symbol,
                    element                               ? "it has no elements"
                    : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
-                   : symbol.kind == SymbolKind::Array    ? "an element has an index"
-                                                         : "it cannot be set");
+                   : symbol.kind == SymbolKind::Array    ? "an element needs an index"
+                                                         : "it cannot be assigned to");
     } else if (element && (statement.kind == Kind::For)) {
-      report(rules::WrongUse, node.span, "a loop counts in a variable, not in an element");
+      report(rules::WrongUse, node.span, "a loop counts in a variable, not in an array element");
     }
     // A loop counts in its variable; of what changes by being read it is the reading that counts.
     if (statement.kind == Kind::For || (statement.kind == Kind::Assign && clears(statement)))
@@ -429,15 +429,15 @@ private:
                        symbol.kind == SymbolKind::Parameter || symbol.kind == SymbolKind::Constant;
     if (node.kind == NodeKind::Name && !value)
       wrong(n, symbol,
-            symbol.kind == SymbolKind::Array      ? "an element has an index"
-            : symbol.kind == SymbolKind::Function ? "a function is called with parentheses"
-                                                  : "a sub gives no value");
+            symbol.kind == SymbolKind::Array      ? "an element needs an index"
+            : symbol.kind == SymbolKind::Function ? "a function call needs parentheses"
+                                                  : "a sub does not return a value");
     else if (node.kind == NodeKind::Element && symbol.kind != SymbolKind::Array)
       wrong(n, symbol, "it has no elements");
     else if (node.kind == NodeKind::Call && symbol.kind != SymbolKind::Function)
       wrong(n, symbol,
-            symbol.kind == SymbolKind::Sub     ? "a sub gives no value; it is called as a statement"
-            : symbol.kind == SymbolKind::Array ? "an element is written with brackets"
+            symbol.kind == SymbolKind::Sub ? "a sub does not return a value; call it as a statement"
+            : symbol.kind == SymbolKind::Array ? "write an element with brackets"
                                                : "it cannot be called");
     else if (node.kind == NodeKind::Call)
       check_call(index, node.count, node.span);
@@ -488,7 +488,7 @@ private:
     if (symbol.kind == SymbolKind::Function) {
       report_wrong(node, symbol, "its value must be used, as in `x = name()`");
     } else if (symbol.kind != SymbolKind::Sub) {
-      report_wrong(node, symbol, "a statement begins with a word, a sub or `name =`");
+      report_wrong(node, symbol, "a statement starts with a keyword, a sub or `name =`");
     } else {
       names_.of_statement[i] = index;
       check_call(index, statement.items_end - statement.items_begin, statement.span);
@@ -510,7 +510,7 @@ private:
       return;
     if (find_colour(program_.text_of(span))) {
       report(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
-             "a colour stands alone after `RGB`: `RGB red`");
+             "use a colour alone after `RGB`: `RGB red`");
       return;
     }
     std::vector<std::string_view> candidates;

@@ -111,8 +111,8 @@ private:
     routines_ += is_routine(role(i)) ? 1 : 0;
     if (open_.size() == deepest && !too_deep_) {
       too_deep_ = true;
-      report(rules::NestingDepth, i, fmt::format("more than {} blocks are open here", deepest),
-             "put a part into a sub");
+      report(rules::NestingDepth, i, fmt::format("more than {} nested blocks", deepest),
+             "move a part into a sub");
     }
     open_.push_back(i);
     last_.push_back(i);
@@ -134,7 +134,7 @@ private:
     const auto word = std::string(program_.text_of(where));
     const auto end = fmt::format("`{}` after its last line", block.end_words);
     alone_.insert(where.begin);
-    report(rules::UnclosedBlock, i, fmt::format("this `{}` is never closed", word),
+    report(rules::UnclosedBlock, i, fmt::format("unterminated `{}`", word),
            equal_words(word, block.word)
                ? fmt::format("write {}", end)
                : fmt::format("write `{}` instead, and {}", block.word, end));
@@ -194,7 +194,7 @@ private:
       return;
     }
     if (role(last_.back()) == Kind::Else)
-      report(rules::BlockEnd, i, "the `else` above is the last part of its block",
+      report(rules::BlockEnd, i, "the `else` above must be the last part of its block",
              "move the `else` to the end");
     link(i);
   }
@@ -208,7 +208,7 @@ private:
       help = fmt::format("the open block is a `{}`; `{}` closes it", block->word, block->end_words);
     }
     alone_.insert(statement.word.begin);
-    report(rules::BlockEnd, i, fmt::format("no open block takes this `{}`", word), std::move(help));
+    report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word), std::move(help));
     statement.kind = statement.meant = Kind::Broken;
   }
 

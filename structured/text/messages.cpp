@@ -15,7 +15,7 @@ namespace {
 
 std::string shown(const Program& program, Span found) {
   if (found.size() == 0)
-    return "the line ends here";
+    return "unexpected end of line";
   return fmt::format("found `{}`", program.text_of(found));
 }
 
@@ -68,13 +68,13 @@ struct Habit {
   std::string_view help;
 };
 
-constexpr auto no_braces = "blocks need no braces; they end with `next`, `end if`, `end while` …";
+constexpr auto no_braces = "blocks have no braces; they end with `next`, `end if`, `end while` …";
 
 /// Where structured programs say it in another way than numbered ones.
 constexpr auto structured_words = std::to_array<Habit>({
     {"set", Where::Line, "", "leave it out: `x = 5`"},
     {"int", Where::Line, "", "leave it out: `x = 5`"},
-    {"clear", Where::Line, "", "variables are 0 when a program starts; or write `x = 0`"},
+    {"clear", Where::Line, "", "variables start at 0; or write `x = 0`"},
     {"begin", Where::Line, "", "blocks need no `begin`; leave the line out"},
     {"def", Where::Line, "", "write `sub name` … `end sub`"},
     {"func", Where::Line, "", "write `function name()` … `end function`"},
@@ -94,7 +94,7 @@ constexpr auto structured_words = std::to_array<Habit>({
      "`heading` sets the heading; the direction of the ball is `yaw`"},
     {"mod", Where::Inside, "%", "write `a % b`"},
     {"!", Where::Inside, "", "write `not`"},
-    {"^", Where::Inside, "", "there are no powers: write `a * a`"},
+    {"^", Where::Inside, "", "there is no power operator: write `a * a`"},
     {"{", Where::Inside, "", no_braces},
     {"}", Where::Inside, "", no_braces},
     {"do", Where::Inside, "", "leave it out"},
@@ -121,17 +121,17 @@ Diagnostic trailing(const Program& program, Span found) {
     return malformed(program, found, "the comma above continues its line",
                      "to print a blank at the end write `, ;`");
   if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name)
-    return malformed(program, found, "the index of an element stands in brackets",
+    return malformed(program, found, "an array index is written in brackets",
                      fmt::format("write `{}[1] = 2`", statement));
   if (text == ":")
     return finding(rules::ForeignWord, found, "`:` does not separate statements",
-                   "write one statement on a line");
+                   "write one statement per line");
   if (text == "+" && before == '"')
-    return malformed(program, found, "texts are not added",
-                     "write what to print side by side: `print \"x is \" x`");
+    return malformed(program, found, "strings cannot be concatenated",
+                     "write the parts side by side: `print \"x is \" x`");
   if (is_digit(before) &&
       (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
-    return malformed(program, found, "a unit stands right after its number", "write `500ms`");
+    return malformed(program, found, "a unit directly follows its number", "write `500ms`");
   if (equal_words(statement, "loop"))
     return malformed(program, found, "`loop` goes on forever",
                      "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
@@ -139,9 +139,9 @@ Diagnostic trailing(const Program& program, Span found) {
   if (word.kind == WordKind::Statement &&
       spec::statements[word.index].form == spec::Form::Arguments && is_name_char(before) &&
       is_name_char(text.front()))
-    return malformed(program, found, "the statement is complete",
-                     "values are parted by commas: `RGB 255, 0, 0`");
-  return malformed(program, found, "the statement is complete");
+    return malformed(program, found, "unexpected text after the statement",
+                     "separate values with commas: `RGB 255, 0, 0`");
+  return malformed(program, found, "unexpected text after the statement");
 }
 
 /// A value that is missing at the end of a line shows in the next one, but is to be written there.
@@ -151,9 +151,9 @@ Diagnostic missing_value(const Program& program, Span found) {
   while (end > 0 && (is_blank(text[end - 1]) || is_line_end(text[end - 1])))
     --end;
   if (!begins_line(text, found.begin) || end == 0 || is_name_char(text[end - 1]))
-    return malformed(program, found, "a value is missing");
+    return malformed(program, found, "missing value");
   return finding(rules::MalformedLine, {end - 1, end},
-                 fmt::format("a value is missing after `{}`", text[end - 1]));
+                 fmt::format("missing value after `{}`", text[end - 1]));
 }
 
 /// Values after a name without parentheses: a statement that is misspelt, or a call.
@@ -164,9 +164,9 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   const auto word = std::string(program.text_of(called));
   if (program.text[found.begin] == '$')
     return finding(rules::MalformedLine, found, "names have no `$`",
-                   "variables hold whole numbers; texts stand in `print` only");
+                   "variables hold integers; strings are only allowed in `print`");
   if (spec::find_operator(program.text[found.begin]))
-    return malformed(program, found, "a value is no statement",
+    return malformed(program, found, "a value is not a statement",
                      fmt::format("write `{0} = {0} + 1`, or `print {0}`", word));
   std::vector<std::string_view> statements;
   for (const auto& row : spec::statements)
@@ -175,7 +175,7 @@ Diagnostic naked_arguments(const Program& program, Span found) {
     return finding(rules::UnknownName, called,
                    fmt::format("`{}` is neither a statement nor a sub", word),
                    fmt::format("did you mean `{}`?", *meant));
-  return malformed(program, found, "the arguments of a call stand in parentheses");
+  return malformed(program, found, "the arguments of a call need parentheses");
 }
 
 /// Whether `=` or `+=` and the like stand at a place.
@@ -215,8 +215,8 @@ Diagnostic foreign_character(const Program& program, Span found) {
   const auto sign = program.text_of(found);
   for (const std::string_view quote : {"“", "”", "„", "«", "»"})
     if (sign.starts_with(quote))
-      return finding(rules::MalformedLine, found, fmt::format("`{}` does not quote a text", sign),
-                     "write `\"` before the text and after it");
+      return finding(rules::MalformedLine, found, fmt::format("`{}` is not a quotation mark", sign),
+                     "use `\"` before and after the text");
   const auto is_part = [&](std::uint32_t at) {
     return is_name_char(text[at]) || is_foreign(text[at]);
   };
@@ -225,9 +225,10 @@ Diagnostic foreign_character(const Program& program, Span found) {
     --word.begin;
   while (word.end < text.size() && is_part(word.end))
     ++word.end;
-  return finding(rules::MalformedLine, word,
-                 fmt::format("`{}` is no name: `{}` cannot be in one", program.text_of(word), sign),
-                 "names have the letters a to z, digits and `_`");
+  return finding(
+      rules::MalformedLine, word,
+      fmt::format("`{}` is not a valid name: it contains `{}`", program.text_of(word), sign),
+      "names consist of letters a to z, digits and `_`");
 }
 
 Diagnostic reserved(const Program& program, Span word) {
@@ -259,7 +260,7 @@ std::string settable() {
 Diagnostic bad_number(Span found, std::string_view text) {
   if (text.starts_with('#'))
     return finding(rules::BadNumber, found, fmt::format("`{}` is not a colour", text),
-                   "a colour has six digits: `#FF8000`");
+                   "a colour has six hexadecimal digits: `#FF8000`");
   const bool hex = text.size() > 2 && to_lower(text[1]) == 'x' &&
                    text.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
   if (hex || std::all_of(text.begin(), text.end(), is_digit))
@@ -275,7 +276,7 @@ Diagnostic parenthesised(const Program& program, Span found) {
   const auto statement = first_word(program.text, found.begin);
   auto d = finding(rules::MalformedLine, found,
                    fmt::format("`{}` takes its values without parentheses", statement),
-                   "leave the parentheses out");
+                   "remove the parentheses");
   d.fix =
       Fix{d.help,
           {Edit{{found.begin, found.begin + 1}, is_blank(program.text[found.begin - 1]) ? "" : " "},
@@ -297,8 +298,8 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(rules::MalformedLine, {*brace, *brace + 1},
                    "`{` shifts left, so that its line goes on in the next one", no_braces);
   if (reason == Reason::ExpectedExpression && text == "#")
-    return malformed(program, found, "a colour is no value",
-                     "it stands alone after `RGB`: `RGB #FF8000`");
+    return malformed(program, found, "a colour is not a value",
+                     "use it alone after `RGB`: `RGB #FF8000`");
   const bool other_expected = reason <= Reason::ExpectedParenthesis;
   if (other_expected || reason == Reason::NotAStatement)
     if (auto known = foreign(program, found, Where::Inside))
@@ -307,72 +308,70 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return reserved(program, *word);
   switch (reason) {
   case Reason::Trailing: return trailing(program, found);
-  case Reason::ExpectedStatement: return malformed(program, found, "a statement is missing");
+  case Reason::ExpectedStatement: return malformed(program, found, "missing statement");
   case Reason::ExpectedExpression:
     if (text.starts_with('"'))
-      return malformed(program, found, "a text is no value",
-                       "texts stand in `print` only, without parentheses: `print \"hello\"`");
+      return malformed(
+          program, found, "a string is not a value",
+          "strings are only allowed in `print`, without parentheses: `print \"hello\"`");
     return missing_value(program, found);
   case Reason::ExpectedPlace:
-    return malformed(program, found, "a variable or an element belongs here",
+    return malformed(program, found, "expected a variable or an array element",
                      text == "(" && equal_words(first_word(program.text, found.begin), "for")
                          ? "write `for n = 1 to 4` … `next n`"
                          : "");
-  case Reason::ExpectedName: return malformed(program, found, "a name belongs here");
+  case Reason::ExpectedName: return malformed(program, found, "expected a name");
   case Reason::ExpectedEquals:
     return malformed(
-        program, found, "`=` is missing",
+        program, found, "missing `=`",
         equal_words(first_word(program.text, found.begin), "for") ? "write `for n = 1 to 4`" : "");
   case Reason::ExpectedThen:
     return malformed(
-        program, found, "`then` is missing",
+        program, found, "missing `then`",
         "write `if … then` and the statement, or `if … then` alone and `end if` below");
-  case Reason::ExpectedTo: return malformed(program, found, "`to` is missing");
-  case Reason::ExpectedComma: return malformed(program, found, "more values are missing");
+  case Reason::ExpectedTo: return malformed(program, found, "missing `to`");
+  case Reason::ExpectedComma: return malformed(program, found, "too few values");
   case Reason::ExpectedBracket:
-    return malformed(program, found, "a bracket is missing",
-                     text == "(" ? "the size of an array stands in brackets: `array a[5]`"
+    return malformed(program, found, "missing bracket",
+                     text == "(" ? "the size of an array is written in brackets: `array a[5]`"
                      : equal_words(first_word(program.text, found.begin), "dim")
-                         ? "a variable needs no declaration: leave the line out"
+                         ? "variables need no declaration: remove the line"
                          : "");
-  case Reason::ExpectedParenthesis: return malformed(program, found, "a parenthesis is missing");
+  case Reason::ExpectedParenthesis: return malformed(program, found, "missing parenthesis");
   case Reason::ExpectedOperand:
-    return malformed(program, found, "a function takes its value in parentheses", functions());
+    return malformed(program, found, "a function needs its argument in parentheses", functions());
   case Reason::ExpectedOne:
     return finding(rules::ArgumentCount, found, fmt::format("`{}` takes one value", text),
                    fmt::format("write `{}(e)`", text));
   case Reason::ExpectedTwo:
     return finding(rules::ArgumentCount, found, fmt::format("`{}` takes two values", text),
                    fmt::format("write `{}(a, b)`", text));
-  case Reason::ExpectedQuote:
-    return finding(rules::MalformedLine, found, "the text has no closing `\"`");
-  case Reason::ExpectedFile:
-    return malformed(program, found, "the name of a file in quotes belongs here");
+  case Reason::ExpectedQuote: return finding(rules::MalformedLine, found, "unterminated string");
+  case Reason::ExpectedFile: return malformed(program, found, "expected a file name in quotes");
   case Reason::NotAStatement:
-    return finding(rules::MalformedLine, found, fmt::format("no statement begins with `{}`", text));
+    return finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
   case Reason::NakedArguments: return naked_arguments(program, found);
-  case Reason::TooManyArguments:
-    return finding(rules::ArgumentCount, found, "the statement takes no more values");
+  case Reason::TooManyArguments: return finding(rules::ArgumentCount, found, "too many values");
   case Reason::ReadOnly:
     return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text), settable());
   case Reason::Reserved: return reserved(program, found);
   case Reason::NameTooLong:
     return finding(
         rules::ReservedName, found,
-        fmt::format("the name has {} characters; the limit is {}", found.size(), longest_name));
+        fmt::format("the name is {} characters long; the limit is {}", found.size(), longest_name));
   case Reason::BadNumber: return bad_number(found, text);
   case Reason::FractionOfMillisecond:
     return finding(rules::BadNumber, found,
-                   fmt::format("`{}` is not a whole number of milliseconds", text));
+                   fmt::format("`{}` is not an integral number of milliseconds", text));
   case Reason::TooDeep:
-    return finding(rules::NestingDepth, found, "more than 64 brackets are open here",
-                   "compute a part on a line of its own");
+    return finding(rules::NestingDepth, found, "more than 64 nested brackets",
+                   "compute a part on a separate line");
   case Reason::NestedIf:
-    return finding(rules::MisplacedStatement, found, "an `if` stands inside an `if` of one line",
+    return finding(rules::MisplacedStatement, found, "`if` inside a one-line `if`",
                    "write `if … then`, the inner `if` below it, and `end if`");
   case Reason::BlockInOneLine:
     return finding(rules::MisplacedStatement, found,
-                   fmt::format("`{}` cannot stand in an `if` of one line", text),
+                   fmt::format("`{}` is not allowed in a one-line `if`", text),
                    "write `if … then`, the statement below it, and `end if`");
   case Reason::LineNumber:
     return finding(rules::NumberedLine, found, "structured programs have no line numbers",
@@ -386,13 +385,13 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                    "write `select e`, `case 1` … `end select`");
   case Reason::Parenthesised: return parenthesised(program, found);
   }
-  return finding(rules::MalformedLine, found, "the line does not parse");
+  return finding(rules::MalformedLine, found, "syntax error");
 }
 
 Diagnostic habit(const Program& program, Span found, std::string_view instead,
                  std::string_view help) {
   auto d = finding(rules::ForeignWord, found,
-                   fmt::format("`{}` belongs to another language", program.text_of(found)),
+                   fmt::format("`{}` is not part of this language", program.text_of(found)),
                    std::string(help));
   if (!instead.empty()) {
     const auto written = instead == " " ? std::string_view() : instead;
@@ -404,7 +403,7 @@ Diagnostic habit(const Program& program, Span found, std::string_view instead,
 
 Diagnostic single_quotes(const Program& program, Span text) {
   const auto inner = program.text_of({text.begin + 1, text.end - 1});
-  auto d = finding(rules::ForeignWord, text, "`'` begins a comment, not a text",
+  auto d = finding(rules::ForeignWord, text, "`'` starts a comment, not a string",
                    fmt::format("write `\"{}\"`", inner));
   if (inner.find('"') == std::string_view::npos)
     d.fix = Fix{d.help, {Edit{text, fmt::format("\"{}\"", inner)}}, Safety::Safe};

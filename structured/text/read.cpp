@@ -88,8 +88,8 @@ private:
     const auto identity = files_.identity(path);
     if (std::any_of(open_.begin(), open_.end(),
                     [&](const Open& file) { return file.identity == identity; })) {
-      report(rules::IncludeCircle, i, fmt::format("`{}` includes itself", path),
-             "put what both files need into a third one");
+      report(rules::IncludeCycle, i, fmt::format("`{}` includes itself", path),
+             "move what both files need into a third one");
       return;
     }
     if (contains(taken_, identity) || is_full(included_, i, "included"))
@@ -114,8 +114,8 @@ private:
       if (is_declaration(statement.kind))
         continue;
       program_.diagnostics.push_back(finding(rules::IncludedStatement, statement.span,
-                                             "an included file holds declarations only",
-                                             "put the statement into a sub"));
+                                             "an included file may only have declarations",
+                                             "move the statement into a sub"));
       return;
     }
   }
@@ -159,7 +159,7 @@ private:
       program_.macros.push_back({intern(where), *macro.id, i});
     }
     if (!any)
-      report(rules::BadMacroFile, i, fmt::format("`{}` holds no macro with a name and an id", path),
+      report(rules::BadMacroFile, i, fmt::format("`{}` has no macro with a name and an id", path),
              "write `.macro name id=40`");
     program_.macro_files.push_back({path, *std::move(text)});
     taken_macros_.push_back(std::move(identity));

@@ -113,7 +113,7 @@ bool Cursor::take_word(std::string_view wanted) {
 
 void Cursor::character(char wanted, std::string_view help) {
   if (!take(wanted))
-    fail(rules::Syntax, fmt::format("`{}` is missing", wanted), std::string(help));
+    fail(rules::Syntax, fmt::format("missing `{}`", wanted), std::string(help));
 }
 
 void Cursor::fail(const Rule& rule, std::string message, std::string help) {
@@ -131,13 +131,13 @@ void Cursor::fail_at(Span span, const Rule& rule, std::string message, std::stri
 
 std::string Cursor::quoted(std::string_view what) {
   if (!take('"')) {
-    fail(rules::Syntax, fmt::format("the {} is missing: a text in quotes", what));
+    fail(rules::Syntax, fmt::format("missing {}: expected text in quotes", what));
     return {};
   }
   const auto end = text_.find('"', at_);
   if (end == std::string_view::npos) {
     --at_;
-    fail(rules::Syntax, fmt::format("the {} does not end", what), "write `\"` after it");
+    fail(rules::Syntax, fmt::format("unterminated {}", what), "add `\"` after it");
     return {};
   }
   const auto found = text_.substr(at_, end - at_);
@@ -154,8 +154,8 @@ std::string Cursor::slashed() {
     pattern += text_[at_];
   }
   if (at_ == text_.size())
-    fail_at({open, begin_ + static_cast<std::uint32_t>(at_)}, rules::Syntax,
-            "the pattern does not end", "write `/` after it");
+    fail_at({open, begin_ + static_cast<std::uint32_t>(at_)}, rules::Syntax, "unterminated pattern",
+            "add `/` after it");
   else
     ++at_;
   return pattern;
@@ -163,7 +163,7 @@ std::string Cursor::slashed() {
 
 std::string Cursor::file_name() {
   if (at_end()) {
-    fail(rules::Syntax, "the name of a file is missing");
+    fail(rules::Syntax, "missing file name");
     return {};
   }
   return peek_char() == '"' ? quoted("name of the file") : std::string(word());
@@ -197,8 +197,8 @@ double Cursor::number(std::string_view what) {
   const auto from = offset();
   const auto value = digits();
   if (!value)
-    fail(rules::Value, at_end() ? fmt::format("the {} is missing: a number", what)
-                                : fmt::format("the {} is a number, found `{}`", what, peek()));
+    fail(rules::Value, at_end() ? fmt::format("missing {}: expected a number", what)
+                                : fmt::format("the {} must be a number, found `{}`", what, peek()));
   else if (*value < -most_number || *value > most_number)
     fail_at(span_from(from), rules::Value, fmt::format("the {} is too large", what));
   return value.value_or(0);
@@ -209,15 +209,16 @@ std::int64_t Cursor::whole(std::string_view what, std::int64_t least, std::int64
   const auto value = digits();
   const auto wanted = fmt::format("{} to {}", least, greatest);
   if (!value) {
-    fail(rules::Value, at_end() ? fmt::format("the {} is missing: {}", what, wanted)
-                                : fmt::format("the {} is {}, found `{}`", what, wanted, peek()));
+    fail(rules::Value, at_end()
+                           ? fmt::format("missing {}: expected {}", what, wanted)
+                           : fmt::format("the {} must be {}, found `{}`", what, wanted, peek()));
     return least;
   }
   if (*value < static_cast<double>(least) || *value > static_cast<double>(greatest) ||
       *value != static_cast<double>(static_cast<std::int64_t>(*value))) {
     const auto span = span_from(from);
     fail_at(span, rules::Value,
-            fmt::format("the {} is {}, found `{}`", what, wanted,
+            fmt::format("the {} must be {}, found `{}`", what, wanted,
                         text_.substr(span.begin - begin_, span.size())));
     return least;
   }
@@ -245,7 +246,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   at_ += first_unit.size();
   if (!least || !text_.substr(at_).starts_with("..")) {
     at_ = from - begin_;
-    fail(rules::Value, fmt::format("the {} goes from one value to another", what), help);
+    fail(rules::Value, fmt::format("the {} needs two values, a first and a last", what), help);
     return {};
   }
   at_ += 2;
@@ -254,7 +255,8 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   at_ += unit.size();
   const auto span = span_from(from);
   if (!most) {
-    fail_at(span, rules::Value, fmt::format("the {} goes from one value to another", what), help);
+    fail_at(span, rules::Value, fmt::format("the {} needs two values, a first and a last", what),
+            help);
     return {};
   }
   const double second = factor(unit);
@@ -269,7 +271,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   }
   const Range found{*least * first, *most * second};
   if (found.least > found.most)
-    fail_at(span, rules::Value, fmt::format("the {} runs backwards", what),
+    fail_at(span, rules::Value, fmt::format("the {} is reversed", what),
             "write the smaller value first");
   else if (found.most > most_number)
     fail_at(span, rules::Value, fmt::format("the {} is too large", what));
@@ -289,8 +291,8 @@ double Cursor::length() {
   const auto value = digits();
   if (!value) {
     fail(rules::Value,
-         at_end() ? std::string("the length is missing")
-                  : fmt::format("a length is a number and a unit, found `{}`", peek()),
+         at_end() ? std::string("missing length")
+                  : fmt::format("expected a number and a unit of length, found `{}`", peek()),
          "write it like `12cm`");
     return 0;
   }
@@ -307,7 +309,7 @@ double Cursor::length() {
     return 0;
   }
   if (*value < 0 || *value * row->second > most_number)
-    fail_at(span_from(from), rules::Value, "a length is not negative");
+    fail_at(span_from(from), rules::Value, "a length cannot be negative");
   return *value * row->second;
 }
 
@@ -355,8 +357,8 @@ Duration Cursor::time() {
   }
   if (!found) {
     fail(rules::Value,
-         at_end() ? std::string("the time is missing")
-                  : fmt::format("a time is a number and a unit, found `{}`", text),
+         at_end() ? std::string("missing time")
+                  : fmt::format("expected a number and a unit of time, found `{}`", text),
          parse_number<double>(text, std::chars_format::fixed) ? fmt::format("write `{}s`", text)
                                                               : "write it like `2.5s` or `800ms`");
     return {};
@@ -376,13 +378,13 @@ std::pair<Duration, Duration> Cursor::times() {
       from = parse_duration(fmt::format("{}{}", text.substr(0, dots), text.substr(unit)));
   if (!from || !to) {
     fail(rules::Value,
-         at_end() ? std::string("the span of time is missing")
-                  : fmt::format("a span of time is two times, found `{}`", text),
+         at_end() ? std::string("missing time span")
+                  : fmt::format("expected two times, found `{}`", text),
          "write it like `2s..3s`");
     return {};
   }
   if (*from > *to) {
-    fail(rules::Value, "the span of time runs backwards", "write the earlier time first");
+    fail(rules::Value, "the time span is reversed", "write the earlier time first");
     return {};
   }
   at_ += text.size();

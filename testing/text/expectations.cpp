@@ -15,8 +15,8 @@ void FileReader::read_expectation(Cursor& cursor, Span span, std::uint32_t line,
   if (!read_what(cursor, one))
     return;
   if (never && info(one.word).never == Never::No)
-    return cursor.fail_at(word_span, rules::When, fmt::format("`never {}` has no meaning", word),
-                          fmt::format("`{}` takes only `expect`", word));
+    return cursor.fail_at(word_span, rules::When, fmt::format("`never {}` is not valid", word),
+                          fmt::format("`{}` only works with `expect`", word));
   read_operands(cursor, one);
   finish(cursor, one, span, line);
 }
@@ -45,7 +45,7 @@ void FileReader::unknown_expectation(Cursor& cursor, std::string_view word) {
     if (&row != &info(Word::Variable))
       known.push_back(row.word);
   cursor.fail(
-      rules::Word, fmt::format("`{}` cannot be expected", word),
+      rules::Word, fmt::format("unknown expectation `{}`", word),
       did_you_mean(word, known, fmt::format("what can be expected: {}", fmt::join(known, ", "))));
 }
 
@@ -112,12 +112,12 @@ void FileReader::read_print(Cursor& cursor, Expectation& one) {
   }
   const auto at = from + 1 + static_cast<std::uint32_t>(pattern.error().at);
   cursor.fail_at({at, at + 1}, rules::Pattern,
-                 fmt::format("the pattern cannot be read: {}", pattern.error().message));
+                 fmt::format("invalid pattern: {}", pattern.error().message));
 }
 
 void FileReader::read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most) {
   if (!cursor.take_word("by"))
-    return cursor.fail(rules::Syntax, "`by` is missing: how exact it must be",
+    return cursor.fail(rules::Syntax, "missing `by` with the tolerance",
                        fmt::format("write it like `by {}`", unit == "deg" ? "5" : "12cm"));
   const auto span = cursor.peek_span();
   auto text = cursor.peek();
@@ -136,14 +136,14 @@ void FileReader::read_near(Cursor& cursor, Expectation& one) {
     cursor.word();
   } else {
     one.x = cursor.number("x");
-    cursor.character(',', "a place is `X,Y`, in centimetres");
+    cursor.character(',', "a place is written `X,Y`, in centimetres");
     one.y = cursor.number("y");
   }
   if (cursor.failed())
     return;
   if (!cursor.take_word("by"))
-    return cursor.fail(rules::Syntax, "`by` is missing: how far away the ball may be",
-                       "a ball is not a measuring instrument: write it like `by 12cm`");
+    return cursor.fail(rules::Syntax, "missing `by` with the greatest distance",
+                       "give a tolerance such as `by 12cm`");
   one.by = cursor.length();
 }
 
@@ -163,7 +163,7 @@ void FileReader::read_beyond(Cursor& cursor, Expectation& one) {
 void FileReader::read_name(Cursor& cursor, Expectation& one, std::string_view what) {
   const auto from = cursor.offset();
   if (cursor.at_end())
-    return cursor.fail(rules::Syntax, fmt::format("the name of the {} is missing", what));
+    return cursor.fail(rules::Syntax, fmt::format("missing {} name", what));
   one.name.text = cursor.peek_char() == '"' ? cursor.quoted("name") : std::string(cursor.word());
   one.name.span = cursor.span_from(from);
 }
@@ -196,7 +196,7 @@ void FileReader::read_color(Cursor& cursor, Expectation& one) {
          {"silver", "gray", "maroon", "fuchsia", "lime", "olive", "navy", "teal", "aqua", "black"})
       known.emplace_back(name);
     return cursor.fail(rules::Value,
-                       cursor.at_end() ? std::string("the colour is missing")
+                       cursor.at_end() ? std::string("missing colour")
                                        : fmt::format("`{}` is not a colour", one.text),
                        did_you_mean(one.text, known,
                                     "a colour is a name such as `red`, `#RRGGBB` or "
@@ -213,7 +213,7 @@ void FileReader::read_bad_hex(Cursor& cursor) {
   const auto span = cursor.hash_span();
   const auto text = cursor.text_of(span);
   cursor.fail_at(span, rules::Value, fmt::format("`{}` is not a colour", text),
-                 "after `#` stand six hexadecimal digits, as in `#FF8000`: red, green, blue");
+                 "`#` is followed by six hexadecimal digits, as in `#FF8000`: red, green, blue");
 }
 
 void FileReader::read_marker(Cursor& cursor, Expectation& one) {

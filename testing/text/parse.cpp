@@ -45,12 +45,11 @@ void FileReader::read_line(std::uint32_t line) {
   const auto span = cursor.peek_span();
   cursor.word();
   if (row->stands == Stands::Head && has_tests_ && !file_.tests.empty())
-    return cursor.fail_at(span, rules::Place, fmt::format("`{}` stands after a test", word),
-                          "write it before the first `test`");
+    return cursor.fail_at(span, rules::Place, fmt::format("`{}` after a test", word),
+                          "move it above the first `test`");
   if (row->stands == Stands::InTest && file_.tests.empty())
-    return cursor.fail_at(span, rules::Place,
-                          fmt::format("`{}` stands before the first test", word),
-                          "write it after the `test` that it belongs to");
+    return cursor.fail_at(span, rules::Place, fmt::format("`{}` before the first test", word),
+                          "move it below the `test` it belongs to");
   read_row(static_cast<LineWord>(row - line_words.data()), cursor, span, line);
 }
 
@@ -79,8 +78,8 @@ void FileReader::read_row(LineWord word, Cursor& cursor, Span span, std::uint32_
 
 void FileReader::end_of_line(Cursor& cursor) {
   if (!cursor.failed() && !cursor.at_end())
-    cursor.fail(rules::Syntax, fmt::format("`{}` is left over", cursor.peek()),
-                "a comment begins with `#`");
+    cursor.fail(rules::Syntax, fmt::format("unexpected `{}`", cursor.peek()),
+                "comments start with `#`");
 }
 
 void FileReader::read_stimulus(Cursor& cursor, std::string_view word, std::uint32_t line) {
@@ -117,12 +116,12 @@ void FileReader::unknown_word(Cursor& cursor, std::string_view word) {
     known.push_back(row.word);
   for (const auto& row : expectations)
     if (row.word == word)
-      return cursor.fail(rules::Word, fmt::format("`{}` begins no line", word),
+      return cursor.fail(rules::Word, fmt::format("a line cannot start with `{}`", word),
                          fmt::format("write `expect {}` or `never {}`", word, word));
   cursor.fail(
-      rules::Word, fmt::format("`{}` is not a word of a test file", word),
+      rules::Word, fmt::format("unknown word `{}`", word),
       did_you_mean(word, known,
-                   fmt::format("a line begins with {}, or with a stimulus such as `at 1s shake`",
+                   fmt::format("a line starts with {}, or with a stimulus such as `at 1s shake`",
                                words_of(line_words))));
 }
 
@@ -144,9 +143,9 @@ void FileReader::complete(Test& test) {
     if ((one.when.kind == When::Kind::Within || one.when.kind == When::Kind::At ||
          one.when.kind == When::Kind::During) &&
         one.when.to > test.bound)
-      file_.diagnostics.push_back(
-          finding(rules::Bound, one.span, "the run is stopped before that time",
-                  fmt::format("a longer run is `for {}s`", (one.when.to + 999ms) / Duration{1s})));
+      file_.diagnostics.push_back(finding(
+          rules::Bound, one.span, "the run ends before that time",
+          fmt::format("for a longer run write `for {}s`", (one.when.to + 999ms) / Duration{1s})));
   }
   if (speaks_of_errors)
     return;

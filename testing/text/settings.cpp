@@ -5,7 +5,7 @@ namespace orb::testing {
 void FileReader::read_file(Cursor& cursor, std::optional<Named>& into) {
   const auto span = cursor.peek_span();
   if (into)
-    return cursor.fail_at(span, rules::Place, "this was said before", "a test file has one");
+    return cursor.fail_at(span, rules::Place, "duplicate setting", "a test file has only one");
   Named file;
   read_file(cursor, file);
   into = std::move(file);
@@ -53,7 +53,7 @@ std::optional<Seeds> FileReader::read_seeds(Cursor& cursor) {
   const auto found = parse_seeds(cursor.peek());
   if (!found)
     cursor.fail(rules::Value,
-                cursor.at_end() ? std::string("the seeds are missing")
+                cursor.at_end() ? std::string("missing seeds")
                                 : fmt::format("`{}` are not seeds", cursor.peek()),
                 "write them like `1..20`");
   else if (found->count() > most_seeds)
@@ -70,7 +70,7 @@ std::optional<Seeds> FileReader::read_seeds(Cursor& cursor) {
 std::optional<Duration> FileReader::read_bound(Cursor& cursor) {
   const auto time = cursor.time();
   if (!cursor.failed() && time == Duration{})
-    cursor.fail(rules::Value, "a run of no time shows nothing", "write it like `for 30s`");
+    cursor.fail(rules::Value, "a run needs some time", "write it like `for 30s`");
   return time == Duration{} ? std::nullopt : std::optional(time);
 }
 
@@ -82,12 +82,12 @@ void FileReader::read_test(Cursor& cursor, Span span, std::uint32_t line) {
   test.name.span = cursor.span_from(from);
   if (!cursor.failed() && trim(test.name.text).empty())
     cursor.fail_at(test.name.span.size() == 0 ? span : test.name.span, rules::Name,
-                   "the test has no name", "write it in quotes: `test \"stops at the wall\"`");
+                   "missing test name", "give it in quotes: `test \"stops at the wall\"`");
   for (const auto& other : file_.tests)
     if (other.name.text == test.name.text && !cursor.failed())
       cursor.fail_at(test.name.span, rules::Name,
-                     fmt::format("another test has the name \"{}\"", test.name.text),
-                     fmt::format("it stands in line {}", other.line));
+                     fmt::format("duplicate test name \"{}\"", test.name.text),
+                     fmt::format("the other one is in line {}", other.line));
   while (!cursor.failed() && !cursor.at_end())
     read_test_option(cursor, test);
   file_.tests.push_back(std::move(test));
@@ -102,7 +102,7 @@ void FileReader::read_test_option(Cursor& cursor, Test& test) {
     test.bound = read_bound(cursor).value_or(test.bound);
   else
     cursor.fail(
-        rules::Syntax, fmt::format("`{}` is left over", cursor.peek()),
+        rules::Syntax, fmt::format("unexpected `{}`", cursor.peek()),
         did_you_mean(cursor.peek(), std::vector<std::string_view>{"points", "seeds", "for"},
                      "after the name you can write `points N`, `seeds A..B` and `for TIME`"));
 }

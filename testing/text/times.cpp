@@ -29,10 +29,10 @@ void FileReader::read_times(Cursor& cursor, Expectation& one, Said& said) {
   if (cursor.take_word("to"))
     one.times.most = static_cast<std::uint64_t>(cursor.whole("count", 0, most_times));
   if (!cursor.failed() && !cursor.take_word("times"))
-    return cursor.fail(rules::Syntax, "`times` is missing", "write it like `1 to 6 times`");
+    return cursor.fail(rules::Syntax, "missing `times`", "write it like `1 to 6 times`");
   said.times = cursor.span_from(from);
   if (one.times.most < one.times.least)
-    cursor.fail_at(said.times, rules::Value, "the count runs backwards",
+    cursor.fail_at(said.times, rules::Value, "the count is reversed",
                    "write the smaller value first");
 }
 
@@ -57,21 +57,20 @@ void FileReader::read_joined(Cursor& cursor, Expectation& one, const Said& said)
   const auto span = cursor.peek_span();
   cursor.word();
   if (said.when.size() > 0 || one.lasts > Duration{})
-    return cursor.fail_at(span, rules::Syntax, "`and` stands after a time",
-                          "write all that is joined first, then `for` and the time");
+    return cursor.fail_at(span, rules::Syntax, "`and` after a time",
+                          "write everything that is joined first, then `for` and the time");
   if (info(one.word).kind != Kind::State && info(one.word).kind != Kind::Event)
     return cursor.fail_at(span, rules::When,
                           fmt::format("`{}` cannot be joined", info(one.word).word),
-                          "write it into a line of its own");
+                          "write it on a separate line");
   Expectation state;
   const auto word_span = cursor.peek_span();
   if (!read_what(cursor, state))
     return;
   if (info(state.word).kind != Kind::State)
-    return cursor.fail_at(word_span, rules::When,
-                          fmt::format("`{}` is not a state", info(state.word).word),
-                          "after `and` stands what is true at a moment, such as `color red` or "
-                          "`resting`; what happens stands before it");
+    return cursor.fail_at(
+        word_span, rules::When, fmt::format("`{}` is not a state", info(state.word).word),
+        "`and` is followed by a state, such as `color red` or `resting`; events come before it");
   read_operands(cursor, state);
   one.joined.push_back(std::move(state));
 }
@@ -85,10 +84,11 @@ void FileReader::read_lasts(Cursor& cursor, Expectation& one) {
   const auto span = cursor.span_from(from);
   const auto& row = info(one.word);
   if (row.kind != Kind::State)
-    return cursor.fail_at(span, rules::When, fmt::format("`{}` does not last", row.word),
-                          "leave `for` and its time out");
+    return cursor.fail_at(span, rules::When,
+                          fmt::format("`{}` is an event and has no duration", row.word),
+                          "remove `for` and its time");
   if (one.lasts > Duration{} || time == Duration{})
-    return cursor.fail_at(span, rules::Value, "`for` takes one time, longer than none",
+    return cursor.fail_at(span, rules::Value, "`for` needs one time greater than 0",
                           "write it like `for 2s`");
   one.lasts = time;
 }
@@ -106,7 +106,7 @@ void FileReader::read_order(Cursor& cursor, Expectation& one, Said& said) {
     return;
   if (const auto& row = info(other.word); row.kind != Kind::State && row.kind != Kind::Event)
     return cursor.fail_at(
-        word_span, rules::When, fmt::format("nothing comes after or before `{}`", row.word),
+        word_span, rules::When, fmt::format("missing event after `{}`", row.word),
         "write what happens, or a state: `print \"2\"`, `color red`, `reach goal`");
   read_operands(cursor, other);
   while (!cursor.failed() && cursor.peek() == info(JoinWord::And).word)
@@ -114,12 +114,12 @@ void FileReader::read_order(Cursor& cursor, Expectation& one, Said& said) {
   if (!cursor.failed() && cursor.peek() == info(JoinWord::Lasts).word)
     read_lasts(cursor, other);
   if (!cursor.failed() && is_when(cursor.peek()))
-    return cursor.fail(rules::When, "the time stands at the wrong place",
-                       is_after ? "write it before `after`; it counts from there"
-                                : "`before` takes no time; write that into a line of its own");
+    return cursor.fail(rules::When, "misplaced time",
+                       is_after ? "write it before `after`; it is counted from there"
+                                : "`before` takes no time; write that on a separate line");
   if (!cursor.failed() && one.lag) {
     if (!cursor.take_word("by"))
-      return cursor.fail(rules::Syntax, "`by` is missing: how exact the time must be",
+      return cursor.fail(rules::Syntax, "missing `by` with the tolerance of the time",
                          "write it like `by 200ms`");
     one.lag_by = cursor.time();
   }
@@ -168,7 +168,7 @@ void FileReader::check_order(Cursor& cursor, const Expectation& one, const Said&
                           "leave that out");
   if (one.order == Order::Before && said.when.size() > 0)
     return cursor.fail_at(said.when, rules::When, "`before` takes no time",
-                          "write that into a line of its own");
+                          "write that on a separate line");
   if (one.lag && (one.never || said.when.size() > 0 || one.order == Order::Before))
     cursor.fail_at(said.order, rules::When, "an exact time after something is expected alone",
                    "write it like `expect print \"3\" 1s after print \"2\" by 200ms`");
@@ -181,11 +181,11 @@ void FileReader::left_over(Cursor& cursor, const Expectation& one) {
   for (const auto& row : join_words)
     known.push_back(row.word);
   const auto& row = info(one.word);
-  cursor.fail(rules::Syntax, fmt::format("`{}` is left over", cursor.peek()),
+  cursor.fail(rules::Syntax, fmt::format("unexpected `{}`", cursor.peek()),
               did_you_mean(cursor.peek(), known,
                            row.operands.empty()
-                               ? fmt::format("`{}` stands alone, or with a time", row.word)
-                               : fmt::format("it is written `{} {}`", row.word, row.operands)));
+                               ? fmt::format("`{}` is used alone or with a time", row.word)
+                               : fmt::format("write `{} {}`", row.word, row.operands)));
 }
 
 void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& said, Span first) {
@@ -196,28 +196,27 @@ void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& 
   };
   const auto when = one.when.kind;
   if (said.times.size() > 0 && row.kind != Kind::Event)
-    return wrong(said.times, fmt::format("`{}` does not happen a number of times", row.word),
-                 "leave the count out");
+    return wrong(said.times, fmt::format("`{}` cannot be counted", row.word), "remove the count");
   if (one.never && said.times.size() > 0)
-    return wrong(said.times, "`never` takes no count", "write `expect … 0 times`, or leave it out");
+    return wrong(said.times, "`never` takes no count", "write `expect … 0 times`, or remove it");
   if (one.never && when == Of::Within)
-    return wrong(said.when, "`never` speaks of the whole run, `within` of some moment",
+    return wrong(said.when, "`never` covers the whole run, `within` a single moment",
                  "for a part of the run write `during 0s..10s`");
   switch (row.kind) {
   case Kind::State: return;
   case Kind::Stay:
     if (when != Of::AnyTime && when != Of::During)
-      wrong(said.when, "`stay` speaks of every moment",
-            "leave the time out, or write `during 2s..3s`; for one moment write `inside`");
+      wrong(said.when, "`stay` covers every moment",
+            "remove the time, or write `during 2s..3s`; for one moment write `inside`");
     return;
   case Kind::Event:
     if (when == Of::At || when == Of::AtEnd)
-      wrong(said.when, fmt::format("`{}` happens; it is not true at one moment", row.word),
+      wrong(said.when, fmt::format("`{}` is an event, not a state", row.word),
             "write `within 3s` or `during 2s..3s`");
     return;
   case Kind::Output:
     if (when != Of::AnyTime)
-      wrong(said.when, "`prints` speaks of all that is printed", "leave the time out");
+      wrong(said.when, "`prints` covers everything that is printed", "remove the time");
     return;
   case Kind::End:
     if (when != Of::Within)
@@ -226,11 +225,10 @@ void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& 
     return;
   case Kind::Final:
     if (when != Of::AtEnd && when != Of::AnyTime)
-      wrong(said.when, fmt::format("`{}` is known when the run is over", row.word),
-            "leave the time out, or write `at end`");
+      wrong(said.when, fmt::format("`{}` is only known at the end of the run", row.word),
+            "remove the time, or write `at end`");
     else if (one.word == Word::Variable && when != Of::AtEnd)
-      wrong(one.name.span, "the value of a variable is known at the end",
-            "write `at end` after it");
+      wrong(one.name.span, "a variable is only known at the end of the run", "add `at end`");
     return;
   }
 }

@@ -92,7 +92,7 @@ void check_bluetooth(Checkup& checkup) {
   checkup.good("Bluetooth sockets are available");
   std::error_code error;
   if (fs::is_empty(adapters_folder, error) || error)
-    checkup.bad("there is no Bluetooth adapter", "plug one in; `bluetoothctl list` shows them");
+    checkup.bad("no Bluetooth adapter found", "plug one in; `bluetoothctl list` shows them");
   check_rfkill(checkup);
 }
 
@@ -127,7 +127,7 @@ bool check_node(Checkup& checkup, const Endpoint& endpoint) {
   }
   checkup.good(fmt::format("{} is a device", endpoint.path));
   if (::access(endpoint.path.c_str(), R_OK | W_OK) != 0) {
-    checkup.bad(fmt::format("you may not read and write {}", endpoint.path),
+    checkup.bad(fmt::format("no permission to read and write {}", endpoint.path),
                 "`sudo usermod -aG dialout $USER`, then log in again");
     return false;
   }
@@ -203,7 +203,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
     if (link.error().code == ExitCode::Interrupted)
       return fail(context, link.error());
     if (!told)
-      checkup.bad("the link does not open", link.error().message);
+      checkup.bad("the link cannot be opened", link.error().message);
     return;
   }
   if (!link->is_sim)
@@ -226,7 +226,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
   }
   checkup.good(link->is_sim ? "the built-in virtual ball answers" : "a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
-    checkup.good(fmt::format("{} stray bytes came before that, as real balls send them", noise));
+    checkup.good(fmt::format("{} stray bytes came first, as real balls send them", noise));
   if (greeting->firmware.in_bootloader)
     checkup.bad("it is in its bootloader, where nothing runs",
                 uploader::bootloader_remedy(link->name));

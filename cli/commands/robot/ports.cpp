@@ -108,7 +108,7 @@ tl::expected<std::optional<std::vector<uploader::SeenDevice>>, Failure> scan(con
     return *std::move(devices);
   if (devices.error().failure == uploader::BleFailure::Interrupted)
     return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
-  print_note(context, fmt::format("nobody listened for Bluetooth LE: {}; {}", devices.error().seen,
+  print_note(context, fmt::format("no Bluetooth LE scan: {}; {}", devices.error().seen,
                                   remedy(devices.error())));
   return std::nullopt;
 }

@@ -110,7 +110,7 @@ TEST(Course, TheStartIsWhereACircleIsAndFacesUp) {
   EXPECT_EQ(wall("<circle class='start' r='1'/><circle class='start' r='2'/>"),
             "the course has 2 starts");
   EXPECT_EQ(wall("<rect class='start' width='2' height='2'/>"),
-            "this shape does not say where the ball faces");
+            "this shape gives no direction for the ball");
 }
 
 TEST(Course, LeavesOutWhatIsNotDrawn) {

@@ -315,7 +315,7 @@ TEST(Limits, AProgramThatIsTooLargeNamesItsParts) {
 TEST(Lines, AMisspeltStatementIsNotTakenForACall) {
   EXPECT_EQ(lines("dealy 1s\n"), "unknown-name: `dealy` is neither a statement nor a sub\n");
   EXPECT_EQ(lines("patrol 3\n"),
-            "malformed-line: the arguments of a call stand in parentheses, found `3`\n");
+            "malformed-line: the arguments of a call need parentheses, found `3`\n");
 }
 
 TEST(Targets, NewerWordsAreNamed) {
@@ -345,7 +345,7 @@ TEST(FilesOf, CirclesAndMissingFilesAreFindings) {
   files.texts["a.orb"] = "include \"b.orb\"\n";
   files.texts["b.orb"] = "include \"a.orb\"\n";
   EXPECT_EQ(first_rule(compile("m", "m", "include \"a.orb\"\nprint 1\n", {}, files)),
-            "include-circle");
+            "include-cycle");
   EXPECT_EQ(first_rule(compile("m", "m", "include \"c.orb\"\nprint 1\n", {}, files)),
             "missing-file");
   files.texts["c.orb"] = "print 2\n";
