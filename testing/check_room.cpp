@@ -25,7 +25,7 @@ void check_room(SuiteFile& file, structured::Files& files) {
           !files.read(path))
         findings.push_back(finding(rules::File, ball.program.span,
                                    fmt::format("cannot read {}", path),
-                                   "paths count from the folder of the test file"));
+                                   "paths are relative to the folder of the test file"));
   }
   for (const auto& clash : run::clashes(placed))
     findings.push_back(

@@ -38,7 +38,7 @@ void FileReader::read_ball(Cursor& cursor) {
   read_file(cursor, ball.program);
   if (cursor.take_word("at")) {
     ball.start.place.x = cursor.number("x");
-    cursor.character(',', "a place is `X,Y`, in centimetres");
+    cursor.character(',', "a place is written `X,Y`, in centimetres");
     ball.start.place.y = cursor.number("y");
   }
   if (!cursor.failed() && cursor.take_word("facing"))
