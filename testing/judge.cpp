@@ -67,7 +67,7 @@ private:
       break;
     case Kind::AtEnd:
       if (to == never_ends)
-        decide_at(from, s, fmt::format("at the end {}", words(from.t)), is_true);
+        decide_at(from, s, fmt::format("at the end, {}", words(from.t)), is_true);
       break;
     case Kind::During:
       if (from.t <= when.to && to > when.from && to > from.t)
