@@ -40,7 +40,7 @@ struct Shape {
 };
 
 Shape shape_of(int leg, spec::Robot robot, const Speeds& speeds) {
-  const int share = sixths[leg % std::size(sixths)];
+  const int share = sixths[static_cast<std::size_t>(leg) % std::size(sixths)];
   const int speed = speeds.slowest + (speeds.fastest - speeds.slowest) * share / 6;
   double straight = std::clamp(straight_cm / spec::speed_cm_s(spec::driving(robot), speed),
                                shortest_s, longest_s);
@@ -48,7 +48,7 @@ Shape shape_of(int leg, spec::Robot robot, const Speeds& speeds) {
     straight = shortest_s;
   // Where it turns slowly enough, it does not slip, and says nothing of its grip.
   const auto bend = leg % 4 == 0 ? vm::Go::FastTurn : vm::Go::Drive;
-  return {speed, bends_deg[leg % std::size(bends_deg)], bend,
+  return {speed, bends_deg[static_cast<std::size_t>(leg) % std::size(bends_deg)], bend,
           Duration{static_cast<Duration::rep>(straight * 1e9)}};
 }
 

@@ -3,6 +3,8 @@
 
 #include "bytecode/arithmetic.h"
 
+#include <bit>
+
 namespace orb::vm::native {
 
 void Writer::copy(std::uint16_t to, std::uint16_t from) {
