@@ -1,3 +1,4 @@
+#if defined(ORB_NATIVE)
 #include "vm/native/plan.h"
 
 #include "vm/native/native.h"
@@ -135,3 +136,4 @@ void Plan::choose_homes() {
 }
 
 } // namespace orb::vm::native
+#endif
