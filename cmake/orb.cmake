@@ -26,13 +26,6 @@ set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque
     <variant> <vector>)
 orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 
-# ORB_AT_ONCE: the files of a room are compiled ten at a time. A first build takes half the time, one after a change
-# longer: it is for those who build once (./dev demo, which CI runs). A file that uses a name for something of its own
-# that another file of the room uses, too, is named in alone.cmake.
-if(ORB_AT_ONCE)
-  include(${CMAKE_CURRENT_LIST_DIR}/alone.cmake)
-endif()
-
 # orb_library(<folder> [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its
 # .cpp files, alias orb::<folder>. A new file needs no edit here.
 function(orb_library folder)
@@ -42,10 +35,6 @@ function(orb_library folder)
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_precompile_headers(orb_${folder} REUSE_FROM precompiled_rooms)
-  if(ORB_AT_ONCE)
-    set_target_properties(orb_${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
-    set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  endif()
 endfunction()
 
 # orb_page(<folder> <name> <script>...): NAME.html, NAME.css and the modules NAME/SCRIPT.js, written as real
