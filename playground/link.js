@@ -86,7 +86,7 @@ export async function serial_link(orb, port) {
       reader.releaseLock();
     }
   })();
-  const takes_nothing = { kind: "broken", message: "the link takes no bytes any more" };
+  const takes_nothing = { kind: "broken", message: "the link no longer accepts data" };
   let stuck = false; // in the middle of a packet
   return {
     kind: "serial",
