@@ -1,13 +1,11 @@
 #include "cli/robot_stage.h"
 
 #include "cli/on_robot.h"
-#include "cli/terminal/interrupt.h"
+#include "cli/terminal/confirm.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <iostream>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace orb::cli {
@@ -63,18 +61,7 @@ tl::expected<void, Failure> RobotStage::await_hands(const testing::Suite& suite,
     for (const auto& line : test.stimulus_lines)
       print_err(fmt::format("    {}\n", line));
   }
-  print_err("  press Enter to start: ");
-  std::string line;
-  if (std::getline(std::cin, line)) {
-    if (::isatty(STDIN_FILENO) == 0)
-      print_err("\n"); // as a terminal would show it
-    return {};
-  }
-  print_err("\n");
-  if (InterruptGuard::asked() > 0)
-    return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
-  return tl::unexpected(cannot("standard input is not a terminal; `--yes` confirms that the robot "
-                               "is on its mark for every test"));
+  return await_enter("`--yes` confirms that the robot is on its mark for every test");
 }
 
 tl::expected<void, Failure> RobotStage::ready(const testing::Suite& suite,

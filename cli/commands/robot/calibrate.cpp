@@ -1,6 +1,7 @@
 #include "cli/ball_profile.h"
 #include "cli/commands.h"
 #include "cli/driven_robot.h"
+#include "cli/terminal/confirm.h"
 #include "cli/terminal/interrupt.h"
 #include "disk/disk.h"
 #include "run/calibrate/fit.h"
@@ -8,7 +9,6 @@
 
 #include <filesystem>
 #include <fmt/format.h>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <unistd.h>
@@ -32,19 +32,9 @@ tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
 tl::expected<void, Failure> ask(spec::Robot robot) {
   const auto time = std::chrono::round<std::chrono::seconds>(run::course_time(robot)).count();
   print_err(fmt::format("the {} will drive by itself for about {} s, within 2 m x 2 m\n"
-                        "  put it in the middle of a clear, level floor, facing along one side\n"
-                        "  press Enter to start: ",
+                        "  put it in the middle of a clear, level floor, facing along one side\n",
                         spec::info(robot).title, time));
-  std::string line;
-  if (std::getline(std::cin, line)) {
-    if (::isatty(STDIN_FILENO) == 0)
-      print_err("\n"); // as a terminal would show it
-    return {};
-  }
-  print_err("\n");
-  if (InterruptGuard::asked() > 0)
-    return refuse(ExitCode::Interrupted, "interrupted");
-  return refuse(ExitCode::Usage, "nobody presses Enter; `--yes` says that the floor is clear");
+  return await_enter("`--yes` confirms that the floor is clear");
 }
 
 void print_result(const run::Calibration& found, const run::Speeds& speeds) {

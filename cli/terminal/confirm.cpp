@@ -1,0 +1,28 @@
+#include "cli/terminal/confirm.h"
+
+#include "cli/context.h"
+#include "cli/terminal/interrupt.h"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <string>
+#include <unistd.h>
+
+namespace orb::cli {
+
+tl::expected<void, Failure> await_enter(std::string_view remedy) {
+  print_err("  press Enter to start: ");
+  std::string line;
+  const bool pressed = static_cast<bool>(std::getline(std::cin, line));
+  if (!pressed || ::isatty(STDIN_FILENO) == 0)
+    print_err("\n"); // a terminal has shown the Enter itself
+  if (pressed)
+    return {};
+  if (InterruptGuard::asked() > 0)
+    return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
+  return tl::unexpected(Failure{ExitCode::Usage, fmt::format("standard input ended before Enter "
+                                                             "was pressed; {}",
+                                                             remedy)});
+}
+
+} // namespace orb::cli
