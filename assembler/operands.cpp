@@ -2,6 +2,58 @@
 
 namespace orb::assembler {
 
+namespace {
+
+std::string_view unit_word(Unit unit) {
+  switch (unit) {
+  case Unit::None:
+  case Unit::Unknown: return "";
+  case Unit::Milliseconds: return "ms";
+  case Unit::Seconds: return "s";
+  case Unit::Degrees: return "deg";
+  }
+  return "";
+}
+
+/// How many thousandths of the operand's own unit one of `unit` is; 0 where they do not go
+/// together.
+std::int64_t scale(Unit unit, MacroUnit own) {
+  if (unit == Unit::None)
+    return whole;
+  const std::int64_t ms = unit == Unit::Milliseconds ? 1 : unit == Unit::Seconds ? second_ms : 0;
+  switch (own) {
+  case MacroUnit::None: return 0;
+  case MacroUnit::Milliseconds: return whole * ms;
+  case MacroUnit::Ticks10ms: return whole * ms / 10;
+  case MacroUnit::Degrees: return unit == Unit::Degrees ? whole : 0;
+  }
+  return 0;
+}
+
+std::string range_of(const MacroOperand& operand) {
+  const auto unit = spec::to_string(operand.unit);
+  if (operand.unit == MacroUnit::Ticks10ms)
+    return fmt::format("{} to {} ms in steps of 10", operand.minimum * 10, operand.maximum * 10);
+  return fmt::format("{} to {}{}{}", operand.minimum, operand.maximum, unit.empty() ? "" : " ",
+                     unit);
+}
+
+/// An angle within one turn.
+std::int64_t same_way(std::int64_t angle_deg, std::int64_t turn_deg) {
+  return (angle_deg % turn_deg + turn_deg) % turn_deg;
+}
+
+std::string operand_list(const spec::MacroCommandInfo& info) {
+  std::string list;
+  for (const auto& operand : info)
+    list += fmt::format("{}{}", list.empty() ? "" : ", ",
+                        operand.kind == MacroOperandKind::Delay ? fmt::format("[{}]", operand.name)
+                                                                : std::string(operand.name));
+  return list;
+}
+
+} // namespace
+
 bool Assembler::bind(const Statement& statement, const spec::MacroCommandInfo& info,
                      std::array<const Value*, spec::macro_max_operands>& bound) {
   std::size_t position = 0;

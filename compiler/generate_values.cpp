@@ -2,6 +2,21 @@
 
 namespace orb::compiler {
 
+namespace {
+
+constexpr std::array operations{Op::Multiply,  Op::Divide,     Op::Remainder,
+                                Op::ShiftLeft, Op::ShiftRight, Op::Add,
+                                Op::Subtract,  Op::And,        Op::Or};
+static_assert(operations.size() == spec::operators.size() &&
+              operations[static_cast<std::size_t>(Operator::ShiftRight)] == Op::ShiftRight &&
+              operations[static_cast<std::size_t>(Operator::Or)] == Op::Or);
+
+constexpr std::array functions{Op::Sqrt, Op::Rnd, Op::Abs};
+static_assert(functions.size() == spec::functions.size() &&
+              functions[static_cast<std::size_t>(Function::Abs)] == Op::Abs);
+
+} // namespace
+
 std::uint16_t Generator::constant(std::int32_t value) {
   if (chunk_.constants.size() >= most_registers && !constants_.contains(value)) {
     overflow_ = true;

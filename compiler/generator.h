@@ -37,17 +37,6 @@ static_assert(with_relation(Op::UnlessEqual, Relation::Greater) == Op::UnlessGre
               with_relation(Op::WhenEqual, Relation::Less) == Op::WhenLess &&
               with_relation(Op::SelectEqual, Relation::NotEqual) == Op::SelectNotEqual);
 
-constexpr std::array operations{Op::Multiply,  Op::Divide,     Op::Remainder,
-                                Op::ShiftLeft, Op::ShiftRight, Op::Add,
-                                Op::Subtract,  Op::And,        Op::Or};
-static_assert(operations.size() == spec::operators.size() &&
-              operations[static_cast<std::size_t>(Operator::ShiftRight)] == Op::ShiftRight &&
-              operations[static_cast<std::size_t>(Operator::Or)] == Op::Or);
-
-constexpr std::array functions{Op::Sqrt, Op::Rnd, Op::Abs};
-static_assert(functions.size() == spec::functions.size() &&
-              functions[static_cast<std::size_t>(Function::Abs)] == Op::Abs);
-
 /// Emits instructions in the order of the text: whatever an expression does (fail, draw a random
 /// number, clear what it reads) happens where it is written.
 class Generator {

@@ -2,6 +2,60 @@
 
 namespace orb::report {
 
+namespace {
+
+// What a course may hold: the explanation of course-too-large says it, too.
+constexpr std::size_t most_bytes = 4 << 20;
+constexpr int most_groups = 64;
+constexpr std::size_t most_elements = 100'000;
+constexpr std::size_t most_findings = 50;
+
+struct RoleName {
+  std::string_view word;
+  Role role;
+};
+// The plural is what people call a layer.
+constexpr auto role_names = std::to_array<RoleName>({
+    {"wall", Role::Wall},
+    {"walls", Role::Wall},
+    {"zone", Role::Zone},
+    {"zones", Role::Zone},
+    {"start", Role::Start},
+});
+
+/// Elements whose children are not drawn where they stand.
+constexpr auto hidden_elements =
+    std::to_array<std::string_view>({"defs", "symbol", "clipPath", "mask", "pattern", "marker",
+                                     "metadata", "style", "title", "desc"});
+
+constexpr double cm_in_inch = 2.54;
+
+struct Unit {
+  std::string_view name;
+  double cm;
+};
+
+constexpr auto units = std::to_array<Unit>({
+    {"mm", 0.1},
+    {"cm", 1},
+    {"in", cm_in_inch},
+    {"px", cm_in_inch / 96}, // Source: CSS: 96 to the inch
+    {"pt", cm_in_inch / 72},
+    {"pc", cm_in_inch / 6},
+});
+
+std::string_view local_name(std::string_view name) {
+  return name.starts_with("svg:") ? name.substr(4) : name;
+}
+
+} // namespace
+
+std::string_view name_of(Role role) {
+  const auto* const found = std::find_if(role_names.begin(), role_names.end(),
+                                         [&](const RoleName& row) { return row.role == role; });
+  return found->word;
+}
+
 CourseReading Reader::read() {
   const auto& name = source_.name();
   const auto file = file_name(name);

@@ -20,62 +20,10 @@ using svg::Outline;
 using svg::Outlines;
 using vm::Point;
 
-// What a course may hold: the explanation of course-too-large says it, too.
-inline constexpr std::size_t most_bytes = 4 << 20;
-inline constexpr int most_groups = 64;
-inline constexpr std::size_t most_elements = 100'000;
-inline constexpr std::size_t most_points = 10'000; ///< of all lines together, and so of walls
-inline constexpr double farthest_cm = 100'000;
-inline constexpr std::size_t most_findings = 50;
-
 enum class Role : std::uint8_t { None, Wall, Zone, Start };
 
-struct RoleName {
-  std::string_view word;
-  Role role;
-};
-// The plural is what people call a layer.
-inline constexpr auto role_names = std::to_array<RoleName>({
-    {"wall", Role::Wall},
-    {"walls", Role::Wall},
-    {"zone", Role::Zone},
-    {"zones", Role::Zone},
-    {"start", Role::Start},
-});
-
-inline std::string_view name_of(Role role) {
-  const auto* const found = std::find_if(role_names.begin(), role_names.end(),
-                                         [&](const RoleName& row) { return row.role == role; });
-  return found->word;
-}
-
-/// Elements whose children are not drawn where they stand.
-inline constexpr auto hidden_elements =
-    std::to_array<std::string_view>({"defs", "symbol", "clipPath", "mask", "pattern", "marker",
-                                     "metadata", "style", "title", "desc"});
-
-struct Unit {
-  std::string_view name;
-  double cm;
-};
-inline constexpr double cm_in_inch = 2.54;
-inline constexpr auto units = std::to_array<Unit>({
-    {"mm", 0.1},
-    {"cm", 1},
-    {"in", cm_in_inch},
-    {"px", cm_in_inch / 96}, // Source: CSS: 96 to the inch
-    {"pt", cm_in_inch / 72},
-    {"pc", cm_in_inch / 6},
-});
-
-/// A millionth of a centimetre: what is left of rounding in a transform vanishes.
-inline double rounded(double cm) {
-  return std::round(cm * 1e6) / 1e6 + 0.0;
-}
-
-inline std::string_view local_name(std::string_view name) {
-  return name.starts_with("svg:") ? name.substr(4) : name;
-}
+/// The word for a role: `wall`, `zone`, `start`.
+std::string_view name_of(Role role);
 
 /// A property of CSS in a `style` attribute, or the attribute of its name.
 inline std::string_view property(const pugi::xml_node& node, std::string_view name) {

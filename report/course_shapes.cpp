@@ -2,6 +2,18 @@
 
 namespace orb::report {
 
+namespace {
+
+constexpr std::size_t most_points = 10'000; // of all lines together, and so of walls
+constexpr double farthest_cm = 100'000;
+
+/// A millionth of a centimetre: what is left of rounding in a transform vanishes.
+double rounded(double cm) {
+  return std::round(cm * 1e6) / 1e6 + 0.0;
+}
+
+} // namespace
+
 std::optional<Outlines> Reader::outlines(const Element& element) {
   const auto& node = element.node;
   if (element.name == "line")

@@ -2,7 +2,6 @@
 
 #include "run/cause_places.h"
 
-#include "bytecode/op.h"
 #include "compiler/check.h"
 #include "run/run.h"
 #include "spec/limits.h"
@@ -15,9 +14,6 @@
 namespace orb::run {
 namespace {
 
-using bytecode::Op;
-using compiler::Item;
-using compiler::ItemKind;
 using compiler::NodeKind;
 using compiler::none;
 using compiler::Program;

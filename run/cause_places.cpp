@@ -1,12 +1,8 @@
 #include "run/cause_places.h"
 
 #include "bytecode/op.h"
-#include "compiler/check.h"
-#include "run/run.h"
 #include "spec/limits.h"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <vector>
 
@@ -17,7 +13,6 @@ using bytecode::Op;
 using compiler::Item;
 using compiler::ItemKind;
 using compiler::NodeKind;
-using compiler::none;
 using compiler::Program;
 using compiler::StatementNode;
 using spec::BasicError;

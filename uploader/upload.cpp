@@ -1,8 +1,17 @@
 #include "uploader/upload_run.h"
 
+#include <cmath>
+#include <fmt/format.h>
+
 namespace orb::uploader {
 
 namespace {
+
+constexpr auto power_state_at = spec::answer_offset(ApiCommand::GetPowerState, "power state");
+
+double seconds(Duration duration) {
+  return static_cast<double>(duration.count()) / 1e9;
+}
 
 /// A battery that might not last through a write to flash.
 std::optional<Report> check_battery(const Greeting& greeting, BatteryPolicy policy) {
@@ -36,6 +45,30 @@ std::string no_ball(const Session& session, const NoAnswer& failure) {
 }
 
 } // namespace
+
+Report refused(ApiCommand command, const Response& response, Content content,
+               std::string_view state) {
+  const auto* row = spec::find_response(response.code);
+  return {Report::Kind::Refused, content,
+          fmt::format("the ball refused {}: {}{}{}{}", spec::info(command).name,
+                      describe_code(response.code), state,
+                      row == nullptr || row->remedy.empty() ? "" : "; ",
+                      row == nullptr ? "" : row->remedy),
+          response.code};
+}
+
+Report lost(const Session& session, ApiCommand command, const NoAnswer& failure, Content content,
+            std::string_view state) {
+  const auto name = spec::info(command).name;
+  if (is_interruption(failure))
+    return {Report::Kind::Interrupted, content, fmt::format("interrupted{}", state), 0};
+  return {content == Content::Unconfirmed ? Report::Kind::Unknown : Report::Kind::LinkLost, content,
+          failure.kind == NoAnswer::Kind::Link
+              ? fmt::format("link lost during {}: {}{}", name, failure.link.message, state)
+              : fmt::format("no reply to {} within {:g} s{}", name,
+                            seconds(session.budgets().answer), state),
+          0};
+}
 
 // A piece arrives once with (1−d)(1−q)² or d·2q(1−q)², and twice with one of its answers lost, so
 // that it looks like once, with d(1−q)²·2q(1−q); whatever else happens to it starts the upload

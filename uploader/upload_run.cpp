@@ -1,6 +1,88 @@
 #include "uploader/upload_run.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+
 namespace orb::uploader {
+
+using spec::Retry;
+using spec::retry_of;
+
+namespace {
+
+constexpr auto rx_good_at = spec::answer_offset(ApiCommand::PerformLevel2Diagnostics, "Rx_Good");
+
+bool is_program(Route route) {
+  return route == Route::Ram || route == Route::RamThenFlash || route == Route::FlashDirectly;
+}
+
+/// `RAM holds part of the program`: what is where, for the end of a message.
+std::string describe(Content content, Route route) {
+  const auto committed = route == Route::RamThenFlash;
+  const std::string_view place = route == Route::FlashDirectly ? "flash" : "RAM";
+  if (!is_program(route)) {
+    switch (content) {
+    case Content::Unchanged: return "the ball's macros are unchanged";
+    case Content::ErasedOrUnchanged: return "the ball's macros may have been cleared";
+    case Content::Erased: return "the ball's macros have been cleared";
+    case Content::Incomplete: return "the ball may hold a part of the macro";
+    case Content::Uncommitted:
+    case Content::Unconfirmed: return "the macro may or may not be there";
+    case Content::Stored: return "the macro is stored";
+    }
+  }
+  const auto tail = committed ? "; the program in flash is unchanged" : "";
+  switch (content) {
+  case Content::Unchanged: return "the ball's programs are unchanged";
+  case Content::ErasedOrUnchanged:
+    return fmt::format("the program in {} is erased or unchanged{}", place, tail);
+  case Content::Erased: return fmt::format("the program in {} is erased{}", place, tail);
+  case Content::Incomplete: return fmt::format("the program in {} is incomplete{}", place, tail);
+  case Content::Uncommitted: return "the program is in RAM, the one in flash is unchanged";
+  case Content::Unconfirmed:
+    return committed ? "the program in flash is the old one or the new one"
+                     : fmt::format("whether the program in {} is complete is not known", place);
+  case Content::Stored:
+    return fmt::format("the program is stored in {}", committed ? "flash" : place);
+  }
+  return {};
+}
+
+/// What a second answer means: a piece stored twice, or nothing, as for a start, of which the ball
+/// refuses the second.
+enum class Duplicates : std::uint8_t { Matter, DoNotMatter };
+
+/// Sends one packet that must be carried out exactly once. `data` makes it for the sequence number
+/// that comes next, so that a resend can be cut differently. An answer other than OK is returned
+/// only where sending again does not help.
+template <class MakeData>
+tl::expected<std::optional<Response>, NoAnswer>
+send_once(Session& session, ApiCommand command, Duplicates duplicates, const MakeData& data) {
+  for (int resend = 0; resend <= session.budgets().resends; ++resend) {
+    const auto answer = session.exchange(command, data());
+    if (!answer && answer.error().kind == NoAnswer::Kind::Link)
+      return tl::unexpected(answer.error());
+    if (!answer || (duplicates == Duplicates::Matter && session.duplicate_seen()))
+      return std::nullopt;
+    if (is_transient(answer->code)) {
+      if (const auto waited = session.listen(session.now() + session.budgets().backoff(resend + 1));
+          !waited)
+        return tl::unexpected(waited.error());
+    } else if (retry_of(answer->code) != Retry::SameAgain) {
+      return *answer;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether a message shows that a program runs, or ran until now.
+bool is_sign_of_life(const protocol::Async& message) {
+  return message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicPrint) ||
+         message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicErrorText) ||
+         message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicError);
+}
+
+} // namespace
 
 Upload::Upload(Session& session, const Plan& plan, Progress& progress)
     : session_(session), plan_(plan), progress_(progress) {
@@ -51,6 +133,10 @@ std::optional<Report> Upload::begin_again() {
     return lose(ApiCommand::AppendOrbbasicFragment, waited.error());
   ++status_.attempt;
   return std::nullopt;
+}
+
+std::string Upload::state() const {
+  return "; " + describe(content_, plan_.route);
 }
 
 void Upload::show(Stage stage) {

@@ -2,131 +2,27 @@
 
 #include "uploader/upload.h"
 
-#include <algorithm>
-#include <cmath>
-#include <fmt/format.h>
-
 namespace orb::uploader {
 
 using protocol::LinkError;
 using protocol::Response;
 using spec::ApiCommand;
-using spec::Retry;
-using spec::retry_of;
-
-inline constexpr auto power_state_at =
-    spec::answer_offset(ApiCommand::GetPowerState, "power state");
-inline constexpr auto rx_good_at =
-    spec::answer_offset(ApiCommand::PerformLevel2Diagnostics, "Rx_Good");
 
 inline bool is_ok(const Response& response) {
   return response.code == static_cast<std::uint8_t>(spec::ResponseCode::Ok);
-}
-
-inline double seconds(Duration duration) {
-  return static_cast<double>(duration.count()) / 1e9;
-}
-
-inline bool is_program(Route route) {
-  return route == Route::Ram || route == Route::RamThenFlash || route == Route::FlashDirectly;
-}
-
-/// `RAM holds part of the program`: what is where, for the end of a message.
-inline std::string describe(Content content, Route route) {
-  const auto committed = route == Route::RamThenFlash;
-  const std::string_view place = route == Route::FlashDirectly ? "flash" : "RAM";
-  if (!is_program(route)) {
-    switch (content) {
-    case Content::Unchanged: return "the ball's macros are unchanged";
-    case Content::ErasedOrUnchanged: return "the ball's macros may have been cleared";
-    case Content::Erased: return "the ball's macros have been cleared";
-    case Content::Incomplete: return "the ball may hold a part of the macro";
-    case Content::Uncommitted:
-    case Content::Unconfirmed: return "the macro may or may not be there";
-    case Content::Stored: return "the macro is stored";
-    }
-  }
-  const auto tail = committed ? "; the program in flash is unchanged" : "";
-  switch (content) {
-  case Content::Unchanged: return "the ball's programs are unchanged";
-  case Content::ErasedOrUnchanged:
-    return fmt::format("the program in {} is erased or unchanged{}", place, tail);
-  case Content::Erased: return fmt::format("the program in {} is erased{}", place, tail);
-  case Content::Incomplete: return fmt::format("the program in {} is incomplete{}", place, tail);
-  case Content::Uncommitted: return "the program is in RAM, the one in flash is unchanged";
-  case Content::Unconfirmed:
-    return committed ? "the program in flash is the old one or the new one"
-                     : fmt::format("whether the program in {} is complete is not known", place);
-  case Content::Stored:
-    return fmt::format("the program is stored in {}", committed ? "flash" : place);
-  }
-  return {};
 }
 
 inline bool is_interruption(const NoAnswer& failure) {
   return failure.kind == NoAnswer::Kind::Link && failure.link.kind == LinkError::Kind::Interrupted;
 }
 
-inline Report refused(ApiCommand command, const Response& response, Content content,
-                      std::string_view state) {
-  const auto* row = spec::find_response(response.code);
-  return {Report::Kind::Refused, content,
-          fmt::format("the ball refused {}: {}{}{}{}", spec::info(command).name,
-                      describe_code(response.code), state,
-                      row == nullptr || row->remedy.empty() ? "" : "; ",
-                      row == nullptr ? "" : row->remedy),
-          response.code};
-}
+/// What the ball refused and why, with what is on it now (`state`) and the remedy.
+Report refused(ApiCommand command, const Response& response, Content content,
+               std::string_view state);
 
-/// No answer, or none but "damaged".
-inline Report lost(const Session& session, ApiCommand command, const NoAnswer& failure,
-                   Content content, std::string_view state) {
-  const auto name = spec::info(command).name;
-  if (is_interruption(failure))
-    return {Report::Kind::Interrupted, content, fmt::format("interrupted{}", state), 0};
-  return {content == Content::Unconfirmed ? Report::Kind::Unknown : Report::Kind::LinkLost, content,
-          failure.kind == NoAnswer::Kind::Link
-              ? fmt::format("link lost during {}: {}{}", name, failure.link.message, state)
-              : fmt::format("the ball stopped answering: nothing to {} within {:g} s{}", name,
-                            seconds(session.budgets().answer), state),
-          0};
-}
-
-/// What a second answer means: a piece stored twice, or nothing, as for a start, of which the ball
-/// refuses the second.
-enum class Duplicates : std::uint8_t { Matter, DoNotMatter };
-
-/// Sends one packet that must be carried out exactly once. `data` makes it for the sequence number
-/// that comes next, so that a resend can be cut differently. An answer other than OK is returned
-/// only where sending again does not help.
-template <class MakeData>
-tl::expected<std::optional<Response>, NoAnswer> inline send_once(Session& session,
-                                                                 ApiCommand command,
-                                                                 Duplicates duplicates,
-                                                                 const MakeData& data) {
-  for (int resend = 0; resend <= session.budgets().resends; ++resend) {
-    const auto answer = session.exchange(command, data());
-    if (!answer && answer.error().kind == NoAnswer::Kind::Link)
-      return tl::unexpected(answer.error());
-    if (!answer || (duplicates == Duplicates::Matter && session.duplicate_seen()))
-      return std::nullopt;
-    if (is_transient(answer->code)) {
-      if (const auto waited = session.listen(session.now() + session.budgets().backoff(resend + 1));
-          !waited)
-        return tl::unexpected(waited.error());
-    } else if (retry_of(answer->code) != Retry::SameAgain) {
-      return *answer;
-    }
-  }
-  return std::nullopt;
-}
-
-/// Whether a message shows that a program runs, or ran until now.
-inline bool is_sign_of_life(const protocol::Async& message) {
-  return message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicPrint) ||
-         message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicErrorText) ||
-         message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicError);
-}
+/// No answer, or none but "damaged"; Kind::Interrupted where the user stopped it.
+Report lost(const Session& session, ApiCommand command, const NoAnswer& failure, Content content,
+            std::string_view state);
 
 /// Carries a plan out and knows what is on the ball at each moment.
 class Upload {
@@ -150,7 +46,7 @@ private:
 
   void show(Stage stage);
 
-  std::string state() const { return "; " + describe(content_, plan_.route); }
+  std::string state() const;
 
   Report refuse(ApiCommand command, const Response& response) const;
 

@@ -2,6 +2,27 @@
 
 namespace orb::compiler {
 
+namespace {
+
+/// Neither printable ASCII nor LF.
+constexpr bool is_unusual(char c) {
+  return ((c < ' ') | (c > '~')) & (c != '\n');
+}
+
+bool has_unusual_byte(std::string_view text) {
+  constexpr std::size_t block = 64; // known, so that the compiler looks at many bytes at once
+  for (; text.size() >= block; text.remove_prefix(block)) {
+    std::uint8_t found = 0;
+    for (std::size_t i = 0; i < block; ++i)
+      found |= static_cast<std::uint8_t>(is_unusual(text[i]));
+    if (found != 0)
+      return true;
+  }
+  return std::any_of(text.begin(), text.end(), is_unusual);
+}
+
+} // namespace
+
 void TextPass::run() {
   check_bytes();
   check_numbers();

@@ -14,12 +14,8 @@
 
 namespace orb::compiler {
 
-using spec::letter_name;
-
 inline constexpr auto letters = spec::letter_count;
 inline constexpr std::uint32_t index_letter = letters - 1; // Y
-inline constexpr std::int32_t full_turn =
-    spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1; // degrees
 
 constexpr std::uint32_t bit(std::uint32_t n) {
   return std::uint32_t{1} << n;

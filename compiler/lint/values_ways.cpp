@@ -76,10 +76,10 @@ void ValuesPass::check_letters() {
     const bool set = letter.first_set != nullptr;
     if (set && !used && !letter.counted && !(i == index_letter && indexed_used_) && !clears(i)) {
       findings_.add(rules::UnusedVariable, letter.first_set->span,
-                    fmt::format("`{}` is set but never used", letter_name(i)));
+                    fmt::format("`{}` is set but never used", spec::letter_name(i)));
     } else if (used && !set) {
       findings_.add(rules::NeverAssigned, letter.first_used->span,
-                    fmt::format("`{}` is used but never set, so it is 0", letter_name(i)));
+                    fmt::format("`{}` is used but never set, so it is 0", spec::letter_name(i)));
     }
   }
 }

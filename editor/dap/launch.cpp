@@ -161,15 +161,19 @@ tl::expected<std::shared_ptr<run::HeldRobot>, Failure> Session::robot_at(const s
   return open_robot(port, kind);
 }
 
-Answer Session::configuration_done(const Json&) {
-  if (configured)
-    return refuse("`configurationDone` comes once");
-  configured = true;
+Answer Session::begin() {
   if (stop_on_entry)
     afterwards = [this] { stopped("entry", {}); };
   else
     go(debug::Move::Continue, debug::Direction::Forward, Thread::Program);
   return Json();
+}
+
+Answer Session::configuration_done(const Json&) {
+  if (configured)
+    return refuse("`configurationDone` comes once");
+  configured = true;
+  return begin();
 }
 
 Answer Session::restart(const Json&) {
@@ -179,11 +183,7 @@ Answer Session::restart(const Json&) {
     return refuse(again.error());
   over = false;
   going = false;
-  if (stop_on_entry)
-    afterwards = [this] { stopped("entry", {}); };
-  else
-    go(debug::Move::Continue, debug::Direction::Forward, Thread::Program);
-  return Json();
+  return begin();
 }
 
 Answer Session::terminate(const Json&) {

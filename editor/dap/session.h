@@ -84,6 +84,7 @@ struct Session final : debug::Console {
   Answer launch(const Json& arguments);
   Answer attach(const Json& arguments);
   Answer configuration_done(const Json& arguments);
+  Answer begin(); ///< stops on entry, or goes
   Answer restart(const Json& arguments);
   Answer terminate(const Json& arguments);
   Answer disconnect(const Json& arguments);

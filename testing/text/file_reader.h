@@ -17,7 +17,6 @@
 
 namespace orb::testing {
 
-inline constexpr int most_points = 1000;
 inline constexpr std::int64_t most_times = 1'000'000'000;
 
 template <class Row>

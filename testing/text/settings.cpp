@@ -2,6 +2,12 @@
 
 namespace orb::testing {
 
+namespace {
+
+constexpr int most_points = 1000;
+
+} // namespace
+
 void FileReader::read_file(Cursor& cursor, std::optional<Named>& into) {
   const auto span = cursor.peek_span();
   if (into)
