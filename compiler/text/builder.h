@@ -1,0 +1,248 @@
+#pragma once
+
+// What the rules of orbBasic's grammar write to. Private to parse.cpp.
+
+#include "base/text.h"
+#include "base/utf8.h"
+#include "compiler/text/program.h"
+#include "spec/basic.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace orb::compiler {
+
+/// How deep the parser follows parentheses. The robot gives up far earlier; what lies between is
+/// kept as it is, so that the linter can speak about it.
+inline constexpr std::uint8_t deepest = 32;
+
+/// Ends the parse of a line or of a branch: thrown by the rules and by Builder, caught in
+/// parse.cpp.
+struct Stop {
+  Reason reason;
+  const char* begin;
+  const char* end = nullptr; ///< null where the span is the token at `begin`
+  std::uint32_t found = 0;
+};
+
+/// By character of ASCII.
+inline constexpr auto operator_of = [] {
+  std::array<std::uint8_t, INT8_MAX + 1> table{};
+  for (const auto& row : spec::operators)
+    table[static_cast<std::size_t>(row.symbol)] = static_cast<std::uint8_t>(row.op);
+  return table;
+}();
+
+struct Digits {
+  std::uint32_t value = 0; ///< modulo 2^32
+  bool above_integer = false;
+  bool above_word = false; ///< 2^32 or more
+};
+
+inline Digits read_digits(const char* begin, const char* end) {
+  std::uint64_t value = 0;
+  Digits digits;
+  for (; begin != end; ++begin) {
+    value = value * 10 + static_cast<std::uint64_t>(*begin - '0');
+    if (value > static_cast<std::uint64_t>(spec::value_of(spec::Limit::GreatestInteger))) {
+      constexpr auto word = std::numeric_limits<std::uint32_t>::max();
+      digits.above_integer = true;
+      digits.above_word = digits.above_word || value > word;
+      value &= word;
+    }
+  }
+  digits.value = static_cast<std::uint32_t>(value);
+  return digits;
+}
+
+/// A line number as written, saturated below `none`.
+inline std::uint32_t read_line_number(const char* begin, const char* end) {
+  const auto digits = read_digits(begin, end);
+  return digits.above_word ? none - 1 : std::min(digits.value, none - 1);
+}
+
+/// Where the rules put what they find: straight into the program.
+class Builder {
+public:
+  explicit Builder(Program& program) : program_(program), base_(program.text.data()) {}
+
+  Span span(const char* begin, const char* end) const {
+    return {static_cast<std::uint32_t>(begin - base_), static_cast<std::uint32_t>(end - base_)};
+  }
+
+  void leaf(NodeKind kind, std::uint8_t what, const char* begin, const char* end) {
+    add(kind, what, size(program_.nodes), span(begin, end));
+  }
+
+  void number(const char* begin, const char* end) {
+    const auto digits = read_digits(begin, end);
+    leaf(NodeKind::Number, 0, begin, end);
+    program_.nodes.back().value = static_cast<std::int32_t>(digits.value);
+    program_.nodes.back().overflow = digits.above_integer;
+  }
+
+  /// An operator before, or parentheses around, the last operand.
+  void unary(NodeKind kind, std::uint8_t what, const char* begin, const char* end) {
+    add(kind, what, program_.nodes.back().first, span(begin, end)).depth = depth_;
+  }
+
+  void binary(char symbol) {
+    const auto& right = program_.nodes.back();
+    const auto& left = program_.nodes[right.first - 1];
+    add(NodeKind::Binary, operator_of[static_cast<std::size_t>(symbol)], left.first,
+        {left.span.begin, right.span.end});
+  }
+
+  void open(const char* at) {
+    if (++depth_ > deepest)
+      throw Stop{Reason::TooDeep, at, nullptr};
+  }
+  void close() { --depth_; }
+
+  void item(ItemKind kind, std::uint32_t value, Span where) {
+    auto& item = program_.items.emplace_back();
+    item.kind = kind;
+    item.value = value;
+    item.span = where;
+  }
+  void expression(ItemKind kind) {
+    item(kind, size(program_.nodes) - 1, program_.nodes.back().span);
+  }
+  /// Puts the `$` into the span of the last item.
+  void widen_item(const char* begin) {
+    program_.items.back().span.begin = span(begin, begin).begin;
+  }
+
+  /// Begins a statement; the one before it stays the parent until `end_statement`.
+  void begin_statement(spec::Statement kind, Spelling spelling, const char* begin,
+                       const char* end) {
+    statement_ = size(program_.statements);
+    auto& statement = program_.statements.emplace_back();
+    statement.kind = kind;
+    statement.spelling = spelling;
+    statement.items_begin = size(program_.items);
+    statement.word = span(begin, end);
+    statement.span.begin = statement.word.begin;
+    kind_ = kind;
+  }
+  void spell(Spelling spelling) { program_.statements[statement_].spelling = spelling; }
+  spec::Statement kind() const { return kind_; }
+
+  /// What a failed line or branch is cut back to.
+  struct Mark {
+    std::size_t statements;
+    std::size_t items;
+    std::size_t nodes;
+  };
+  Mark mark() const {
+    return {program_.statements.size(), program_.items.size(), program_.nodes.size()};
+  }
+
+  /// Puts one statement that holds the robot's error in place of all since `mark`.
+  void fail(const Mark& mark, const Stop& stop, const char* begin, const char* end) {
+    program_.statements.resize(mark.statements);
+    program_.items.resize(mark.items);
+    program_.nodes.resize(mark.nodes);
+    auto& statement = program_.statements.emplace_back();
+    statement.error = error_of(stop.reason);
+    statement.items_begin = statement.items_end = size(program_.items);
+    statement.span = span(begin, end);
+    const auto line = size(program_.lines) - 1;
+    if (program_.faults.empty() || program_.faults.back().line != line)
+      program_.faults.push_back(
+          {stop.reason, line, kind_, stop.found,
+           stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin)});
+    depth_ = 0;
+  }
+
+  /// The statements in `then` and `else`: parsed like a line of their own.
+  template <typename Parse>
+  void branch(const char* begin, Parse parse) {
+    const auto parent = statement_;
+    const auto index = size(program_.statements);
+    in_branch_ = true;
+    const char* end = parse(mark());
+    in_branch_ = false;
+    auto& branch = program_.statements[index];
+    branch.span = span(begin, trim(begin, end));
+    branch.items_end = size(program_.items);
+    statement_ = parent;
+    kind_ = spec::Statement::If;
+    auto& owner = program_.statements[parent];
+    (owner.then_branch == none ? owner.then_branch : owner.else_branch) = index;
+  }
+  bool in_branch() const { return in_branch_; }
+  void end_condition() { program_.statements[statement_].items_end = size(program_.items); }
+
+  void begin_line() {
+    depth_ = 0;
+    in_branch_ = false;
+    kind_ = spec::Statement::End;
+  }
+
+  const char* trim(const char* begin, const char* end) const {
+    while (end != begin && is_blank(end[-1]))
+      --end;
+    return end;
+  }
+
+private:
+  /// Filled where it lies: a copy would have to wait for the parts that were written just before.
+  Node& add(NodeKind kind, std::uint8_t what, std::uint32_t first, Span where) {
+    auto& node = program_.nodes.emplace_back();
+    node.kind = kind;
+    node.what = what;
+    node.first = first;
+    node.span = where;
+    return node;
+  }
+
+  template <typename T>
+  static std::uint32_t size(const std::vector<T>& vector) {
+    return static_cast<std::uint32_t>(vector.size());
+  }
+
+  static spec::BasicError error_of(Reason reason) {
+    if (reason == Reason::UnknownWord)
+      return spec::BasicError::UnknownStatement;
+    if (reason == Reason::TooDeep)
+      return spec::BasicError::ExpressionTooComplex;
+    return spec::BasicError::SyntaxError;
+  }
+
+  /// The word, number, string or sign at `at`; empty at the end of a line.
+  Span token(const char* at) const {
+    const char* const end = base_ + program_.text.size();
+    const char* p = at;
+    if (p == end || *p == '\n' || *p == '\r' || *p == '\'')
+      return span(trim(base_, at), trim(base_, at));
+    if (is_letter(*p))
+      p = std::find_if_not(p, end, is_letter);
+    else if (is_digit(*p))
+      p = std::find_if_not(p, end, is_digit);
+    else if (*p == '"')
+      p = std::find_if(p, end, [](char c) { return c == '\n' || c == '\r'; });
+    else if (std::strchr("<>!=", *p) != nullptr)
+      p = std::find_if_not(p, end,
+                           [](char c) { return c == '<' || c == '>' || c == '!' || c == '='; });
+    else
+      do
+        ++p;
+      while (p != end && is_utf8_tail(*p));
+    return span(at, p);
+  }
+
+  Program& program_;
+  const char* base_;
+  std::uint32_t statement_ = 0;
+  spec::Statement kind_ = spec::Statement::End;
+  std::uint8_t depth_ = 0;
+  bool in_branch_ = false;
+};
+
+} // namespace orb::compiler
