@@ -1,6 +1,8 @@
 #include "repair/fill.h"
 
 #include "base/text.h"
+#include "repair/colours.h"
+#include "repair/print_items.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,49 +16,6 @@ constexpr std::int64_t most_seconds = 20; // a wait for so few was meant in seco
 constexpr std::int64_t largest = 2147483647;
 
 using Text = std::optional<std::string>;
-
-struct Colour {
-  std::string_view name; ///< as structured programs and tests write it
-  std::uint32_t value;
-  int code; ///< of LEDC; -1 without one
-  std::string_view words;
-};
-
-constexpr auto colours = std::to_array<Colour>({
-    {"red", 0xFF0000, 1, "red rot rojo roja rouge rosso rossa vermelho vermelha"},
-    {"lime", 0x00FF00, 2, "green lime grün gruen verde vert verte"},
-    {"blue", 0x0000FF, 3, "blue blau azul bleu blu azzurro"},
-    {"orange", 0xFF8000, 4, "orange naranja arancione laranja"},
-    {"purple", 0x8000FF, 5, "purple violet lila violett morado violeta viola roxo pourpre"},
-    {"white", 0xFFFFFF, 6, "white weiß weiss blanco blanca blanc blanche bianco branco"},
-    {"yellow", 0xFFFF00, 7, "yellow gelb amarillo jaune giallo amarelo"},
-    {"black", 0x000000, 0, "black off dark schwarz aus negro noir nero preto apagado none"},
-    {"aqua", 0x00FFFF, -1, "cyan aqua türkis turquoise"},
-    {"fuchsia", 0xFF00FF, -1, "magenta fuchsia"},
-    {"#FF69B4", 0xFF69B4, -1, "pink rosa rose"},
-    {"gray", 0x808080, -1, "gray grey grau gris grigio cinza"},
-    {"navy", 0x000080, -1, "navy"},
-    {"teal", 0x008080, -1, "teal"},
-    {"#8B4513", 0x8B4513, -1, "brown braun"},
-});
-
-bool holds(std::string_view words, std::string_view word) {
-  for (std::size_t at = 0; at < words.size();) {
-    const auto end = std::min(words.find(' ', at), words.size());
-    if (equal_words(words.substr(at, end - at), word))
-      return true;
-    at = end + 1;
-  }
-  return false;
-}
-
-const Colour* named_colour(const Token& token) {
-  if (!token.is_word() && !token.is_text())
-    return nullptr;
-  const auto found = std::find_if(colours.begin(), colours.end(),
-                                  [&](const Colour& one) { return holds(one.words, token.text); });
-  return found == colours.end() ? nullptr : &*found;
-}
 
 /// A number in thousandths, with a point or without.
 std::optional<std::int64_t> thousandths(const Token& token) {
@@ -245,145 +204,6 @@ Text opposite(Tokens tokens, Language language) {
                : std::nullopt;
 }
 
-/// Text with `{name}` in it, as items of `print`.
-std::string parts_of(std::string_view text, std::string_view open, std::string_view close) {
-  std::string items;
-  while (!text.empty()) {
-    const auto begin = text.find(open);
-    const auto end = begin == std::string_view::npos ? begin : text.find(close, begin);
-    const auto said = text.substr(0, end == std::string_view::npos ? end : begin);
-    if (!said.empty())
-      items += fmt::format("{}\"{}\"", items.empty() ? "" : " ", said);
-    if (end == std::string_view::npos)
-      break;
-    items += fmt::format("{}{}", items.empty() ? "" : " ",
-                         text.substr(begin + open.size(), end - begin - open.size()));
-    text.remove_prefix(end + close.size());
-  }
-  return items.empty() ? "\"\"" : items;
-}
-
-/// `"%d left\n", n`: a format with its values.
-Text formatted(const Tokens& tokens) {
-  auto text = tokens[0].text;
-  while (text.ends_with("\\n"))
-    text.resize(text.size() - 2);
-  std::vector<Tokens> values;
-  for (std::size_t i = 1; i < tokens.size(); ++i)
-    if (tokens[i].is(",") || tokens[i].is("%"))
-      values.emplace_back();
-    else if (!values.empty())
-      values.back().push_back(tokens[i]);
-  std::string items;
-  std::size_t next = 0;
-  std::string said;
-  const auto flush = [&] {
-    if (!said.empty())
-      items += fmt::format("{}\"{}\"", items.empty() ? "" : " ", said);
-    said.clear();
-  };
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto mark = std::string_view(text).substr(i);
-    const auto width = mark.starts_with("%d") || mark.starts_with("%i") || mark.starts_with("{}") ||
-                               mark.starts_with("%s") || mark.starts_with("%u")
-                           ? 2U
-                       : mark.starts_with("%ld") ? 3U
-                                                 : 0U;
-    if (width == 0) {
-      said += text[i];
-      continue;
-    }
-    if (next == values.size())
-      return std::nullopt;
-    flush();
-    items += fmt::format("{}{}", items.empty() ? "" : " ", join(values[next++]));
-    i += width - 1;
-  }
-  flush();
-  return next == values.size() && !items.empty() ? Text(items) : std::nullopt;
-}
-
-/// A list for `print`: texts side by side, without `+`, `str()` and formats.
-Text items(const Tokens& tokens) {
-  if (tokens.empty())
-    return std::nullopt;
-  if (tokens[0].is_text() && tokens[0].text.find('%') != std::string::npos && tokens.size() > 1)
-    if (auto text = formatted(tokens))
-      return text;
-  if (tokens.size() == 1 && tokens[0].is_text() && tokens[0].text.ends_with("\\n"))
-    return formatted(tokens);
-  std::string out;
-  int depth = 0;
-  bool apart = true;
-  const auto beside_text = [&](std::size_t i) {
-    return (i > 0 && tokens[i - 1].is_text()) ||
-           (i + 1 < tokens.size() && tokens[i + 1].is_text()) ||
-           (i + 1 < tokens.size() && (tokens[i + 1].is("str") || tokens[i + 1].is("String"))) ||
-           (i > 0 && tokens[i - 1].is(")") && out.ends_with("\x01"));
-  };
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const auto& token = tokens[i];
-    const bool converts =
-        token.is("str") || token.is("String") || token.is("STR") || token.is("string");
-    if (converts && i + 1 < tokens.size() && tokens[i + 1].is("(")) {
-      Tokens inner;
-      int open = 0;
-      for (++i; i < tokens.size(); ++i) {
-        open += tokens[i].is("(") ? 1 : tokens[i].is(")") ? -1 : 0;
-        if (open == 0)
-          break;
-        if (!(open == 1 && inner.empty() && tokens[i].is("(")))
-          inner.push_back(tokens[i]);
-      }
-      out += (apart ? "" : " ") + join(inner) + "\x01";
-      apart = false;
-      continue;
-    }
-    const bool joins =
-        token.is("+") || token.is("&") || token.is("<<") || token.is(".") || token.is("..");
-    if (depth == 0 && (token.is(";") || (joins && beside_text(i)))) {
-      if (token.is(";") && i + 1 == tokens.size())
-        out += ";";
-      apart = false;
-      continue;
-    }
-    if ((token.is("f") || token.is("$")) && i + 1 < tokens.size() && tokens[i + 1].is_text() &&
-        !tokens[i + 1].gap) {
-      out += (apart ? "" : " ") + parts_of(tokens[++i].text, "{", "}");
-      apart = false;
-      continue;
-    }
-    if (token.is_text() && token.text.find("${") != std::string::npos) {
-      out += (apart ? "" : " ") + parts_of(token.text, "${", "}");
-      apart = false;
-      continue;
-    }
-    depth += token.is("(") ? 1 : token.is(")") ? -1 : 0;
-    const bool wants_gap = !apart && !token.is(",") &&
-                           (token.gap || i == 0 || token.is_text() || tokens[i - 1].is_text() ||
-                            out.ends_with("\x01") || tokens[i - 1].is("+"));
-    out += (wants_gap ? " " : "") + (token.is_text() ? '"' + token.text + '"' : token.text);
-    apart = false;
-  }
-  out.erase(std::remove(out.begin(), out.end(), '\x01'), out.end());
-  while (!out.empty() && out.front() == ' ')
-    out.erase(out.begin());
-  return out.empty() ? std::nullopt : Text(out);
-}
-
-/// Words without their quotes, as a text.
-Text quoted(const Tokens& tokens) {
-  std::string text;
-  constexpr std::string_view plain = ".!?:,";
-  for (const auto& token : tokens) {
-    if (!token.is_word() &&
-        (text.empty() || !(token.is_number() || plain.find(token.text) != std::string_view::npos)))
-      return std::nullopt;
-    text += (token.gap && !text.empty() ? " " : "") + token.text;
-  }
-  return text.size() < 3 ? std::nullopt : Text(fmt::format("\"{}\"", text));
-}
-
 /// `a` to `b` by the robot's `rnd`, which gives 1 to its value.
 Text dice(const Tokens& from, const Tokens& to, Language language) {
   const auto a = whole(from);
@@ -401,35 +221,10 @@ Text dice(const Tokens& from, const Tokens& to, Language language) {
   return *a > 1 ? fmt::format("{} + {}", call, *a - 1) : fmt::format("{} - {}", call, 1 - *a);
 }
 
-Text colour(std::string_view function, const Tokens& tokens) {
-  if (tokens.size() != 1)
-    return std::nullopt;
-  const auto value = find_colour(tokens[0]);
-  const auto* const named = named_colour(tokens[0]);
-  if (!value)
-    return std::nullopt;
-  const auto hex = fmt::format("#{:06X}", *value);
-  if (function == "rgb")
-    return fmt::format("{}, {}, {}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
-  if (function == "code")
-    return named != nullptr && named->code >= 0 ? Text(std::to_string(named->code)) : std::nullopt;
-  if (named == nullptr)
-    return hex;
-  if (function == "testcolour")
-    return std::string(named->name == "lime"    ? "green"
-                       : named->name == "black" ? "off"
-                       : named->name == "purple" || named->name == "orange" ||
-                               named->name == "red" || named->name == "blue" ||
-                               named->name == "white" || named->name == "yellow"
-                           ? named->name
-                           : std::string_view(hex));
-  return named->name == "purple" || named->name == "orange" ? hex : std::string(named->name);
-}
-
 /// Three values, or a colour.
 Text channels(const Tokens& tokens) {
   if (tokens.size() == 1)
-    return colour("rgb", tokens);
+    return write_colour("rgb", tokens);
   Tokens plain;
   for (const auto& token : tokens)
     if (!token.is("(") && !token.is(")") && !token.is("[") && !token.is("]"))
@@ -477,7 +272,7 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
   if (function == "not")
     return opposite(a, language);
   if (function == "items")
-    return items(a);
+    return print_items(a);
   if (function == "quoted")
     return quoted(a);
   if (function == "known")
@@ -533,7 +328,7 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
                ? Text(fmt::format("#{:02X}{:02X}{:02X}", *r, *g, *o))
                : std::nullopt;
   }
-  return colour(function, a);
+  return write_colour(function, a);
 }
 
 Text name_of(std::string_view name, const Holes& holes, const Surroundings& around) {
@@ -559,17 +354,6 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
 }
 
 } // namespace
-
-std::optional<std::uint32_t> find_colour(const Token& token) {
-  if (token.kind == Token::Kind::Colour || (token.is_text() && token.text.starts_with('#'))) {
-    auto digits = token.text.substr(1);
-    if (digits.size() == 3)
-      digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
-    return digits.size() == 6 ? parse_number<std::uint32_t>(digits, 16) : std::nullopt;
-  }
-  const auto* const named = named_colour(token);
-  return named != nullptr ? std::optional(named->value) : std::nullopt;
-}
 
 std::optional<std::string> fill(std::string_view form, const Holes& holes,
                                 const Surroundings& around) {

@@ -1,0 +1,95 @@
+#include "repair/colours.h"
+
+#include "base/text.h"
+#include "repair/idioms.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace orb::repair {
+namespace {
+
+struct Colour {
+  std::string_view name; ///< as structured programs and tests write it
+  std::uint32_t value;
+  int code; ///< of LEDC; -1 without one
+  std::string_view words;
+};
+
+constexpr auto colours = std::to_array<Colour>({
+    {"red", 0xFF0000, 1, "red rot rojo roja rouge rosso rossa vermelho vermelha"},
+    {"lime", 0x00FF00, 2, "green lime grün gruen verde vert verte"},
+    {"blue", 0x0000FF, 3, "blue blau azul bleu blu azzurro"},
+    {"orange", 0xFF8000, 4, "orange naranja arancione laranja"},
+    {"purple", 0x8000FF, 5, "purple violet lila violett morado violeta viola roxo pourpre"},
+    {"white", 0xFFFFFF, 6, "white weiß weiss blanco blanca blanc blanche bianco branco"},
+    {"yellow", 0xFFFF00, 7, "yellow gelb amarillo jaune giallo amarelo"},
+    {"black", 0x000000, 0, "black off dark schwarz aus negro noir nero preto apagado none"},
+    {"aqua", 0x00FFFF, -1, "cyan aqua türkis turquoise"},
+    {"fuchsia", 0xFF00FF, -1, "magenta fuchsia"},
+    {"#FF69B4", 0xFF69B4, -1, "pink rosa rose"},
+    {"gray", 0x808080, -1, "gray grey grau gris grigio cinza"},
+    {"navy", 0x000080, -1, "navy"},
+    {"teal", 0x008080, -1, "teal"},
+    {"#8B4513", 0x8B4513, -1, "brown braun"},
+});
+
+const Colour* named_colour(const Token& token) {
+  if (!token.is_word() && !token.is_text())
+    return nullptr;
+  const auto found = std::find_if(colours.begin(), colours.end(),
+                                  [&](const Colour& one) { return holds(one.words, token.text); });
+  return found == colours.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+bool holds(std::string_view words, std::string_view word) {
+  for (std::size_t at = 0; at < words.size();) {
+    const auto end = std::min(words.find(' ', at), words.size());
+    if (equal_words(words.substr(at, end - at), word))
+      return true;
+    at = end + 1;
+  }
+  return false;
+}
+
+std::optional<std::uint32_t> find_colour(const Token& token) {
+  if (token.kind == Token::Kind::Colour || (token.is_text() && token.text.starts_with('#'))) {
+    auto digits = token.text.substr(1);
+    if (digits.size() == 3)
+      digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
+    return digits.size() == 6 ? parse_number<std::uint32_t>(digits, 16) : std::nullopt;
+  }
+  const auto* const named = named_colour(token);
+  return named != nullptr ? std::optional(named->value) : std::nullopt;
+}
+
+std::optional<std::string> write_colour(std::string_view function, const Tokens& tokens) {
+  if (tokens.size() != 1)
+    return std::nullopt;
+  const auto value = find_colour(tokens[0]);
+  const auto* const named = named_colour(tokens[0]);
+  if (!value)
+    return std::nullopt;
+  const auto hex = fmt::format("#{:06X}", *value);
+  if (function == "rgb")
+    return fmt::format("{}, {}, {}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
+  if (function == "code")
+    return named != nullptr && named->code >= 0 ? std::optional(std::to_string(named->code))
+                                                : std::nullopt;
+  if (named == nullptr)
+    return hex;
+  if (function == "testcolour")
+    return std::string(named->name == "lime"    ? "green"
+                       : named->name == "black" ? "off"
+                       : named->name == "purple" || named->name == "orange" ||
+                               named->name == "red" || named->name == "blue" ||
+                               named->name == "white" || named->name == "yellow"
+                           ? named->name
+                           : std::string_view(hex));
+  return named->name == "purple" || named->name == "orange" ? hex : std::string(named->name);
+}
+
+} // namespace orb::repair

@@ -1,0 +1,19 @@
+#pragma once
+
+// Private to repair/.
+
+#include "repair/tokens.h"
+
+#include <optional>
+#include <string>
+
+namespace orb::repair {
+
+/// What other languages print, as a list for `print`: texts side by side, without `+`, `str()` and
+/// formats.
+std::optional<std::string> print_items(const Tokens& tokens);
+
+/// Words that stand without quotes, as a text.
+std::optional<std::string> quoted(const Tokens& tokens);
+
+} // namespace orb::repair

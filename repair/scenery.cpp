@@ -1,0 +1,147 @@
+#include "repair/scenery.h"
+
+#include "base/suggest.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace orb::repair {
+namespace {
+
+std::string digits_of(std::string_view head) {
+  std::string digits;
+  std::copy_if(head.begin(), head.end(), std::back_inserter(digits), is_digit);
+  return digits;
+}
+
+} // namespace
+
+Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {
+  for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
+    const auto line = source.line(n);
+    if (line.size() > longest_line)
+      continue;
+    for (const auto& token : split(line, language).tokens)
+      if (token.is_word())
+        ++words_[token.text];
+  }
+}
+
+std::vector<std::string_view> Scenery::names_without(const Tokens& line) const {
+  std::vector<std::string_view> names;
+  if (language_ == Language::Basic)
+    return names;
+  for (const auto& [word, count] : words_) {
+    const auto here = std::count_if(line.begin(), line.end(), [&word = word](const Token& token) {
+      return token.text == word;
+    });
+    if (count > static_cast<std::size_t>(here) && word.size() > 1)
+      names.push_back(word);
+  }
+  return names;
+}
+
+std::optional<std::string> Scenery::misspelt(std::string_view word,
+                                             const std::vector<std::string_view>& known) const {
+  const auto uses = words_.find(std::string(word));
+  if (uses == words_.end() || uses->second < 2)
+    return std::nullopt;
+  for (const auto& [other, count] : words_)
+    if (count == 1 && other.size() > 2 &&
+        edit_distance(other, word) * 3 <= std::max(other.size(), word.size()) &&
+        std::none_of(known.begin(), known.end(),
+                     [&one = other](std::string_view k) { return equal_words(k, one); }))
+      return other;
+  return std::nullopt;
+}
+
+std::string Scenery::number_of(std::string_view name) const {
+  for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+    const auto line = source_.line(n).substr(0, longest_line);
+    const auto parts = split(line, language_);
+    auto rest = line.substr(parts.head.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of("' \t"), rest.size()));
+    if (rest.size() > name.size() && equal_words(rest.substr(0, name.size()), name) &&
+        rest[name.size()] == ':')
+      return digits_of(parts.head);
+  }
+  return {};
+}
+
+Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
+  Surroundings all;
+  all.language = language_;
+  all.line_number = digits_of(parts.head);
+  if (language_ == Language::Basic) {
+    all.free_letter = free_letter();
+    all.loop = loop_above(line);
+  } else if (language_ == Language::Structured) {
+    all.closer = closer_above(line);
+  }
+  return all;
+}
+
+std::string Scenery::free_letter() const {
+  // A `next` below that no `for` begins names the variable.
+  std::multiset<std::string> open;
+  for (std::uint32_t n = source_.line_count(); n > 0; --n) {
+    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+    if (tokens.size() < 2 || tokens[1].text.size() != 1)
+      continue;
+    if (equal_words(tokens[0].text, "next"))
+      open.insert(tokens[1].text);
+    else if (const auto one = open.find(tokens[1].text);
+             equal_words(tokens[0].text, "for") && one != open.end())
+      open.erase(one);
+  }
+  if (!open.empty())
+    return *open.begin();
+  for (const char c : std::string_view("IJKNCDEFGHLMOPQRSTUVWXAB")) {
+    const std::string upper(1, c);
+    if (words_.count(upper) == 0 && words_.count(std::string(1, to_lower(c))) == 0)
+      return upper;
+  }
+  return {};
+}
+
+std::string Scenery::loop_above(std::uint32_t line) const {
+  std::vector<std::string> open;
+  for (std::uint32_t n = 1; n < line; ++n) {
+    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+    if (tokens.size() > 1 && equal_words(tokens[0].text, "for"))
+      open.push_back(tokens[1].text);
+    else if (!tokens.empty() && equal_words(tokens[0].text, "next") && !open.empty())
+      open.pop_back();
+  }
+  return open.empty() ? "" : open.back();
+}
+
+std::string Scenery::closer_above(std::uint32_t line) const {
+  std::vector<std::string> open;
+  for (std::uint32_t n = 1; n < line; ++n) {
+    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+    if (tokens.empty())
+      continue;
+    const auto& first = tokens[0].text;
+    const auto is = [&](std::string_view word) { return equal_words(first, word); };
+    if (is("while") || is("loop") || is("repeat") || is("select") || is("sub") || is("function") ||
+        is("for"))
+      open.push_back(is("for") ? "next" : "end " + first);
+    else if (is("def") || is("void"))
+      open.emplace_back("end sub");
+    else if (is("forever") || is("do"))
+      open.emplace_back("end loop");
+    else if (is("if") && (equal_words(tokens.back().text, "then") || tokens.back().is("{") ||
+                          tokens.back().is(":")))
+      open.emplace_back("end if");
+    else if (((is("end") && tokens.size() > 1) || is("next") || is("until") || is("}") ||
+              is("wend") || is("endif")) &&
+             !open.empty() && !(tokens.size() > 1 && tokens[1].is("else")))
+      open.pop_back();
+  }
+  return open.empty() ? "" : open.back();
+}
+
+} // namespace orb::repair
