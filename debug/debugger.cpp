@@ -1,28 +1,11 @@
 #include "debug/debugger.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
-
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <utility>
 
 namespace orb::debug {
 namespace {
-
-constexpr std::string_view time_word = "time";
-constexpr std::string_view letter_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
-constexpr std::string_view array_word = "Z"; ///< of programs with line numbers
-
-/// A letter's number where the name is one: A is 0, Y is 24.
-std::optional<std::size_t> letter_of(std::string_view name) {
-  if (name.size() != 1)
-    return std::nullopt;
-  const auto letter = static_cast<std::size_t>(std::toupper(static_cast<unsigned char>(name[0]))) -
-                      static_cast<std::size_t>('A');
-  return letter < letters ? std::optional(letter) : std::nullopt;
-}
 
 std::string fault_text(const run::ProgramError& fault) {
   std::string text(spec::info(fault.code).text);
@@ -31,20 +14,6 @@ std::string fault_text(const run::ProgramError& fault) {
   if (!fault.cause.variables.empty())
     text += fmt::format("; {}", fault.cause.variables);
   return text;
-}
-
-/// The symbol of a structured program that has that name, and is what is looked for; or null.
-template <class Is>
-const structured::Symbol* symbol_called(const structured::Compiled& compiled, std::string_view name,
-                                        Is is) {
-  for (const auto& symbol : compiled.names.symbols)
-    if (is(symbol) && equal_words(compiled.program.name(symbol.name), name))
-      return &symbol;
-  return nullptr;
-}
-
-auto is_a(structured::SymbolKind kind) {
-  return [kind](const structured::Symbol& symbol) { return symbol.kind == kind; };
 }
 
 } // namespace
@@ -68,36 +37,6 @@ tl::expected<std::unique_ptr<Debugger>, Failure> Debugger::start(std::span<const
   return debugger;
 }
 
-tl::expected<Expression, std::string> Debugger::expression(std::string_view text) const {
-  auto parsed = Expression::parse(text);
-  if (!parsed)
-    return parsed;
-  const auto known = names();
-  for (const auto name : parsed->names())
-    if (std::none_of(known.begin(), known.end(),
-                     [&](std::string_view one) { return equal_words(one, name); }))
-      return tl::unexpected(
-          fmt::format("there is no variable `{}`{}", name,
-                      closest(name, known) ? "; " + did_you_mean(name, known, "") : ""));
-  return parsed;
-}
-
-std::vector<std::string_view> Debugger::names() const {
-  std::vector<std::string_view> all{time_word};
-  const auto* input = sources_.input(timeline_->ball().basic_area());
-  if (input != nullptr && input->program->compiled) {
-    const auto& compiled = *input->program->compiled;
-    for (const auto& symbol : compiled.names.symbols)
-      if (!is_a(structured::SymbolKind::Sub)(symbol) &&
-          !is_a(structured::SymbolKind::Function)(symbol))
-        all.push_back(compiled.program.name(symbol.name));
-  } else if (input != nullptr) {
-    for (const auto& letter : letter_words)
-      all.emplace_back(&letter, 1);
-  }
-  return all;
-}
-
 // --- breakpoints --------------------------------------------------------------------------------
 
 Breakpoint& Debugger::add(Breakpoint breakpoint) {
@@ -117,108 +56,11 @@ void Debugger::remove_all(Breakpoint::Kind kind, std::optional<std::uint32_t> fi
   });
 }
 
-// --- what the timeline asks and tells ---------------------------------------------------------
+// --- what happens -------------------------------------------------------------------------------
 
 void Debugger::on_event(Duration, const vm::Event& event) {
   if (const auto* print = std::get_if<vm::event::Print>(&event))
     console_.print(print->text);
-}
-
-void Debugger::begin() {
-  found_ = {};
-  const auto& machine = timeline_->ball().machine();
-  const bool known = timeline_->next() == Timeline::Next::Line || machine.waits();
-  before_ = known ? program_line() : nullptr;
-  calls_before_ = calls(Thread::Program);
-  for (const auto& one : breakpoints_)
-    if (one.expression) {
-      values_.erase(one.id);
-      if (const auto value = one.expression->value(*this))
-        values_[one.id] = *value;
-    }
-}
-
-bool Debugger::wants_lines() const {
-  return move_ != Move::Continue || !breakpoints_.empty();
-}
-
-bool Debugger::line() {
-  const auto* here = program_line();
-  found_ = {};
-  found_at_ = innermost();
-  bool stop = hit_values();
-  if (here != nullptr) {
-    const auto new_from = first_new(*here);
-    const auto innermost_level = here->levels.size() - 1;
-    const auto first = std::min(new_from == 0 ? 0 : new_from - 1, innermost_level);
-    const bool forward = direction_ == Direction::Forward;
-    found_at_ = {first, first};
-    if (first < new_from && first < innermost_level && goes_on(*here, first))
-      ++found_at_.first; // the call has begun with a line before
-    for (auto n = first; n <= innermost_level && (!stop || n == first); ++n) {
-      const auto level = forward ? n : innermost_level + first - n;
-      if (!stops_at(*here, level, new_from))
-        continue;
-      found_at_.at = level;
-      stop = true;
-    }
-  } else {
-    stop = stop || move_ == Move::In;
-  }
-  before_ = here;
-  calls_before_ = calls(Thread::Program);
-  return stop;
-}
-
-/// The outermost level that begins with this line, now that another one has run before it; their
-/// number where none does.
-std::size_t Debugger::first_new(const Sources::Line& line) const {
-  if (before_ == nullptr)
-    return line.shared;
-  if (calls(Thread::Program) > calls_before_)
-    return 0;
-  return std::max(line.shared, Sources::shared(*before_, line));
-}
-
-/// Whether the line before stood at the same place of that level.
-bool Debugger::goes_on(const Sources::Line& line, std::size_t level) const {
-  return before_ != nullptr && Sources::shared(*before_, line) > level &&
-         before_->levels[level].spot == line.levels[level].spot;
-}
-
-/// Whether the line before is for the same line of the source, and this is not its next round.
-bool Debugger::runs_on(const Sources::Line& line) const {
-  return goes_on(line, line.levels.size() - 1) && before_->number < line.number &&
-         before_->levels.size() == line.levels.size();
-}
-
-/// Whether the run stops at one level of a line that is about to run.
-bool Debugger::stops_at(const Sources::Line& line, std::size_t level, std::size_t new_from) {
-  const auto& here = line.levels[level];
-  const bool is_new = level >= new_from;
-  const bool own = level + 1 == line.levels.size();
-  const bool begins = is_new || (own ? line.begins && !runs_on(line) : !goes_on(line, level));
-  bool stop = begins && hit_place(here.spot);
-  stop = (is_new && hit_sub(here.sub)) || stop;
-  return steps_here(Thread::Program, {calls(Thread::Program), level}, begins) || stop;
-}
-
-bool Debugger::command() {
-  const auto place = timeline_->ball().macros().places().front();
-  found_ = {};
-  found_at_ = innermost();
-  bool stop = hit_values();
-  if (const auto spot = sources_.spot(place.id, place.command))
-    stop = hit_place(*spot) || stop;
-  return steps_here(Thread::Macro, depth(Thread::Macro), true) || stop;
-}
-
-bool Debugger::motion(Duration t) {
-  moving_at_ = t;
-  found_at_ = innermost();
-  const bool stop = hit_values();
-  moving_at_.reset();
-  return stop;
 }
 
 bool Debugger::event(const vm::Event& event) {
@@ -233,101 +75,6 @@ bool Debugger::event(const vm::Event& event) {
   found_ = {Stop::Reason::Fault, {}, fault_text(*fault_)};
   found_at_ = innermost();
   return true;
-}
-
-/// Whether the step that is being made ends before this line or command.
-bool Debugger::steps_here(Thread thread, Depth here, bool begins) {
-  if (thread != thread_)
-    return false;
-  switch (move_) {
-  case Move::Continue: return false;
-  case Move::In: return begins;
-  case Move::Over: return begins && here <= from_depth_;
-  case Move::Out: return here < from_depth_;
-  }
-  return false;
-}
-
-bool Debugger::hit_place(Spot spot) {
-  bool stop = false;
-  for (auto& one : breakpoints_) {
-    if (!one.by_name && std::find(one.spots.begin(), one.spots.end(), spot) != one.spots.end() &&
-        counts(one))
-      stop = true;
-  }
-  return stop;
-}
-
-/// A sub begins.
-bool Debugger::hit_sub(std::string_view name) {
-  bool stop = false;
-  for (auto& one : breakpoints_)
-    if (one.by_name && equal_words(one.text, name) && counts(one))
-      stop = true;
-  return stop;
-}
-
-bool Debugger::hit_values() {
-  bool stop = false;
-  for (auto& one : breakpoints_) {
-    if (!one.expression)
-      continue;
-    const auto value = one.expression->value(*this);
-    if (!value) // the variable is not in use here
-      continue;
-    const auto known = values_.find(one.id);
-    const bool first = known == values_.end();
-    const std::int64_t before = first ? 0 : known->second;
-    values_[one.id] = *value;
-    const bool hit = one.kind == Breakpoint::Kind::Change ? !first && before != *value
-                                                          : before == 0 && *value != 0;
-    if (!hit || !counts(one))
-      continue;
-    stop = true;
-    found_.text += fmt::format("{}{}", found_.text.empty() ? "" : "; ",
-                               one.kind == Breakpoint::Kind::Change
-                                   ? fmt::format("{} is {}, was {}", one.text, *value, before)
-                                   : one.text);
-  }
-  return stop;
-}
-
-/// A breakpoint's place is reached: whether it stops the run.
-bool Debugger::counts(Breakpoint& one) {
-  if (one.only_if) {
-    const auto holds = one.only_if->value(*this);
-    if (holds && *holds == 0)
-      return false;
-    if (!holds)
-      found_.text = fmt::format("`{}`: {}", one.only_if->text(), holds.error());
-  }
-  const bool forward = direction_ == Direction::Forward;
-  if (forward && !one.which.holds(++one.hits))
-    return false;
-  if (!one.log.empty()) {
-    if (forward)
-      console_.say(filled(one.log));
-    return false;
-  }
-  found_.reason = Stop::Reason::Breakpoint;
-  found_.breakpoints.push_back(one.id);
-  return true;
-}
-
-/// The text of a log point with the values of what stands in braces.
-std::string Debugger::filled(std::string_view text) const {
-  std::string out;
-  while (!text.empty()) {
-    const auto open = text.find('{');
-    const auto close = text.find('}', open == std::string_view::npos ? open : open + 1);
-    if (close == std::string_view::npos)
-      break;
-    out += text.substr(0, open);
-    const auto value = evaluate(text.substr(open + 1, close - open - 1));
-    out += value ? fmt::format("{}", *value) : fmt::format("({})", value.error());
-    text.remove_prefix(close + 1);
-  }
-  return out += text;
 }
 
 // --- going --------------------------------------------------------------------------------------
@@ -552,104 +299,6 @@ std::optional<Spot> Debugger::spot() const {
 
 std::int32_t Debugger::sensor(spec::Variable variable) const {
   return timeline_->sensor(variable);
-}
-
-std::optional<std::size_t> Debugger::register_of(std::string_view name) const {
-  const auto* input = sources_.input(timeline_->ball().basic_area());
-  if (input == nullptr)
-    return std::nullopt;
-  const auto& compiled = input->program->compiled;
-  if (!compiled)
-    return letter_of(name);
-  const auto* line = program_line();
-  for (std::size_t i = 0; line != nullptr && i < letters; ++i)
-    if (line->symbols[i] != structured::none &&
-        equal_words(compiled->program.name(compiled->names.symbols[line->symbols[i]].name), name))
-      return i;
-  return std::nullopt;
-}
-
-std::string Debugger::missing(std::string_view name) const {
-  const auto* input = sources_.input(timeline_->ball().basic_area());
-  if (input != nullptr && input->program->compiled) {
-    const auto any = [](const structured::Symbol&) { return true; };
-    if (symbol_called(*input->program->compiled, name, any) != nullptr)
-      return fmt::format("the robot does not hold `{}` here: it is not needed any more, or the "
-                         "compiler knew its value",
-                         name);
-  }
-  return fmt::format("unknown variable `{}`", name);
-}
-
-std::optional<std::int32_t> Debugger::variable(std::string_view name) const {
-  if (const auto found = register_of(name))
-    return timeline_->ball().machine().variable(*found);
-  const auto* input = sources_.input(timeline_->ball().basic_area());
-  if (input != nullptr && input->program->compiled) {
-    const auto constant = is_a(structured::SymbolKind::Constant);
-    if (const auto* found = symbol_called(*input->program->compiled, name, constant))
-      return found->value;
-  }
-  if (equal_words(name, time_word))
-    return static_cast<std::int32_t>((moving_at_ ? *moving_at_ : timeline_->time()) /
-                                     std::chrono::milliseconds{1});
-  if (input != nullptr && !input->program->compiled && equal_words(name, array_word))
-    return element(name, timeline_->ball().machine().variable(bytecode::index_variable));
-  return std::nullopt;
-}
-
-std::optional<std::size_t> Debugger::element_register(std::string_view name,
-                                                      std::int32_t index) const {
-  const auto* input = sources_.input(timeline_->ball().basic_area());
-  if (input == nullptr)
-    return std::nullopt;
-  std::int32_t base = 0;
-  std::int32_t size = bytecode::element_count;
-  if (input->program->compiled) {
-    const auto* array =
-        symbol_called(*input->program->compiled, name, is_a(structured::SymbolKind::Array));
-    if (array == nullptr)
-      return std::nullopt;
-    base = array->base;
-    size = array->value;
-  } else if (!equal_words(name, array_word)) {
-    return std::nullopt;
-  }
-  if (index < 1 || index > size)
-    return std::nullopt;
-  return bytecode::first_element + static_cast<std::size_t>(base + index - 1);
-}
-
-std::optional<std::int32_t> Debugger::element(std::string_view name, std::int32_t index) const {
-  const auto found = element_register(name, index);
-  return found ? std::optional(timeline_->ball().machine().variable(*found)) : std::nullopt;
-}
-
-tl::expected<std::int32_t, std::string> Debugger::evaluate(std::string_view text) const {
-  const auto expression = Expression::parse(text);
-  if (!expression)
-    return tl::unexpected(expression.error());
-  return expression->value(*this);
-}
-
-tl::expected<std::int32_t, std::string> Debugger::set(std::string_view name,
-                                                      std::string_view value) {
-  const auto number = evaluate(value);
-  if (!number)
-    return number;
-  name = trim(name);
-  auto place = register_of(name);
-  if (const auto open = name.find('['); open != std::string_view::npos && name.ends_with(']')) {
-    const auto index = evaluate(name.substr(open + 1, name.size() - open - 2));
-    if (!index)
-      return index;
-    place = element_register(trim(name.substr(0, open)), *index);
-  }
-  if (!place)
-    return tl::unexpected(missing(name));
-  if (!timeline_->change(SetVariable{*place, *number}))
-    return tl::unexpected(std::string("no program runs"));
-  return *number;
 }
 
 } // namespace orb::debug

@@ -1,5 +1,6 @@
 #include "debug/timeline.h"
 
+#include "debug/search.h"
 #include "run/start.h"
 #include "vm/ball_transport.h"
 
@@ -9,72 +10,13 @@
 namespace orb::debug {
 namespace {
 
-// How far the copies of a ball lie apart at first. When there are too many, every second one goes
-// and the distances double.
+// How far the copies of a ball lie apart at first; the distances double when there are too many.
 constexpr std::uint64_t first_steps_apart = 16'384;
 constexpr Duration first_time_apart = 10s;
-constexpr std::size_t most_copies = 64;
-/// Steps between a place from which somebody went back and the copy that is kept close before it.
-constexpr std::uint64_t near_steps = 4096;
 /// How long the ball lives before it is looked at.
 constexpr Duration slice = 1s;
-constexpr std::int64_t lines_at_once = 1 << 20;
-/// Questions between two looks at whether the search is still wanted.
-constexpr std::uint32_t questions_between_looks = 1 << 14;
-
-std::size_t bytes_of(const vm::Ball& ball) {
-  const auto& core = ball.machine().core();
-  return sizeof(vm::Ball) + core.code.capacity() * sizeof(vm::Code) +
-         core.chunk.code.capacity() * sizeof(bytecode::Instruction) +
-         core.chunk.lines.capacity() * sizeof(bytecode::Line) +
-         core.registers.capacity() * sizeof(std::int32_t) +
-         core.reciprocals.capacity() * sizeof(std::int64_t) +
-         core.chunk.texts.capacity() * sizeof(std::string) +
-         ball.basic_text(spec::Area::Ram).size() + ball.basic_text(spec::Area::Flash).size();
-}
 
 } // namespace
-
-/// A ball as it was at a moment, and what the timeline had counted by then.
-struct Timeline::Copy {
-  Moment at;
-  std::unique_ptr<vm::Ball> ball;
-  std::uint64_t commands = 0;
-  std::uint64_t events = 0;
-  std::size_t applied = 0;
-};
-
-/// One way through a run.
-struct Timeline::Search {
-  Watch* watch = nullptr;                 ///< null: nothing is looked for
-  const GiveUp* give_up = nullptr;        ///< null: never
-  std::optional<Moment> bound = {};       ///< where it ends
-  Instant until = never;                  ///< the same as a time
-  std::optional<std::uint64_t> skip = {}; ///< the step that it stands before and does not find
-  std::optional<Moment> gather_to = {};   ///< finds before this are noted, and it goes on
-
-  // What has come of it.
-  bool at_bound = false;
-  bool found = false;
-  bool closed = false;          ///< nothing may begin any more
-  std::optional<Instant> hit{}; ///< an event was found; where the run stands then is still open
-  std::optional<Moment> last{}; ///< the last find that was noted
-  std::uint32_t questions = 0;
-
-  void note(const Moment& moment) {
-    if (!(moment < *gather_to))
-      return;
-    last = moment;
-    watch->noted();
-  }
-  bool unwanted() {
-    if (give_up == nullptr || ++questions < questions_between_looks)
-      return false;
-    questions = 0;
-    closed = (*give_up)();
-    return closed;
-  }
-};
 
 // Beginning.
 
@@ -158,160 +100,6 @@ bool Timeline::over() const {
 
 bool Timeline::waits_for_number() const {
   return ball_->machine().waits_for_input() && !ball_->input_queued();
-}
-
-// Copies.
-
-Timeline::Copy Timeline::copy() const {
-  return {now(), std::make_unique<vm::Ball>(*ball_), commands_, events_, applied_};
-}
-
-void Timeline::restore(const Copy& copy) {
-  ball_ = std::make_unique<vm::Ball>(*copy.ball);
-  commands_ = copy.commands;
-  events_ = copy.events;
-  applied_ = copy.applied;
-}
-
-/// The last copy that is not after `moment`.
-const Timeline::Copy& Timeline::base_before(const Moment& moment) const {
-  const auto after =
-      std::upper_bound(copies_.begin() + 1, copies_.end(), moment,
-                       [](const Moment& wanted, const Copy& one) { return wanted < one.at; });
-  const auto& kept = *std::prev(after);
-  return near_ && !(moment < near_->at) && kept.at < near_->at ? *near_ : kept;
-}
-
-void Timeline::keep_copy() {
-  const auto& last = copies_.back();
-  if (ball_->held() || !(last.at < now()) ||
-      (step() - last.at.step < steps_apart_ && ball_->now() - last.at.at < time_apart_))
-    return;
-  copies_.push_back(copy());
-  if (copies_.size() < most_copies)
-    return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < copies_.size(); i += 2)
-    std::swap(copies_[kept++], copies_[i]);
-  copies_.resize(kept);
-  steps_apart_ *= 2;
-  time_apart_ *= 2;
-}
-
-/// Keeps a copy close before `moment`, so that the next steps back from there are short.
-void Timeline::copy_near(const Moment& moment) {
-  if (near_ && near_->at < moment && moment.step - near_->at.step <= 2 * near_steps)
-    return;
-  const auto& base = base_before(moment);
-  if (moment.step < base.at.step + near_steps)
-    return;
-  restore(base);
-  Search search;
-  search.bound = Moment{moment.step - near_steps, true, {}};
-  run(search);
-  near_ = std::make_unique<Copy>(copy());
-}
-
-Timeline::Size Timeline::size() const {
-  Size size{copies_.size() + (near_ ? 1 : 0), 0};
-  size.bytes = size.copies * bytes_of(*ball_);
-  return size;
-}
-
-// What the ball asks and tells on its way.
-
-std::int64_t Timeline::lines() {
-  if (!may_begin(true))
-    return 0;
-  if (search_->watch != nullptr && search_->watch->wants_lines())
-    return 1;
-  search_->questions += questions_between_looks / 64; // many lines run now
-  if (!search_->bound)
-    return lines_at_once;
-  return std::min(lines_at_once, static_cast<std::int64_t>(search_->bound->step - step()));
-}
-
-bool Timeline::command() {
-  if (!may_begin(false))
-    return false;
-  ++commands_;
-  return true;
-}
-
-bool Timeline::may_begin(bool is_line) {
-  if (search_ == nullptr)
-    return false;
-  auto& search = *search_;
-  if (search.gather_to && search.hit)
-    resolve(is_line ? ball_->machine().now() : ball_->now(), true);
-  if (search.bound && step() >= search.bound->step) {
-    search.at_bound = true;
-    return false;
-  }
-  if (search.skip == step())
-    return true;
-  if (search.closed || search.hit || search.unwanted())
-    return false;
-  auto* watch = search.watch;
-  if (watch == nullptr || !(is_line ? watch->wants_lines() && watch->line() : watch->command()))
-    return true;
-  if (search.gather_to) {
-    search.note({step(), true, {}});
-    return true;
-  }
-  search.found = true;
-  return false;
-}
-
-void Timeline::on_event(Instant at, const vm::Event& event) {
-  if (search_ == nullptr)
-    return;
-  if (journey_ != nullptr) {
-    journey_->add(at - start_, event);
-    journey_->sample(at - start_, ball_->body());
-  }
-  if (++events_ > told_) {
-    told_ = events_;
-    audience_.on_event(at - start_, event);
-  }
-  if (search_->watch != nullptr && search_->watch->event(event))
-    hit(at);
-  if (search_->unwanted())
-    ball_->interrupt();
-}
-
-void Timeline::on_step(Instant at, const vm::Body&) {
-  if (search_ == nullptr)
-    return;
-  if (search_->watch != nullptr && search_->watch->motion(at - start_))
-    hit(at);
-  if (search_->unwanted())
-    ball_->interrupt();
-}
-
-/// Something between two steps was found. Where a program is under way, the run stands still before
-/// its next line; else at this very instant.
-void Timeline::hit(Instant at) {
-  auto& search = *search_;
-  if (search.gather_to) {
-    const bool waits = !ball_->basic_running() || ball_->machine().waits();
-    if (search.hit && *search.hit < at && waits)
-      search.note({step(), false, *search.hit});
-    search.hit = at;
-  } else if (!search.hit) {
-    search.hit = at;
-    ball_->interrupt();
-  }
-}
-
-/// A find whose place was open: at `at` the next step begins, or the search ends.
-void Timeline::resolve(Instant at, bool about_to) {
-  auto& search = *search_;
-  const auto found = *std::exchange(search.hit, std::nullopt);
-  if (at > found || (!about_to && (!ball_->basic_running() || ball_->machine().waits())))
-    search.note({step(), false, found});
-  else
-    search.note({step(), true, {}});
 }
 
 // Going.
