@@ -3,6 +3,7 @@
 // The words of a line of any of the languages, for text that need not parse.
 
 #include "base/source.h"
+#include "base/text.h"
 #include "spec/basic.h"
 
 #include <cstdint>
@@ -51,6 +52,11 @@ bool directs_the_flow(const spec::StatementInfo& row);
 
 constexpr bool touches(Span span, std::uint32_t offset) {
   return span.begin <= offset && offset <= span.end;
+}
+
+/// Whether a rule's id may hold `c`.
+constexpr bool is_rule_part(char c) {
+  return is_letter(c) || is_digit(c) || c == '-';
 }
 
 /// A part of an expression with the parentheses behind it that close those in it: the spans of the

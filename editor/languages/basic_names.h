@@ -3,6 +3,7 @@
 // The names of an orbBasic program: line numbers and letters.
 
 #include "compiler/text/program.h"
+#include "spec/limits.h"
 
 #include <cstdint>
 #include <string>
@@ -12,6 +13,8 @@
 namespace orb::editor {
 
 inline constexpr std::string_view basic_language_id = "orbbasic";
+inline constexpr auto most_line_number =
+    static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber));
 
 /// A place that names a line: its own number, or a target of a jump.
 struct LineName {

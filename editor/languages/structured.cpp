@@ -2,32 +2,26 @@
 
 #include "assembler/assemble.h"
 #include "base/fixes.h"
-#include "base/silence.h"
 #include "base/text.h"
 #include "compiler/check.h"
-#include "compiler/text/image.h"
-#include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
 #include "editor/language.h"
+#include "editor/languages/structured_completion.h"
+#include "editor/languages/structured_hints.h"
 #include "editor/languages/structured_names.h"
 #include "editor/markdown.h"
 #include "editor/shape.h"
 #include "editor/text.h"
 #include "editor/words.h"
 #include "reference/sections.h"
-#include "spec/limits.h"
 #include "structured/compile.h"
-#include "structured/text/blocks.h"
 #include "structured/text/format.h"
-#include "structured/text/parse.h"
-#include "structured/text/read.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <map>
 #include <utility>
 
 namespace orb::editor {
@@ -163,19 +157,6 @@ std::string lines_where(const Part& part, bool is_set) {
              : fmt::format("in line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "));
 }
 
-/// The letter of the robot that holds a name of the main file, once it compiles.
-std::map<std::uint32_t, char> letters_of(const Compiled& compiled) {
-  std::map<std::uint32_t, char> letters; // by where the name is declared
-  for (std::size_t v = 1; v < compiled.code.variables.size() && v < compiled.letters.of.size();
-       ++v) {
-    const auto symbol = compiled.code.variables[v].symbol;
-    if (symbol != none && compiled.letters.of[v] != structured::no_letter)
-      letters[compiled.names.symbols[symbol].span.begin] =
-          spec::letter_name(compiled.letters.of[v]);
-  }
-  return letters;
-}
-
 std::string variable_markdown(const Source& source, const Part& part,
                               const LanguageOptions& options) {
   const auto& symbol = part.reading.names.symbols[part.here->meaning.symbol];
@@ -253,10 +234,6 @@ std::optional<std::string> word_markdown(std::string_view text) {
                : std::nullopt;
 }
 
-bool is_rule_part(char c) {
-  return is_letter(c) || is_digit(c) || c == '-';
-}
-
 std::optional<Hover> hover_rule(const Source& source, Span comment, std::uint32_t offset) {
   const auto text = source.text();
   auto begin = std::min(offset, comment.end);
@@ -292,186 +269,6 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset,
       return Hover{token.span, *std::move(found)};
   }
   return std::nullopt;
-}
-
-// ---- completion
-
-enum class Context : std::uint8_t { Statement, Expression, Label, Block, Macro };
-
-Context context_after(const Source& source, const std::vector<Token>& before) {
-  if (before.empty())
-    return Context::Statement;
-  const auto word = structured::find_word(source.text(before.back().span));
-  if (word.is(structured::Keyword::Then) || word.is(structured::Keyword::Else))
-    return Context::Statement;
-  if (word.is(spec::Statement::Goto))
-    return Context::Label;
-  if (word.is(spec::Statement::Macrun))
-    return Context::Macro;
-  return before.size() == 1 && word.is(spec::Statement::End) ? Context::Block : Context::Expression;
-}
-
-class Suggester {
-public:
-  Suggester(const Source& source, std::uint32_t offset, const LanguageOptions& options,
-            Suggestions& out)
-      : reading_(read_structured(source, options)), offset_(offset), out_(out) {}
-
-  void suggest(Context context) {
-    switch (context) {
-    case Context::Statement:
-      names({SymbolKind::Variable, SymbolKind::Local, SymbolKind::Parameter, SymbolKind::Array,
-             SymbolKind::Sub});
-      statements();
-      words(reference::structured_words_section());
-      settable();
-      return;
-    case Context::Expression:
-      names({SymbolKind::Variable, SymbolKind::Local, SymbolKind::Parameter, SymbolKind::Array,
-             SymbolKind::Constant, SymbolKind::Function});
-      rows(reference::variables_section(), SuggestionKind::Variable);
-      rows(reference::functions_section(), SuggestionKind::Function);
-      words(reference::structured_words_section());
-      return;
-    case Context::Label: labels(); return;
-    case Context::Block:
-      for (const auto word : structured::words_after_end())
-        out_.items.push_back(
-            {std::string(word), SuggestionKind::Keyword, fmt::format("end {}", word), ""});
-      return;
-    case Context::Macro: names({SymbolKind::Constant}); return;
-    }
-  }
-
-private:
-  std::uint32_t routine() const {
-    std::uint32_t routine = 0;
-    const auto& statements = reading_.program.statements;
-    for (std::uint32_t i = 0; i < statements.size() && statements[i].span.begin < offset_; ++i) {
-      const bool ended =
-          statements[i].kind == Kind::EndSub || statements[i].kind == Kind::EndFunction;
-      routine = ended ? 0 : reading_.names.routine_of[i];
-    }
-    return routine;
-  }
-
-  void names(std::initializer_list<SymbolKind> kinds) {
-    const auto here = routine();
-    for (const auto kind : kinds)
-      for (const auto& symbol : reading_.names.symbols) {
-        const bool own = symbol.kind == SymbolKind::Local || symbol.kind == SymbolKind::Parameter;
-        if (symbol.kind != kind || (own && symbol.routine != here) ||
-            (symbol.span.begin <= offset_ && offset_ <= symbol.span.end))
-          continue;
-        const bool calls = kind == SymbolKind::Sub || kind == SymbolKind::Function;
-        out_.items.push_back({std::string(reading_.program.name(symbol.name)),
-                              calls                          ? SuggestionKind::Function
-                              : kind == SymbolKind::Constant ? SuggestionKind::Value
-                                                             : SuggestionKind::Variable,
-                              detail_of(symbol), ""});
-      }
-  }
-
-  std::string detail_of(const structured::Symbol& symbol) const {
-    switch (symbol.kind) {
-    case SymbolKind::Variable: return "variable";
-    case SymbolKind::Local: return "local variable";
-    case SymbolKind::Parameter: return "parameter";
-    case SymbolKind::Constant: return fmt::format("{}", symbol.value);
-    case SymbolKind::Array: return fmt::format("array of {}", symbol.value);
-    case SymbolKind::Sub:
-    case SymbolKind::Function: {
-      const auto& statement = reading_.program.statements[symbol.statement];
-      return std::string(trim(reading_.program.text_of(statement.span)));
-    }
-    }
-    return {};
-  }
-
-  void statements() {
-    const auto section = reference::statements_section();
-    for (std::size_t i = 0; i < spec::statements.size(); ++i) {
-      const auto word = structured::find_word(spec::statements[i].word);
-      const bool is_numbered = spec::statements[i].statement == spec::Statement::Gosub ||
-                               spec::statements[i].statement == spec::Statement::On;
-      if (word.kind == structured::WordKind::Statement && !is_numbered)
-        out_.items.push_back({std::string(spec::statements[i].word), SuggestionKind::Keyword,
-                              std::string(spec::statements[i].usage),
-                              entry_markdown(section, section.entries[i], language_id)});
-    }
-  }
-
-  void rows(const reference::Section& section, SuggestionKind kind) {
-    for (const auto& entry : section.entries)
-      out_.items.push_back(
-          {entry.name, kind, entry.summary, entry_markdown(section, entry, language_id)});
-  }
-
-  void words(const reference::Section& section) {
-    for (const auto& entry : section.entries) {
-      const bool listed =
-          std::any_of(out_.items.begin(), out_.items.end(),
-                      [&](const Suggestion& item) { return item.label == entry.name; });
-      if (!listed)
-        out_.items.push_back({entry.name, SuggestionKind::Keyword, entry.summary,
-                              entry_markdown(section, entry, language_id)});
-    }
-  }
-
-  void settable() {
-    for (const auto& row : spec::variables)
-      if (row.access == spec::Access::ReadWrite)
-        out_.items.push_back(
-            {std::string(row.word), SuggestionKind::Variable, std::string(row.summary), ""});
-  }
-
-  void labels() {
-    const auto here = routine();
-    const auto& program = reading_.program;
-    for (std::uint32_t i = 0; i < program.statements.size(); ++i)
-      if (program.statements[i].kind == Kind::Label && reading_.names.routine_of[i] == here)
-        out_.items.push_back({std::string(program.name(program.statements[i].name)),
-                              SuggestionKind::Line, "label", ""});
-  }
-
-  Reading reading_;
-  std::uint32_t offset_;
-  Suggestions& out_;
-};
-
-void suggest_rules(const Source& source, Span comment, Suggestions& out) {
-  const auto text = source.text();
-  if (source.text({comment.begin, out.replaces.end}).find(allow_mark) == std::string_view::npos)
-    return;
-  while (out.replaces.begin > comment.begin && is_rule_part(text[out.replaces.begin - 1]))
-    --out.replaces.begin;
-  for (const auto rules : {structured::rules::all(), compiler::rules::all()})
-    for (const auto& rule : rules)
-      out.items.push_back({std::string(rule.id), SuggestionKind::Rule, std::string(rule.summary),
-                           std::string(rule.explanation)});
-}
-
-Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions& options) {
-  offset = std::min(offset, static_cast<std::uint32_t>(source.text().size()));
-  Suggestions out{{offset, offset}, {}};
-  std::vector<Token> before;
-  for (const auto& token : tokens_at(source, offset, structured_lexis)) {
-    if (token.span.begin >= offset)
-      break;
-    if (token.kind == TokenKind::Comment) {
-      suggest_rules(source, token.span, out);
-      return out;
-    }
-    if (token.kind == TokenKind::String && offset < token.span.end)
-      return out;
-    if (token.kind == TokenKind::Word && offset <= token.span.end) {
-      out.replaces.begin = token.span.begin;
-      break;
-    }
-    before.push_back(token);
-  }
-  Suggester(source, offset, options, out).suggest(context_after(source, before));
-  return out;
 }
 
 // ---- outline
@@ -576,76 +373,10 @@ std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& optio
   return {{"apply all safe fixes", "source.fixAll", std::move(fixed.text)}};
 }
 
-// ---- hints
-
-/// The bytes of the image that each routine takes where it stands.
-std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
-  std::map<std::uint32_t, std::uint32_t> bytes;
-  const auto plain = compiler::parse(compiled.robot.text);
-  const auto image = compiler::build_image(plain, compiler::Packing::Packed);
-  for (std::size_t i = 0; i < image.lines.size() && i < compiled.robot.lines.size(); ++i)
-    bytes[compiled.robot.lines[i].routine] += image.lines[i].size;
-  return bytes;
-}
-
-/// Numbers and constants given to the robot's statements; a duration says itself.
-void hint_numbers(const Compiled& compiled, std::uint32_t end, std::vector<Hint>& found) {
-  for (const auto& statement : compiled.program.statements) {
-    if (statement.kind != Kind::Robot || statement.span.end > end)
-      continue;
-    const auto parameters = spec::info(statement.robot).parameters();
-    auto parameter = parameters.begin();
-    for (const auto& item : compiled.program.items_of(statement)) {
-      if (item.kind != structured::ItemKind::Expression || parameter == parameters.end())
-        continue;
-      const auto& root = compiled.program.nodes[item.value];
-      const auto value = structured::evaluate(compiled.program, compiled.names, item.value);
-      const bool is_plain =
-          root.kind == structured::NodeKind::Number || root.kind == structured::NodeKind::Name;
-      if (value && is_plain)
-        if (auto hint = number_hint(parameter->name, parameter->unit, value->value, item.span.end))
-          found.push_back(*std::move(hint));
-      ++parameter;
-    }
-  }
-}
-
-std::vector<Hint> hints(const Source& source, const LanguageOptions& options) {
-  const auto compiled = compile_structured(source, options);
-  std::vector<Hint> found;
-  if (compiled.robot.lines.empty() || compiled.has_errors())
-    return found;
-  hint_numbers(compiled, compiled.program.files.front().end, found);
-  const auto end = compiled.program.files.front().end;
-  for (const auto& [at, letter] : letters_of(compiled))
-    if (at < end) {
-      const auto name =
-          std::find_if(compiled.names.symbols.begin(), compiled.names.symbols.end(),
-                       [start = at](const auto& symbol) { return symbol.span.begin == start; });
-      found.push_back({name->span.end, fmt::format(": {}", letter),
-                       fmt::format("the robot's `{}` holds it", letter)});
-    }
-  const auto bytes = bytes_of(compiled);
-  for (std::uint32_t r = 1; r < compiled.names.routines.size(); ++r) {
-    const auto& header = compiled.program.statements[compiled.names.routines[r].statement];
-    if (header.span.begin >= end)
-      continue;
-    const auto own = bytes.find(r);
-    found.push_back(
-        {end_of_line(source, header.span.begin),
-         own == bytes.end() ? "no bytes of its own" : fmt::format("{} bytes", own->second),
-         own == bytes.end() ? "it is written into its callers, or never called"
-                            : "of the packed image"});
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Hint& a, const Hint& b) { return a.at < b.at; });
-  return found;
-}
-
 } // namespace
 
 const LanguageService structured_service = {
-    check,  hover,  suggest,  outline,           occurrences,
-    rename, format, rewrites, &structured_shape, hints};
+    check,  hover,  suggest_structured, outline,           occurrences,
+    rename, format, rewrites,           &structured_shape, structured_hints};
 
 } // namespace orb::editor
