@@ -5,6 +5,18 @@
 #include <cmath>
 
 namespace orb::structured {
+namespace {
+
+bool has_effect(const Node& node) {
+  if (node.kind == NodeKind::Builtin)
+    return static_cast<spec::Function>(node.what) == spec::Function::Rnd;
+  return node.kind == NodeKind::Call || // a function may do anything
+         (node.kind == NodeKind::System &&
+          spec::variables[node.what].access == spec::Access::ReadClears);
+}
+
+} // namespace
+
 std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root) {
   if (const auto& leaf = program.nodes[root]; leaf.kind == NodeKind::Number)
     return Constant{leaf.value, false};
@@ -66,6 +78,15 @@ std::optional<Constant> evaluate(const Program& program, const Names& names, std
     }
   }
   return stack.back();
+}
+
+bool has_effects(const Program& program, const Statement& statement) {
+  for (const auto& item : program.items_of(statement))
+    if (item.kind == ItemKind::Expression)
+      for (auto n = program.nodes[item.value].first; n <= item.value; ++n)
+        if (has_effect(program.nodes[n]))
+          return true;
+  return false;
 }
 
 } // namespace orb::structured

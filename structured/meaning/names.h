@@ -62,4 +62,7 @@ Names resolve(Program& program);
 /// The value of an expression of literals and constants, or nothing. A division by zero is nothing.
 std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root);
 
+/// Whether a statement does something besides giving a value, and so must stay.
+bool has_effects(const Program& program, const Statement& statement);
+
 } // namespace orb::structured

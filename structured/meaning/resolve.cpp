@@ -1,10 +1,9 @@
 #include "base/text.h"
 #include "structured/meaning/names.h"
 
-#include "base/suggest.h"
 #include "spec/limits.h"
+#include "structured/meaning/unknown_names.h"
 #include "structured/text/blocks.h"
-#include "structured/text/messages.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"
 
@@ -31,17 +30,9 @@ std::string_view kind_word(SymbolKind kind) {
 
 class Resolver {
 public:
-  explicit Resolver(Program& program)
-      : program_(program), broken_(any_error(program.diagnostics)) {}
+  explicit Resolver(Program& program) : program_(program), unknown_(program, names_) {}
 
   Names run() {
-    incomplete_ =
-        std::any_of(program_.diagnostics.begin(), program_.diagnostics.end(),
-                    [](const Diagnostic& one) {
-                      return one.rule == &rules::MissingFile || one.rule == &rules::BadMacroFile;
-                    }) ||
-        std::any_of(program_.statements.begin(), program_.statements.end(),
-                    [](const Statement& one) { return declares(one.meant); });
     names_.routines.emplace_back();
     names_.of_node.assign(program_.nodes.size(), none);
     names_.of_statement.assign(program_.statements.size(), none);
@@ -356,7 +347,7 @@ private:
             find_colour(program_.text_of(program_.nodes[n].span)))
           continue;
         if (colour && only && kind == NodeKind::Name && n == item.value && symbol_of(n) == none)
-          report_colour(program_.nodes[n].span);
+          unknown_.report_colour(program_.nodes[n].span);
         else if (place && n == item.value)
           look_up_place(n, statement);
         else
@@ -376,7 +367,7 @@ private:
     const bool element = node.kind == NodeKind::Element;
     if (index == none) {
       if (statement.kind != Kind::Next) // which has the name of its loop or is wrong anyway
-        report_unknown(node, element);
+        unknown_.report(node, element);
       return;
     }
     auto& symbol = names_.symbols[index];
@@ -394,32 +385,16 @@ private:
       report(rules::WrongUse, node.span, "a loop counts in a variable, not in an array element");
     }
     // A loop counts in its variable; of what changes by being read it is the reading that counts.
-    if (statement.kind == Kind::For || (statement.kind == Kind::Assign && clears(statement)))
+    if (statement.kind == Kind::For ||
+        (statement.kind == Kind::Assign && has_effects(program_, statement)))
       symbol.read = true;
-  }
-
-  /// Whether a statement does something besides giving a value, and so must stay.
-  bool clears(const Statement& statement) const {
-    for (const auto& item : program_.items_of(statement))
-      if (item.kind == ItemKind::Expression)
-        for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
-          if (clears(program_.nodes[n]))
-            return true;
-    return false;
-  }
-  static bool clears(const Node& node) {
-    if (node.kind == NodeKind::Builtin)
-      return static_cast<spec::Function>(node.what) == spec::Function::Rnd;
-    return node.kind == NodeKind::Call || // a function may do anything
-           (node.kind == NodeKind::System &&
-            spec::variables[node.what].access == spec::Access::ReadClears);
   }
 
   void look_up_value(std::uint32_t n, std::uint32_t statement) {
     const auto& node = program_.nodes[n];
     const auto index = symbol_of(n);
     if (index == none) {
-      report_unknown(node, node.kind != NodeKind::Name);
+      unknown_.report(node, node.kind != NodeKind::Name);
       return;
     }
     auto& symbol = names_.symbols[index];
@@ -479,7 +454,7 @@ private:
     const auto index =
         own_[statement.name] != none ? own_[statement.name] : shared_[statement.name];
     if (index == none) {
-      report_unknown_word(statement.name_span);
+      unknown_.report_word(statement.name_span);
       return;
     }
     const auto& symbol = names_.symbols[index];
@@ -495,82 +470,8 @@ private:
     }
   }
 
-  // ---- unknown names
-
-  void report_unknown(const Node& node, bool needs_declaration) {
-    if (broken_ && !needs_declaration)
-      return; // a line that does not parse may assign it
-    if (const auto name = static_cast<std::uint32_t>(node.value); !said_.insert(name).second)
-      return; // said where it stands first
-    const Span span{node.span.begin,
-                    node.span.begin +
-                        static_cast<std::uint32_t>(
-                            program_.name(static_cast<std::uint32_t>(node.value)).size())};
-    if (report_foreign(span, repair::Where::Inside))
-      return;
-    if (find_colour(program_.text_of(span))) {
-      report(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
-             "use a colour alone after `RGB`: `RGB red`");
-      return;
-    }
-    std::vector<std::string_view> candidates;
-    for (const auto& symbol : names_.symbols)
-      candidates.push_back(program_.name(symbol.name));
-    for (const auto& row : spec::variables)
-      candidates.push_back(row.word);
-    suggest(span, candidates,
-            node.kind == NodeKind::Name      ? "is never assigned"
-            : node.kind == NodeKind::Element ? "is not an array"
-                                             : "is not a function");
-  }
-
-  void report_colour(Span span) {
-    const auto names = colour_names();
-    const auto name = program_.text_of(span);
-    report(rules::UnknownName, span, fmt::format("`{}` is neither a colour nor a variable", name),
-           did_you_mean(name, names,
-                        fmt::format("colours are {}, or `#FF8000`", fmt::join(names, ", "))));
-  }
-
-  void report_unknown_word(Span span) {
-    if (report_foreign(span, repair::Where::Line))
-      return;
-    std::vector<std::string_view> candidates;
-    for (const auto& symbol : names_.symbols)
-      if (symbol.kind == SymbolKind::Sub)
-        candidates.push_back(program_.name(symbol.name));
-    for (const auto& row : spec::statements)
-      candidates.push_back(row.word);
-    for (const auto& row : keywords)
-      candidates.push_back(row.word);
-    suggest(span, candidates, "is neither a statement nor a sub");
-  }
-
-  /// Says what a word of another language is here; false where it is none.
-  bool report_foreign(Span span, repair::Where where) {
-    auto known = foreign(program_, span, where);
-    if (known && !incomplete_)
-      program_.diagnostics.push_back(*std::move(known));
-    return known.has_value();
-  }
-
-  void suggest(Span span, const std::vector<std::string_view>& candidates, std::string_view what) {
-    if (incomplete_)
-      return;
-    constexpr std::size_t most = 64; // a suggestion for each of very many would take too long
-    const auto name = std::string(program_.text_of(span));
-    auto& d = report(rules::UnknownName, span, fmt::format("`{}` {}", name, what));
-    if (++unknown_ > most)
-      return;
-    if (const auto meant = closest(name, candidates)) {
-      d.help = fmt::format("did you mean `{}`?", *meant);
-      d.fix = Fix{fmt::format("write `{}`", *meant), {Edit{span, *meant}}, Safety::Unsafe};
-    }
-  }
-
   Program& program_;
   Names names_;
-  std::set<std::uint32_t> said_;      ///< names that have been reported
   std::vector<std::uint32_t> shared_; ///< of each name: the symbol of the whole program, or none
   std::vector<std::uint32_t> own_;    ///< of each name: the local or parameter of this routine
   std::vector<std::uint32_t> scope_;  ///< the symbols in `own_`
@@ -578,9 +479,7 @@ private:
   std::vector<bool> reported_;
   std::vector<std::uint32_t> rank_;       ///< of each statement: its place in the order
   std::vector<std::uint32_t> inconstant_; ///< items that are not constant so far
-  std::size_t unknown_ = 0;
-  bool incomplete_ = false; ///< a file that may declare what is unknown could not be read
-  bool broken_ = false;
+  UnknownNames unknown_;
 };
 
 } // namespace

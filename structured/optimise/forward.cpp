@@ -1,8 +1,8 @@
 #include "structured/optimise/forward.h"
 
-#include "bytecode/arithmetic.h"
 #include "spec/limits.h"
 #include "structured/optimise/flow.h"
+#include "structured/optimise/line_facts.h"
 
 #include <algorithm>
 #include <optional>
@@ -26,7 +26,8 @@ bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64
 class Forwarder {
 public:
   explicit Forwarder(Code& code)
-      : code_(code), flow_(read_flow(code)), liveness_(read_liveness(code, flow_)) {}
+      : code_(code), flow_(read_flow(code)), facts_(code_, flow_),
+        liveness_(read_liveness(code, flow_)) {}
 
   bool run() {
     constexpr int most_copies = 8;
@@ -84,83 +85,9 @@ private:
       each_line_read(code_, line, [&](std::uint32_t v) { ++reads_[v]; });
   }
 
-  bool writes(const CodeLine& line, std::uint32_t variable) const {
-    bool found = false;
-    each_write(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
-    each_callee(code_, line, [&](std::uint32_t routine) {
-      found = found || contains(flow_.written[routine], variable);
-    });
-    return found;
-  }
-  bool touches(const CodeLine& line, std::uint32_t variable) const {
-    bool found = writes(line, variable);
-    each_line_read(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
-    each_callee(code_, line, [&](std::uint32_t routine) {
-      found = found || contains(flow_.touched[routine], variable);
-    });
-    return found;
-  }
-  bool sets_elements(const CodeLine& line) const {
-    if (line.kind == LineKind::SetElement)
-      return true;
-    bool found = false;
-    each_callee(code_, line,
-                [&](std::uint32_t routine) { found = found || flow_.sets_elements[routine]; });
-    if (line.kind == LineKind::Do)
-      for (auto i = line.parts_begin; i < line.parts_end; ++i)
-        found = found || code_.parts[i].kind == PartKind::Element;
-    return found;
-  }
-  /// Whether a line does something that can be noticed from outside, or takes time.
-  static bool acts(const CodeLine& line) {
-    return line.kind == LineKind::Do || line.kind == LineKind::Print ||
-           line.kind == LineKind::SetSystem || line.kind == LineKind::Gosub ||
-           line.kind == LineKind::OnGosub || line.kind == LineKind::Return;
-  }
-  std::uint8_t effects_of(const CodeLine& line) const {
-    std::uint8_t effects = 0;
-    each_root(code_, line, [&](std::uint32_t root) { effects |= code_.terms[root].effects; });
-    if (line.kind == LineKind::SetElement)
-      effects |= effect::faults;
-    return effects;
-  }
-  bool reads(std::uint32_t term, std::uint32_t variable) const {
-    bool found = false;
-    each_read(code_, term, [&](std::uint32_t v) { found = found || v == variable; });
-    return found;
-  }
-
-  /// Whether a line changes what a term reads.
-  bool disturbs(const CodeLine& line, std::uint32_t term) const {
-    bool found = (code_.terms[term].effects & effect::elements) != 0 && sets_elements(line);
-    each_write(code_, line, [&](std::uint32_t v) { found = found || reads(term, v); });
-    each_callee(code_, line, [&](std::uint32_t routine) {
-      each_read(code_, term,
-                [&](std::uint32_t v) { found = found || contains(flow_.written[routine], v); });
-    });
-    return found;
-  }
-
-  /// Whether a term can be computed after a line instead of before it.
-  bool passes(const CodeLine& line, std::uint32_t term) const {
-    const auto effects = code_.terms[term].effects;
-    constexpr std::uint8_t noticed = effect::faults | effect::clears;
-    if (disturbs(line, term) || ordered(effects, effects_of(line)))
-      return false;
-    if (acts(line) && (effects & (noticed | effect::senses)) != 0)
-      return false;
-    const bool splits = line.kind == LineKind::If || line.kind == LineKind::Next;
-    return !splits || (effects & noticed) == 0;
-  }
-
   bool live_at(std::uint32_t label, std::uint32_t variable) const {
     const auto block = flow_.block_of_label[label];
     return block != none && contains(liveness_.in[block], variable);
-  }
-
-  /// Whether straight text ends at a line: what follows may come from elsewhere.
-  static bool ends_text(const CodeLine& line) {
-    return line.kind == LineKind::Label || line.kind == LineKind::Next || !falls_through(line);
   }
 
   // ---- moving a value to its only reader
@@ -180,7 +107,7 @@ private:
       each_line_read(code_, line, [&](std::uint32_t v) { count += v == variable ? 1 : 0; });
       if (count > 0)
         return count == 1 && contains(last_reads_[j], variable) && substitute(i, j, variable, term);
-      if (touches(line, variable) || ends_text(line) || !passes(line, term))
+      if (facts_.touches(line, variable) || facts_.ends_text(line) || !facts_.passes(line, term))
         return false;
       if (line.kind == LineKind::If && live_at(line.label, variable))
         return false;
@@ -200,11 +127,11 @@ private:
     each_root(code_, line, [&](std::uint32_t& root) {
       if (done || !good)
         return;
-      if (!reads(root, variable)) {
+      if (!facts_.reads(root, variable)) {
         before |= code_.terms[root].effects;
         return;
       }
-      if (line.kind == LineKind::For && &root == &line.end && reads(term, line.variable) &&
+      if (line.kind == LineKind::For && &root == &line.end && facts_.reads(term, line.variable) &&
           !is_read_of(line.term, line.variable)) {
         good = false;
         return;
@@ -247,7 +174,7 @@ private:
         return std::nullopt;
       return term;
     }
-    if (!reads(root, variable)) {
+    if (!facts_.reads(root, variable)) {
       before |= node.effects;
       return root;
     }
@@ -300,7 +227,7 @@ private:
       if (count > 0)
         readers.push_back(j);
       found += count;
-      if (writes(line, variable) || writes(line, original) || ends_text(line))
+      if (facts_.writes(line, variable) || facts_.writes(line, original) || facts_.ends_text(line))
         break;
     }
     if (found == 0 || found != reads_[variable])
@@ -323,7 +250,8 @@ private:
     constexpr std::uint32_t most_reads = 2;
     if (variable == index_variable || code_.variables[variable].kept ||
         reads_[variable] > most_reads || code_.terms[term].kind != TermKind::Binary ||
-        code_.terms[term].size != 3 || code_.terms[term].effects != 0 || reads(term, variable))
+        code_.terms[term].size != 3 || code_.terms[term].effects != 0 ||
+        facts_.reads(term, variable))
       return;
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> better; // roots
     std::uint32_t found = 0;
@@ -343,8 +271,9 @@ private:
           better.push_back({&root, *result});
       });
       last = j;
-      if (deep || (found < reads_[variable] &&
-                   (writes(line, variable) || disturbs(line, term) || ends_text(line))))
+      if (deep ||
+          (found < reads_[variable] && (facts_.writes(line, variable) ||
+                                        facts_.disturbs(line, term) || facts_.ends_text(line))))
         return;
     }
     if (found == 0 || found != reads_[variable])
@@ -384,7 +313,7 @@ private:
     const auto variable = code_.lines[i].variable;
     const auto term = code_.lines[i].term;
     constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
-    if ((code_.terms[term].effects & moving) != 0 || reads(term, variable))
+    if ((code_.terms[term].effects & moving) != 0 || facts_.reads(term, variable))
       return;
     const auto last =
         std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
@@ -396,8 +325,8 @@ private:
           remove(last_reads_[k], variable);
         continue;
       }
-      if (line.kind == LineKind::Label || ends_text(line) || writes(line, variable) ||
-          disturbs(line, term))
+      if (line.kind == LineKind::Label || facts_.ends_text(line) || facts_.writes(line, variable) ||
+          facts_.disturbs(line, term))
         return;
     }
   }
@@ -481,18 +410,21 @@ private:
             changed_ = true;
             break;
           }
-      if (sets_elements(line))
-        std::erase_if(
-            held_, [&](const Held& held) { return index == none || !differ(held.index, index); });
+      if (facts_.sets_elements(line))
+        std::erase_if(held_, [&](const Held& held) {
+          return index == none || !facts_.differ(held.index, index);
+        });
       each_write(code_, line, [&](std::uint32_t v) {
-        std::erase_if(held_,
-                      [&](const Held& held) { return held.variable == v || reads(held.index, v); });
-        if (v == index_variable || (index != none && reads(index, v)))
+        std::erase_if(held_, [&](const Held& held) {
+          return held.variable == v || facts_.reads(held.index, v);
+        });
+        if (v == index_variable || (index != none && facts_.reads(index, v)))
           index = none;
       });
       constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
       if (line.kind == LineKind::Let && line.variable == index_variable &&
-          (code_.terms[line.term].effects & moving) == 0 && !reads(line.term, index_variable))
+          (code_.terms[line.term].effects & moving) == 0 &&
+          !facts_.reads(line.term, index_variable))
         index = line.term;
       else if (loads && index != none && line.variable != index_variable)
         held_.push_back({at, line.variable, i});
@@ -503,27 +435,9 @@ private:
     }
   }
 
-  /// Whether two indices are certainly not the same: numbers, or sums that differ in their numbers.
-  bool differ(std::uint32_t a, std::uint32_t b) const {
-    const auto split = [&](std::uint32_t term) {
-      const auto& node = code_.terms[term];
-      if (node.kind == TermKind::Number)
-        return std::pair{none, node.value};
-      const bool plus = node.what == static_cast<int>(spec::Operator::Add);
-      if (node.kind == TermKind::Binary && code_.is_number(node.right) &&
-          (plus || node.what == static_cast<int>(spec::Operator::Subtract)))
-        return std::pair{node.left, plus ? code_.terms[node.right].value
-                                         : bytecode::subtract(0, code_.terms[node.right].value)};
-      return std::pair{term, 0};
-    };
-    const auto [base, added] = split(a);
-    const auto [other, value] = split(b);
-    const bool alike = base == none || other == none ? base == other : same(code_, base, other);
-    return alike && added != value;
-  }
-
   Code& code_;
   Flow flow_;
+  LineFacts facts_;
   Liveness liveness_;
   std::vector<Held> held_;
   VariableSets last_reads_;

@@ -1,0 +1,106 @@
+#include "structured/optimise/line_facts.h"
+
+#include "bytecode/arithmetic.h"
+
+#include <utility>
+
+namespace orb::structured {
+namespace {
+
+/// Whether a line does something that can be noticed from outside, or takes time.
+bool acts(const CodeLine& line) {
+  return line.kind == LineKind::Do || line.kind == LineKind::Print ||
+         line.kind == LineKind::SetSystem || line.kind == LineKind::Gosub ||
+         line.kind == LineKind::OnGosub || line.kind == LineKind::Return;
+}
+
+} // namespace
+
+bool LineFacts::writes(const CodeLine& line, std::uint32_t variable) const {
+  bool found = false;
+  each_write(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
+  each_callee(code_, line, [&](std::uint32_t routine) {
+    found = found || contains(flow_.written[routine], variable);
+  });
+  return found;
+}
+
+bool LineFacts::touches(const CodeLine& line, std::uint32_t variable) const {
+  bool found = writes(line, variable);
+  each_line_read(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
+  each_callee(code_, line, [&](std::uint32_t routine) {
+    found = found || contains(flow_.touched[routine], variable);
+  });
+  return found;
+}
+
+bool LineFacts::sets_elements(const CodeLine& line) const {
+  if (line.kind == LineKind::SetElement)
+    return true;
+  bool found = false;
+  each_callee(code_, line,
+              [&](std::uint32_t routine) { found = found || flow_.sets_elements[routine]; });
+  if (line.kind == LineKind::Do)
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      found = found || code_.parts[i].kind == PartKind::Element;
+  return found;
+}
+
+std::uint8_t LineFacts::effects_of(const CodeLine& line) const {
+  std::uint8_t effects = 0;
+  each_root(code_, line, [&](std::uint32_t root) { effects |= code_.terms[root].effects; });
+  if (line.kind == LineKind::SetElement)
+    effects |= effect::faults;
+  return effects;
+}
+
+bool LineFacts::reads(std::uint32_t term, std::uint32_t variable) const {
+  bool found = false;
+  each_read(code_, term, [&](std::uint32_t v) { found = found || v == variable; });
+  return found;
+}
+
+bool LineFacts::disturbs(const CodeLine& line, std::uint32_t term) const {
+  bool found = (code_.terms[term].effects & effect::elements) != 0 && sets_elements(line);
+  each_write(code_, line, [&](std::uint32_t v) { found = found || reads(term, v); });
+  each_callee(code_, line, [&](std::uint32_t routine) {
+    each_read(code_, term,
+              [&](std::uint32_t v) { found = found || contains(flow_.written[routine], v); });
+  });
+  return found;
+}
+
+bool LineFacts::passes(const CodeLine& line, std::uint32_t term) const {
+  const auto effects = code_.terms[term].effects;
+  constexpr std::uint8_t noticed = effect::faults | effect::clears;
+  if (disturbs(line, term) || ordered(effects, effects_of(line)))
+    return false;
+  if (acts(line) && (effects & (noticed | effect::senses)) != 0)
+    return false;
+  const bool splits = line.kind == LineKind::If || line.kind == LineKind::Next;
+  return !splits || (effects & noticed) == 0;
+}
+
+bool LineFacts::ends_text(const CodeLine& line) {
+  return line.kind == LineKind::Label || line.kind == LineKind::Next || !falls_through(line);
+}
+
+bool LineFacts::differ(std::uint32_t a, std::uint32_t b) const {
+  const auto split = [&](std::uint32_t term) {
+    const auto& node = code_.terms[term];
+    if (node.kind == TermKind::Number)
+      return std::pair{none, node.value};
+    const bool plus = node.what == static_cast<int>(spec::Operator::Add);
+    if (node.kind == TermKind::Binary && code_.is_number(node.right) &&
+        (plus || node.what == static_cast<int>(spec::Operator::Subtract)))
+      return std::pair{node.left, plus ? code_.terms[node.right].value
+                                       : bytecode::subtract(0, code_.terms[node.right].value)};
+    return std::pair{term, 0};
+  };
+  const auto [base, added] = split(a);
+  const auto [other, value] = split(b);
+  const bool alike = base == none || other == none ? base == other : same(code_, base, other);
+  return alike && added != value;
+}
+
+} // namespace orb::structured
