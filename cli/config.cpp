@@ -6,6 +6,7 @@
 #include "cli/save_ball.h"
 #include "disk/disk.h"
 #include "disk/lock.h"
+#include "spec/robots.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view project_file = "orb.toml";
 constexpr std::string_view balls_section = "balls";
+constexpr std::string_view groups_section = "groups";
 
 std::optional<fs::path> user_file() {
   if (const char* xdg = std::getenv("XDG_CONFIG_HOME"); xdg != nullptr && *xdg != '\0')
@@ -126,16 +128,83 @@ values_of(const std::string& file, std::string_view name, const toml::node& node
   return values;
 }
 
+tl::unexpected<ConfigError> refuse(const std::string& file, const toml::node& node,
+                                   std::string_view what) {
+  return tl::unexpected(problem(place_in(file, node), what));
+}
+
+/// `{ port = "URL", robot = "bolt" }`.
+tl::expected<KnownBall, ConfigError> ball_of(const std::string& file, std::string_view name,
+                                             const toml::table& table) {
+  KnownBall ball;
+  const std::vector<std::string> keys = {"port", "robot"};
+  for (const auto& [key, node] : table) {
+    const auto* text = node.as_string();
+    if (key != keys[0] && key != keys[1])
+      return tl::unexpected(
+          problem(place_in(file, key.source().begin),
+                  fmt::format("ball `{}` has a `port` and a `robot`, no `{}`{}", name, key.str(),
+                              meant_instead(std::string(key.str()), keys))));
+    if (text == nullptr)
+      return refuse(file, node,
+                    fmt::format("`{}` of ball `{}` is a text in quotes", key.str(), name));
+    (key == keys[0] ? ball.url : ball.robot) = text->get();
+    if (key == keys[1] && spec::find_robot(ball.robot) == nullptr)
+      return refuse(file, node,
+                    fmt::format("`{}` is not a robot{}", ball.robot,
+                                meant_instead(ball.robot, names_of(spec::robots))));
+  }
+  if (ball.url.empty())
+    return refuse(file, table,
+                  fmt::format("ball `{}` has no port; write `{}`", name,
+                              R"({ port = "ble://SB-1A2B", robot = "bolt" })"));
+  return ball;
+}
+
 tl::expected<void, ConfigError> take_balls(Config& config, const std::string& file,
                                            const toml::table& section) {
   for (const auto& [name, node] : section) {
-    const auto* url = node.as_string();
-    if (url == nullptr)
-      return tl::unexpected(
-          problem(place_in(file, node),
-                  fmt::format("ball `{}` takes one URL, such as \"rfcomm://68:86:E7:00:11:22\"",
-                              name.str())));
-    config.balls[std::string(name.str())] = url->get();
+    KnownBall ball;
+    if (const auto* url = node.as_string()) {
+      ball.url = url->get();
+    } else if (const auto* table = node.as_table()) {
+      auto read = ball_of(file, name.str(), *table);
+      if (!read)
+        return tl::unexpected(read.error());
+      ball = *std::move(read);
+    } else {
+      return refuse(file, node,
+                    fmt::format("ball `{}` takes one URL, such as \"rfcomm://68:86:E7:00:11:22\"",
+                                name.str()));
+    }
+    ball.line = name.source().begin.line;
+    ball.place = place_in(file, name.source().begin);
+    config.balls[std::string(name.str())] = std::move(ball);
+  }
+  return {};
+}
+
+tl::expected<void, ConfigError> take_groups(Config& config, const std::string& file,
+                                            const toml::table& section) {
+  for (const auto& [name, node] : section) {
+    const auto* list = node.as_array();
+    const auto example = fmt::format("`{} = [\"red\", \"blue\"]`", name.str());
+    if (list == nullptr)
+      return refuse(file, node,
+                    fmt::format("the group `{}` is a list of balls: {}", name.str(), example));
+    if (list->empty())
+      return refuse(file, node,
+                    fmt::format("the group `{}` is empty; write {}", name.str(), example));
+    Group group;
+    group.place = place_in(file, name.source().begin);
+    for (const auto& member : *list) {
+      const auto* text = member.as_string();
+      if (text == nullptr)
+        return refuse(file, member,
+                      fmt::format("the group `{}` is a list of names: {}", name.str(), example));
+      group.members.push_back({text->get(), place_in(file, member)});
+    }
+    config.groups[std::string(name.str())] = std::move(group);
   }
   return {};
 }
@@ -190,6 +259,15 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
   const auto parsed = toml::parse(text, file);
   if (!parsed) {
     const auto& error = parsed.error();
+    constexpr std::string_view twice = "cannot redefine existing string '";
+    if (const auto at = error.description().find(twice); at != std::string_view::npos) {
+      auto name = error.description().substr(at + twice.size());
+      name = name.substr(0, name.find('\''));
+      return tl::unexpected(problem(place_in(file, error.source().begin),
+                                    fmt::format("`{}` stands twice; give one of them another name, "
+                                                "or delete it",
+                                                name)));
+    }
     return tl::unexpected(problem(place_in(file, error.source().begin),
                                   fmt::format("not TOML: {}{}", toml_words(error.description()),
                                               quotes_help(text, error.source().begin.line))));
@@ -198,7 +276,7 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
     const auto name = std::string(key.str());
     const auto* section = node.as_table();
     if (section == nullptr) {
-      if (name == balls_section || node.is_array_of_tables())
+      if (name == balls_section || name == groups_section || node.is_array_of_tables())
         return tl::unexpected(
             problem(place_in(file, key.source().begin),
                     fmt::format("`{0}` is a section; write `[{0}]` on a line of its own", name)));
@@ -206,6 +284,9 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
         return taken;
     } else if (name == balls_section) {
       if (auto taken = take_balls(config, file, *section); !taken)
+        return taken;
+    } else if (name == groups_section) {
+      if (auto taken = take_groups(config, file, *section); !taken)
         return taken;
     } else {
       const Section command{name, place_in(file, key.source().begin)};
@@ -235,7 +316,7 @@ std::vector<Command> addressed(const Command& orb, const std::string& command) {
 tl::expected<void, ConfigError> apply(const Setting& setting, const Command& orb) {
   const auto commands = addressed(orb, setting.section.name);
   if (commands.empty()) {
-    std::vector<std::string> names = {std::string(balls_section)};
+    std::vector<std::string> names = {std::string(balls_section), std::string(groups_section)};
     for (const auto& command : addressed(orb, ""))
       names.push_back(command.name());
     return tl::unexpected(problem(setting.section.place,
@@ -345,6 +426,13 @@ bool same_but_for_place(const Setting& one, const Setting& other) {
          one.values == other.values;
 }
 
+/// Whether both name the same robots, wherever in the file.
+bool same_balls(const Config& one, const Config& other) {
+  return std::ranges::equal(one.balls, other.balls, [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.url == b.second.url && a.second.robot == b.second.robot;
+  });
+}
+
 tl::unexpected<Failure> unsaved(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
 }
@@ -396,9 +484,9 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   Config before;
   if (auto read = read_text_into(before, file, text); !read)
     return unsaved(ExitCode::Usage, read.error().message);
-  before.balls[name] = url;
+  before.balls[name].url = url;
   Config after; // what will be read of it
-  if (!read_text_into(after, file, edited) || after.balls != before.balls ||
+  if (!read_text_into(after, file, edited) || !same_balls(after, before) ||
       !std::ranges::equal(after.settings, before.settings, same_but_for_place))
     return unsaved(
         ExitCode::Usage,
@@ -422,6 +510,21 @@ tl::expected<Config, ConfigError> load_config() {
   return config;
 }
 
+tl::expected<Config, ConfigError> read_roster(const std::string& file) {
+  Config config;
+  if (auto done = read_into(config, file); !done)
+    return tl::unexpected(done.error());
+  if (!config.settings.empty())
+    return tl::unexpected(problem(
+        config.settings.front().section.place.empty() ? config.settings.front().place
+                                                      : config.settings.front().section.place,
+        "a file of robots has the sections `[balls]` and `[groups]`; settings stand in orb.toml"));
+  if (config.balls.empty())
+    return tl::unexpected(problem(file, "there are no robots in it; write `[balls]` and under it a "
+                                        "line such as `red = \"ble://SK-1A2B\"`"));
+  return config;
+}
+
 tl::expected<void, ConfigError> apply_config(const Config& config, const Command& orb) {
   for (const auto& setting : config.settings)
     if (auto done = apply(setting, orb); !done)
@@ -434,9 +537,13 @@ tl::expected<std::string, ConfigError> resolve_port(const Config& config, const 
     return port;
   const auto name = port.substr(1);
   if (const auto ball = config.balls.find(name); ball != config.balls.end())
-    return ball->second;
+    return ball->second.url;
+  if (const auto group = config.groups.find(name); group != config.groups.end())
+    return tl::unexpected(
+        ConfigError{fmt::format("`@{}` is a group; write the name of one ball, such as `@{}`", name,
+                                group->second.members.front().name)});
   std::vector<std::string> names;
-  for (const auto& [known, url] : config.balls)
+  for (const auto& [known, ball] : config.balls)
     names.push_back(known);
   return tl::unexpected(ConfigError{fmt::format(
       "unknown ball `{}`{}", name,

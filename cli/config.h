@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tl/expected.hpp>
@@ -28,11 +29,30 @@ struct Setting {
   std::vector<std::string> values;
 };
 
+/// A robot with a name: `[balls] red = "URL"`, or `red = { port = "URL", robot = "bolt" }`.
+struct KnownBall {
+  std::string url;
+  std::string robot;      ///< a row of spec/robots.def; empty where its port has to tell
+  std::string place;      ///< `FILE:LINE:COLUMN`
+  std::uint32_t line = 0; ///< in its file
+};
+
+/// Robots that are named together: `[groups] front = ["red", "blue"]`.
+struct Group {
+  struct Member {
+    std::string name;
+    std::string place;
+  };
+  std::vector<Member> members;
+  std::string place;
+};
+
 /// What the configuration files say: `orb.toml`, found by walking up from the working folder, over
 /// `$XDG_CONFIG_HOME/orb/config.toml`.
 struct Config {
-  std::map<std::string, std::string> balls; ///< `[balls] red = "rfcomm://…"`, used as `@red`
-  std::vector<Setting> settings;            ///< weakest first
+  std::map<std::string, KnownBall> balls; ///< used as `@red`
+  std::map<std::string, Group> groups;    ///< used as `@front`
+  std::vector<Setting> settings;          ///< weakest first
 };
 
 /// Why a configuration cannot be used: the sentence to print.
@@ -42,6 +62,9 @@ struct ConfigError {
 
 /// Reads the configuration files; missing ones are fine.
 tl::expected<Config, ConfigError> load_config();
+
+/// Reads a file of robots: `[balls]` and `[groups]`, and nothing else.
+tl::expected<Config, ConfigError> read_roster(const std::string& file);
 
 /// Makes the settings the defaults of the options they name, so that flags and environment stay
 /// stronger. An unknown section, option or value is an error.

@@ -9,6 +9,7 @@
 #include <exception>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <utility>
 
 namespace orb::cli {
 namespace {
@@ -44,6 +45,16 @@ std::string on_one_line(std::string_view message) {
   return out;
 }
 
+/// Empty where this thread prints to the streams of the process.
+thread_local OutputTap::Take tap;
+
+/// Whether the tap has taken it.
+bool is_taken(OutputTap::Stream stream, std::string_view text) {
+  if (tap)
+    tap(stream, text);
+  return static_cast<bool>(tap);
+}
+
 /// A ball's or a file's name must not drive the user's terminal.
 bool print_to(std::FILE* file, std::string_view text) {
   std::string shown;
@@ -62,17 +73,34 @@ Style Context::err_style() const {
   return style_for(color, STDERR_FILENO);
 }
 
+OutputTap::OutputTap(Take take) {
+  tap = std::move(take);
+}
+
+OutputTap::~OutputTap() {
+  tap = nullptr;
+}
+
+OutputTap::Closed::Closed() : take_(std::exchange(tap, nullptr)) {}
+
+OutputTap::Closed::~Closed() {
+  tap = std::move(take_);
+}
+
 void print_out(std::string_view text) {
   // What is cleaned up after a first failure may still want to say something, such as a ball whose
   // client leaves. A second exception would be the end of the process.
   if (std::uncaught_exceptions() > 0)
+    return;
+  if (is_taken(OutputTap::Stream::Out, text))
     return;
   if (!print_to(stdout, text) || std::fflush(stdout) != 0)
     throw OutputError{errno};
 }
 
 void print_err(std::string_view text) {
-  print_to(stderr, text);
+  if (!is_taken(OutputTap::Stream::Err, text))
+    print_to(stderr, text);
 }
 
 void print_note(const Context& context, std::string_view message) {

@@ -4,6 +4,8 @@
 #include "base/style.h"
 #include "cli/config.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +24,30 @@ struct Context {
   /// TERM=dumb, then whether it is a terminal.
   Style out_style() const;
   Style err_style() const;
+};
+
+/// Takes what this thread prints in place of stdout and stderr, as long as it lives: for commands
+/// that speak to several robots at once.
+class OutputTap {
+public:
+  enum class Stream : std::uint8_t { Out, Err };
+  using Take = std::function<void(Stream, std::string_view)>;
+  explicit OutputTap(Take take);
+  ~OutputTap();
+  OutputTap(const OutputTap&) = delete;
+  OutputTap& operator=(const OutputTap&) = delete;
+
+  /// What this thread prints goes to the streams all the same, as long as it lives.
+  class Closed {
+  public:
+    Closed();
+    ~Closed();
+    Closed(const Closed&) = delete;
+    Closed& operator=(const Closed&) = delete;
+
+  private:
+    Take take_;
+  };
 };
 
 /// Writes to stdout. Where that fails the command ends (OutputError): silently when the reader went

@@ -147,4 +147,15 @@ bool print_findings(const Context& context, const run::Input& input) {
   return errors;
 }
 
+tl::expected<void, Failure> check_inputs(const Context& context,
+                                         const std::vector<run::Input>& inputs) {
+  for (const auto& input : inputs)
+    if (input.has_errors()) {
+      print_findings(context, input);
+      return tl::unexpected(
+          Failure{ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name())});
+    }
+  return {};
+}
+
 } // namespace orb::cli

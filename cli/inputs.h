@@ -67,4 +67,8 @@ bool print_findings(const Context& context, const Source& source,
 /// The same for an input with all that it includes.
 bool print_findings(const Context& context, const run::Input& input);
 
+/// Prints the findings of the first input that has errors; fine where none has.
+tl::expected<void, Failure> check_inputs(const Context& context,
+                                         const std::vector<run::Input>& inputs);
+
 } // namespace orb::cli

@@ -65,6 +65,10 @@ void add_port_options(const Command& command, PortOptions& options) {
       .environment("ORB_PORT")
       .type_name("URL")
       .show_default();
+  add_link_options(command, options);
+}
+
+void add_link_options(const Command& command, PortOptions& options) {
   command.add_option("--record", options.record, "write what passes over the link to this file")
       .type_name("FILE");
   add_waits(command, options);
@@ -77,6 +81,10 @@ void add_robot_port_options(const Command& command, PortOptions& options, std::s
                   "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
                   "pty://, sim: or @ball")
       .type_name("URL");
+  add_robot_options(command, options, robot);
+}
+
+void add_robot_options(const Command& command, PortOptions& options, std::string& robot) {
   command
       .add_option("--robot", robot,
                   "which robot it is; the virtual one drives like it, a real one tells by its name")
@@ -141,8 +149,13 @@ uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& optio
   return uploader::ble_budgets(budgets);
 }
 
-/// The robot that a name such as `SB-1A2B` tells.
-std::optional<spec::Robot> named_robot(const Endpoint& endpoint) {
+/// The robot that the settings of `@ball`, or a name such as `SB-1A2B`, tell.
+std::optional<spec::Robot> named_robot(const Context& context, const Endpoint& endpoint,
+                                       const PortOptions& options) {
+  if (options.port.starts_with("@"))
+    if (const auto ball = context.config.balls.find(options.port.substr(1));
+        ball != context.config.balls.end() && !ball->second.robot.empty())
+      return spec::find_robot(ball->second.robot)->robot;
   if (endpoint.scheme != Scheme::Ble || endpoint.name.empty())
     return std::nullopt;
   const auto* name = spec::find_ble_name(endpoint.name);
@@ -178,7 +191,7 @@ tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
 
 std::optional<spec::Robot> named_robot(const Context& context, const PortOptions& options) {
   const auto endpoint = find_endpoint(context, options);
-  return endpoint ? named_robot(*endpoint) : std::nullopt;
+  return endpoint ? named_robot(context, *endpoint, options) : std::nullopt;
 }
 
 namespace {
@@ -248,7 +261,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.is_ble = endpoint->scheme == Scheme::Ble;
   link.may_double = may_double(*endpoint);
-  link.named = named_robot(*endpoint);
+  link.named = named_robot(context, *endpoint, options);
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
   if (link.is_sim)

@@ -41,9 +41,15 @@ struct PortOptions {
 /// says. `robot` becomes the name of a row of spec/robots.def; empty where none is given.
 void add_robot_port_options(const Command& command, PortOptions& options, std::string& robot);
 
+/// All of these but `--port`.
+void add_robot_options(const Command& command, PortOptions& options, std::string& robot);
+
 /// Adds `--port`, which the environment may give as ORB_PORT, `--record`, `--timeout` and
 /// `--connect-timeout`.
 void add_port_options(const Command& command, PortOptions& options);
+
+/// All of these but `--port`.
+void add_link_options(const Command& command, PortOptions& options);
 
 /// Hears the wire for a recording and for `-vv`.
 class WireLog final : public protocol::WireListener {

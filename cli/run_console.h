@@ -2,6 +2,7 @@
 
 #include "base/io_error.h"
 #include "cli/link.h"
+#include "cli/many/roster.h"
 #include "cli/target.h"
 #include "report/trace.h"
 #include "run/run.h"
@@ -35,7 +36,8 @@ struct RunOptions {
   std::string compare;
   std::string svg;
   TargetOptions target;
-  PortOptions port; ///< of a robot; empty for the virtual ball
+  RosterOptions roster; ///< the robots; none for the virtual ball
+  PortOptions port;     ///< of one of them
   std::string robot;
   std::string ball;   ///< the profile of how it drives; empty for the model's
   std::string record; ///< the file for a recording of the drive; empty for none

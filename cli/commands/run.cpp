@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
+#include "cli/many/run_robots.h"
 #include "cli/model/checks.h"
 #include "cli/on_robot.h"
 #include "cli/room/run_together.h"
@@ -201,11 +202,8 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
   if (!inputs)
     return tl::unexpected(inputs.error());
-  for (const auto& input : *inputs)
-    if (input.has_errors()) {
-      print_findings(context, input);
-      return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name()));
-    }
+  if (auto good = check_inputs(context, *inputs); !good)
+    return good;
   const auto before = read_before(given);
   if (!before)
     return tl::unexpected(before.error());
@@ -356,7 +354,7 @@ void add_program_options(const Command& command, RunOptions& options) {
                      "text that must not be printed; ends the run, exit 1");
 }
 
-void add_robot_options(const Command& command, RunOptions& options) {
+void add_ball_options(const Command& command, RunOptions& options) {
   add_target_options(command, options.target);
   command
       .add_option(
@@ -389,7 +387,9 @@ void add_robot_options(const Command& command, RunOptions& options) {
 }
 
 void add_tether_options(const Command& command, RunOptions& options) {
-  add_robot_port_options(command, options.port, options.robot);
+  options.port.port.clear();
+  add_robot_roster_options(command, options.roster, "all");
+  add_robot_options(command, options.port, options.robot);
   add_ball_option(command, options.ball,
                   "the virtual ball drives like the robot that `orb calibrate` measured");
   command.add_option("--record", options.record,
@@ -430,14 +430,21 @@ void add_run(const Command& orb, Context& context) {
       "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
       "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
       "waltz.sphero --expect done\norb run red.orb blue.orb --together --open\norb "
-      "run square.orb --port ble://SB-1A2B\norb run square.orb --ball red");
+      "run square.orb --port ble://SB-1A2B\norb run square.orb --ports class.toml\norb run "
+      "square.orb "
+      "--ball red");
   auto options = std::make_shared<RunOptions>();
   add_program_options(command, *options);
-  add_robot_options(command, *options);
+  add_ball_options(command, *options);
   add_tether_options(command, *options);
   add_output_options(command, *options);
   add_room_options(command, *options);
-  command.callback([&context, options] { run_with_report(context, *options); });
+  command.callback([&context, options] {
+    if (options->roster.ports.empty() && options->roster.file.empty())
+      run_with_report(context, *options);
+    else
+      run_on_robots(context, *options, run_with_report);
+  });
 }
 
 } // namespace orb::cli

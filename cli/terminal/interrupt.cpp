@@ -3,21 +3,28 @@
 #include "uploader/budgets.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 
 namespace orb::cli {
 namespace {
 
 /// How often the user asked to stop. A signal handler may touch nothing but this.
-volatile std::sig_atomic_t requests = 0;
+std::atomic<int> requests = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
+
+/// How many guards there are: where several robots are worked with, one for all and one for each.
+std::atomic<int> guards = 0;
 
 extern "C" void count_request(int) {
-  requests = requests + 1;
+  requests.fetch_add(1, std::memory_order_relaxed);
 }
 
 } // namespace
 
 InterruptGuard::InterruptGuard() {
+  if (guards++ > 0)
+    return;
   requests = 0;
   struct sigaction action {};
   action.sa_handler = count_request;
@@ -33,6 +40,8 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
+  if (--guards > 0)
+    return;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (hears_hangup_)

@@ -6,7 +6,8 @@
 
 namespace orb::cli {
 
-/// Makes SIGINT, SIGTERM and SIGHUP a request to stop instead of a death, as long as it lives.
+/// Makes SIGINT, SIGTERM and SIGHUP a request to stop instead of a death, as long as it lives. One
+/// within another changes nothing: the first one counts for all.
 class InterruptGuard {
 public:
   InterruptGuard();
@@ -14,7 +15,7 @@ public:
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// How often the user asked to stop since the guard was made.
+  /// How often the user asked to stop since the first guard was made.
   static int asked();
 
 private:

@@ -16,11 +16,6 @@ constexpr int bar_width = 20; // columns
 constexpr double least_seconds = 0.25;
 constexpr std::string_view clear_line = "\r\033[K";
 
-bool can_animate() {
-  const char* term = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
-}
-
 double fraction(const Status& status) {
   return status.bytes_total == 0
              ? 0.0
@@ -28,6 +23,16 @@ double fraction(const Status& status) {
 }
 
 } // namespace
+
+bool can_animate() {
+  const char* term = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+std::string progress_bar(const Status& status) {
+  const auto full = static_cast<std::size_t>(fraction(status) * bar_width);
+  return fmt::format("[{}{}]", std::string(full, '#'), std::string(bar_width - full, '-'));
+}
 
 std::string describe_progress(const Status& status, Duration sending_for) {
   auto text = fmt::format("{}/{} bytes, {}/{} pieces", status.bytes_sent, status.bytes_total,
@@ -90,9 +95,7 @@ void ProgressBar::draw(const Status& status, Instant now) {
     clear();
     return;
   }
-  const auto full = static_cast<std::size_t>(fraction(status) * bar_width);
-  print_err(fmt::format("{}{} [{}{}] {}, {}", clear_line, name_, std::string(full, '#'),
-                        std::string(bar_width - full, '-'),
+  print_err(fmt::format("{}{} {} {}, {}", clear_line, name_, progress_bar(status),
                         describe_progress(status, now - sending_since_.value_or(now)),
                         to_string(status.stage)));
   drawn_ = true;

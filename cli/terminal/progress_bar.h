@@ -57,7 +57,13 @@ private:
   std::chrono::steady_clock::time_point drawn_at_ = start_;
 };
 
-/// The bar, the numbers and what is left, without the name: what is drawn and printed.
+/// Whether stderr is a terminal on which a line can be drawn over itself.
+bool can_animate();
+
+/// `[#####---------------]`: how much of it is sent.
+std::string progress_bar(const uploader::Status& status);
+
+/// The numbers and what is left, without the name and the bar.
 std::string describe_progress(const uploader::Status& status, Duration sending_for);
 
 } // namespace orb::cli

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/json.h"
+#include "cli/many/many.h"
 #include "cli/newer_robot.h"
 #include "cli/terminal/interrupt.h"
 #include "protocol/describe.h"
@@ -17,6 +18,7 @@ namespace orb::cli {
 namespace {
 
 struct ExecOptions {
+  RosterOptions roster;
   PortOptions port;
   std::string name;
   std::vector<std::string> arguments;
@@ -60,15 +62,13 @@ void run_v2(Context& context, const ExecOptions& options, const spec::RobotInfo&
                    });
 }
 
-const spec::CommandInfo* find(const Context& context, const std::string& name) {
-  if (const auto* row = spec::find_command(name))
-    return row;
+Failure unknown_command(const std::string& name) {
   std::vector<std::string_view> names;
   for (const auto& row : spec::api_commands)
     names.push_back(row.name);
-  print_error(context, fmt::format("`{}` is not a command of the API; {}", name,
-                                   did_you_mean(name, names, "`orb spec commands` lists them")));
-  return nullptr;
+  return {ExitCode::Usage,
+          fmt::format("`{}` is not a command of the API; {}", name,
+                      did_you_mean(name, names, "`orb spec commands` lists them"))};
 }
 
 /// Puts what came as an answer to `command` into words or values.
@@ -164,11 +164,9 @@ void run(Context& context, const ExecOptions& options) {
                           fmt::format("`{}` is a command of the newer robots; say which one "
                                       "answers, as in `--robot mini`",
                                       options.name)});
-  const auto* row = find(context, options.name);
-  if (row == nullptr) {
-    context.exit = ExitCode::Usage;
-    return;
-  }
+  const auto* row = spec::find_command(options.name);
+  if (row == nullptr)
+    return fail(context, unknown_command(options.name));
   const auto data = protocol::encode_operands(row->command, options.arguments);
   if (!data)
     return fail(context, {ExitCode::Usage, data.error().message});
@@ -188,6 +186,22 @@ void run(Context& context, const ExecOptions& options) {
             });
 }
 
+/// Why the command is not for one of several robots.
+std::optional<std::string> misfit(const ExecOptions& options, const Member& member) {
+  const auto& robot = spec::info(member.robot.value_or(spec::Robot::Sphero));
+  const bool is_v1 = spec::find_command(options.name) != nullptr;
+  const auto* v2 = spec::find_v2_command(options.name);
+  if (!member.robot || (is_v1 && v2 != nullptr) || (!is_v1 && v2 == nullptr))
+    return std::nullopt;
+  const bool fits =
+      robot.packets == spec::Packets::V1 ? is_v1 : v2 != nullptr && spec::knows(robot, *v2);
+  if (fits)
+    return std::nullopt;
+  return fmt::format("is a {}, which has no command `{}`; leave it out, or write another command "
+                     "for it",
+                     robot.title, options.name);
+}
+
 } // namespace
 
 void add_exec(const Command& orb, Context& context) {
@@ -196,16 +210,40 @@ void add_exec(const Command& orb, Context& context) {
                                        "orb exec --port @red get-power-state\n"
                                        "orb exec perform-level-1-diagnostics\n"
                                        "orb exec get-power-state --format json\n"
-                                       "orb exec --port ble://SB-1A2B get-battery-voltage");
+                                       "orb exec --port ble://SB-1A2B get-battery-voltage\n"
+                                       "orb exec --ports class.toml set-rgb-led 0 0 255");
   auto options = std::make_shared<ExecOptions>();
   command.add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
       .required();
   command.add_option("ARGS", options->arguments, "its operands");
-  add_port_options(command, options->port);
+  add_roster_options(command, options->roster, links_at_once);
+  add_link_options(command, options->port);
   add_newer_robot_option(command, options->robot);
   add_format_option(command, options->format);
   command.add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
-  command.callback([&context, options] { run(context, *options); });
+  command.callback([&context, options] {
+    ManyOptions many;
+    many.command = "exec";
+    many.jobs = most_links;
+    many.prints = Prints::Answer;
+    many.json = options->format == "json";
+    many.check = [options]() -> tl::expected<void, Failure> {
+      if (options->monitor)
+        return tl::unexpected(listens_to_one());
+      if (!spec::find_command(options->name) && !spec::find_v2_command(options->name))
+        return tl::unexpected(unknown_command(options->name));
+      return {};
+    };
+    many.misfit = [options](const Member& robot) { return misfit(*options, robot); };
+    with_robots(context, options->roster, many,
+                [&](Context& own, const Member& robot, const Row* row) {
+                  auto one = *options;
+                  one.port.port = robot.port;
+                  if (row != nullptr)
+                    one.port.record = file_of(one.port.record, robot);
+                  run(own, one);
+                });
+  });
 }
 
 } // namespace orb::cli

@@ -2,18 +2,23 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/link.h"
+#include "cli/many/many.h"
 #include "cli/newer_robot.h"
 #include "protocol/payload.h"
 #include "protocol/payload_v2.h"
 #include "spec/firmware.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace orb::cli {
 namespace {
 
 using spec::ApiCommand;
+
+/// A line for a table, where there are several robots.
+constexpr std::string_view row_format = "row";
 
 /// The fields of an answer by name, as text.
 class Fields {
@@ -178,6 +183,35 @@ tl::expected<std::string, Failure> told(run::TalkV2& talk, spec::V2Command comma
   return to_printable(text.substr(0, text.find('\0')));
 }
 
+/// The one line for a table of several robots.
+std::string summary(const Json& json) {
+  std::vector<std::string> parts;
+  const auto add = [&](const Json& holder, const char* key, const char* format) {
+    if (holder.contains(key))
+      parts.push_back(fmt::format(fmt::runtime(format), holder[key].get<std::string>()));
+  };
+  add(json, json.contains("robot") ? "robot" : "name", "{}");
+  add(json, "firmware", "firmware {}");
+  const auto battery = json.value("battery", Json());
+  if (battery.is_object()) {
+    add(battery, "state", "battery {}");
+    parts.push_back(fmt::format("{:.2f} V", battery.value("volts", 0.0)));
+  } else {
+    add(json, "battery", "battery {}");
+    add(json, "charge", "{}");
+  }
+  if (json.value("inBootloader", false))
+    parts.emplace_back("in its bootloader");
+  return fmt::format("{}\n", fmt::join(parts, ", "));
+}
+
+void print_info(std::string_view format, const Json& json, const std::string& text) {
+  if (format == "json")
+    print_json(json);
+  else
+    print_out(format == row_format ? summary(json) : text);
+}
+
 /// What a robot of packets v2 says of itself, a line or a key each.
 void run_v2(Context& context, const PortOptions& options, const std::string& format,
             const spec::RobotInfo& robot) {
@@ -210,10 +244,7 @@ void run_v2(Context& context, const PortOptions& options, const std::string& for
     text += fmt::format("{:<11}keeps none; `orb run PROGRAM --port {}` drives it from here\n",
                         "programs", options.port);
     json["programs"] = false;
-    if (format == "json")
-      print_json(json);
-    else
-      print_out(text);
+    print_info(format, json, text);
     return {};
   });
 }
@@ -241,10 +272,7 @@ void run(Context& context, const PortOptions& options, const std::string& format
               }
               if (link.is_ble && !greeting.firmware.in_bootloader)
                 ask_for_programs(session, text, json);
-              if (format == "json")
-                print_json(json);
-              else
-                print_out(text);
+              print_info(format, json, text);
               return ExitCode::Done;
             });
 }
@@ -256,14 +284,36 @@ void add_info(const Command& orb, Context& context) {
                                        "orb info --port /dev/rfcomm0\n"
                                        "orb info --port rfcomm://68:86:E7:00:11:22\n"
                                        "orb info --port ble://SK-1A2B\n"
-                                       "orb info --port ble://SB-1A2B");
-  auto options = std::make_shared<PortOptions>();
-  add_port_options(command, *options);
-  auto robot = std::make_shared<std::string>();
-  add_newer_robot_option(command, *robot);
-  auto format = std::make_shared<std::string>("text");
-  add_format_option(command, *format);
-  command.callback([&context, options, format, robot] { run(context, *options, *format, *robot); });
+                                       "orb info --port ble://SB-1A2B\n"
+                                       "orb info --ports class.toml");
+  struct Options {
+    RosterOptions roster;
+    PortOptions port;
+    std::string robot;
+    std::string format = "text";
+  };
+  auto options = std::make_shared<Options>();
+  add_roster_options(command, options->roster, links_at_once);
+  add_link_options(command, options->port);
+  add_newer_robot_option(command, options->robot);
+  add_format_option(command, options->format);
+  command.callback([&context, options] {
+    ManyOptions many;
+    many.command = "info";
+    many.jobs = most_links;
+    many.again = TryAgain::Lost;
+    many.prints = Prints::Answer;
+    many.json = options->format == "json";
+    with_robots(
+        context, options->roster, many, [&](Context& own, const Member& robot, const Row* row) {
+          auto port = options->port;
+          port.port = robot.port;
+          const auto in_table = row != nullptr && options->format == "text";
+          if (row != nullptr)
+            port.record = file_of(port.record, robot);
+          run(own, port, in_table ? std::string(row_format) : options->format, options->robot);
+        });
+  });
 }
 
 } // namespace orb::cli

@@ -40,8 +40,8 @@ constexpr Pattern patterns[] = {
 
 std::vector<Port> find_ports(const Config& config) {
   std::vector<Port> ports;
-  for (const auto& [name, url] : config.balls)
-    ports.push_back({"@" + name, url});
+  for (const auto& [name, ball] : config.balls)
+    ports.push_back({"@" + name, ball.url});
   std::vector<Port> devices;
   std::error_code error;
   for (fs::directory_iterator entry(device_folder, error), end; !error && entry != end;
@@ -76,8 +76,9 @@ Json describe(const Config& config, const uploader::SeenDevice& device,
   if (device.rssi)
     what += fmt::format(", {} dBm", *device.rssi);
   what += by_name ? ", " + device.address : device.name.empty() ? "" : ", " + device.name;
-  for (const auto& [name, url] : config.balls)
-    if (equal_words(url, "ble://" + device.name) || equal_words(url, "ble://" + device.address))
+  for (const auto& [name, ball] : config.balls)
+    if (equal_words(ball.url, "ble://" + device.name) ||
+        equal_words(ball.url, "ble://" + device.address))
       what += ", @" + name;
   if (device.connected)
     what += ", connected to this computer";

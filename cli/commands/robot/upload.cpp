@@ -3,7 +3,9 @@
 #include "cli/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/inputs.h"
+#include "cli/json.h"
 #include "cli/link.h"
+#include "cli/many/many.h"
 #include "cli/model/checks.h"
 #include "cli/target.h"
 #include "cli/terminal/interrupt.h"
@@ -20,10 +22,12 @@ namespace {
 using uploader::Report;
 
 struct UploadOptions {
+  RosterOptions roster;
   std::vector<std::string> files;
   std::string lang;
   TargetOptions target;
   PortOptions port;
+  std::string format = "text";
   bool run = false;
   std::optional<int> run_line;
   std::string as;
@@ -142,13 +146,16 @@ std::string uncounted_note(std::size_t pieces) {
 /// Tells how it ended, and watches what runs where that was asked for.
 ExitCode finish(const Context& context, const UploadOptions& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
-                const Lookup& lookup) {
+                const Lookup& lookup, Row* row) {
   if (report.kind != Report::Kind::Done)
     return fail(context, exit_code(report.kind), report.message);
-  print_note(context,
-             fmt::format("{}, {} packets sent, {:.2f} s{}", report.message,
-                         session.counts().packets_out, static_cast<double>(took.count()) / 1e9,
-                         link.is_sim ? ", on the built-in virtual ball" : ""));
+  const auto done = fmt::format(
+      "{}, {} packets sent, {:.2f} s{}", report.message, session.counts().packets_out,
+      static_cast<double>(took.count()) / 1e9, link.is_sim ? ", on the built-in virtual ball" : "");
+  if (row != nullptr)
+    row->set_verdict(done);
+  else
+    print_note(context, done);
   if (report.uncounted > 0 && link.may_double)
     print_note(context, uncounted_note(report.uncounted));
   if (!options.monitor)
@@ -158,39 +165,83 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
 }
 
 ExitCode send(const Context& context, const UploadOptions& options,
-              const uploader::Delivery& delivery, const Lookup& lookup) {
+              const uploader::Delivery& delivery, const Lookup& lookup, Row* row) {
   const InterruptGuard guard; // from here on the last word is what is on the ball
-  auto link = open_link(context, options.port);
+  uploader::OnBleStep on_step;
+  if (row != nullptr)
+    on_step = [row](auto step, const auto& found) { row->on_step(step, found); };
+  auto link = open_link(context, options.port, on_step);
   if (!link)
     return fail(context, link.error().code, link.error().message);
   link->budgets.attempts = options.attempts;
   uploader::Session session(*link->transport, link->budgets, link->first_seq);
   const auto start = session.now();
+  const auto battery =
+      options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse;
   Report report;
-  {
-    ProgressBar progress(context);
-    report =
-        deliver(session, delivery,
-                options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse,
-                progress);
+  if (row != nullptr) {
+    report = deliver(session, delivery, battery, *row);
+  } else {
+    ProgressBar progress(context); // is off the screen before anything is told
+    report = deliver(session, delivery, battery, progress);
   }
-  return link->finish(
-      context, finish(context, options, *link, session, report, session.now() - start, lookup));
+  return link->finish(context, finish(context, options, *link, session, report,
+                                      session.now() - start, lookup, row));
 }
 
-void upload(Context& context, const UploadOptions& options) {
+/// Why the upload is not for one of several robots.
+std::optional<std::string> misfit(const UploadOptions& options, const Member& member) {
+  if (!member.robot || spec::info(*member.robot).packets == spec::Packets::V1)
+    return std::nullopt;
+  return fmt::format("is a {}, which keeps no programs; leave it out: `orb run {} {}--port {}` "
+                     "drives it from here",
+                     spec::info(*member.robot).title, options.files.front(),
+                     options.roster.file.empty() ? "" : "--ports " + options.roster.file + " ",
+                     member.port);
+}
+
+/// What is written about the port of the options, which says how it is packed.
+void dry_run(Context& context, UploadOptions& options, const uploader::Delivery& delivery) {
+  if (!options.roster.file.empty() || options.roster.ports.size() > 1)
+    return cli::fail(context, {ExitCode::Usage, "`--dry-run` shows the packets for one robot; name "
+                                                "it with `--port`"});
+  if (!options.roster.ports.empty())
+    options.port.port = options.roster.ports.front();
   const auto budgets = port_budgets(context, options.port);
   if (!budgets)
     return cli::fail(context, budgets.error());
+  context.exit = dry_run(context, options, delivery, *budgets);
+}
+
+void upload(Context& context, UploadOptions& options) {
   const auto inputs = load_all(context, options);
   if (!inputs)
     return cli::fail(context, inputs.error());
   auto delivery = run::arrange(*inputs, delivery_options(options));
   if (!delivery)
     return cli::fail(context, delivery.error());
-  delivery->port = options.port.port;
-  context.exit = options.dry_run ? dry_run(context, options, *delivery, *budgets)
-                                 : send(context, options, *delivery, lookup_of(*inputs));
+  if (options.dry_run)
+    return dry_run(context, options, *delivery);
+  ManyOptions many;
+  many.command = "upload";
+  many.jobs = most_links;
+  many.again = TryAgain::Lost;
+  many.json = many.one_too = options.format == "json";
+  many.check = [&]() -> tl::expected<void, Failure> {
+    if (options.monitor)
+      return tl::unexpected(listens_to_one());
+    return {};
+  };
+  many.misfit = [&](const Member& robot) { return misfit(options, robot); };
+  with_robots(context, options.roster, many, [&](Context& own, const Member& robot, Row* row) {
+    auto one = options;
+    one.port.port = robot.port;
+    if (row != nullptr)
+      one.port.record = file_of(one.port.record, robot);
+    auto own_delivery = *delivery;
+    own_delivery.port = robot.port;
+    own.exit = send(own, one, own_delivery, lookup_of(*inputs), row);
+  });
 }
 
 } // namespace
@@ -200,12 +251,16 @@ void add_upload(const Command& orb, Context& context) {
       "upload", "put programs and macros into a ball",
       "orb upload square.bas --port /dev/rfcomm0 --run\n"
       "orb upload dance.macro square.bas --port rfcomm://68:86:E7:00:11:22 --area flash\n"
-      "orb upload square.bas --dry-run");
+      "orb upload square.bas --dry-run\n"
+      "orb upload square.bas --port @red --port @blue\n"
+      "orb upload square.bas --ports class.toml --run");
   auto options = std::make_shared<UploadOptions>();
   command.add_option("FILE", options->files, "sources or built macros; macros are sent first")
       .required();
   add_language_option(command, options->lang);
-  add_port_options(command, options->port);
+  add_roster_options(command, options->roster, links_at_once);
+  add_link_options(command, options->port);
+  add_format_option(command, options->format);
   add_target_options(command, options->target);
   command
       .add_option(

@@ -1,0 +1,314 @@
+#include "cli/many/many.h"
+
+#include "base/text.h"
+#include "base/utf8.h"
+#include "cli/json.h"
+#include "cli/output_error.h"
+#include "cli/terminal/interrupt.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <fmt/format.h>
+#include <thread>
+
+namespace orb::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view error_mark = "orb: error: ";
+constexpr auto pause_before_try = std::chrono::seconds{1};
+constexpr auto notice = std::chrono::milliseconds{20}; ///< how long an interruption may go unseen
+
+/// What became of a robot.
+struct Outcome {
+  ExitCode exit = ExitCode::Interrupted;
+  std::string verdict = "not begun";
+  std::string out; ///< what was printed for it, where nobody saw it
+  std::string signal;
+  bool is_shown = true; ///< the verdict, among what was printed
+  int tries = 0;
+  double seconds = 0;
+};
+
+/// Makes lines of what a thread prints.
+class Lines {
+public:
+  explicit Lines(std::function<void(std::string_view)> take) : take_(std::move(take)) {}
+  void add(std::string_view text) {
+    text_ += text;
+    std::size_t begin = 0;
+    for (auto end = text_.find('\n'); end != text_.npos; end = text_.find('\n', begin)) {
+      take_(std::string_view(text_).substr(begin, end - begin));
+      begin = end + 1;
+    }
+    text_.erase(0, begin);
+  }
+  void end() {
+    if (!text_.empty())
+      take_(std::exchange(text_, {}));
+  }
+
+private:
+  std::function<void(std::string_view)> take_;
+  std::string text_;
+};
+
+bool is_worth_a_try(ExitCode exit, TryAgain again) {
+  return exit == ExitCode::NoBall ||
+         (again == TryAgain::Lost && (exit == ExitCode::LinkLost || exit == ExitCode::Unknown));
+}
+
+/// Waits, unless the user asks to stop.
+void wait_before_try() {
+  for (const auto until = Clock::now() + pause_before_try;
+       Clock::now() < until && InterruptGuard::asked() == 0;)
+    std::this_thread::sleep_for(notice);
+}
+
+/// All robots, some at a time.
+class Crew {
+public:
+  Crew(const Context& context, const Roster& roster, int tries, const ManyOptions& options,
+       const Work& work)
+      : roster_(roster), tries_(tries), options_(options), work_(work),
+        board_(context, roster.members), outcomes_(roster.members.size()) {
+    context_ = context;
+    context_.config = roster.config;
+    context_.color = "never"; // what is caught here is drawn elsewhere
+  }
+
+  std::vector<Outcome> run(std::size_t jobs) {
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < std::min(jobs, outcomes_.size()); ++i)
+      threads.emplace_back([this] { take_turns(); });
+    for (auto& thread : threads)
+      thread.join();
+    if (broken_)
+      std::rethrow_exception(broken_);
+    return std::move(outcomes_);
+  }
+
+private:
+  void take_turns() {
+    for (auto i = next_++; i < outcomes_.size() && InterruptGuard::asked() == 0; i = next_++) {
+      try {
+        handle(i);
+      } catch (...) { // nobody reads any more, or a bug: the others go on all the same
+        const std::lock_guard lock(mutex_);
+        broken_ = std::current_exception();
+        outcomes_[i].verdict = "given up";
+        board_.show(i, "");
+      }
+    }
+  }
+
+  void handle(std::size_t i) {
+    auto& outcome = outcomes_[i];
+    const auto start = Clock::now();
+    Row row(board_, i);
+    while (true) {
+      board_.show(i, "connecting");
+      row.reset();
+      outcome.out.clear();
+      ++outcome.tries;
+      attempt(i, row);
+      outcome.signal = row.signal();
+      if (outcome.tries >= tries_ || !is_worth_a_try(outcome.exit, options_.again) ||
+          InterruptGuard::asked() > 0)
+        break;
+      board_.note(i, fmt::format("{}; trying again ({} of {})", outcome.verdict, outcome.tries + 1,
+                                 tries_));
+      wait_before_try();
+    }
+    board_.show(i, "");
+    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (!outcome.is_shown)
+      board_.note(i, outcome.verdict);
+  }
+
+  /// Does the work once; what is printed meanwhile goes to the board, errors to the verdict.
+  void attempt(std::size_t i, Row& row) {
+    auto& outcome = outcomes_[i];
+    std::string error;
+    std::string last;  // of the lines that were shown
+    std::string fault; // of the program
+    Lines out([&](std::string_view line) {
+      if (options_.json || options_.prints == Prints::Answer)
+        outcome.out += fmt::format("{}\n", line);
+      else
+        board_.print(i, line);
+    });
+    Lines err([&](std::string_view line) {
+      if (line.starts_with(error_mark))
+        error = line.substr(error_mark.size());
+      else
+        board_.note(i, last = line);
+      if (fault.empty() && line.find(": error: ") != line.npos && line.front() != ' ')
+        fault = line;
+    });
+    Context context = context_;
+    {
+      const OutputTap tap([&](OutputTap::Stream stream, std::string_view text) {
+        (stream == OutputTap::Stream::Out ? out : err).add(text);
+      });
+      work_(context, roster_.members[i], &row);
+    }
+    out.end();
+    err.end();
+    outcome.exit = context.exit;
+    outcome.is_shown = error.empty() && row.verdict().empty();
+    outcome.verdict = !error.empty()           ? error
+                      : !fault.empty()         ? fault
+                      : !row.verdict().empty() ? row.verdict()
+                      : !last.empty()          ? last
+                                               : "done";
+    if (error.empty() && !outcome.out.empty() && !options_.json)
+      take_answer(i);
+  }
+
+  /// An answer of one line goes into the table; a longer one before it.
+  void take_answer(std::size_t i) {
+    auto& outcome = outcomes_[i];
+    if (outcome.out.find('\n') == outcome.out.size() - 1)
+      outcome.verdict = outcome.out.substr(0, outcome.out.size() - 1);
+    else
+      Lines([&](std::string_view line) { board_.print(i, line); }).add(outcome.out);
+  }
+
+  Context context_;
+  const Roster& roster_;
+  int tries_;
+  const ManyOptions& options_;
+  const Work& work_;
+  Board board_;
+  std::vector<Outcome> outcomes_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;
+  std::exception_ptr broken_;
+};
+
+std::string_view word(const Outcome& outcome) {
+  return outcome.exit == ExitCode::Done          ? "ok"
+         : outcome.exit == ExitCode::Interrupted ? "interrupted"
+                                                 : "failed";
+}
+
+std::string summary(const std::vector<Outcome>& outcomes) {
+  std::size_t done = 0;
+  std::size_t interrupted = 0;
+  for (const auto& outcome : outcomes) {
+    done += outcome.exit == ExitCode::Done ? 1U : 0U;
+    interrupted += outcome.exit == ExitCode::Interrupted ? 1U : 0U;
+  }
+  auto text = fmt::format("{} of {} robots done", done, outcomes.size());
+  if (const auto failed = outcomes.size() - done - interrupted; failed > 0)
+    text += fmt::format(", {} failed", failed);
+  if (interrupted > 0)
+    text += fmt::format(", {} interrupted", interrupted);
+  return text;
+}
+
+void print_table(const Roster& roster, const std::vector<Outcome>& outcomes, const Style& style) {
+  std::size_t names = 0;
+  std::size_t signals = 0;
+  std::size_t words = 0;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    names = std::max(names, code_points(roster.members[i].name));
+    signals = std::max(signals, outcomes[i].signal.size());
+    words = std::max(words, word(outcomes[i]).size());
+  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const auto& name = roster.members[i].name;
+    const auto role = outcomes[i].exit == ExitCode::Done ? Role::Good : Role::Error;
+    print_out(fmt::format("{}{}  {}{}{}  {}\n", name, std::string(names - code_points(name), ' '),
+                          style.paint(role, word(outcomes[i])),
+                          std::string(words - word(outcomes[i]).size(), ' '),
+                          signals == 0 ? "" : fmt::format("  {:>{}}", outcomes[i].signal, signals),
+                          outcomes[i].verdict));
+  }
+  print_out(summary(outcomes) + "\n");
+}
+
+void print_document(const Roster& roster, const std::vector<Outcome>& outcomes,
+                    std::string_view command) {
+  Json robots = Json::array();
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const auto& [exit, verdict, out, signal, is_shown, tries, seconds] = outcomes[i];
+    Json robot{{"name", roster.members[i].name},
+               {"port", roster.members[i].port},
+               {"result", word(outcomes[i])},
+               {"exit", static_cast<int>(exit)},
+               {"verdict", verdict},
+               {"tries", tries},
+               {"seconds", seconds}};
+    if (!signal.empty())
+      robot["signal"] = signal;
+    if (auto answer = Json::parse(out, nullptr, false); answer.is_object())
+      robot["answer"] = std::move(answer);
+    robots.push_back(std::move(robot));
+  }
+  print_json({{"schema", "orb.robots/1"}, {"command", command}, {"robots", std::move(robots)}});
+}
+
+ExitCode exit_of(const std::vector<Outcome>& outcomes) {
+  const auto any = [&](auto is) { return std::any_of(outcomes.begin(), outcomes.end(), is); };
+  if (any([](const Outcome& one) { return one.exit == ExitCode::Interrupted; }))
+    return ExitCode::Interrupted;
+  return any([](const Outcome& one) { return one.exit != ExitCode::Done; }) ? ExitCode::Refused
+                                                                            : ExitCode::Done;
+}
+
+} // namespace
+
+void with_robots(Context& context, const RosterOptions& given, const ManyOptions& options,
+                 const Work& work) {
+  const auto roster = find_roster(context, given);
+  if (!roster)
+    return fail(context, roster.error());
+  if (roster->is_one && !(options.one_too && options.json))
+    return work(context, roster->members.front(), nullptr);
+  if (options.check)
+    if (const auto good = options.check(); !good)
+      return fail(context, good.error());
+  if (options.misfit)
+    for (const auto& member : roster->members)
+      if (const auto why = options.misfit(member))
+        return fail(context,
+                    {ExitCode::Usage, fmt::format("{}`{}` {}", member.place, member.name, *why)});
+  const InterruptGuard guard;
+  const auto jobs = given.jobs > 0 ? given.jobs : options.jobs;
+  const auto outcomes =
+      Crew(context, *roster, given.tries, options, work)
+          .run(jobs == all_at_once ? roster->members.size() : static_cast<std::size_t>(jobs));
+  if (options.json)
+    print_document(*roster, outcomes, options.command);
+  else
+    print_table(*roster, outcomes, context.out_style());
+  context.exit = exit_of(outcomes);
+}
+
+Failure listens_to_one() {
+  return {ExitCode::Usage,
+          "`--monitor` listens to one robot; leave it out, and write `orb monitor` "
+          "for one of them"};
+}
+
+std::string file_of(const std::string& file, const Member& robot) {
+  if (file.empty())
+    return file;
+  auto name = robot.name;
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return !is_letter(c) && !is_digit(c) && c != '-' && c != '_'; }, '_');
+  const std::filesystem::path path(file);
+  auto own = path.parent_path() / path.stem();
+  own += "-" + name;
+  own += path.extension();
+  return own.string();
+}
+
+} // namespace orb::cli

@@ -1,0 +1,244 @@
+#include "cli/many/roster.h"
+
+#include "base/text.h"
+#include "cli/model/checks.h"
+#include "cli/model/command.h"
+#include "uploader/endpoint.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+
+namespace orb::cli {
+namespace {
+
+constexpr int most_jobs = 1000;
+constexpr int most_tries = 1000;
+
+tl::unexpected<Failure> refuse(std::string message) {
+  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
+}
+
+void add_rest(const Command& command, RosterOptions& options, const std::string& jobs) {
+  command
+      .add_option("--ports", options.file,
+                  "a file of robots, `[balls]` and `[groups]`: all of them, or those that --port "
+                  "names")
+      .type_name("FILE");
+  command.add_option("--jobs", options.jobs, "of several robots, how many at a time")
+      .check(whole_number(1, most_jobs))
+      .type_name("N")
+      .show_default(jobs);
+  command
+      .add_option("--tries", options.tries,
+                  "of several robots, how often one is tried that cannot be reached")
+      .check(whole_number(1, most_tries))
+      .type_name("N")
+      .show_default();
+}
+
+std::string in_lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return to_lower(c); });
+  return text;
+}
+
+/// Collects the robots that the words of the command line name.
+class Naming {
+public:
+  Naming(const Context& context, Roster& roster) : context_(context), roster_(roster) {}
+
+  /// `@red`, `@front` or a URL. `place` is where a file says it, empty for the command line.
+  tl::expected<void, Failure> add(const std::string& port, const std::string& place) {
+    if (!port.starts_with("@"))
+      return add_url(port);
+    const auto name = port.substr(1);
+    const auto& config = roster_.config;
+    if (const auto group = config.groups.find(name); group != config.groups.end())
+      return add_group(name, group->second);
+    const auto ball = config.balls.find(name);
+    if (ball == config.balls.end())
+      return refuse(place + unknown(name));
+    return add_member({name, port, place.empty() ? ball->second.place + ": " : place, {}});
+  }
+
+  tl::expected<void, Failure> check_group(const std::string& name, const Group& group) const {
+    if (roster_.config.balls.contains(name))
+      return refuse(fmt::format("{}: `{}` is already the name of a ball; give the group another",
+                                group.place, name));
+    for (const auto& member : group.members)
+      if (!roster_.config.balls.contains(member.name))
+        return refuse(fmt::format("{}: {}", member.place, unknown(member.name)));
+    return {};
+  }
+
+private:
+  std::string unknown(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const auto& [known, ball] : roster_.config.balls)
+      names.push_back(known);
+    for (const auto& [known, group] : roster_.config.groups)
+      names.push_back(known);
+    if (names.empty())
+      return fmt::format("unknown ball `{0}`; `orb ports --save {0}=URL` gives one that name",
+                         name);
+    return fmt::format("unknown ball `{}`{}", name, meant_instead(name, names));
+  }
+
+  tl::expected<void, Failure> add_group(const std::string& name, const Group& group) {
+    if (auto good = check_group(name, group); !good)
+      return good;
+    for (const auto& member : group.members)
+      if (auto added = add("@" + member.name, member.place + ": "); !added)
+        return added;
+    return {};
+  }
+
+  tl::expected<void, Failure> add_url(const std::string& port) {
+    return add_member({port, port, "", {}});
+  }
+
+  tl::expected<void, Failure> add_member(Member member) {
+    PortOptions port;
+    port.port = member.port;
+    Context context = context_;
+    context.config = roster_.config;
+    const auto url = resolve_port(context.config, port.port);
+    const auto endpoint = uploader::parse_endpoint(url ? *url : std::string());
+    if (!endpoint)
+      return refuse(member.place + endpoint.error());
+    if (endpoint->scheme == uploader::Scheme::Sim)
+      return add_virtual(std::move(member));
+    const auto where = same_where(*endpoint);
+    if (const auto [other, is_new] = known_.emplace(where, member.name); !is_new)
+      return refuse(
+          other->second == member.name
+              ? fmt::format("{}`{}` is named twice; name it once", member.place, member.port)
+              : fmt::format("{}`{}` and `{}` are one robot, {}; leave one of them out",
+                            member.place, other->second, member.name, endpoint->text));
+    member.robot = named_robot(context, port);
+    roster_.members.push_back(std::move(member));
+    return {};
+  }
+
+  /// Each `sim:` is a ball of its own.
+  tl::expected<void, Failure> add_virtual(Member member) {
+    const auto taken = [&](const std::string& name) {
+      return std::any_of(roster_.members.begin(), roster_.members.end(),
+                         [&](const Member& one) { return one.name == name; });
+    };
+    if (member.port.starts_with("@") && taken(member.name))
+      return refuse(fmt::format("{}`{}` is named twice; name it once", member.place, member.port));
+    const auto name = member.name;
+    for (int i = 2; taken(member.name); ++i)
+      member.name = fmt::format("{} {}", name, i);
+    roster_.members.push_back(std::move(member));
+    return {};
+  }
+
+  /// Alike for two ways to write one place.
+  static std::string same_where(const uploader::Endpoint& endpoint) {
+    using uploader::Scheme;
+    std::error_code error;
+    switch (endpoint.scheme) {
+    case Scheme::Serial:
+    case Scheme::Pty:
+    case Scheme::Replay: {
+      const auto path = std::filesystem::canonical(endpoint.path, error);
+      return error ? endpoint.path : path.string();
+    }
+    case Scheme::Rfcomm:
+    case Scheme::Ble:
+      return endpoint.name.empty() ? uploader::to_string(endpoint.address)
+                                   : in_lower_case(endpoint.name);
+    case Scheme::Tcp: return fmt::format("{}:{}", endpoint.host, endpoint.port);
+    case Scheme::Sim: break;
+    }
+    return endpoint.text;
+  }
+
+  const Context& context_;
+  Roster& roster_;
+  std::map<std::string, std::string> known_; ///< the names of the robots by where they are
+};
+
+/// The balls of a file in the order of its lines.
+std::vector<std::pair<std::string, const KnownBall*>> in_order(const Config& config) {
+  std::vector<std::pair<std::string, const KnownBall*>> balls;
+  for (const auto& [name, ball] : config.balls)
+    balls.emplace_back(name, &ball);
+  std::sort(balls.begin(), balls.end(),
+            [](const auto& a, const auto& b) { return a.second->line < b.second->line; });
+  return balls;
+}
+
+bool names_group(const Context& context, const std::string& port) {
+  return port.starts_with("@") && context.config.groups.contains(port.substr(1));
+}
+
+} // namespace
+
+void add_roster_options(const Command& command, RosterOptions& options, const std::string& jobs) {
+  command
+      .add_option(
+          "-p,--port", options.ports,
+          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim:, @ball or "
+          "@group; several for several robots")
+      .one_value_each()
+      .environment("ORB_PORT")
+      .type_name("URL")
+      .show_default("sim:");
+  add_rest(command, options, jobs);
+}
+
+void add_robot_roster_options(const Command& command, RosterOptions& options,
+                              const std::string& jobs) {
+  command
+      .add_option("-p,--port", options.ports,
+                  "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
+                  "pty://, sim:, @ball or @group; several for several robots")
+      .one_value_each()
+      .type_name("URL");
+  add_rest(command, options, jobs);
+}
+
+tl::expected<Roster, Failure> find_roster(const Context& context, const RosterOptions& options) {
+  Roster roster;
+  roster.config = context.config;
+  if (options.file.empty() &&
+      (options.ports.empty() ||
+       (options.ports.size() == 1 && !names_group(context, options.ports.front())))) {
+    const auto port = options.ports.empty() ? std::string("sim:") : options.ports.front();
+    roster.members.push_back({port, port, "", {}});
+    return roster;
+  }
+  const auto* from_environment = std::getenv("ORB_PORT");
+  if (!options.file.empty() && options.ports.size() == 1 && from_environment != nullptr &&
+      options.ports.front() == from_environment)
+    return refuse(fmt::format("ORB_PORT is {}, and `--ports` names {}: `unset ORB_PORT` for all "
+                              "robots of the file",
+                              from_environment, options.file));
+  roster.is_one = false;
+  Naming naming(context, roster);
+  if (!options.file.empty()) {
+    auto read = read_roster(options.file);
+    if (!read)
+      return refuse(read.error().message);
+    roster.config.balls = std::move(read->balls);
+    roster.config.groups = std::move(read->groups);
+    for (const auto& [name, group] : roster.config.groups)
+      if (auto good = naming.check_group(name, group); !good)
+        return tl::unexpected(good.error());
+  }
+  if (options.ports.empty())
+    for (const auto& [name, ball] : in_order(roster.config))
+      if (auto added = naming.add("@" + name, ""); !added)
+        return tl::unexpected(added.error());
+  for (const auto& port : options.ports)
+    if (auto added = naming.add(port, ""); !added)
+      return tl::unexpected(added.error());
+  return roster;
+}
+
+} // namespace orb::cli
