@@ -1,7 +1,7 @@
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/commands/robot/ports.h"
+#include "cli/context/output_error.h"
 #include "cli/model/command_line.h"
-#include "cli/output_error.h"
 #include "reference/completion_words.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "base/render.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 

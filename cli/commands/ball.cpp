@@ -1,8 +1,8 @@
 #include "base/text.h"
-#include "cli/ball_profile.h"
-#include "cli/commands.h"
-#include "cli/inputs.h"
+#include "cli/commands/commands.h"
+#include "cli/input/inputs.h"
 #include "cli/model/checks.h"
+#include "cli/robot/ball_profile.h"
 #include "serve/server.h"
 
 #include "compiler/load.h"

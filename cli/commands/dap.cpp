@@ -1,9 +1,9 @@
-#include "cli/commands.h"
-#include "cli/driven_robot.h"
-#include "cli/inputs.h"
+#include "cli/commands/commands.h"
+#include "cli/input/inputs.h"
+#include "cli/input/wire.h"
 #include "cli/model/checks.h"
+#include "cli/robot/driven_robot.h"
 #include "cli/terminal/interrupt.h"
-#include "cli/wire.h"
 #include "editor/debug_adapter.h"
 #include "editor/wire.h"
 

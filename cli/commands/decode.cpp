@@ -1,5 +1,5 @@
-#include "cli/commands.h"
-#include "cli/json.h"
+#include "cli/commands/commands.h"
+#include "cli/context/json.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 

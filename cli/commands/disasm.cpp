@@ -1,6 +1,6 @@
 #include "assembler/disassemble.h"
 #include "base/bytes.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "disk/disk.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 
 #include "base/suggest.h"

@@ -1,7 +1,7 @@
 #include "base/rules.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 #include "cli/model/command_line.h"
 #include "reference/foreign.h"

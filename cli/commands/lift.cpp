@@ -1,7 +1,7 @@
 #include "structured/lift/lift.h"
 
-#include "cli/commands.h"
-#include "cli/inputs.h"
+#include "cli/commands/commands.h"
+#include "cli/input/inputs.h"
 #include "disk/disk.h"
 
 #include <fmt/format.h>

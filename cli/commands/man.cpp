@@ -1,6 +1,6 @@
 #include "base/bytes.h"
 #include "base/suggest.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 #include "cli/model/command_line.h"
 #include "disk/disk.h"

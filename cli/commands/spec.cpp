@@ -1,6 +1,6 @@
 #include "base/bytes.h"
 #include "base/suggest.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "disk/disk.h"
 #include "editor/printed/syntax_files.h"
 #include "reference/knowledge.h"

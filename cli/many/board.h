@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/context.h"
+#include "cli/context/context.h"
 #include "cli/many/roster.h"
 #include "uploader/upload.h"
 

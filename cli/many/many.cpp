@@ -2,8 +2,8 @@
 
 #include "base/text.h"
 #include "base/utf8.h"
-#include "cli/json.h"
-#include "cli/output_error.h"
+#include "cli/context/json.h"
+#include "cli/context/output_error.h"
 #include "cli/terminal/interrupt.h"
 
 #include <algorithm>

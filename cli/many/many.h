@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/context.h"
+#include "cli/context/context.h"
 #include "cli/many/board.h"
 #include "cli/many/roster.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/context.h"
-#include "cli/link.h"
+#include "cli/context/context.h"
+#include "cli/robot/link.h"
 
 #include <functional>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/io_error.h"
-#include "cli/run_console.h"
+#include "cli/run/run_console.h"
 #include "run/room.h"
 #include "run/trace.h"
 

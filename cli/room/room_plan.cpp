@@ -2,8 +2,8 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
-#include "cli/config.h"
-#include "cli/inputs.h"
+#include "cli/context/config.h"
+#include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 #include "spec/robots.h"

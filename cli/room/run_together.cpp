@@ -1,10 +1,10 @@
 #include "cli/room/run_together.h"
 
-#include "cli/inputs.h"
+#include "cli/input/inputs.h"
+#include "cli/input/target.h"
 #include "cli/room/room_console.h"
 #include "cli/room/room_plan.h"
-#include "cli/run_options.h"
-#include "cli/target.h"
+#include "cli/run/run_options.h"
 #include "disk/disk.h"
 #include "report/page.h"
 #include "report/reload.h"

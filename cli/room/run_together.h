@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/context.h"
-#include "cli/run_console.h"
+#include "cli/context/context.h"
+#include "cli/run/run_console.h"
 
 #include <tl/expected.hpp>
 

@@ -1,6 +1,6 @@
 #include "cli/terminal/confirm.h"
 
-#include "cli/context.h"
+#include "cli/context/context.h"
 #include "cli/terminal/interrupt.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "cli/terminal/watch.h"
 
-#include "cli/inputs.h"
+#include "cli/input/inputs.h"
 #include "structured/text/read.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "cli/commands.h"
-#include "cli/link.h"
+#include "cli/commands/commands.h"
+#include "cli/robot/link.h"
 
 #include <fmt/format.h>
 #include <memory>

@@ -1,6 +1,6 @@
-#include "cli/commands.h"
-#include "cli/link.h"
+#include "cli/commands/commands.h"
 #include "cli/model/checks.h"
+#include "cli/robot/link.h"
 
 #include <fmt/format.h>
 #include <memory>

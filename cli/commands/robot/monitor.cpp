@@ -1,9 +1,9 @@
 #include "cli/commands/robot/monitor.h"
 
 #include "base/duration.h"
-#include "cli/commands.h"
-#include "cli/inputs.h"
-#include "cli/json.h"
+#include "cli/commands/commands.h"
+#include "cli/context/json.h"
+#include "cli/input/inputs.h"
 #include "cli/terminal/interrupt.h"
 #include "disk/disk.h"
 #include "protocol/describe.h"

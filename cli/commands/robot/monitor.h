@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/link.h"
+#include "cli/robot/link.h"
 #include "run/line_map.h"
 #include "run/run.h"
 

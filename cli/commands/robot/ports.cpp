@@ -2,9 +2,9 @@
 
 #include "base/duration.h"
 #include "base/text.h"
-#include "cli/commands.h"
-#include "cli/json.h"
-#include "cli/save_ball.h"
+#include "cli/commands/commands.h"
+#include "cli/context/json.h"
+#include "cli/context/save_ball.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
 #include "spec/ble.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/config.h"
+#include "cli/context/config.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // What holds for every command of the option model.
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/model/command_line.h"
 #include "reference/manual.h"
 

@@ -1,4 +1,4 @@
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/model/command_line.h"
 #include "disk/disk.h"
 #include "tests/golden/files.h"

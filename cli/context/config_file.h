@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cli/context/config.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+// What stands in a configuration file, for those who read and write them. Private to this folder.
+
+namespace orb::cli {
+
+inline constexpr std::string_view balls_section = "balls";
+inline constexpr std::string_view groups_section = "groups";
+
+/// The user's own file, which need not be there; nothing where there is no home.
+std::optional<std::filesystem::path> user_file();
+
+/// A message with its place.
+ConfigError problem(const std::string& where, std::string_view what);
+
+/// Adds what the text says to `config`; `file` is its name for messages.
+tl::expected<void, ConfigError> read_text_into(Config& config, const std::string& file,
+                                               const std::string& text);
+/// The same with the text of a file.
+tl::expected<void, ConfigError> read_into(Config& config, const std::filesystem::path& path);
+
+} // namespace orb::cli

@@ -1,0 +1,161 @@
+#include "cli/input/inputs.h"
+
+#include "base/render.h"
+#include "cli/model/command.h"
+#include "disk/disk.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace orb::cli {
+
+void add_language_option(const Command& command, std::string& lang) {
+  command.add_option("--lang", lang, "the language, if the file's ending does not tell")
+      .check(one_of({"basic", "structured", "macro"}));
+}
+
+tl::expected<std::string, Failure> read_text(const std::string& path) {
+  auto text = disk::read(path);
+  if (!text)
+    return tl::unexpected(Failure{ExitCode::File, text.error().message});
+  return *std::move(text);
+}
+
+std::optional<std::string> DiskFiles::read(const std::string& path) {
+  // Reading from anything but a file can wait for ever.
+  if (!disk::what_else(path).empty())
+    return std::nullopt;
+  auto text = disk::read(path == "-" ? "./-" : path); // a file of that name, never standard input
+  return text ? std::optional(*std::move(text)) : std::nullopt;
+}
+
+std::string DiskFiles::obstacle(const std::string& path) {
+  return std::string(disk::what_else(path));
+}
+
+std::string DiskFiles::trouble(const std::string& path) {
+  if (const auto other = disk::what_else(path); !other.empty())
+    return fmt::format("cannot read {}: it is {}", path, other);
+  const auto text = disk::read(path == "-" ? "./-" : path);
+  return text ? std::string() : text.error().message;
+}
+
+std::string DiskFiles::identity(const std::string& path) {
+  std::error_code unknown; // a file that is not there
+  const auto real = std::filesystem::canonical(path, unknown);
+  return unknown ? Files::identity(path) : real.string();
+}
+
+tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std::string_view lang) {
+  auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  const auto language = run::language_of(path, lang);
+  if (!language)
+    return tl::unexpected(run::unknown_content(disk::display_name(path)));
+  return run::SourceFile{path, *language, Source(disk::display_name(path), *std::move(text))};
+}
+
+tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
+                                                           std::string_view lang,
+                                                           const compiler::Target& target,
+                                                           run::Lint lint) {
+  std::vector<run::Input> inputs;
+  DiskFiles files;
+  for (const auto& path : paths) {
+    auto text = read_text(path);
+    if (!text)
+      return tl::unexpected(text.error());
+    auto input =
+        run::read_input(disk::display_name(path), *std::move(text), lang, target, lint, files);
+    if (!input)
+      return tl::unexpected(input.error());
+    run::add_input(inputs, *std::move(input));
+  }
+  return inputs;
+}
+
+void add_stimulus_option(const Command& command, std::vector<std::string>& stimuli) {
+  command
+      .add_option("--stimulus", stimuli,
+                  "what happens to the ball: a script, or one line such as `at 2s shake`")
+      .one_value_each()
+      .type_name("FILE|LINE");
+}
+
+bool is_stimulus_line(const std::string& given) {
+  return vm::is_stimulus_line(given) && !std::filesystem::exists(given);
+}
+
+tl::expected<std::vector<vm::TimedStimulus>, Failure>
+read_stimuli(const Context& context, const std::vector<std::string>& given) {
+  std::vector<vm::TimedStimulus> events;
+  for (const auto& one : given) {
+    const bool is_line = is_stimulus_line(one);
+    auto text = is_line ? tl::expected<std::string, Failure>(one) : read_text(one);
+    if (!text)
+      return tl::unexpected(text.error());
+    const Source source(is_line ? "--stimulus" : disk::display_name(one), *std::move(text));
+    const auto script = vm::parse_stimulus(source);
+    if (!script.diagnostics.empty()) {
+      print_findings(context, source, script.diagnostics);
+      return tl::unexpected(Failure{ExitCode::BadInput, "the stimulus script has mistakes"});
+    }
+    events.insert(events.end(), script.events.begin(), script.events.end());
+  }
+  vm::sort_by_time(events);
+  return events;
+}
+
+void add_course_option(const Command& command, std::string& path) {
+  command
+      .add_option("--course", path,
+                  "what the ball drives through: walls, zones and a start, as SVG")
+      .type_name("FILE.svg");
+}
+
+tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path) {
+  auto text = read_text(path);
+  if (!text)
+    return tl::unexpected(text.error());
+  const Source drawing(disk::display_name(path), *std::move(text));
+  auto reading = report::read_course(drawing);
+  if (print_findings(context, drawing, reading.findings))
+    return tl::unexpected(
+        Failure{ExitCode::BadInput, fmt::format("the course {} has mistakes", drawing.name())});
+  return std::move(reading.course);
+}
+
+bool print_findings(const Context& context, const Source& source,
+                    const std::vector<Diagnostic>& findings) {
+  bool errors = false;
+  for (const auto& diagnostic : findings) {
+    const bool error = is_error(diagnostic);
+    errors = errors || error;
+    if (error || (!context.quiet && diagnostic.severity == Severity::Warning) ||
+        context.verbosity > 0)
+      print_err(render_text(source, diagnostic, context.err_style()));
+  }
+  return errors;
+}
+
+bool print_findings(const Context& context, const run::Input& input) {
+  bool errors = print_findings(context, *input.source, input.findings);
+  for (const auto& file : input.included)
+    errors = print_findings(context, *file.source, file.findings) || errors;
+  return errors;
+}
+
+tl::expected<void, Failure> check_inputs(const Context& context,
+                                         const std::vector<run::Input>& inputs) {
+  for (const auto& input : inputs)
+    if (input.has_errors()) {
+      print_findings(context, input);
+      return tl::unexpected(
+          Failure{ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name())});
+    }
+  return {};
+}
+
+} // namespace orb::cli

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "cli/context/context.h"
+#include "report/course.h"
+#include "run/input.h"
+#include "vm/stimulus.h"
+
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace orb::cli {
+
+class Command;
+
+/// Adds `--lang basic|structured|macro`, which overrides the ending of file names.
+void add_language_option(const Command& command, std::string& lang);
+
+/// Reads the file at `path`, or standard input for `-`.
+tl::expected<std::string, Failure> read_text(const std::string& path);
+
+/// The files that a program names, on the disk.
+class DiskFiles final : public structured::Files {
+public:
+  std::optional<std::string> read(const std::string& path) override;
+  std::string obstacle(const std::string& path) override;
+  std::string trouble(const std::string& path) override;
+  std::string identity(const std::string& path) override;
+};
+
+/// Reads a program or macro source.
+tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std::string_view lang);
+
+/// Reads programs and macros for a ball, and the macros that the programs use; their findings are
+/// not printed yet.
+tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
+                                                           std::string_view lang,
+                                                           const compiler::Target& target,
+                                                           run::Lint lint);
+
+/// Adds `--stimulus`, a script or a line of one, which may be given several times.
+void add_stimulus_option(const Command& command, std::vector<std::string>& stimuli);
+
+/// Whether what `--stimulus` was given is a line (`at 2s shake`, `wall x=50`) and not a file.
+bool is_stimulus_line(const std::string& given);
+
+/// Reads what `--stimulus` was given. Its mistakes go to stderr.
+tl::expected<std::vector<vm::TimedStimulus>, Failure>
+read_stimuli(const Context& context, const std::vector<std::string>& given);
+
+/// Adds `--course`, the drawing of what the ball drives through.
+void add_course_option(const Command& command, std::string& path);
+
+/// Reads that drawing. What is said about it goes to stderr.
+tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path);
+
+/// Prints findings to stderr: errors always, warnings unless -q, the rest with -v. True when there
+/// is an error among them.
+bool print_findings(const Context& context, const Source& source,
+                    const std::vector<Diagnostic>& findings);
+
+/// The same for an input with all that it includes.
+bool print_findings(const Context& context, const run::Input& input);
+
+/// Prints the findings of the first input that has errors; fine where none has.
+tl::expected<void, Failure> check_inputs(const Context& context,
+                                         const std::vector<run::Input>& inputs);
+
+} // namespace orb::cli

@@ -1,0 +1,26 @@
+#include "cli/input/wire.h"
+
+#include "cli/context/context.h"
+#include "cli/model/command.h"
+#include "editor/wire.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace orb::cli {
+
+void send_all(const std::vector<std::string>& messages) {
+  for (const auto& message : messages)
+    print_out(editor::frame(message));
+}
+
+bool client_speaks() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return ::poll(&input, 1, 0) > 0;
+}
+
+void add_stdio_flag(const Command& command) {
+  command.add_flag("--stdio", "for editors that insist on it; it changes nothing");
+}
+
+} // namespace orb::cli

@@ -1,0 +1,314 @@
+#include "cli/robot/link.h"
+
+#include "base/duration.h"
+#include "cli/context/config.h"
+#include "cli/input/inputs.h"
+#include "cli/model/command.h"
+#include "cli/terminal/interrupt.h"
+#include "compiler/load.h"
+#include "disk/disk.h"
+#include "uploader/ble.h"
+#include "uploader/endpoint.h"
+#include "vm/ball_transport.h"
+#include "vm/bluetooth.h"
+
+#include <fmt/format.h>
+#include <random>
+#include <utility>
+
+namespace orb::cli {
+namespace {
+
+using uploader::Endpoint;
+using uploader::Scheme;
+
+/// Fixed for `sim:`, so that runs repeat; drawn for anything that may remember an earlier session.
+constexpr std::uint8_t sim_first_seq = 0;
+
+tl::unexpected<Failure> failure(ExitCode exit, std::string message) {
+  return tl::unexpected(Failure{exit, std::move(message)});
+}
+
+std::uint8_t draw_first_seq() {
+  return static_cast<std::uint8_t>(std::random_device{}());
+}
+
+} // namespace
+
+namespace {
+
+void add_waits(const Command& command, PortOptions& options) {
+  const auto is_time = [](const std::string& text) {
+    const auto time = parse_duration(text, 1s);
+    return time && *time > Duration{} ? std::string()
+                                      : "`" + text + "` is not a time such as 2s or 500ms";
+  };
+  command.add_option("--timeout", options.answer, "how long to wait for one answer")
+      .type_name("TIME")
+      .check(is_time)
+      .show_default();
+  command
+      .add_option("--connect-timeout", options.step,
+                  "how long a step to a robot over Bluetooth LE may take")
+      .type_name("TIME")
+      .check(is_time)
+      .show_default();
+}
+
+} // namespace
+
+void add_port_options(const Command& command, PortOptions& options) {
+  command
+      .add_option(
+          "-p,--port", options.port,
+          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim: or @ball")
+      .environment("ORB_PORT")
+      .type_name("URL")
+      .show_default();
+  add_link_options(command, options);
+}
+
+void add_link_options(const Command& command, PortOptions& options) {
+  command.add_option("--record", options.record, "write what passes over the link to this file")
+      .type_name("FILE");
+  add_waits(command, options);
+}
+
+void add_robot_port_options(const Command& command, PortOptions& options, std::string& robot) {
+  options.port.clear();
+  command
+      .add_option("-p,--port", options.port,
+                  "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
+                  "pty://, sim: or @ball")
+      .type_name("URL");
+  add_robot_options(command, options, robot);
+}
+
+void add_robot_options(const Command& command, PortOptions& options, std::string& robot) {
+  command
+      .add_option("--robot", robot,
+                  "which robot it is; the virtual one drives like it, a real one tells by its name")
+      .check(one_of(names_of(spec::robots)));
+  add_waits(command, options);
+}
+
+WireLog::~WireLog() {
+  if (recording_ && !recording_->empty())
+    static_cast<void>(recording_->keep_beside());
+}
+
+void WireLog::on_bytes(protocol::Direction direction, ByteView bytes, Instant) {
+  const auto line = protocol::recording_line(direction, bytes);
+  if (recording_)
+    recording_->append(as_bytes(line));
+  if (verbosity_ >= 2)
+    print_err(line);
+}
+
+ExitCode Link::finish(const Context& context, ExitCode exit) {
+  if (log == nullptr || !log->recording())
+    return exit;
+  auto recording = std::exchange(log->recording(), std::nullopt);
+  tl::expected<void, IoError> written;
+  if (exit == ExitCode::Done) {
+    written = recording->publish();
+  } else if (!recording->empty()) {
+    const auto kept = recording->keep_beside();
+    if (!kept)
+      written = tl::unexpected(kept.error());
+    else if (*kept)
+      print_note(context, fmt::format("the recording of this is {}; the one before stays", **kept));
+  }
+  if (written)
+    return exit;
+  print_error(context, written.error().message);
+  if (exit != ExitCode::Done)
+    return exit;
+  return InterruptGuard::asked() > 0 ? ExitCode::Interrupted : ExitCode::File;
+}
+
+namespace {
+
+tl::expected<Endpoint, Failure> find_endpoint(const Context& context, const PortOptions& options) {
+  const auto url = resolve_port(context.config, options.port);
+  if (!url)
+    return failure(ExitCode::Usage, url.error().message);
+  const auto endpoint = uploader::parse_endpoint(*url);
+  if (!endpoint)
+    return failure(ExitCode::Usage, endpoint.error());
+  return *endpoint;
+}
+
+uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& options) {
+  uploader::Budgets budgets;
+  budgets.answer = parse_duration(options.answer, 1s).value_or(budgets.answer);
+  if (endpoint.scheme != Scheme::Ble)
+    return budgets;
+  budgets.scan = budgets.ble_connect = budgets.services =
+      parse_duration(options.step, 1s).value_or(budgets.scan);
+  return uploader::ble_budgets(budgets);
+}
+
+/// The robot that the settings of `@ball`, or a name such as `SB-1A2B`, tell.
+std::optional<spec::Robot> named_robot(const Context& context, const Endpoint& endpoint,
+                                       const PortOptions& options) {
+  if (options.port.starts_with("@"))
+    if (const auto ball = context.config.balls.find(options.port.substr(1));
+        ball != context.config.balls.end() && !ball->second.robot.empty())
+      return spec::find_robot(ball->second.robot)->robot;
+  if (endpoint.scheme != Scheme::Ble || endpoint.name.empty())
+    return std::nullopt;
+  const auto* name = spec::find_ble_name(endpoint.name);
+  for (const auto& row : spec::robots)
+    if (name != nullptr && row.ble == name->model && row.robot != spec::Robot::Sphero)
+      return row.robot;
+  return std::nullopt;
+}
+
+/// Bluetooth delivers each packet once; what is behind other links, a relay perhaps, nobody knows.
+bool may_double(const Endpoint& endpoint) {
+  switch (endpoint.scheme) {
+  case Scheme::Serial: return !std::string_view(endpoint.path).starts_with("/dev/rfcomm");
+  case Scheme::Tcp:
+  case Scheme::Pty: return true;
+  case Scheme::Rfcomm:
+  case Scheme::Ble:
+  case Scheme::Replay:
+  case Scheme::Sim: return false;
+  }
+  return false;
+}
+
+} // namespace
+
+tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
+                                                      const PortOptions& options) {
+  const auto endpoint = find_endpoint(context, options);
+  if (!endpoint)
+    return tl::unexpected(endpoint.error());
+  return budgets_for(*endpoint, options);
+}
+
+std::optional<spec::Robot> named_robot(const Context& context, const PortOptions& options) {
+  const auto endpoint = find_endpoint(context, options);
+  return endpoint ? named_robot(context, *endpoint, options) : std::nullopt;
+}
+
+namespace {
+
+void open_sim(Link& link, spec::Robot robot, const spec::Driving& driving) {
+  vm::BallOptions ball;
+  ball.driving = driving;
+  ball.loader = compiler::load;
+  link.first_seq = sim_first_seq;
+  link.ball = std::make_unique<vm::Ball>(ball);
+  if (spec::info(robot).packets == spec::Packets::V1) {
+    link.transport = std::make_unique<vm::BallTransport>(*link.ball);
+    return;
+  }
+  link.robot = std::make_unique<vm::RobotV2>(*link.ball, robot, vm::bluetooth_address(ball.seed));
+  link.transport = std::make_unique<vm::BallTransport>(*link.ball, *link.robot);
+}
+
+/// Plays a recording; the session must begin with the sequence number that was recorded.
+tl::expected<void, Failure> open_replay(Link& link, const std::string& path) {
+  const auto text = disk::read(path);
+  if (!text)
+    return failure(ExitCode::NoBall, text.error().message);
+  auto pieces = protocol::parse_recording(*text);
+  if (!pieces)
+    return failure(ExitCode::NoBall, fmt::format("{}: {}", path, pieces.error()));
+  link.first_seq = protocol::first_recorded_seq(*pieces).value_or(0);
+  link.transport = std::make_unique<protocol::ReplayTransport>(std::move(*pieces));
+  return {};
+}
+
+ExitCode exit_code_of(protocol::LinkError::Kind kind) {
+  return kind == protocol::LinkError::Kind::Interrupted ? ExitCode::Interrupted
+         : kind == protocol::LinkError::Kind::Unfit     ? ExitCode::Refused
+                                                        : ExitCode::NoBall;
+}
+
+tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
+                                      const PortOptions& options,
+                                      const uploader::OnBleStep& on_step) {
+  auto opened =
+      uploader::open(endpoint, link.budgets, InterruptGuard::asked, on_step, options.accepts);
+  if (!opened)
+    return failure(exit_code_of(opened.error().kind), opened.error().message);
+  link.first_seq = draw_first_seq();
+  link.transport = std::move(*opened);
+  return {};
+}
+
+} // namespace
+
+tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options,
+                                      const uploader::OnBleStep& on_step) {
+  const auto endpoint = find_endpoint(context, options);
+  if (!endpoint)
+    return tl::unexpected(endpoint.error());
+  // Nothing may be done to a ball whose recording then cannot be written.
+  std::optional<disk::Draft> recording;
+  if (!options.record.empty()) {
+    auto draft = disk::Draft::of(options.record);
+    if (!draft)
+      return failure(ExitCode::File, draft.error().message);
+    recording = *std::move(draft);
+  }
+  Link link;
+  link.name = endpoint->text;
+  link.is_sim = endpoint->scheme == Scheme::Sim;
+  link.is_ble = endpoint->scheme == Scheme::Ble;
+  link.may_double = may_double(*endpoint);
+  link.named = named_robot(context, *endpoint, options);
+  link.budgets = budgets_for(*endpoint, options);
+  tl::expected<void, Failure> opened;
+  if (link.is_sim)
+    open_sim(link, options.robot, options.driving.value_or(spec::driving(options.robot)));
+  else if (endpoint->scheme == Scheme::Replay)
+    opened = open_replay(link, endpoint->path);
+  else
+    opened = open_real(link, *endpoint, options, on_step);
+  if (!opened)
+    return tl::unexpected(opened.error());
+  if (recording || context.verbosity >= 2) {
+    link.log = std::make_unique<WireLog>(context.verbosity, std::move(recording));
+    link.transport =
+        std::make_unique<protocol::RecordingTransport>(std::move(link.transport), *link.log);
+  }
+  link.transport = std::make_unique<InterruptibleTransport>(std::move(link.transport));
+  return link;
+}
+
+void with_ball(
+    Context& context, const PortOptions& options,
+    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
+  const InterruptGuard guard;
+  auto link = open_link(context, options);
+  if (!link)
+    return fail(context, link.error());
+  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  const auto greeting = uploader::greet(session);
+  if (greeting) {
+    context.exit = work(*link, session, *greeting);
+  } else {
+    fail(context, {exit_code(greeting.error().kind), greeting.error().message});
+  }
+  context.exit = link->finish(context, context.exit);
+}
+
+void with_firmware(
+    Context& context, const PortOptions& options,
+    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
+  with_ball(context, options,
+            [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
+              if (const auto refused = refuse_bootloader(greeting, link.name)) {
+                print_error(context, refused->message);
+                return exit_code(refused->kind);
+              }
+              return work(link, session, greeting);
+            });
+}
+
+} // namespace orb::cli

@@ -1,0 +1,98 @@
+#include "cli/run/on_robot.h"
+
+#include "cli/robot/driven_robot.h"
+#include "cli/terminal/interrupt.h"
+#include "compiler/lint/lint.h"
+#include "disk/disk.h"
+
+#include <fmt/format.h>
+#include <optional>
+#include <set>
+
+namespace orb::cli {
+namespace {
+
+tl::unexpected<Failure> refuse(std::string message) {
+  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
+}
+
+/// What the program says and this robot does not have, each word once.
+void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs,
+                   spec::Robot robot) {
+  std::set<std::string> said;
+  for (const auto& input : inputs)
+    if (input.program)
+      for (const auto& found : compiler::robot_findings(input.program->parsed, robot))
+        if (said.insert(found.message).second)
+          print_note(context, "hint: " + found.message);
+}
+
+} // namespace
+
+tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options) {
+  const auto of_simulation = [&](std::string_view option) {
+    return refuse(fmt::format("`{}` is for the virtual ball; leave it out, or leave `{}` out",
+                              option, given.replay.empty() ? "--port" : "--replay"));
+  };
+  if (!given.course.empty())
+    return of_simulation("--course");
+  if (given.firmware_given)
+    return of_simulation("--firmware");
+  if (given.disconnected)
+    return of_simulation("--disconnected");
+  for (const auto& event : options.stimuli)
+    if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
+      return refuse("with a robot a stimulus can only be an `input`: shake and push it by hand, or "
+                    "leave `--port` out");
+  return {};
+}
+
+tl::expected<run::TetheredEnding, Failure>
+run_on_robot(const Context& context, const RunOptions& given, const run::Options& options,
+             const std::vector<run::Input>& inputs, Console& console, report::Journey* journey) {
+  std::optional<disk::Draft> record;
+  if (!given.record.empty()) { // what cannot be written is told before anything moves
+    auto draft = disk::Draft::of(given.record);
+    if (!draft)
+      return tl::unexpected(Failure{ExitCode::File, draft.error().message});
+    record = *std::move(draft);
+  }
+  const InterruptGuard guard;
+  auto connected = connect_robot(context, given.port, given.robot);
+  if (!connected)
+    return tl::unexpected(connected.error());
+  auto& robot = **connected;
+  hint_at_lacks(context, inputs, robot.tether.robot);
+  robot.tether.aim = given.keep_aim ? run::Aim::Keep : run::Aim::Zero;
+  run::DriveRecording recording;
+  if (record)
+    robot.tether.recording = &recording;
+  auto driven =
+      run::run_tethered(inputs, options, console, journey, *robot.link.transport, robot.tether);
+  if (!driven || !record)
+    return driven;
+  record->append(as_bytes(run::to_text(recording)));
+  if (auto written = record->publish(); !written && !driven->failure)
+    driven->failure = Failure{ExitCode::File, written.error().message};
+  return driven;
+}
+
+tl::expected<run::TetheredEnding, Failure>
+replay_drive(const RunOptions& given, const run::Options& options,
+             const std::vector<run::Input>& inputs, Console& console, report::Journey* journey) {
+  const auto text = disk::read(given.replay);
+  if (!text)
+    return tl::unexpected(Failure{ExitCode::File, text.error().message});
+  const auto recording = run::parse_drive_recording(*text);
+  if (!recording)
+    return tl::unexpected(Failure{ExitCode::BadInput, fmt::format("{} cannot be replayed: {}",
+                                                                  disk::display_name(given.replay),
+                                                                  recording.error())});
+  return run::run_replayed(inputs, options, console, journey, *recording);
+}
+
+std::string_view stop_note(const run::Ending& ending) {
+  return ending.robot_stopped.value_or(false) ? run::stop_done : run::stop_lost;
+}
+
+} // namespace orb::cli

@@ -1,0 +1,92 @@
+#include "cli/run/run_console.h"
+
+#include "base/text.h"
+#include "disk/disk.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iostream>
+#include <limits>
+#include <poll.h>
+#include <thread>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+/// Whether a read of standard input would come back at once.
+bool input_is_there() {
+  pollfd in{STDIN_FILENO, POLLIN, 0};
+  return std::cin.rdbuf()->in_avail() > 0 || ::poll(&in, 1, 0) > 0;
+}
+
+} // namespace
+
+Console::Console(const RunOptions& options, const std::vector<run::Input>& inputs)
+    : options_(options) {
+  if (const auto format = options.format())
+    trace_.emplace(*format,
+                   options.run.trace_lines ? report::TraceLines::Keep : report::TraceLines::Leave,
+                   inputs, [this](std::string_view text) { put(text); });
+}
+
+void Console::on_event(Duration t, const vm::Event& event) {
+  if (const auto* print = std::get_if<vm::event::Print>(&event);
+      print != nullptr && (!trace_ || !options_.trace_out.empty()))
+    print_out(print->text);
+  if (const auto* drive = std::get_if<vm::event::Drive>(&event);
+      drive != nullptr && drive->roll.speed > 0)
+    speeds_ = {std::min(speeds_.slowest, drive->roll.speed),
+               std::max(speeds_.fastest, drive->roll.speed)};
+  if (trace_)
+    trace_->add(t, event);
+}
+
+void Console::on_fault(Duration t, const run::ProgramError& fault) {
+  if (trace_)
+    trace_->add(t, fault);
+}
+
+void Console::on_time(Duration t) {
+  if (options_.realtime)
+    std::this_thread::sleep_until(start_ + t);
+}
+
+bool Console::has_more_numbers() const {
+  return options_.input == from_stdin && no_number_.empty() && std::cin.good();
+}
+
+std::optional<std::int32_t> Console::ask_number() {
+  const bool robot_waits = !options_.port.port.empty();
+  std::string word;
+  while (has_more_numbers() && (!robot_waits || input_is_there()) && std::cin >> word) {
+    const auto digits = std::string_view(word).substr(word.starts_with('+') ? 1 : 0);
+    if (const auto value = parse_number<std::int32_t>(digits))
+      return value;
+    const auto message = fmt::format("`{}` is not a whole number from {} to {}, which `input` "
+                                     "takes",
+                                     word, std::numeric_limits<std::int32_t>::min(),
+                                     std::numeric_limits<std::int32_t>::max());
+    if (::isatty(STDIN_FILENO) == 0)
+      no_number_ = "on standard input " + message;
+    else
+      print_err(message + "; again\n");
+  }
+  return std::nullopt;
+}
+
+tl::expected<void, IoError> Console::finish(const run::Ending& ending) {
+  if (trace_)
+    trace_->finish(ending);
+  return options_.trace_out.empty() ? tl::expected<void, IoError>()
+                                    : disk::write(options_.trace_out, as_bytes(text_));
+}
+
+void Console::put(std::string_view text) {
+  if (options_.trace_out.empty())
+    print_out(text);
+  else
+    text_ += text;
+}
+
+} // namespace orb::cli

@@ -1,0 +1,68 @@
+#include "cli/run/run_robots.h"
+
+#include "cli/input/inputs.h"
+#include "cli/many/many.h"
+#include "cli/run/run_options.h"
+
+#include <fmt/format.h>
+#include <optional>
+
+namespace orb::cli {
+namespace {
+
+/// Why not all robots can run it, as the options have it; empty where they can.
+std::string_view for_one_robot(const RunOptions& options) {
+  return options.open || options.report == "-"
+             ? "`--open` and `--report -` show one robot; with several write `--report OUT.html`, "
+               "which is a page for each"
+         : !options.trace.empty() && options.trace_out.empty()
+             ? "a trace is of one robot; with several write `--trace-out FILE`, which is a file "
+               "for "
+               "each"
+         : !options.compare.empty()    ? "`--compare` shows one robot; with several leave it out"
+         : options.input == from_stdin ? "numbers that are typed go to one robot; with several "
+                                         "write them, as in `--input 1,2`"
+                                       : "";
+}
+
+/// What would be wrong with each of several robots.
+tl::expected<void, Failure> check_for_several(const Context& context, const RunOptions& options) {
+  if (const auto why = for_one_robot(options); !why.empty())
+    return tl::unexpected(Failure{ExitCode::Usage, std::string(why)});
+  const auto read = read_options(context, options);
+  if (!read)
+    return tl::unexpected(read.error());
+  const auto inputs = read_inputs(options.files, options.language, read->target, run::Lint::Off);
+  if (!inputs)
+    return tl::unexpected(inputs.error());
+  return check_inputs(context, *inputs);
+}
+
+/// Why one of several robots cannot run it.
+std::optional<std::string> misfit(const RunOptions& options, const Member& robot) {
+  if (!robot.robot || options.robot.empty() || spec::info(*robot.robot).name == options.robot)
+    return std::nullopt;
+  return fmt::format("is a {}, not a {}; leave `--robot {}` out", spec::info(*robot.robot).title,
+                     spec::find_robot(options.robot)->title, options.robot);
+}
+
+} // namespace
+
+void run_on_robots(Context& context, const RunOptions& options,
+                   const std::function<void(Context&, RunOptions&)>& run_one) {
+  ManyOptions many;
+  many.command = "run";
+  many.jobs = all_at_once;
+  many.check = [&] { return check_for_several(context, options); };
+  many.misfit = [&](const Member& robot) { return misfit(options, robot); };
+  with_robots(context, options.roster, many, [&](Context& own, const Member& robot, Row* row) {
+    auto one = options;
+    one.port.port = robot.port;
+    if (row != nullptr)
+      for (auto* file : {&one.record, &one.report, &one.svg, &one.trace_out})
+        *file = file_of(*file, robot);
+    run_one(own, one);
+  });
+}
+
+} // namespace orb::cli
