@@ -34,7 +34,7 @@ inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
     {ExitCode::File, "an input cannot be read, or an output cannot be written"},
     {ExitCode::NoBall,
      "no such ball: it cannot be opened or connected to, or does not answer the first ping"},
-    {ExitCode::Refused, "the ball refused a command; the message names it and the remedy"},
+    {ExitCode::Refused, "the ball refused a command; the message names it and the remedy. Of several robots: one failed"},
     {ExitCode::LinkLost,
      "the link was lost or timed out; the message says what is on the ball now"},
     {ExitCode::Unknown,

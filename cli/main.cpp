@@ -34,6 +34,8 @@ void answer_completion(const orb::cli::CommandLine& line, std::vector<std::strin
   std::vector<orb::reference::Candidate> ports;
   for (auto& port : orb::cli::find_ports(config))
     ports.push_back({std::move(port.url), std::move(port.what)});
+  for (const auto& [name, group] : config.groups)
+    ports.push_back({"@" + name, fmt::format("{} robots", group.members.size())});
   orb::cli::print_out(print(complete(as_data(line.root()), ports, words)));
 }
 

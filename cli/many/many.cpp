@@ -161,6 +161,8 @@ private:
     err.end();
     outcome.exit = context.exit;
     outcome.is_shown = error.empty() && row.verdict().empty();
+    if (!error.empty() && !last.empty())
+      error += "; " + last; // such as whether the robot has been stopped
     outcome.verdict = !error.empty()           ? error
                       : !fault.empty()         ? fault
                       : !row.verdict().empty() ? row.verdict()
