@@ -117,7 +117,9 @@ public:
   /// Its speed where wheels and drift pull the same way: only acceleration, pushes and blows lead
   /// beyond it.
   double most_speed_cm_s() const {
-    return std::hypot(forward_, slip_) + std::hypot(drift_x_, drift_y_);
+    // Not std::hypot(), which takes five times as long to be exact in the last bit.
+    return std::sqrt(forward_ * forward_ + slip_ * slip_) +
+           std::sqrt(drift_x_ * drift_x_ + drift_y_ * drift_y_);
   }
   bool stabilized() const { return stabilized_; }
   double yaw_deg() const { return yaw_deg_; } ///< 0 <= yaw < 360

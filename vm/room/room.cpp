@@ -1,20 +1,22 @@
 #include "vm/room/room.h"
 
+#include "spec/ball.h"
 #include "vm/body.h"
 #include "vm/room/contacts.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 namespace orb::vm {
 namespace {
 
-constexpr Duration::rep longest = 128; ///< steps that balls live by themselves at most
+constexpr Duration::rep most_steps = 128; ///< that balls live by themselves
 
-/// The longest that is halved down to a step, within `left`; what is left of a step where that is
-/// shorter, or where one has begun.
-Duration next_while(Duration now, Duration left) {
+/// The longest that is halved down to a step, of `longest` steps at most, within `left`; what is
+/// left of a step where that is shorter, or where one has begun.
+Duration next_while(Duration now, Duration left, Duration::rep longest) {
   if (const auto begun = now % Body::step; begun != Duration{})
     return std::min(left, Body::step - begun);
   Duration time = Body::step;
@@ -25,61 +27,123 @@ Duration next_while(Duration now, Duration left) {
   return time;
 }
 
+double squared(const Point& one, const Point& other) {
+  const double dx = one.x - other.x;
+  const double dy = one.y - other.y;
+  return dx * dx + dy * dy;
+}
+
 } // namespace
 
 void Room::add(std::string name, Resident& ball) {
   names_.push_back(std::move(name));
   balls_.push_back(&ball);
+  places_.emplace_back();
 }
 
 void Room::advance_to(Duration t) {
   Crowd all(balls_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  while (now_ < t)
-    pass(all, next_while(now_, t - now_));
+  while (now_ < t) {
+    const auto time = next_while(now_, t - now_, longest_);
+    const auto close = pass(all, nullptr, time);
+    // Where most are near another it was too long, where few are it may be longer.
+    const auto steps = std::max<Duration::rep>(time / Body::step, 1);
+    if (2 * close > all.size())
+      longest_ = std::max<Duration::rep>(steps / 2, 1);
+    else if (steps == longest_)
+      longest_ = std::min(2 * steps, most_steps);
+  }
 }
 
-/// The pairs of a crowd, by their places in it, that may touch within `time`.
-std::vector<Pair> Room::within_reach(const Crowd& crowd, Duration time) const {
-  std::vector<Point> places;
+/// The pairs of a crowd that may touch within `time`, in order; all of them are among `known`, if
+/// there is that.
+Room::Pairs Room::within_reach(const Crowd& crowd, const Pairs* known, Duration time) {
   double fastest = 0;
   for (const auto ball : crowd) {
-    places.push_back(balls_[ball]->mover().place);
+    places_[ball] = balls_[ball]->mover().place;
     fastest = std::max(fastest, balls_[ball]->most_speed_cm_s(time));
   }
   // Who is hit by several at once may become faster than each of them was, but not by that much.
   constexpr double margin = 1.25;
   constexpr double aside = 1; // cm: how far others may push it out of them in the meantime
-  return neighbours(places, 2 * (spec::ball::radius + aside + margin * fastest * seconds(time)));
+  const double reach = 2 * (spec::ball::radius + aside + margin * fastest * seconds(time));
+  constexpr std::size_t cheap = 8; // pairs a ball: to look at more takes longer than to search
+  Pairs pairs;
+  if (known != nullptr && known->size() <= cheap * crowd.size()) {
+    std::copy_if(known->begin(), known->end(), std::back_inserter(pairs), [&](const Pair& pair) {
+      return squared(places_[pair.first], places_[pair.second]) <= reach * reach;
+    });
+    return pairs;
+  }
+  std::vector<Point> places(crowd.size());
+  std::transform(crowd.begin(), crowd.end(), places.begin(),
+                 [&](std::size_t ball) { return places_[ball]; });
+  pairs = neighbours(places, reach);
+  for (auto& pair : pairs)
+    pair = {crowd[pair.first], crowd[pair.second]};
+  return pairs;
 }
 
-void Room::pass(const Crowd& crowd, Duration time) {
+/// Lets `time` pass for a crowd that no other ball can reach in it; how many of them may have
+/// touched another.
+std::size_t Room::pass(const Crowd& crowd, const Pairs* known, Duration time) {
   const auto to = now_ + time;
-  const auto pairs = within_reach(crowd, time);
-  if (time <= Body::step)
-    return pass_step(crowd, pairs, to);
-  std::vector<bool> near(crowd.size());
+  const auto pairs = within_reach(crowd, known, time);
+  std::vector<bool> near(balls_.size());
   for (const auto& pair : pairs)
     near[pair.first] = near[pair.second] = true;
   Crowd close;
-  for (std::size_t i = 0; i < crowd.size(); ++i)
-    if (near[i])
-      close.push_back(crowd[i]);
-    else
-      balls_[crowd[i]]->advance_to(to);
+  std::copy_if(crowd.begin(), crowd.end(), std::back_inserter(close),
+               [&](std::size_t ball) { return near[ball]; });
+  if (time <= Body::step) {
+    pass_step(crowd, pairs, to);
+    return close.size();
+  }
+  for (const auto ball : crowd)
+    if (!near[ball])
+      balls_[ball]->advance_to(to);
   if (!close.empty()) {
-    pass(close, time / 2);
-    pass(close, time / 2);
+    pass(close, &pairs, time / 2);
+    pass(close, &pairs, time / 2);
   }
   now_ = to;
+  return close.size();
 }
 
-void Room::pass_step(const Crowd& crowd, std::span<const Pair> pairs, Duration to) {
+void Room::pass_step(const Crowd& crowd, const Pairs& pairs, Duration to) {
   for (const auto ball : crowd)
     balls_[ball]->advance_to(to);
   now_ = to;
-  if (pairs.empty() || to % Body::step != Duration{})
+  if (to % Body::step != Duration{})
     return;
+  Pairs touching;
+  for (const auto& pair : pairs) {
+    constexpr double touch = 2 * spec::ball::radius;
+    for (const auto ball : {pair.first, pair.second})
+      places_[ball] = balls_[ball]->mover().place;
+    if (squared(places_[pair.first], places_[pair.second]) <= touch * touch)
+      touching.push_back(pair);
+  }
+  if (!touching.empty())
+    meet(std::move(touching));
+}
+
+/// Lets those of the pairs feel each other, which are in touch.
+void Room::meet(Pairs pairs) {
+  Crowd crowd;
+  for (const auto& pair : pairs) {
+    crowd.push_back(pair.first);
+    crowd.push_back(pair.second);
+  }
+  std::sort(crowd.begin(), crowd.end());
+  crowd.erase(std::unique(crowd.begin(), crowd.end()), crowd.end());
+  const auto place_in_crowd = [&](std::size_t ball) {
+    return static_cast<std::size_t>(std::lower_bound(crowd.begin(), crowd.end(), ball) -
+                                    crowd.begin());
+  };
+  for (auto& pair : pairs)
+    pair = {place_in_crowd(pair.first), place_in_crowd(pair.second)};
   std::vector<Mover> movers;
   for (const auto ball : crowd)
     movers.push_back(balls_[ball]->mover());

@@ -37,13 +37,17 @@ public:
 
 private:
   using Crowd = std::vector<std::size_t>;
-  std::vector<Pair> within_reach(const Crowd& crowd, Duration time) const;
-  void pass(const Crowd& crowd, Duration time);
-  void pass_step(const Crowd& crowd, std::span<const Pair> pairs, Duration to);
+  using Pairs = std::vector<Pair>;
+  Pairs within_reach(const Crowd& crowd, const Pairs* known, Duration time);
+  std::size_t pass(const Crowd& crowd, const Pairs* known, Duration time);
+  void pass_step(const Crowd& crowd, const Pairs& pairs, Duration to);
+  void meet(Pairs pairs);
 
   std::vector<std::string> names_;
   std::vector<Resident*> balls_;
   Duration now_{};
+  Duration::rep longest_ = 1; ///< steps that balls live by themselves at most, as it turned out
+  std::vector<Point> places_; ///< of each ball, where it was looked at last
 };
 
 } // namespace orb::vm
