@@ -90,7 +90,7 @@ struct Hint {
   std::string tooltip;
 };
 
-struct LanguageShape; // editor/shape.h
+struct LanguageShape; // editor/languages/shape.h
 
 /// One language. Every function is pure and takes any text, however broken.
 struct LanguageService {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 #include "playground/drives.h"
 #include "playground/request.h"
 #include "playground/robot.h"

@@ -3,7 +3,7 @@
 #include "base/exit_code.h"
 #include "base/source.h"
 #include "base/time.h"
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 #include "run/input.h"
 #include "structured/text/files.h"
 

@@ -128,6 +128,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> shelves = {
     {"cli",
      {"model", "bluez", "context", "input", "terminal", "robot", "many", "run", "room", "commands",
       "."}},
+    {"editor", {".", "languages", "lsp", "dap", "printed"}},
 };
 
 TEST(Floors, AShelfIncludesOnlyFromThoseBelowIt) {

@@ -2,7 +2,7 @@
 
 #include "base/time.h"
 #include "spec/ball.h"
-#include "vm/ask.h"
+#include "vm/body/ask.h"
 #include "vm/body/battery.h"
 #include "vm/body/drivetrain.h"
 #include "vm/body/elsewhere.h"

@@ -6,7 +6,7 @@
 #include "spec/api.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
-#include "vm/ask.h"
+#include "vm/body/ask.h"
 #include "vm/machine/machine.h"
 
 #include <array>

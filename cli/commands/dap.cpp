@@ -4,7 +4,7 @@
 #include "cli/model/checks.h"
 #include "cli/robot/driven_robot.h"
 #include "cli/terminal/interrupt.h"
-#include "editor/debug_adapter.h"
+#include "editor/dap/debug_adapter.h"
 #include "editor/wire.h"
 
 #include <array>

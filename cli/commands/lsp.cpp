@@ -1,7 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/input/inputs.h"
 #include "cli/input/wire.h"
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 #include "editor/wire.h"
 #include "run/input.h"
 #include "testing/suite.h"

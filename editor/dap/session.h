@@ -2,7 +2,7 @@
 
 #include "debug/debugger.h"
 #include "debug/launch.h"
-#include "editor/debug_adapter.h"
+#include "editor/dap/debug_adapter.h"
 #include "editor/wording.h"
 
 #include <cstdint>

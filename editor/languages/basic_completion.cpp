@@ -5,7 +5,7 @@
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
 #include "editor/languages/basic_names.h"
-#include "editor/markdown.h"
+#include "editor/languages/markdown.h"
 #include "editor/words.h"
 #include "reference/sections.h"
 #include "spec/limits.h"

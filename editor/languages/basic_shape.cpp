@@ -3,8 +3,8 @@
 #include "compiler/text/parse.h"
 #include "compiler/text/words.h"
 #include "editor/languages/basic_names.h"
-#include "editor/markdown.h"
-#include "editor/shape.h"
+#include "editor/languages/markdown.h"
+#include "editor/languages/shape.h"
 #include "reference/sections.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 #include "editor/directives.h"
 #include "editor/language.h"
 #include "editor/languages/macro_names.h"
-#include "editor/markdown.h"
-#include "editor/shape.h"
+#include "editor/languages/markdown.h"
+#include "editor/languages/shape.h"
 #include "editor/words.h"
 #include "reference/sections.h"
 

@@ -3,8 +3,8 @@
 #include "assembler/parse.h"
 #include "editor/directives.h"
 #include "editor/languages/macro_names.h"
-#include "editor/markdown.h"
-#include "editor/shape.h"
+#include "editor/languages/markdown.h"
+#include "editor/languages/shape.h"
 #include "reference/sections.h"
 #include "spec/macro.h"
 

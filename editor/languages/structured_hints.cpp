@@ -2,7 +2,7 @@
 
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
-#include "editor/shape.h"
+#include "editor/languages/shape.h"
 #include "editor/text.h"
 #include "editor/words.h"
 #include "spec/limits.h"

@@ -2,8 +2,8 @@
 
 // What test files and stimulus scripts share: lines that begin with a word of a table.
 
-#include "editor/markdown.h"
-#include "editor/shape.h"
+#include "editor/languages/markdown.h"
+#include "editor/languages/shape.h"
 #include "reference/sections.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "editor/language.h"
-#include "editor/language_server.h"
-#include "editor/shape.h"
+#include "editor/languages/shape.h"
+#include "editor/lsp/language_server.h"
 #include "editor/wording.h"
 
 #include <cstdint>

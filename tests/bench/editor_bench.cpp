@@ -1,7 +1,7 @@
 // From a keystroke to the findings: the language server takes a change of one character in a
 // program of 4 KB and answers with what it found, JSON to JSON, in this process.
 
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

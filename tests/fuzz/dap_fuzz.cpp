@@ -1,7 +1,7 @@
 // The debug adapter under any bytes: as a stream with headers, and as requests of an open session
 // whose program runs between them.
 
-#include "editor/debug_adapter.h"
+#include "editor/dap/debug_adapter.h"
 #include "editor/wire.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // The language server under any bytes: as a stream with headers, and as messages of an open
 // session.
 
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 #include "editor/wire.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "spec/ball.h"
-#include "vm/ask.h"
 #include "vm/body/angles.h"
+#include "vm/body/ask.h"
 #include "vm/body/motion.h"
 #include "vm/body/place.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 
 #include <algorithm>
 #include <map>

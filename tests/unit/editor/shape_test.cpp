@@ -1,7 +1,7 @@
 // What the language server says of the shape of a text: colours, folds, what surrounds a place,
 // signatures, links, lenses, calls.
 
-#include "editor/shape.h"
+#include "editor/languages/shape.h"
 #include "tests/unit/editor/client.h"
 
 #include <array>

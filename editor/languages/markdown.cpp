@@ -1,4 +1,4 @@
-#include "editor/markdown.h"
+#include "editor/languages/markdown.h"
 
 #include "compiler/text/parse.h"
 #include "editor/languages/basic_names.h"

@@ -1,8 +1,9 @@
 #pragma once
 
-// The answers of the language server about what editor/shape.h knows, in the protocol's words.
+// The answers of the language server about what editor/languages/shape.h knows, in the protocol's
+// words.
 
-#include "editor/shape.h"
+#include "editor/languages/shape.h"
 #include "editor/wording.h"
 
 #include <string>

@@ -1,7 +1,7 @@
-#include "editor/shape.h"
+#include "editor/languages/shape.h"
 
 #include "base/text.h"
-#include "editor/markdown.h"
+#include "editor/languages/markdown.h"
 #include "reference/sections.h"
 
 #include <algorithm>

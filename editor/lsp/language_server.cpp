@@ -1,4 +1,4 @@
-#include "editor/language_server.h"
+#include "editor/lsp/language_server.h"
 
 #include "base/utf8.h"
 #include "editor/lsp/methods.h"

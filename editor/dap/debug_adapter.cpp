@@ -1,4 +1,4 @@
-#include "editor/debug_adapter.h"
+#include "editor/dap/debug_adapter.h"
 
 #include "editor/dap/session.h"
 

@@ -1,4 +1,4 @@
-#include "editor/shape_answers.h"
+#include "editor/lsp/shape_answers.h"
 
 #include "base/text.h"
 
