@@ -1,4 +1,4 @@
-#include "playground/drives.h"
+#include "playground/engine/drives.h"
 
 #include "spec/ble.h"
 

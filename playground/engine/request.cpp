@@ -1,7 +1,7 @@
-#include "playground/request.h"
+#include "playground/engine/request.h"
 
 #include "base/bytes.h"
-#include "playground/sources.h"
+#include "playground/engine/sources.h"
 #include "testing/check_files.h"
 #include "testing/suite.h"
 

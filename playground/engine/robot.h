@@ -1,6 +1,6 @@
 #pragma once
 
-#include "playground/request.h"
+#include "playground/engine/request.h"
 #include "protocol/decoder.h"
 
 // What is said to a robot, and heard from it, when something has been brought onto it.

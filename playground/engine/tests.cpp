@@ -1,4 +1,4 @@
-#include "playground/tests.h"
+#include "playground/engine/tests.h"
 
 #include "base/render.h"
 #include "report/page.h"

@@ -1,6 +1,6 @@
-#include "playground/engine.h"
-#include "playground/sources.h"
-#include "playground/tests.h"
+#include "playground/engine/engine.h"
+#include "playground/engine/sources.h"
+#include "playground/engine/tests.h"
 
 #include <fmt/format.h>
 #include <utility>

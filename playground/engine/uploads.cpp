@@ -1,6 +1,6 @@
-#include "playground/uploads.h"
+#include "playground/engine/uploads.h"
 
-#include "playground/log_link.h"
+#include "playground/engine/log_link.h"
 
 #include "run/delivery.h"
 #include "spec/ble.h"

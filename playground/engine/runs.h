@@ -1,7 +1,7 @@
 #pragma once
 
 #include "debug/launch.h"
-#include "playground/request.h"
+#include "playground/engine/request.h"
 #include "report/journey.h"
 #include "report/page.h"
 #include "run/live.h"

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "editor/lsp/language_server.h"
-#include "playground/drives.h"
-#include "playground/request.h"
-#include "playground/robot.h"
-#include "playground/runs.h"
-#include "playground/uploads.h"
+#include "playground/engine/drives.h"
+#include "playground/engine/request.h"
+#include "playground/engine/robot.h"
+#include "playground/engine/runs.h"
+#include "playground/engine/uploads.h"
 
 #include <memory>
 #include <optional>

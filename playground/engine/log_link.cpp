@@ -1,4 +1,4 @@
-#include "playground/log_link.h"
+#include "playground/engine/log_link.h"
 
 namespace orb::playground {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "playground/request.h"
+#include "playground/engine/request.h"
 
 // What is asked about sources without running them.
 

@@ -1,4 +1,4 @@
-#include "playground/sources.h"
+#include "playground/engine/sources.h"
 
 #include "assembler/assemble.h"
 #include "base/render.h"

@@ -1,4 +1,4 @@
-#include "playground/engine.h"
+#include "playground/engine/engine.h"
 
 #include <emscripten.h>
 #include <exception>

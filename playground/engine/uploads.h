@@ -1,7 +1,7 @@
 #pragma once
 
-#include "playground/log_link.h"
-#include "playground/request.h"
+#include "playground/engine/log_link.h"
+#include "playground/engine/request.h"
 #include "uploader/upload.h"
 
 #include <optional>

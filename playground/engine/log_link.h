@@ -1,6 +1,6 @@
 #pragma once
 
-#include "playground/request.h"
+#include "playground/engine/request.h"
 #include "protocol/transport.h"
 
 #include <optional>

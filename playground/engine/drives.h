@@ -1,7 +1,7 @@
 #pragma once
 
-#include "playground/log_link.h"
-#include "playground/runs.h"
+#include "playground/engine/log_link.h"
+#include "playground/engine/runs.h"
 #include "run/tether/driven.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
-#include "playground/runs.h"
+#include "playground/engine/runs.h"
 
 #include "base/duration.h"
 #include "base/utf8.h"
-#include "playground/sources.h"
+#include "playground/engine/sources.h"
 #include "run/want.h"
 #include "structured/text/words.h"
 #include "vm/stimulus.h"

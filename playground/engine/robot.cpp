@@ -1,4 +1,4 @@
-#include "playground/robot.h"
+#include "playground/engine/robot.h"
 
 #include "base/utf8.h"
 #include "run/delivery.h"
