@@ -166,6 +166,12 @@ Failure unknown_content(std::string_view name) {
     return {ExitCode::Usage, fmt::format("{0} is a course; give it with `--course {0}`", name)};
   if (name.ends_with(".test"))
     return {ExitCode::Usage, fmt::format("{0} is a test; run it with `orb test {0}`", name)};
+  if (name.ends_with(".toml"))
+    return {
+        ExitCode::Usage,
+        fmt::format("{0} is a room; `orb run {0}` runs it, `orb check {0}` checks it, and other "
+                    "commands take its programs one by one",
+                    name)};
   if (name.ends_with(".stimulus"))
     return {ExitCode::Usage,
             fmt::format("{0} is a stimulus script; give it with `--stimulus {0}`", name)};

@@ -5,6 +5,8 @@
 #include "cli/input/policy.h"
 #include "cli/input/target.h"
 #include "cli/model/checks.h"
+#include "cli/room/room_plan.h"
+#include "cli/room/run_together.h"
 #include "cli/terminal/watch.h"
 #include "disk/disk.h"
 #include "reference/knowledge.h"
@@ -111,7 +113,12 @@ void print_findings(Context& context, const CheckOptions& options,
   }
 }
 
-void check(Context& context, const CheckOptions& options) {
+void check(Context& context, const CheckOptions& given) {
+  auto options = given;
+  auto opened = open_rooms(given.files);
+  if (!opened)
+    return fail(context, opened.error());
+  options.files = *std::move(opened);
   if (!check_rules(context, options.policy))
     return;
   if (options.fix &&
@@ -131,6 +138,11 @@ void check(Context& context, const CheckOptions& options) {
     context.exit = ExitCode::BadInput;
   const auto hidden = cut(options.policy, files);
   print_findings(context, options, files);
+  if (context.exit == ExitCode::Done)
+    for (const auto& file : given.files)
+      if (is_room_file(file))
+        if (const auto good = check_room(context, file); !good)
+          return fail(context, good.error());
   if (hidden > 0)
     print_note(context, fmt::format("{} more finding{} not shown; `--max-errors 0` shows all",
                                     hidden, hidden == 1 ? " is" : "s are"));
@@ -140,7 +152,7 @@ void check(Context& context, const CheckOptions& options) {
 
 void add_check(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("check", "find the mistakes in programs, macros, courses and tests",
+      orb.add_command("check", "find the mistakes in programs, macros, courses, rooms and tests",
                       "orb check square.bas\n"
                       "orb check --target 1.2 --ram 1024 *.bas\n"
                       "orb check --robot rvr patrol.orb\n"

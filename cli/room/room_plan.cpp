@@ -106,8 +106,8 @@ template <class Keys>
 std::string unknown(std::string_view key, const Keys& keys, std::string_view of) {
   const std::span<const std::string_view> words(keys);
   return fmt::format(
-      "`{}` is no word of {}; {}", key, of,
-      did_you_mean(key, words, fmt::format("the words are {}", fmt::join(keys, ", "))));
+      "`{}` is not a key of {}; {}", key, of,
+      did_you_mean(key, words, fmt::format("the keys are {}", fmt::join(keys, ", "))));
 }
 
 /// A path counts from the folder of the room's file.

@@ -248,4 +248,35 @@ tl::expected<void, Failure> run_together(Context& context, const RunOptions& giv
   return {};
 }
 
+tl::expected<std::vector<std::string>, Failure> open_rooms(const std::vector<std::string>& files) {
+  std::vector<std::string> all;
+  const auto add = [&](const std::string& file) {
+    if (std::find(all.begin(), all.end(), file) == all.end())
+      all.push_back(file);
+  };
+  for (const auto& file : files) {
+    if (!is_room_file(file)) {
+      all.push_back(file);
+      continue;
+    }
+    const auto plan = read_room(file);
+    if (!plan)
+      return tl::unexpected(plan.error());
+    for (const auto& ball : plan->balls)
+      std::for_each(ball.files.begin(), ball.files.end(), add);
+    if (!plan->course.empty())
+      add(plan->course);
+  }
+  return all;
+}
+
+tl::expected<void, Failure> check_room(const Context& context, const std::string& file) {
+  RunOptions given;
+  given.files = {file};
+  given.port.port.clear();
+  Furnished room;
+  const OutputTap silence([](auto, auto) {}); // what is to be said of its files has been said
+  return prepare(context, given, room);
+}
+
 } // namespace orb::cli
