@@ -5,6 +5,7 @@
 #include "cli/input/target.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"
+#include "cli/room/room_plan.h"
 #include "cli/room/run_together.h"
 #include "cli/run/on_robot.h"
 #include "cli/run/run_console.h"
@@ -279,7 +280,9 @@ void run_and_report(Context& context, const RunOptions& options) {
 
 void run_and_watch(Context& context, const RunOptions& options) {
   const auto files = [&] {
-    auto all = files_of(options.files, options.language);
+    const auto opened = open_rooms(options.files); // broken ones are told by the run
+    auto all = files_of(opened ? *opened : options.files, options.language);
+    std::copy_if(options.files.begin(), options.files.end(), std::back_inserter(all), is_room_file);
     for (const auto& stimulus : options.stimuli)
       if (!is_stimulus_line(stimulus))
         all.push_back(stimulus);
