@@ -153,8 +153,8 @@ std::vector<Command> run(const Page& page, const std::string& folder, const std:
   // A command in the background is given until its first words, as a reader would; what still runs
   // at the end of the page is stopped, and waited for: it removes files of its own in the folder,
   // which is removed next.
-  auto script =
-      fmt::format("cd '{}' && exec </dev/null\ntrap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\n", folder);
+  auto script = fmt::format(
+      "cd '{}' && exec </dev/null\ntrap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\n", folder);
   for (std::size_t i = 0; i < page.commands.size(); ++i) {
     const auto out = step_file(logs, i, "out");
     files::write(step_file(logs, i, "command"), page.commands[i].text + "\n");

@@ -23,4 +23,4 @@ serve() {
 }
 
 stop() { kill -TERM "$ball" && wait "$ball"; }
-trap 'kill $(jobs -p) 2>/dev/null || :' EXIT
+trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT
