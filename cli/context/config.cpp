@@ -149,6 +149,13 @@ tl::expected<void, ConfigError> apply_config(const Config& config, const Command
   return {};
 }
 
+std::string unknown_ball(const std::string& name, const std::vector<std::string>& names) {
+  return fmt::format("unknown ball `{}`{}", name,
+                     names.empty()
+                         ? fmt::format("; `orb ports --save {}=URL` gives one that name", name)
+                         : meant_instead(name, names));
+}
+
 tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port) {
   if (!port.starts_with("@"))
     return port;
@@ -159,13 +166,7 @@ tl::expected<std::string, ConfigError> resolve_port(const Config& config, const 
     return tl::unexpected(
         ConfigError{fmt::format("`@{}` is a group; write the name of one ball, such as `@{}`", name,
                                 group->second.members.front().name)});
-  std::vector<std::string> names;
-  for (const auto& [known, ball] : config.balls)
-    names.push_back(known);
-  return tl::unexpected(ConfigError{fmt::format(
-      "unknown ball `{}`{}", name,
-      names.empty() ? fmt::format("; `orb ports --save {}=URL` gives one that name", name)
-                    : meant_instead(name, names))});
+  return tl::unexpected(ConfigError{unknown_ball(name, names_in(config.balls))});
 }
 
 } // namespace orb::cli

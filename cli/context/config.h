@@ -73,6 +73,18 @@ tl::expected<void, ConfigError> apply_config(const Config& config, const Command
 /// Why a text is no TOML, as the library says it, without its preface.
 std::string toml_words(std::string_view description);
 
+/// The names in one of its maps.
+template <class Map>
+std::vector<std::string> names_in(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map)
+    names.push_back(name);
+  return names;
+}
+
+/// What is said of a name that nothing has; `names` are those that could be meant.
+std::string unknown_ball(const std::string& name, const std::vector<std::string>& names);
+
 /// The URL that `port` stands for: the ball's URL for `@name`, else `port` itself.
 tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port);
 

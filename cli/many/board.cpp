@@ -132,10 +132,4 @@ void Row::on_step(protocol::BleStep step,
   board_.show(robot_, *found);
 }
 
-void Row::reset() {
-  item_.clear();
-  verdict_.clear();
-  sending_since_.reset();
-}
-
 } // namespace orb::cli

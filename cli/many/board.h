@@ -62,9 +62,6 @@ public:
   /// How strongly it was received, as in `-55 dBm`; empty where nothing says it.
   const std::string& signal() const { return signal_; }
 
-  /// Begins anew, for another try.
-  void reset();
-
 private:
   Board& board_;
   std::size_t robot_;

@@ -3,7 +3,6 @@
 #include "base/text.h"
 #include "base/utf8.h"
 #include "cli/context/json.h"
-#include "cli/context/output_error.h"
 #include "cli/terminal/interrupt.h"
 
 #include <algorithm>
@@ -109,14 +108,14 @@ private:
   void handle(std::size_t i) {
     auto& outcome = outcomes_[i];
     const auto start = Clock::now();
-    Row row(board_, i);
     while (true) {
       board_.show(i, "connecting");
-      row.reset();
+      Row row(board_, i);
       outcome.out.clear();
       ++outcome.tries;
       attempt(i, row);
-      outcome.signal = row.signal();
+      if (!row.signal().empty())
+        outcome.signal = row.signal();
       if (outcome.tries >= tries_ || !is_worth_a_try(outcome.exit, options_.again) ||
           InterruptGuard::asked() > 0)
         break;
@@ -239,17 +238,15 @@ void print_document(const Roster& roster, const std::vector<Outcome>& outcomes,
                     std::string_view command) {
   Json robots = Json::array();
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const auto& [exit, verdict, out, signal, is_shown, tries, seconds] = outcomes[i];
-    Json robot{{"name", roster.members[i].name},
-               {"port", roster.members[i].port},
-               {"result", word(outcomes[i])},
-               {"exit", static_cast<int>(exit)},
-               {"verdict", verdict},
-               {"tries", tries},
-               {"seconds", seconds}};
-    if (!signal.empty())
-      robot["signal"] = signal;
-    if (auto answer = Json::parse(out, nullptr, false); answer.is_object())
+    const auto& member = roster.members[i];
+    const auto& outcome = outcomes[i];
+    Json robot{{"name", member.name},        {"port", member.port},
+               {"result", word(outcome)},    {"exit", static_cast<int>(outcome.exit)},
+               {"verdict", outcome.verdict}, {"tries", outcome.tries},
+               {"seconds", outcome.seconds}};
+    if (!outcome.signal.empty())
+      robot["signal"] = outcome.signal;
+    if (auto answer = Json::parse(outcome.out, nullptr, false); answer.is_object())
       robot["answer"] = std::move(answer);
     robots.push_back(std::move(robot));
   }
@@ -297,6 +294,13 @@ Failure listens_to_one() {
   return {ExitCode::Usage,
           "`--monitor` listens to one robot; leave it out, and write `orb monitor` "
           "for one of them"};
+}
+
+PortOptions port_of(PortOptions options, const Member& robot, const Row* row) {
+  options.port = robot.port;
+  if (row != nullptr)
+    options.record = file_of(options.record, robot);
+  return options;
 }
 
 std::string file_of(const std::string& file, const Member& robot) {

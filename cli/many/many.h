@@ -57,6 +57,9 @@ using Work = std::function<void(Context& context, const Member& robot, Row* row)
 void with_robots(Context& context, const RosterOptions& roster, const ManyOptions& options,
                  const Work& work);
 
+/// The options for the link to one robot. One of several has a recording of its own.
+PortOptions port_of(PortOptions options, const Member& robot, const Row* row);
+
 /// The name of a robot's own file where several would write one: `wire.txt` is `wire-red.txt`. An
 /// empty name stays.
 std::string file_of(const std::string& file, const Member& robot);

@@ -40,19 +40,19 @@ void add_rest(const Command& command, RosterOptions& options, const std::string&
 }
 
 std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return to_lower(c); });
+  std::transform(text.begin(), text.end(), text.begin(), to_lower);
   return text;
 }
 
 /// Collects the robots that the words of the command line name.
 class Naming {
 public:
-  Naming(const Context& context, Roster& roster) : context_(context), roster_(roster) {}
+  explicit Naming(Roster& roster) : roster_(roster) {}
 
   /// `@red`, `@front` or a URL. `place` is where a file says it, empty for the command line.
   tl::expected<void, Failure> add(const std::string& port, const std::string& place) {
     if (!port.starts_with("@"))
-      return add_url(port);
+      return add_member({port, port, "", {}});
     const auto name = port.substr(1);
     const auto& config = roster_.config;
     if (const auto group = config.groups.find(name); group != config.groups.end())
@@ -75,15 +75,10 @@ public:
 
 private:
   std::string unknown(const std::string& name) const {
-    std::vector<std::string> names;
-    for (const auto& [known, ball] : roster_.config.balls)
-      names.push_back(known);
-    for (const auto& [known, group] : roster_.config.groups)
-      names.push_back(known);
-    if (names.empty())
-      return fmt::format("unknown ball `{0}`; `orb ports --save {0}=URL` gives one that name",
-                         name);
-    return fmt::format("unknown ball `{}`{}", name, meant_instead(name, names));
+    auto names = names_in(roster_.config.balls);
+    for (auto& group : names_in(roster_.config.groups))
+      names.push_back(std::move(group));
+    return unknown_ball(name, names);
   }
 
   tl::expected<void, Failure> add_group(const std::string& name, const Group& group) {
@@ -95,19 +90,11 @@ private:
     return {};
   }
 
-  tl::expected<void, Failure> add_url(const std::string& port) {
-    return add_member({port, port, "", {}});
-  }
-
   tl::expected<void, Failure> add_member(Member member) {
-    PortOptions port;
-    port.port = member.port;
-    Context context = context_;
-    context.config = roster_.config;
-    const auto url = resolve_port(context.config, port.port);
-    const auto endpoint = uploader::parse_endpoint(url ? *url : std::string());
+    const auto endpoint = find_endpoint(roster_.config, member.port);
     if (!endpoint)
-      return refuse(member.place + endpoint.error());
+      return refuse(member.place + endpoint.error().message);
+    member.robot = named_robot(roster_.config, member.port);
     if (endpoint->scheme == uploader::Scheme::Sim)
       return add_virtual(std::move(member));
     const auto where = same_where(*endpoint);
@@ -117,7 +104,6 @@ private:
               ? fmt::format("{}`{}` is named twice; name it once", member.place, member.port)
               : fmt::format("{}`{}` and `{}` are one robot, {}; leave one of them out",
                             member.place, other->second, member.name, endpoint->text));
-    member.robot = named_robot(context, port);
     roster_.members.push_back(std::move(member));
     return {};
   }
@@ -158,7 +144,6 @@ private:
     return endpoint.text;
   }
 
-  const Context& context_;
   Roster& roster_;
   std::map<std::string, std::string> known_; ///< the names of the robots by where they are
 };
@@ -220,7 +205,7 @@ tl::expected<Roster, Failure> find_roster(const Context& context, const RosterOp
                               "robots of the file",
                               from_environment, options.file));
   roster.is_one = false;
-  Naming naming(context, roster);
+  Naming naming(roster);
   if (!options.file.empty()) {
     auto read = read_roster(options.file);
     if (!read)

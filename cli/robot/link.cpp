@@ -127,10 +127,8 @@ ExitCode Link::finish(const Context& context, ExitCode exit) {
   return InterruptGuard::asked() > 0 ? ExitCode::Interrupted : ExitCode::File;
 }
 
-namespace {
-
-tl::expected<Endpoint, Failure> find_endpoint(const Context& context, const PortOptions& options) {
-  const auto url = resolve_port(context.config, options.port);
+tl::expected<Endpoint, Failure> find_endpoint(const Config& config, const std::string& port) {
+  const auto url = resolve_port(config, port);
   if (!url)
     return failure(ExitCode::Usage, url.error().message);
   const auto endpoint = uploader::parse_endpoint(*url);
@@ -138,6 +136,23 @@ tl::expected<Endpoint, Failure> find_endpoint(const Context& context, const Port
     return failure(ExitCode::Usage, endpoint.error());
   return *endpoint;
 }
+
+std::optional<spec::Robot> named_robot(const Config& config, const std::string& port) {
+  if (port.starts_with("@"))
+    if (const auto ball = config.balls.find(port.substr(1));
+        ball != config.balls.end() && !ball->second.robot.empty())
+      return spec::find_robot(ball->second.robot)->robot;
+  const auto endpoint = find_endpoint(config, port);
+  if (!endpoint || endpoint->scheme != Scheme::Ble || endpoint->name.empty())
+    return std::nullopt;
+  const auto* name = spec::find_ble_name(endpoint->name);
+  for (const auto& row : spec::robots)
+    if (name != nullptr && row.ble == name->model && row.robot != spec::Robot::Sphero)
+      return row.robot;
+  return std::nullopt;
+}
+
+namespace {
 
 uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& options) {
   uploader::Budgets budgets;
@@ -147,22 +162,6 @@ uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& optio
   budgets.scan = budgets.ble_connect = budgets.services =
       parse_duration(options.step, 1s).value_or(budgets.scan);
   return uploader::ble_budgets(budgets);
-}
-
-/// The robot that the settings of `@ball`, or a name such as `SB-1A2B`, tell.
-std::optional<spec::Robot> named_robot(const Context& context, const Endpoint& endpoint,
-                                       const PortOptions& options) {
-  if (options.port.starts_with("@"))
-    if (const auto ball = context.config.balls.find(options.port.substr(1));
-        ball != context.config.balls.end() && !ball->second.robot.empty())
-      return spec::find_robot(ball->second.robot)->robot;
-  if (endpoint.scheme != Scheme::Ble || endpoint.name.empty())
-    return std::nullopt;
-  const auto* name = spec::find_ble_name(endpoint.name);
-  for (const auto& row : spec::robots)
-    if (name != nullptr && row.ble == name->model && row.robot != spec::Robot::Sphero)
-      return row.robot;
-  return std::nullopt;
 }
 
 /// Bluetooth delivers each packet once; what is behind other links, a relay perhaps, nobody knows.
@@ -183,15 +182,10 @@ bool may_double(const Endpoint& endpoint) {
 
 tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
                                                       const PortOptions& options) {
-  const auto endpoint = find_endpoint(context, options);
+  const auto endpoint = find_endpoint(context.config, options.port);
   if (!endpoint)
     return tl::unexpected(endpoint.error());
   return budgets_for(*endpoint, options);
-}
-
-std::optional<spec::Robot> named_robot(const Context& context, const PortOptions& options) {
-  const auto endpoint = find_endpoint(context, options);
-  return endpoint ? named_robot(context, *endpoint, options) : std::nullopt;
 }
 
 namespace {
@@ -245,7 +239,7 @@ tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
 
 tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options,
                                       const uploader::OnBleStep& on_step) {
-  const auto endpoint = find_endpoint(context, options);
+  const auto endpoint = find_endpoint(context.config, options.port);
   if (!endpoint)
     return tl::unexpected(endpoint.error());
   // Nothing may be done to a ball whose recording then cannot be written.
@@ -261,7 +255,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.is_ble = endpoint->scheme == Scheme::Ble;
   link.may_double = may_double(*endpoint);
-  link.named = named_robot(context, *endpoint, options);
+  link.named = named_robot(context.config, options.port);
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
   if (link.is_sim)

@@ -92,8 +92,13 @@ struct Link {
 tl::expected<uploader::Budgets, Failure> port_budgets(const Context& context,
                                                       const PortOptions& options);
 
-/// The robot that the name in the port tells, as `ble://SB-1A2B` does; nothing where none is there.
-std::optional<spec::Robot> named_robot(const Context& context, const PortOptions& options);
+/// What a URL, a bare path or `@ball` stands for; Usage where it stands for nothing.
+tl::expected<uploader::Endpoint, Failure> find_endpoint(const Config& config,
+                                                        const std::string& port);
+
+/// The robot that the settings of `@ball` tell, or the name in a URL, as `ble://SB-1A2B` does;
+/// nothing where neither does.
+std::optional<spec::Robot> named_robot(const Config& config, const std::string& port);
 
 /// Opens the link that the options name: a URL, a bare path or `@ball`. `on_step` hears of the
 /// steps of Bluetooth LE.

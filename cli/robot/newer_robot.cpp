@@ -16,7 +16,7 @@ const spec::RobotInfo* newer_robot(const Context& context, const PortOptions& op
                                    std::string_view robot) {
   const auto* row = spec::find_robot(robot);
   if (row == nullptr)
-    if (const auto named = named_robot(context, options))
+    if (const auto named = named_robot(context.config, options.port))
       row = &spec::info(*named);
   return row != nullptr && row->packets == spec::Packets::V2 ? row : nullptr;
 }

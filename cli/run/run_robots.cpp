@@ -16,9 +16,8 @@ std::string_view for_one_robot(const RunOptions& options) {
              ? "`--open` and `--report -` show one robot; with several write `--report OUT.html`, "
                "which is a page for each"
          : !options.trace.empty() && options.trace_out.empty()
-             ? "a trace is of one robot; with several write `--trace-out FILE`, which is a file "
-               "for "
-               "each"
+             ? "a trace is of one robot; with several write `--trace-out FILE`, which is a "
+               "file for each"
          : !options.compare.empty()    ? "`--compare` shows one robot; with several leave it out"
          : options.input == from_stdin ? "numbers that are typed go to one robot; with several "
                                          "write them, as in `--input 1,2`"

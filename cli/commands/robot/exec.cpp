@@ -188,14 +188,14 @@ void run(Context& context, const ExecOptions& options) {
 
 /// Why the command is not for one of several robots.
 std::optional<std::string> misfit(const ExecOptions& options, const Member& member) {
-  const auto& robot = spec::info(member.robot.value_or(spec::Robot::Sphero));
-  const bool is_v1 = spec::find_command(options.name) != nullptr;
-  const auto* v2 = spec::find_v2_command(options.name);
-  if (!member.robot || (is_v1 && v2 != nullptr) || (!is_v1 && v2 == nullptr))
+  if (!member.robot)
     return std::nullopt;
-  const bool fits =
-      robot.packets == spec::Packets::V1 ? is_v1 : v2 != nullptr && spec::knows(robot, *v2);
-  if (fits)
+  const auto& robot = spec::info(*member.robot);
+  const auto* v2 = spec::find_v2_command(options.name);
+  const bool knows = robot.packets == spec::Packets::V1
+                         ? spec::find_command(options.name) != nullptr
+                         : v2 != nullptr && spec::knows(robot, *v2);
+  if (knows)
     return std::nullopt;
   return fmt::format("is a {}, which has no command `{}`; leave it out, or write another command "
                      "for it",
@@ -238,9 +238,7 @@ void add_exec(const Command& orb, Context& context) {
     with_robots(context, options->roster, many,
                 [&](Context& own, const Member& robot, const Row* row) {
                   auto one = *options;
-                  one.port.port = robot.port;
-                  if (row != nullptr)
-                    one.port.record = file_of(one.port.record, robot);
+                  one.port = port_of(one.port, robot, row);
                   run(own, one);
                 });
   });

@@ -306,12 +306,9 @@ void add_info(const Command& orb, Context& context) {
     many.json = options->format == "json";
     with_robots(
         context, options->roster, many, [&](Context& own, const Member& robot, const Row* row) {
-          auto port = options->port;
-          port.port = robot.port;
           const auto in_table = row != nullptr && options->format == "text";
-          if (row != nullptr)
-            port.record = file_of(port.record, robot);
-          run(own, port, in_table ? std::string(row_format) : options->format, options->robot);
+          run(own, port_of(options->port, robot, row),
+              in_table ? std::string(row_format) : options->format, options->robot);
         });
   });
 }

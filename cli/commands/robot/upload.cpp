@@ -200,7 +200,7 @@ std::optional<std::string> misfit(const UploadOptions& options, const Member& me
                      member.port);
 }
 
-/// What is written about the port of the options, which says how it is packed.
+/// Shows the packets for the one robot that is named: its link says how they are packed.
 void dry_run(Context& context, UploadOptions& options, const uploader::Delivery& delivery) {
   if (!options.roster.file.empty() || options.roster.ports.size() > 1)
     return cli::fail(context, {ExitCode::Usage, "`--dry-run` shows the packets for one robot; name "
@@ -235,9 +235,7 @@ void upload(Context& context, UploadOptions& options) {
   many.misfit = [&](const Member& robot) { return misfit(options, robot); };
   with_robots(context, options.roster, many, [&](Context& own, const Member& robot, Row* row) {
     auto one = options;
-    one.port.port = robot.port;
-    if (row != nullptr)
-      one.port.record = file_of(one.port.record, robot);
+    one.port = port_of(one.port, robot, row);
     auto own_delivery = *delivery;
     own_delivery.port = robot.port;
     own.exit = send(own, one, own_delivery, lookup_of(*inputs), row);
