@@ -17,7 +17,7 @@ void omit(CaseResult& one) {
   one.misses = {};
   one.problem = {};
   one.again = {};
-  one.journey = {};
+  one.footage = {};
   one.omitted = true;
 }
 

@@ -4,6 +4,7 @@
 #include "report/journey.h"
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +34,14 @@ struct Miss {
   std::string where;      ///< what ran then: `corner.bas:4: 40 goroll 90,100,1`; may be empty
 };
 
+/// What was seen of a ball in a case.
+struct SeenBall {
+  std::string name; ///< in a room; empty for a ball alone
+  report::Journey journey;
+};
+/// All balls of a case, in the order of their names. A deque keeps them where they are.
+using Footage = std::deque<SeenBall>;
+
 struct CaseResult {
   std::uint64_t seed = 1;
   Verdict verdict = Verdict::Passed;
@@ -42,7 +51,7 @@ struct CaseResult {
   std::string problem; ///< with Verdict::Error
   std::string again;   ///< the command that shows a failure; empty where none does
   /// What was seen of it; null where running it once more shows the same.
-  std::shared_ptr<const report::Journey> journey;
+  std::shared_ptr<const Footage> footage;
   bool omitted = false; ///< it did not pass, and these three are not kept
 };
 

@@ -328,9 +328,20 @@ void run_and_add(std::span<const run::RoomBall> balls, CaseResult& result) {
   }
 }
 
-/// Judges all balls of a room; `journey` is that of the first one.
+/// Where the journeys of the balls are gathered: by their names, as pictures have them.
+void film(std::vector<run::RoomBall>& balls, Footage& footage) {
+  std::vector<run::RoomBall*> by_name;
+  for (auto& ball : balls)
+    by_name.push_back(&ball);
+  std::sort(by_name.begin(), by_name.end(),
+            [](const auto* a, const auto* b) { return a->name < b->name; });
+  for (auto* ball : by_name)
+    ball->journey = &footage.emplace_back(SeenBall{ball->name, {}}).journey;
+}
+
+/// Judges all balls of a room.
 CaseResult judge_room(const Suite& suite, const Group& group, const run::Options& options,
-                      Court::Goes goes, report::Journey* journey) {
+                      Court::Goes goes, Footage* footage) {
   const auto& test = suite.test_of(group);
   CaseResult result;
   result.seed = options.seed;
@@ -341,7 +352,8 @@ CaseResult judge_room(const Suite& suite, const Group& group, const run::Options
   std::deque<Court> courts;
   for (std::size_t i = 0; i < balls.size(); ++i)
     balls[i].listener = &courts.emplace_back(test, group, goes, i, &all);
-  balls.front().journey = journey;
+  if (footage != nullptr)
+    film(balls, *footage);
   if (result.problem.empty())
     run_and_add(balls, result);
   if (!result.problem.empty()) {
@@ -367,12 +379,13 @@ CaseResult judge_room(const Suite& suite, const Group& group, const run::Options
 } // namespace
 
 CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
-                    vm::NativePrograms* native, report::Journey* journey) {
+                    vm::NativePrograms* native, Footage* footage) {
   auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
   options.native_programs = native;
-  const auto goes = journey == nullptr ? Court::Goes::UntilKnown : Court::Goes::ToTheEnd;
+  const auto goes = footage == nullptr ? Court::Goes::UntilKnown : Court::Goes::ToTheEnd;
   if (!group.room.empty())
-    return judge_room(suite, group, options, goes, journey);
+    return judge_room(suite, group, options, goes, footage);
+  auto* journey = footage == nullptr ? nullptr : &footage->emplace_back().journey;
   return judge_case(
       suite, group, options, goes, [&](const run::Options& given, run::Listener& listener) {
         return run::run(suite.programs[group.program].inputs, given, listener, journey);
@@ -381,13 +394,14 @@ CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
 
 CaseResult play_case(const Suite& suite, const Group& group, std::uint64_t seed, const Play& play) {
   const auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
-  auto journey = std::make_shared<report::Journey>();
+  auto footage = std::make_shared<Footage>(1);
   auto result = judge_case(suite, group, options, Court::Goes::UntilKnown,
                            [&](const run::Options& given, run::Listener& listener) {
-                             return play(suite, group, given, listener, *journey);
+                             return play(suite, group, given, listener,
+                                         footage->front().journey);
                            });
   result.again.clear(); // the virtual ball would do something else
-  result.journey = std::move(journey);
+  result.footage = std::move(footage);
   return result;
 }
 

@@ -34,10 +34,10 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
 /// The world of a test: what it runs with.
 run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed);
 
-/// Runs one case on the virtual ball. Where `journey` is not null, it is gathered and the run goes
-/// on to its end.
+/// Runs one case on the virtual ball. Where `footage` is not null, all that is seen is gathered,
+/// and the run goes on to its end.
 CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
-                    vm::NativePrograms* native, report::Journey* journey);
+                    vm::NativePrograms* native, Footage* footage);
 
 /// Runs one case elsewhere, and keeps what was seen of it: it cannot be seen again.
 CaseResult play_case(const Suite& suite, const Group& group, std::uint64_t seed, const Play& play);

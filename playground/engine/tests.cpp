@@ -73,12 +73,12 @@ Answer replay(Request& request) {
   if (!program.problem.empty())
     return refuse(ExitCode::BadInput, program.problem);
   const auto seed = request.value<std::uint64_t>("seed").value_or(group.seeds.first);
-  report::Journey journey;
-  testing::run_case(*suite, group, seed, nullptr, &journey);
+  testing::Footage footage;
+  testing::run_case(*suite, group, seed, nullptr, &footage);
   const auto title =
       fmt::format("{}: {}, seed {}", program.name, suite->test_of(group).name.text, seed);
   return fmt::format(R"({{"report":{}}})",
-                     report::run_json(journey, title, structured::keyword_words));
+                     report::run_json(footage.front().journey, title, structured::keyword_words));
 }
 
 } // namespace orb::playground

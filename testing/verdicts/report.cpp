@@ -42,6 +42,32 @@ table{border-collapse:collapse;margin:1rem 0;display:block;overflow-x:auto}td,th
 a{color:inherit}pre{white-space:pre-wrap;font-size:.85em;margin:.4rem 0 0}
 )css";
 
+std::vector<report::RoomRun> room_of(const Footage& footage) {
+  std::vector<report::RoomRun> balls;
+  for (const auto& ball : footage)
+    balls.push_back({ball.name, &ball.journey});
+  return balls;
+}
+
+bool is_room(const Footage& footage) {
+  return !footage.front().name.empty();
+}
+
+std::string drawing(const Footage& footage) {
+  return is_room(footage) ? report::room_svg(room_of(footage))
+                          : report::path_svg(footage.front().journey);
+}
+
+std::string replay_page(const Footage& footage, std::string_view title) {
+  return is_room(footage) ? report::room_page(room_of(footage), title)
+                          : report::report_page(footage.front().journey, title);
+}
+
+/// What was tested: a program, or all those of a room.
+std::string subject(const Group& group, const GroupResult& told) {
+  return group.room.empty() ? told.program : fmt::format("a room of {}", group.room.size());
+}
+
 /// How a program did in all of its tests.
 struct Pupil {
   std::string picture; ///< of its first run that failed, else of its first
@@ -152,7 +178,7 @@ private:
     body +=
         fmt::format("<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
                     "</span></h2>\n",
-                    told.first, word, word, escape_markup(told.test), escape_markup(told.program),
+                    told.first, word, word, escape_markup(told.test), escape_markup(subject(suite_.groups[index], told)),
                     escape_markup(told.file), told.line);
     // Each run of a program that cannot run would say the same.
     const auto* failure = first_failure(told);
@@ -188,20 +214,20 @@ private:
         body += card(one, {}, {});
       return true;
     }
-    report::Journey virtual_run;
-    if (one.journey == nullptr)
+    Footage virtual_run;
+    if (one.footage == nullptr)
       run_case(suite_, group, one.seed, nullptr, &virtual_run);
-    const auto& journey = one.journey == nullptr ? virtual_run : *one.journey;
+    const auto& footage = one.footage == nullptr ? virtual_run : *one.footage;
     ++pictures_;
     const auto picture = name + ".svg";
-    if (!pages_.write(picture, report::path_svg(journey)))
+    if (!pages_.write(picture, drawing(footage)))
       return false;
     std::string replay;
     if (failed && replays_ < most_replays) {
       ++replays_;
       replay = name + ".html";
-      const auto title = fmt::format("{}: {}, seed {}", told.program, told.test, one.seed);
-      if (!pages_.write(replay, report::report_page(journey, title)))
+      const auto title = fmt::format("{}: {}, seed {}", subject(group, told), told.test, one.seed);
+      if (!pages_.write(replay, replay_page(footage, title)))
         return false;
     }
     auto& pupil = pupils_[told.program];
