@@ -117,8 +117,7 @@ tl::expected<void, Failure> read_test(const Launch& launch, structured::Files& f
   if (!program.problem.empty())
     return failed(ExitCode::BadInput, program.problem.substr(0, program.problem.find('\n')));
   made.inputs = program.inputs;
-  made.options = testing::options_of(made.suite->files[group.file], made.suite->test_of(group),
-                                     launch.seed.value_or(group.seeds.first));
+  made.options = testing::options_of(*made.suite, group, launch.seed.value_or(group.seeds.first));
   return {};
 }
 
@@ -139,6 +138,8 @@ tl::expected<std::unique_ptr<Launched>, Failure> read(const Launch& launch,
   made->options.numbers = launch.numbers;
   made->options.client = launch.client;
   made->options.bound = Duration{};
+  if (launch.profile)
+    made->options.drive_like(*launch.profile);
   return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/exit_code.h"
 #include "report/course.h"
+#include "run/calibrate/profile.h"
 #include "run/run.h"
 #include "structured/text/files.h"
 #include "testing/suite.h"
@@ -27,6 +28,7 @@ struct Launch {
   std::optional<std::uint64_t> seed;
   std::vector<std::int32_t> numbers; ///< for `input`
   run::Client client = run::Client::Connected;
+  std::optional<run::Profile> profile; ///< of the robot that the virtual ball drives like
   /// Of structured programs; where nothing is wanted, a test has those that it was judged with and
   /// everything else is steppable.
   std::optional<structured::Shape> shape;

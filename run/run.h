@@ -27,6 +27,8 @@
 
 namespace orb::run {
 
+struct Profile;
+
 /// Whether a client is connected while the program runs.
 enum class Client : std::uint8_t { Connected, Absent };
 
@@ -75,6 +77,9 @@ struct Options {
   vm::Sample robot_sample;        ///< what that said of itself before the start
   std::string expect;             ///< printed: the run stops well; empty for none
   std::string fail_text;          ///< printed: the run stops as a failure; empty for none
+
+  /// The virtual ball drives like the robot of that profile.
+  void drive_like(const Profile& profile);
 };
 
 /// A fault of the robot and where it is in the user's file.

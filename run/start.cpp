@@ -1,6 +1,7 @@
 #include "run/start.h"
 
 #include "compiler/load.h"
+#include "run/calibrate/profile.h"
 #include "uploader/upload.h"
 
 #include <algorithm>
@@ -8,6 +9,12 @@
 #include <utility>
 
 namespace orb::run {
+
+void Options::drive_like(const Profile& profile) {
+  model = profile.robot;
+  driving = profile.driving;
+}
+
 namespace {
 
 tl::expected<void, Failure> deliver(uploader::Session& session,

@@ -70,14 +70,16 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   const auto& file = suite.files[group.file];
   const auto& test = suite.test_of(group);
   const auto& program = suite.programs[group.program];
+  const auto ball = suite.ball ? option("--ball", suite.ball->name) : std::string();
   if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
     auto command = fmt::format("orb test {}{} --seeds {}..{}", path_word(file.source->name()),
-                               option("--only", test.name.text), seed, seed);
+                               option("--only", test.name.text), seed, seed) +
+                   ball;
     return group.room.empty()
                ? fmt::format("{} --program {} --report report", command, path_word(program.name))
                : command + " --report report";
   }
-  std::string command = "orb run " + path_word(program.name);
+  std::string command = "orb run " + path_word(program.name) + ball;
   for (const auto& with : file.file.with)
     command += " " + path_word(structured::resolve_path(file.source->name(), with.text));
   if (test.bound != default_bound)

@@ -249,7 +249,9 @@ Miss miss_of(const Suite& suite, const Group& group, const Expectation& one, con
 
 } // namespace
 
-run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed) {
+run::Options options_of(const Suite& suite, const Group& group, std::uint64_t seed) {
+  const auto& file = suite.files[group.file];
+  const auto& test = suite.test_of(group);
   run::Options options;
   options.bound = test.bound;
   options.seed = seed;
@@ -260,6 +262,8 @@ run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t s
   options.until = run::Until::Rest;
   if (std::any_of(test.expectations.begin(), test.expectations.end(), watches_steps))
     options.steps = run::Steps::Heard;
+  if (suite.ball)
+    options.drive_like(suite.ball->profile);
   return options;
 }
 
@@ -380,7 +384,7 @@ CaseResult judge_room(const Suite& suite, const Group& group, const run::Options
 
 CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
                     vm::NativePrograms* native, Footage* footage) {
-  auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
+  auto options = options_of(suite, group, seed);
   options.native_programs = native;
   const auto goes = footage == nullptr ? Court::Goes::UntilKnown : Court::Goes::ToTheEnd;
   if (!group.room.empty())
@@ -393,12 +397,11 @@ CaseResult run_case(const Suite& suite, const Group& group, std::uint64_t seed,
 }
 
 CaseResult play_case(const Suite& suite, const Group& group, std::uint64_t seed, const Play& play) {
-  const auto options = options_of(suite.files[group.file], suite.test_of(group), seed);
+  const auto options = options_of(suite, group, seed);
   auto footage = std::make_shared<Footage>(1);
   auto result = judge_case(suite, group, options, Court::Goes::UntilKnown,
                            [&](const run::Options& given, run::Listener& listener) {
-                             return play(suite, group, given, listener,
-                                         footage->front().journey);
+                             return play(suite, group, given, listener, footage->front().journey);
                            });
   result.again.clear(); // the virtual ball would do something else
   result.footage = std::move(footage);

@@ -32,7 +32,7 @@ public:
 Results run_suite(const Suite& suite, const RunOptions& options, Progress& progress);
 
 /// The world of a test: what it runs with.
-run::Options options_of(const SuiteFile& file, const Test& test, std::uint64_t seed);
+run::Options options_of(const Suite& suite, const Group& group, std::uint64_t seed);
 
 /// Runs one case on the virtual ball. Where `footage` is not null, all that is seen is gathered,
 /// and the run goes on to its end.

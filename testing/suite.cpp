@@ -445,6 +445,7 @@ bool Suite::has_errors() const {
 tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const SuiteOptions& options,
                                         structured::Files& from) {
   Suite suite;
+  suite.ball = options.ball;
   EachOnce files(from);
   std::vector<std::string> wanted;
   std::set<std::string> known;

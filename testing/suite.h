@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/exit_code.h"
+#include "run/calibrate/profile.h"
 #include "run/input.h"
 #include "testing/judge.h"
 #include "testing/text/test_file.h"
@@ -52,12 +53,19 @@ struct Group {
   std::vector<std::size_t> room; ///< the programs of the balls of a room; empty for one ball
 };
 
+/// A robot that was measured, and what the user calls it.
+struct NamedProfile {
+  std::string name;
+  run::Profile profile;
+};
+
 /// What is to be run: cases are numbered over file, test, program and seed, in that order.
 struct Suite {
   std::vector<SuiteFile> files;
   std::vector<Prepared> programs;
   std::vector<Group> groups;
   std::uint64_t cases = 0;
+  std::optional<NamedProfile> ball; ///< which robot virtual balls drive like
 
   bool has_errors() const;
   const Test& test_of(const Group& group) const { return files[group.file].file.tests[group.test]; }
@@ -70,6 +78,7 @@ struct SuiteOptions {
   std::optional<Seeds> seeds;                  ///< in place of theirs
   std::string only; ///< the one test to run, by its exact name; empty for all
   structured::Shape shape = structured::Shape::Shortest; ///< of structured programs
+  std::optional<NamedProfile> ball;                      ///< which robot virtual balls drive like
 };
 
 /// A file as it was found: what findings call it, and its text.

@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
+#include "cli/robot/ball_profile.h"
 #include "cli/robot/driven_robot.h"
 #include "cli/terminal/interrupt.h"
 #include "debug/launch.h"
@@ -24,6 +25,7 @@ struct DebugOptions {
   bool disconnected = false;
   bool plain = false;
   bool optimized = false;
+  std::string ball; ///< a profile; empty for none
   PortOptions port; ///< of a robot; empty for the virtual ball
   std::string robot;
 };
@@ -83,23 +85,41 @@ robot_for(const Context& context, const debug::Launched& launched, const DebugOp
   return hold_robot(context, options.port, options.robot);
 }
 
-void debug_it(Context& context, const DebugOptions& options) {
+/// What the options ask for, as far as they go together.
+tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
+  const auto refuse = [](std::string_view message) {
+    return tl::unexpected(Failure{ExitCode::Usage, std::string(message)});
+  };
   auto launch = options.launch;
   if (launch.files.empty() && launch.test.empty())
-    return fail(context, {ExitCode::Usage, "name a program, or a test file with `--test`"});
+    return refuse("name a program, or a test file with `--test`");
   if (!launch.test_name.empty() && launch.test.empty())
-    return fail(context,
-                {ExitCode::Usage, "`--only` names a test of the file that `--test` names"});
+    return refuse("`--only` names a test of the file that `--test` names");
   if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
-    return fail(context, {ExitCode::Usage, "`--test` brings its course and what happens: leave "
-                                           "`--course` and `--stimulus` out"});
+    return refuse("`--test` brings its course and what happens: leave `--course` and `--stimulus` "
+                  "out");
+  if (!options.ball.empty() && !options.port.port.empty())
+    return refuse("`--ball` says how a virtual ball drives; leave it out, or leave `--port` out");
+  if (!options.ball.empty()) {
+    const auto profile = read_profile(options.ball, {});
+    if (!profile)
+      return tl::unexpected(profile.error());
+    launch.profile = *profile;
+  }
   launch.seed = options.seed;
   if (options.disconnected)
     launch.client = run::Client::Absent;
   if (options.plain || options.optimized)
     launch.shape = options.plain ? structured::Shape::Steppable : structured::Shape::Shortest;
+  return launch;
+}
+
+void debug_it(Context& context, const DebugOptions& options) {
+  const auto launch = launch_of(options);
+  if (!launch)
+    return fail(context, launch.error());
   DiskFiles files;
-  const auto launched = debug::read(launch, files);
+  const auto launched = debug::read(*launch, files);
   if (!launched)
     return fail_by_line(context, launched.error());
   std::optional<InterruptGuard> guard; // however it ends, the robot is put back as it was
@@ -155,6 +175,8 @@ void add_debug(const Command& orb, Context& context) {
       .add_flag("--optimized", options->optimized,
                 "the lines that are sent to a robot, which may stand for several statements")
       .excludes(plain);
+  add_ball_option(command, options->ball,
+                  "the virtual ball drives like the robot that `orb calibrate` measured");
   add_robot_port_options(command, options->port, options->robot);
   command.add_option("--do", options->commands, "a command to begin with; may be given again")
       .one_value_each()

@@ -3,6 +3,7 @@
 #include "cli/input/inputs.h"
 #include "cli/input/programs.h"
 #include "cli/model/checks.h"
+#include "cli/robot/ball_profile.h"
 #include "cli/run/robot_stage.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
@@ -39,6 +40,7 @@ struct TestOptions {
   std::string format = "text";
   std::string output;
   std::string report;
+  std::string ball; ///< a profile; empty for none
   PortOptions port; ///< of a robot; empty for the virtual ball
   std::string robot;
   bool yes = false;
@@ -194,6 +196,12 @@ tl::expected<void, Failure> write_report(const std::string& folder, const testin
 tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& options) {
   testing::SuiteOptions wanted;
   wanted.only = options.only;
+  if (!options.ball.empty()) {
+    auto profile = read_profile(options.ball, {});
+    if (!profile)
+      return tl::unexpected(profile.error());
+    wanted.ball = testing::NamedProfile{options.ball, *profile};
+  }
   if (options.seeds.empty())
     return wanted;
   wanted.seeds = testing::parse_seeds(options.seeds);
@@ -247,7 +255,7 @@ tl::expected<void, Failure> tell(Context& context, const TestOptions& options,
 /// Joins the results of shards.
 tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
   if (!options.report.empty() || !options.programs.empty() || !options.seeds.empty() ||
-      !options.shard.empty() || !options.only.empty())
+      !options.shard.empty() || !options.only.empty() || !options.ball.empty())
     return tl::unexpected(Failure{
         ExitCode::Usage, "`--merge` runs nothing: it takes only `--format` and `--output`"});
   if (options.paths == test_paths)
@@ -332,6 +340,8 @@ tl::expected<void, Failure> check_port(const TestOptions& options) {
       return refuse("`--yes` is for tests on a robot; add `--port`");
     if (!options.robot.empty())
       return refuse("`--robot` says which robot answers; add `--port`");
+  } else if (!options.ball.empty()) {
+    return refuse("`--ball` says how a virtual ball drives; leave it out, or leave `--port` out");
   } else if (options.jobs > 1) {
     return refuse("a robot runs one test at a time; leave `--jobs` out");
   }
@@ -415,6 +425,8 @@ void add_test(const Command& orb, Context& context) {
       .add_option("--report", options->report,
                   "a folder for a page with a picture of each run and a replay of each failure")
       .type_name("FOLDER");
+  add_ball_option(command, options->ball,
+                  "virtual balls drive like the robot that `orb calibrate` measured");
   add_robot_port_options(command, options->port, options->robot);
   command.add_flag("--yes", options->yes,
                    "the robot is on its mark: nobody is asked before a test on it");

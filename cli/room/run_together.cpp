@@ -78,8 +78,10 @@ tl::expected<run::Options, Failure> options_of(const Context& context, const run
   auto options = all;
   options.start = ball.start;
   options.seed = ball.seed.value_or(run::seed_of(all.seed, ball.name));
-  if (!ball.robot.empty())
+  if (!ball.robot.empty()) { // its own goes before `--robot` and `--ball` of all
     options.model = spec::find_robot(ball.robot)->robot;
+    options.driving.reset();
+  }
   auto own = read_stimuli(context, ball.stimuli);
   if (!own)
     return tl::unexpected(own.error());

@@ -58,8 +58,7 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
     const auto profile = read_profile(given.ball, given.robot);
     if (!profile)
       return tl::unexpected(profile.error());
-    options.model = profile->robot;
-    options.driving = profile->driving;
+    options.drive_like(*profile);
   }
   options.native = given.native == "on"    ? vm::Native::On
                    : given.native == "off" ? vm::Native::Off
