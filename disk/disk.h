@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "base/io_error.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -59,6 +60,10 @@ std::string_view what_else(const std::string& path);
 
 /// What links at `path` lead to, even where that is not there yet.
 std::string target_of_links(std::string path);
+
+/// The path that a text in UTF-8 names. Where std::filesystem takes narrow characters for those of
+/// some other encoding, on Windows, it would not be that one.
+std::filesystem::path as_path(std::string_view path);
 
 /// How a file is called in messages: its path, or `<stdin>` for `-`.
 std::string display_name(const std::string& path);

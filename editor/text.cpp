@@ -1,5 +1,6 @@
 #include "editor/text.h"
 
+#include "base/path.h"
 #include "base/text.h"
 #include "base/utf8.h"
 
@@ -70,13 +71,15 @@ std::string path_of_uri(std::string_view uri) {
     path += is_code ? static_cast<char>(byte) : uri[i];
     i += is_code ? 2 : 0;
   }
+  if (path.starts_with('/') && has_drive(std::string_view(path).substr(1)))
+    path.erase(0, 1);
   return path;
 }
 
 std::string uri_of_path(std::string_view path) {
-  if (!path.starts_with('/'))
+  if (!is_absolute_path(path))
     return std::string(path);
-  std::string uri = "file://";
+  std::string uri = has_drive(path) ? "file:///" : "file://";
   for (const char c : path) {
     const bool plain =
         is_letter(c) || is_digit(c) || std::string_view("/-._~").find(c) != path.npos;

@@ -5,6 +5,7 @@
 #if defined(ORB_BLE)
 
 #include "base/random.h"
+#include "serve/descriptor_link.h"
 #include "serve/private_bus.h"
 
 #include <algorithm>
@@ -118,10 +119,10 @@ private:
 };
 
 /// A robot: its device and characteristics on the bus, and the client's end of a link to the ball.
-class Robot final : public Link {
+class Robot final : public DescriptorLink {
 public:
   Robot(Computer& computer, std::string name, const std::string& address, spec::BleModel model)
-      : Link(computer.io()), computer_(computer), name_(std::move(name)), model_(model),
+      : DescriptorLink(computer.io()), computer_(computer), name_(std::move(name)), model_(model),
         protocol_(computer.plan().newer ? spec::BleProtocol::V2 : spec::info(model).protocol),
         peer_(computer.io()), drop_once_(computer.plan().drop_once),
         balk_once_(computer.plan().balk_once) {

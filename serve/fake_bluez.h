@@ -5,6 +5,7 @@
 #include "serve/link.h"
 #include "spec/ble.h"
 
+#include <asio/io_context.hpp>
 #include <memory>
 #include <string>
 #include <tl/expected.hpp>

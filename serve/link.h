@@ -2,11 +2,11 @@
 
 #include "base/bytes.h"
 
-#include <asio/posix/stream_descriptor.hpp>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <sys/types.h>
 
 namespace orb::serve {
 
@@ -29,9 +29,8 @@ protected:
 /// A way to a ball: clients come and go on it, one at a time. Nothing here blocks.
 class Link {
 public:
-  using Ready = asio::posix::descriptor_base::wait_type;
+  enum class Ready : std::uint8_t { Read, Write };
 
-  explicit Link(asio::io_context& io) : stream_(io) {}
   virtual ~Link() = default;
   /// Where clients find it, such as `tcp 127.0.0.1:4242`.
   virtual std::string address() const = 0;
@@ -43,15 +42,12 @@ public:
   virtual bool can_hang_up() const = 0;
 
   /// Calls `handler` once, when the client can be read from or written to.
-  void wait(Ready ready, std::function<void()> handler);
+  virtual void wait(Ready ready, std::function<void()> handler) = 0;
   /// As read(2) and write(2).
-  ssize_t read(std::span<std::uint8_t> buffer);
-  virtual ssize_t write(ByteView bytes);
+  virtual ssize_t read(std::span<std::uint8_t> buffer) = 0;
+  virtual ssize_t write(ByteView bytes) = 0;
   /// Whether nobody is at the other end (any more); bytes may still wait.
-  bool client_left();
-
-protected:
-  asio::posix::stream_descriptor stream_;
+  virtual bool client_left() = 0;
 };
 
 } // namespace orb::serve

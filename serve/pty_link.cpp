@@ -141,7 +141,7 @@ bool PtyLink::has_visit() {
 /// The settings are looked at before each write: an echo of it would come back as a command.
 ssize_t PtyLink::write(ByteView bytes) {
   keep_raw(stream_.native_handle());
-  return Link::write(bytes);
+  return DescriptorLink::write(bytes);
 }
 
 void PtyLink::hang_up() {

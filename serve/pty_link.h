@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/io_error.h"
-#include "serve/link.h"
+#include "serve/descriptor_link.h"
 
 #include <asio/steady_timer.hpp>
 #include <tl/expected.hpp>
@@ -10,9 +10,9 @@ namespace orb::serve {
 
 /// The master of a raw pty, and a symlink to its slave. It has to be asked whether a client has
 /// opened the slave.
-class PtyLink final : public Link {
+class PtyLink final : public DescriptorLink {
 public:
-  explicit PtyLink(asio::io_context& io) : Link(io), timer_(io) {}
+  explicit PtyLink(asio::io_context& io) : DescriptorLink(io), timer_(io) {}
   PtyLink(const PtyLink&) = delete;
   PtyLink& operator=(const PtyLink&) = delete;
   ~PtyLink() override;

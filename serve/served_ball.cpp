@@ -2,7 +2,7 @@
 
 #include "disk/disk.h"
 #include "protocol/recording.h"
-#include "serve/pty_link.h"
+#include "serve/open_pty.h"
 #include "serve/tcp_link.h"
 #include "vm/bluetooth.h"
 #include "vm/state.h"
@@ -80,17 +80,14 @@ tl::expected<void, IoError> ServedBall::load() {
 }
 
 tl::expected<void, IoError> ServedBall::open_pty() {
-  auto pty = std::make_unique<PtyLink>(io_);
-  if (auto opened = pty->open(); !opened) {
-    if (!options_.tcp)
-      return opened;
-    options_.warn(opened.error().message + "; this ball is on TCP only");
+  auto pty = open_pty_link(io_, numbered(options_.pty_link));
+  if (!pty && pty.error().has_no_pty && options_.tcp) {
+    options_.warn(pty.error().error.message + "; this ball is on TCP only");
     return {};
   }
-  if (const auto path = numbered(options_.pty_link); !path.empty())
-    if (auto linked = pty->make_link(path); !linked)
-      return linked;
-  links_.push_back(std::move(pty));
+  if (!pty)
+    return tl::unexpected(pty.error().error);
+  links_.push_back(*std::move(pty));
   return {};
 }
 
@@ -124,7 +121,7 @@ tl::expected<void, IoError> ServedBall::open() {
     return loaded;
   if (!options_.log_file.empty()) {
     const auto path = numbered(options_.log_file);
-    log_.open(path);
+    log_.open(disk::as_path(path));
     if (!log_)
       return tl::unexpected(
           IoError{fmt::format("cannot write {}: {}", path, std::strerror(errno))});
@@ -225,7 +222,7 @@ void ServedBall::await_input() {
   if (reading_ || client_ == nullptr || backlog_.size() > backlog_most)
     return;
   reading_ = true;
-  wait_client(Link::Ready::wait_read, &ServedBall::on_input);
+  wait_client(Link::Ready::Read, &ServedBall::on_input);
 }
 
 void ServedBall::on_input() {
@@ -357,7 +354,7 @@ void ServedBall::lose_client() {
 
 void ServedBall::write_backlog() {
   if (!std::exchange(writing_, true))
-    wait_client(Link::Ready::wait_write, &ServedBall::on_writable);
+    wait_client(Link::Ready::Write, &ServedBall::on_writable);
 }
 
 void ServedBall::on_writable() {

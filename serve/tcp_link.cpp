@@ -1,11 +1,27 @@
 #include "serve/tcp_link.h"
 
+#include "serve/other_end.h"
+
+#include <asio/buffer.hpp>
+#include <cerrno>
 #include <fmt/format.h>
 #include <utility>
 
 namespace orb::serve {
 
 using asio::ip::tcp;
+
+namespace {
+
+/// As read(2) and write(2) say it.
+ssize_t result(std::size_t size, const asio::error_code& error) {
+  if (!error || error == asio::error::eof)
+    return static_cast<ssize_t>(size);
+  errno = error == asio::error::would_block ? EAGAIN : error.default_error_condition().value();
+  return -1;
+}
+
+} // namespace
 
 tl::expected<void, IoError> TcpLink::listen(const std::string& host, int port) {
   asio::error_code error;
@@ -56,9 +72,33 @@ void TcpLink::let_in(Door& door, tcp::socket socket) {
   asio::error_code ignored;
   socket.set_option(tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::keep_alive(true), ignored);
-  stream_.assign(socket.release());
-  stream_.native_non_blocking(true, ignored);
+  socket_ = std::move(socket);
+  socket_.non_blocking(true, ignored);
   door.enter(*this);
+}
+
+void TcpLink::wait(Ready ready, std::function<void()> handler) {
+  socket_.async_wait(ready == Ready::Read ? tcp::socket::wait_read : tcp::socket::wait_write,
+                     [handler = std::move(handler)](asio::error_code error) {
+                       if (error != asio::error::operation_aborted)
+                         handler();
+                     });
+}
+
+ssize_t TcpLink::read(std::span<std::uint8_t> buffer) {
+  asio::error_code error;
+  const auto size = socket_.read_some(asio::buffer(buffer.data(), buffer.size()), error);
+  return result(size, error);
+}
+
+ssize_t TcpLink::write(ByteView bytes) {
+  asio::error_code error;
+  const auto size = socket_.write_some(asio::buffer(bytes.data(), bytes.size()), error);
+  return result(size, error);
+}
+
+bool TcpLink::client_left() {
+  return other_end_left(static_cast<int>(socket_.native_handle()));
 }
 
 } // namespace orb::serve

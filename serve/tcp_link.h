@@ -11,7 +11,7 @@ namespace orb::serve {
 /// A TCP port. A client that knocks while another one is there is turned away.
 class TcpLink final : public Link {
 public:
-  explicit TcpLink(asio::io_context& io) : Link(io), acceptor_(io) {}
+  explicit TcpLink(asio::io_context& io) : socket_(io), acceptor_(io) {}
 
   /// Listens on a port of this machine; 0 picks a free one.
   tl::expected<void, IoError> listen(const std::string& host, int port);
@@ -21,12 +21,17 @@ public:
 
   std::string address() const override;
   void start(Door& door) override;
-  void hang_up() override { stream_.close(); }
+  void hang_up() override { socket_.close(); }
   bool can_hang_up() const override { return true; }
+  void wait(Ready ready, std::function<void()> handler) override;
+  ssize_t read(std::span<std::uint8_t> buffer) override;
+  ssize_t write(ByteView bytes) override;
+  bool client_left() override;
 
 private:
   void let_in(Door& door, asio::ip::tcp::socket socket);
 
+  asio::ip::tcp::socket socket_; ///< of the client
   asio::ip::tcp::acceptor acceptor_;
 };
 

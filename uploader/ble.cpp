@@ -20,6 +20,7 @@ struct FailureInfo {
 // clang-format off
 constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::NotBuilt,     "install `libsdbus-c++-dev` and build orb again; `orb --version -v` says whether it has it", false},
+    {BleFailure::NoSystem,     "the playground reaches these robots, in Chrome or Edge", false},
     {BleFailure::NotLoaded,    "install orb again, with all of its files, and `libsdbus-c++1`", false},
     {BleFailure::NoBus,        "`sudo systemctl start dbus`; in a container, let /run/dbus/system_bus_socket in", false},
     {BleFailure::NoDaemon,     "`sudo systemctl start bluetooth`; it is in the package `bluez`", false},

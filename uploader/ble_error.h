@@ -13,6 +13,7 @@ namespace orb::uploader {
 /// Why there is no way to a robot over Bluetooth LE.
 enum class BleFailure : std::uint8_t {
   NotBuilt,
+  NoSystem, ///< this system's Bluetooth LE is not spoken to
   NotLoaded,
   NoBus,
   NoDaemon,

@@ -2,6 +2,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "uploader/device_words.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,15 +10,10 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <optional>
-#include <sys/socket.h>
 #include <vector>
 
 namespace orb::uploader {
 namespace {
-
-constexpr std::string_view forms =
-    "`/dev/rfcomm0`, `serial:///dev/rfcomm0`, `rfcomm://AA:BB:CC:DD:EE:FF`, `ble://NAME`, "
-    "`tcp://host:port`, `pty:///path`, `replay://file` or `sim:`";
 
 constexpr std::array<std::string_view, 7> schemes = {"serial://", "rfcomm://", "ble://", "tcp://",
                                                      "pty://",    "replay://", "sim:"};
@@ -135,7 +131,7 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
     endpoint.scheme = Scheme::Tcp;
     return read_tcp(endpoint, rest_of("tcp://"));
   }
-  if (url.find(':') == url.npos && url.find('/') != url.npos) {
+  if (is_device_name(url)) {
     endpoint.scheme = Scheme::Serial;
     return read_path(endpoint, url);
   }
@@ -146,14 +142,13 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
     return wrong(url, fmt::format("did you mean `ble://{}`?", url));
   const auto colon = url.find("://");
   const auto word = colon == url.npos ? url : url.substr(0, colon + 3);
-  return wrong(url, did_you_mean(word, schemes, fmt::format("it is written {}", forms)));
+  return wrong(url, did_you_mean(word, schemes, fmt::format("it is written {}", port_forms)));
 }
 
 std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& address,
                                                    std::uint8_t channel) {
   std::array<std::uint8_t, 10> bytes{};
-  const sa_family_t family = AF_BLUETOOTH;
-  static_assert(sizeof(family) == 2);
+  constexpr std::uint16_t family = 31; // AF_BLUETOOTH of Linux
   std::memcpy(bytes.data(), &family, sizeof(family));
   std::reverse_copy(address.begin(), address.end(), bytes.begin() + sizeof(family));
   bytes[sizeof(family) + address.size()] = channel;
@@ -163,37 +158,12 @@ std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& addre
 protocol::LinkError describe_open_error(const Endpoint& endpoint, int error) {
   const auto is_node = endpoint.scheme == Scheme::Serial || endpoint.scheme == Scheme::Pty;
   const auto& name = is_node ? endpoint.path : endpoint.text;
-  std::string help;
-  if (error == EACCES || error == EPERM)
-    help = "add yourself to group `dialout`: `sudo usermod -aG dialout $USER`, then log in again";
-  else if (error == ENOENT && endpoint.scheme == Scheme::Pty)
-    help = "start a virtual ball with `orb ball --pty`; it prints its path";
-  else if (error == ENOENT || error == ENXIO || error == ENODEV)
-    help = "`orb ports` lists what there is; a paired ball gets a port with `sudo rfcomm bind 0 "
-           "AA:BB:CC:DD:EE:FF 1`";
-  else if (error == EBUSY || error == EWOULDBLOCK)
-    help = is_node ? fmt::format("another program has it open; `fuser -v {}` names it", name)
-                   : "another program is connected to this ball; end it first";
-  else if (error == EISDIR)
-    help = "give the path of a device, such as `/dev/rfcomm0`; `orb ports` lists them";
-  else if (error == ENOTTY || error == EINVAL)
-    help = "this is not a serial device; `orb ports` lists them";
-  else if (error == EAFNOSUPPORT || error == EPROTONOSUPPORT)
-    help = "this system has no Bluetooth sockets; use a serial port (`rfcomm bind`) or a relay "
-           "(`socat FILE:/dev/rfcomm0,raw TCP-LISTEN:4242`)";
-  else if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
-    help = fmt::format("nothing listens there; a virtual ball does after `orb ball --tcp {}:{}`",
-                       endpoint.host, endpoint.port);
-  else if (endpoint.scheme == Scheme::Rfcomm)
-    help = "shake the ball awake, keep it near, and end other connections to it";
-  else
-    help = "`orb doctor` looks for the reason";
   const auto* what = error == EWOULDBLOCK ? "in use" : std::strerror(error);
   std::string seen = what;
   if (seen.size() > 1 && seen[1] >= 'a')
     seen[0] = to_lower(seen[0]);
   return {protocol::LinkError::Kind::CannotOpen,
-          fmt::format("cannot open {}: {}; {}", name, seen, help)};
+          fmt::format("cannot open {}: {}; {}", name, seen, open_help(endpoint, error))};
 }
 
 } // namespace orb::uploader

@@ -1,4 +1,5 @@
 #include "base/hash.h"
+#include "base/path.h"
 #include "base/render.h"
 #include "base/text.h"
 #include "base/utf8.h"
@@ -25,7 +26,7 @@ std::string uri_of(std::string_view name) {
     return "stdin";
   constexpr std::string_view plain = "-._~/";
   constexpr std::string_view hex = "0123456789ABCDEF";
-  std::string out = name.starts_with('/') ? "file://" : "";
+  std::string out = has_drive(name) ? "file:///" : name.starts_with('/') ? "file://" : "";
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     const bool keep = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||

@@ -7,6 +7,7 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 
@@ -39,7 +40,7 @@ const Format& format_of(const AsmOptions& options) {
   for (const auto& format : formats)
     if (format.name == options.format)
       return format;
-  const auto ending = fs::path(options.out).extension().string();
+  const auto ending = disk::as_path(options.out).extension().string();
   for (const auto& format : formats)
     if (!ending.empty() &&
         (std::string(format.endings) + " ").find(ending + " ") != std::string::npos)
@@ -54,7 +55,7 @@ bool to_stdout(const AsmOptions& options) {
 std::string name_of(const AsmOptions& options, const assembler::AssembledMacro& macro) {
   if (!macro.name.empty())
     return macro.name;
-  return options.file == "-" ? "macro" : fs::path(options.file).stem().string();
+  return options.file == "-" ? "macro" : disk::as_path(options.file).stem().string();
 }
 
 std::string print(const Format& format, const std::string& name, const Source& source,
@@ -131,8 +132,8 @@ void add_note(const Context& context, const AsmOptions& options, const Assembly&
 ExitCode write_all(const Context& context, const AsmOptions& options, const Source& source,
                    const Assembly& assembly, const std::vector<std::size_t>& macros) {
   const auto& format = format_of(options);
-  const bool folder =
-      !to_stdout(options) && (options.out.ends_with('/') || fs::is_directory(options.out));
+  const bool folder = !to_stdout(options) &&
+                      (options.out.ends_with('/') || fs::is_directory(disk::as_path(options.out)));
   if (macros.size() > 1 && !folder) {
     print_error(context,
                 fmt::format("{} holds {} macros; pick one with `--macro {}`, or name a folder: "
@@ -141,14 +142,14 @@ ExitCode write_all(const Context& context, const AsmOptions& options, const Sour
                             name_of(options, assembly.macros[macros[0]])));
     return ExitCode::Usage;
   }
-  if (to_stdout(options) && format.is_binary && ::isatty(STDOUT_FILENO) == 1) {
+  if (to_stdout(options) && format.is_binary && is_terminal(Stream::Out)) {
     print_error(context, "binary is not written to a terminal; add `-o FILE.sphero`, "
                          "`--format hex` or `--listing`");
     return ExitCode::Usage;
   }
   if (folder) {
     std::error_code error;
-    fs::create_directories(options.out, error);
+    fs::create_directories(disk::as_path(options.out), error);
     if (error) {
       print_error(context, fmt::format("cannot create {}: {}", options.out, error.message()));
       return ExitCode::File;
@@ -157,9 +158,11 @@ ExitCode write_all(const Context& context, const AsmOptions& options, const Sour
   const auto ending = format.endings.substr(0, format.endings.find(' '));
   for (const auto index : macros) {
     const auto name = name_of(options, assembly.macros[index]);
-    const auto path = folder ? (fs::path(options.out) / fmt::format("{}{}", name, ending)).string()
-                      : to_stdout(options) ? std::string()
-                                           : options.out;
+    const auto path =
+        folder ? (disk::as_path(options.out) / disk::as_path(fmt::format("{}{}", name, ending)))
+                     .generic_string()
+        : to_stdout(options) ? std::string()
+                             : options.out;
     const auto exit = write_text(context, path, print(format, name, source, assembly, index));
     if (exit != ExitCode::Done)
       return exit;

@@ -1,6 +1,7 @@
 #include "assembler/lint.h"
 #include "base/render.h"
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/input/inputs.h"
 #include "cli/input/policy.h"
 #include "cli/input/target.h"
@@ -16,7 +17,6 @@
 #include <fmt/format.h>
 #include <memory>
 #include <span>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -108,7 +108,7 @@ void print_findings(Context& context, const CheckOptions& options,
         out += options.format == "gcc" ? render_gcc(*file.source, diagnostic)
                                        : render_text(*file.source, diagnostic, style);
     print_out(out);
-    if (options.format == "text" && ::isatty(STDOUT_FILENO) != 0)
+    if (options.format == "text" && is_terminal(Stream::Out))
       print_out(render_summary(files));
   }
 }

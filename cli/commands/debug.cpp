@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"
@@ -54,7 +55,7 @@ ExitCode converse(debug::Shell& shell, const std::vector<std::string>& commands)
     print_out(fmt::format("{}{}\n", prompt, line));
     obey(shell, line);
   }
-  const bool terminal = ::isatty(STDIN_FILENO) != 0;
+  const bool terminal = is_terminal(Stream::In);
   while (!shell.done()) {
     if (terminal)
       print_out(prompt);

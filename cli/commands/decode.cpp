@@ -197,7 +197,8 @@ void decode(Context& context, const DecodeArguments& arguments) {
   const auto& words = arguments.words;
   std::error_code ignored;
   if (words.empty() ||
-      (words.size() == 1 && (words[0] == "-" || std::filesystem::exists(words[0], ignored)))) {
+      (words.size() == 1 &&
+       (words[0] == "-" || std::filesystem::exists(disk::as_path(words[0]), ignored)))) {
     const auto content = disk::read(words.empty() ? "-" : words[0]);
     if (!content)
       return fail(context, {ExitCode::File, content.error().message});

@@ -44,7 +44,7 @@ ExitCode run(const Context& context, const DisasmOptions& options) {
     return ExitCode::File;
   }
   const auto name = disk::display_name(options.file);
-  const auto ending = std::filesystem::path(options.file).extension().string();
+  const auto ending = disk::as_path(options.file).extension().string();
   Bytes bytes{content->begin(), content->end()};
   if (ending == ".hex") {
     auto read = from_hex(*content);

@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/input/inputs.h"
 #include "cli/input/wire.h"
+#include "disk/disk.h"
 #include "editor/lsp/language_server.h"
 #include "editor/wire.h"
 #include "run/input.h"
@@ -25,8 +26,8 @@ public:
     std::vector<std::string> found;
     std::error_code error;
     std::size_t entries = 0;
-    auto at = fs::recursive_directory_iterator(root, fs::directory_options::skip_permission_denied,
-                                               error);
+    auto at = fs::recursive_directory_iterator(
+        disk::as_path(root), fs::directory_options::skip_permission_denied, error);
     for (; !error && at != fs::end(at) && entries < most_entries; at.increment(error), ++entries) {
       const auto path = at->path();
       if (path.filename().string().starts_with('.')) {
@@ -36,7 +37,7 @@ public:
       std::error_code no_file;
       const bool is_source = run::language_of(path.string(), "") || testing::is_test(path.string());
       if (is_source && at->is_regular_file(no_file))
-        found.push_back(path.string());
+        found.push_back(path.generic_string());
     }
     std::sort(found.begin(), found.end());
     found.resize(std::min(found.size(), most_files));

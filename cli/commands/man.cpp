@@ -1,6 +1,7 @@
 #include "base/bytes.h"
 #include "base/suggest.h"
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/model/checks.h"
 #include "cli/model/command_line.h"
 #include "disk/disk.h"
@@ -39,7 +40,7 @@ void print_page(Context& context, const std::vector<reference::ManualPage>& page
   std::vector<std::string_view> names;
   for (const auto& page : pages) {
     if (name_of(page) == name || name_of(page) == "orb-" + name) {
-      if (::isatty(STDOUT_FILENO) != 0 && show_laid_out(page.text))
+      if (is_terminal(Stream::Out) && show_laid_out(page.text))
         return;
       print_out(page.text);
       return;
@@ -58,7 +59,7 @@ void write_pages(Context& context, const std::vector<reference::ManualPage>& pag
   for (const auto& page : pages) {
     const auto place = fmt::format("{}/man{}", folder, page.file.back());
     std::error_code error;
-    std::filesystem::create_directories(place, error); // writing says what is wrong
+    std::filesystem::create_directories(disk::as_path(place), error); // writing says what is wrong
     if (const auto done = disk::write(place + "/" + page.file, as_bytes(page.text)); !done)
       return fail(context, {ExitCode::File, done.error().message});
   }

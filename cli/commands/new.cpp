@@ -172,7 +172,7 @@ std::string filled(std::string_view text, const std::string& name, std::string_v
 
 void make(Context& context, const NewOptions& options) {
   const auto& folder = options.folder;
-  const fs::path path(folder);
+  const auto path = disk::as_path(folder);
   std::error_code error;
   if (fs::exists(path, error) && (!fs::is_directory(path, error) || !fs::is_empty(path, error))) {
     return fail(context,
@@ -193,7 +193,9 @@ void make(Context& context, const NewOptions& options) {
   if (options.course)
     files.push_back(course);
   for (const auto& starter : files) {
-    const auto file = (path / filled(starter.name, name, ending)).lexically_normal().string();
+    const auto file = (path / disk::as_path(filled(starter.name, name, ending)))
+                          .lexically_normal()
+                          .generic_string();
     auto text = filled(starter.text, name, ending);
     if (options.course && starter.text == test.text)
       text = with_course(std::move(text));

@@ -1,6 +1,7 @@
 #include "run/run.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/robot/monitor.h"
+#include "cli/context/console.h"
 #include "cli/input/inputs.h"
 #include "cli/input/target.h"
 #include "cli/model/checks.h"
@@ -149,15 +150,16 @@ void show(const Context& context, const RunOptions& options) {
 
 /// A name for a report that was given none: in a folder of its own, which stays for the browser.
 tl::expected<std::string, Failure> temporary_report(const std::string& program) {
-  std::error_code problem;
-  const auto folder = std::filesystem::temp_directory_path(problem);
-  auto own = (folder / "orb-XXXXXX").string();
-  if (problem || ::mkdtemp(own.data()) == nullptr)
+  const auto own = make_temporary_folder();
+  if (!own) {
+    std::error_code ignored;
+    const auto folder = std::filesystem::temp_directory_path(ignored);
     return refuse(ExitCode::File, fmt::format("cannot make a folder for the report in {}; name a "
                                               "file with `--report`",
                                               folder.empty() ? "/tmp" : folder.string()));
-  const auto name = program == "-" ? "run" : std::filesystem::path(program).stem().string();
-  return fmt::format("{}/{}.html", own, name);
+  }
+  const auto name = program == "-" ? "run" : disk::as_path(program).stem().string();
+  return fmt::format("{}/{}.html", *own, name);
 }
 
 /// Reads the course, where one is given, into `course`, which the options refer to from then on.
@@ -292,7 +294,7 @@ void run_and_watch(Context& context, const RunOptions& options) {
   };
   const auto written = [&] {
     std::error_code absent;
-    return std::filesystem::last_write_time(options.report, absent);
+    return std::filesystem::last_write_time(disk::as_path(options.report), absent);
   };
   const auto before = written();
   bool shown = !options.open;
@@ -330,7 +332,7 @@ void run_with_report(Context& context, RunOptions& options) {
                           "`--compare` shows a report; add `--report OUT.html` or `--open`"});
   (options.watch ? run_and_watch : run_and_report)(context, options);
   if (std::error_code not_empty; temporary)
-    std::filesystem::remove(std::filesystem::path(options.report).parent_path(), not_empty);
+    std::filesystem::remove(disk::as_path(options.report).parent_path(), not_empty);
 }
 
 void add_program_options(const Command& command, RunOptions& options) {

@@ -53,7 +53,7 @@ bool select(std::vector<reference::Section>& sections, const std::string& id,
 
 void write_editor_files(Context& context, const std::string& folder) {
   for (const auto& file : editor::syntax_files()) {
-    const auto path = std::filesystem::path(folder) / file.path;
+    const auto path = disk::as_path(folder) / disk::as_path(file.path);
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error); // writing says what is wrong
     if (const auto done = disk::write(path.string(), as_bytes(file.text)); !done)

@@ -51,11 +51,13 @@ struct TestOptions {
 tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& folder) {
   std::vector<std::string> found;
   std::error_code error;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+  fs::recursive_directory_iterator at(disk::as_path(folder),
+                                      fs::directory_options::skip_permission_denied, error);
   for (; !error && at != fs::recursive_directory_iterator(); at.increment(error))
     if (std::error_code unreadable;
-        testing::is_test(at->path().native()) && at->is_regular_file(unreadable))
-      found.push_back((folder == "." ? at->path().lexically_relative(".") : at->path()).string());
+        testing::is_test(at->path().string()) && at->is_regular_file(unreadable))
+      found.push_back(
+          (folder == "." ? at->path().lexically_relative(".") : at->path()).generic_string());
   if (error)
     return tl::unexpected(
         Failure{ExitCode::File, fmt::format("cannot read {}: {}", folder, error.message())});
@@ -80,7 +82,7 @@ read_tests(const std::vector<std::string>& paths) {
   };
   for (const auto& path : paths) {
     std::error_code absent;
-    if (!fs::is_directory(path, absent)) {
+    if (!fs::is_directory(disk::as_path(path), absent)) {
       if (auto added = add(path); !added)
         return tl::unexpected(added.error());
       continue;
@@ -140,16 +142,16 @@ public:
   tl::expected<void, Failure> begin() {
     const auto index = folder_ + "/index.html";
     std::error_code error;
-    if (fs::exists(index, error)) {
+    if (fs::exists(disk::as_path(index), error)) {
       const auto old = disk::read(index);
       if (!old || !old->starts_with(testing::report_mark))
         return refuse(
             fmt::format("{} is not a report of `orb test`; choose another folder", index));
-      fs::remove(index, error);
-      for (const auto& file : fs::directory_iterator(folder_ + "/runs", error))
+      fs::remove(disk::as_path(index), error);
+      for (const auto& file : fs::directory_iterator(disk::as_path(folder_ + "/runs"), error))
         remove_old(file.path());
     }
-    fs::create_directories(folder_ + "/runs", error);
+    fs::create_directories(disk::as_path(folder_ + "/runs"), error);
     if (error)
       return refuse(fmt::format("cannot make {}/runs: {}", folder_, error.message()));
     return {};

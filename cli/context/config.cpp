@@ -3,16 +3,15 @@
 #include "base/text.h"
 #include "cli/context/config_file.h"
 #include "cli/context/context.h"
+#include "cli/context/user.h"
 #include "cli/model/checks.h"
 #include "cli/model/command.h"
+#include "disk/disk.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -32,21 +31,10 @@ constexpr auto project_options = std::to_array<std::string_view>({
 });
 // clang-format on
 
-/// Whether the file is the user's or root's: what somebody else has put into a folder above is not
-/// obeyed. Root in the user's name (sudo) takes what is the user's.
-bool is_trusted(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
-    return false;
-  const char* sudo = std::getenv("SUDO_UID");
-  const bool sudoed = ::geteuid() == 0 && sudo != nullptr && std::to_string(status.st_uid) == sudo;
-  return status.st_uid == ::geteuid() || status.st_uid == 0 || sudoed;
-}
-
 /// Found by walking up to the root of the repository or to the user's home.
 std::optional<fs::path> nearest_project_file() {
   std::error_code error;
-  const char* home = std::getenv("HOME");
+  const auto home = user_home();
   for (auto folder = fs::current_path(error); !folder.empty(); folder = folder.parent_path()) {
     const auto file = folder / project_file;
     if (fs::is_regular_file(file, error)) {
@@ -56,7 +44,7 @@ std::optional<fs::path> nearest_project_file() {
           fmt::format("orb: warning: {} belongs to another user and is not read\n", file.string()));
       break;
     }
-    const bool at_home = home != nullptr && fs::equivalent(folder, home, error);
+    const bool at_home = home && fs::equivalent(folder, *home, error);
     if (at_home || fs::exists(folder / ".git", error) || folder == folder.root_path())
       break;
   }
@@ -81,7 +69,7 @@ tl::expected<void, ConfigError> apply(const Setting& setting, const Command& orb
                                   fmt::format("`[{}]` is not a section{}", setting.section.name,
                                               meant_instead(setting.section.name, names))));
   }
-  const bool allowed = fs::path(setting.file).filename() != project_file ||
+  const bool allowed = disk::as_path(setting.file).filename() != project_file ||
                        std::find(project_options.begin(), project_options.end(), setting.option) !=
                            project_options.end();
   bool known = false;

@@ -5,7 +5,6 @@
 #include "disk/disk.h"
 #include "spec/robots.h"
 
-#include <cstdlib>
 #include <fmt/format.h>
 #include <sstream>
 #define TOML_EXCEPTIONS 0
@@ -14,14 +13,6 @@
 namespace orb::cli {
 
 namespace fs = std::filesystem;
-
-std::optional<fs::path> user_file() {
-  if (const char* xdg = std::getenv("XDG_CONFIG_HOME"); xdg != nullptr && *xdg != '\0')
-    return fs::path(xdg) / "orb" / "config.toml";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-    return fs::path(home) / ".config" / "orb" / "config.toml";
-  return std::nullopt;
-}
 
 ConfigError problem(const std::string& where, std::string_view what) {
   return {fmt::format("{}: {}", where, what)};

@@ -15,9 +15,6 @@ namespace orb::cli {
 inline constexpr std::string_view balls_section = "balls";
 inline constexpr std::string_view groups_section = "groups";
 
-/// The user's own file, which need not be there; nothing where there is no home.
-std::optional<std::filesystem::path> user_file();
-
 /// A message with its place.
 ConfigError problem(const std::string& where, std::string_view what);
 

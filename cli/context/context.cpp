@@ -1,6 +1,7 @@
 #include "cli/context/context.h"
 
 #include "base/utf8.h"
+#include "cli/context/console.h"
 #include "cli/context/output_error.h"
 
 #include <cerrno>
@@ -8,7 +9,6 @@
 #include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <utility>
 
 namespace orb::cli {
@@ -19,7 +19,7 @@ bool is_set(const char* name) {
   return value != nullptr && *value != '\0';
 }
 
-Style style_for(const std::string& color, int fd) {
+Style style_for(const std::string& color, Stream stream) {
   if (color == "always")
     return {true};
   if (color == "never")
@@ -28,9 +28,7 @@ Style style_for(const std::string& color, int fd) {
     return {false};
   if (is_set("CLICOLOR_FORCE") && std::string_view(std::getenv("CLICOLOR_FORCE")) != "0")
     return {true};
-  const char* term = std::getenv("TERM");
-  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
-  return {!dumb && ::isatty(fd) == 1};
+  return {can_draw(stream)};
 }
 
 /// A message is a line of its own, whatever names are in it: what comes after the end of a line
@@ -56,21 +54,22 @@ bool is_taken(OutputTap::Stream stream, std::string_view text) {
 }
 
 /// A ball's or a file's name must not drive the user's terminal.
-bool print_to(std::FILE* file, std::string_view text) {
+bool print_to(Stream stream, std::string_view text) {
   std::string shown;
-  if (::isatty(::fileno(file)) == 1)
+  if (is_terminal(stream))
     text = shown = to_terminal_text(text);
-  return std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  return std::fwrite(text.data(), 1, text.size(), stream == Stream::Out ? stdout : stderr) ==
+         text.size();
 }
 
 } // namespace
 
 Style Context::out_style() const {
-  return style_for(color, STDOUT_FILENO);
+  return style_for(color, Stream::Out);
 }
 
 Style Context::err_style() const {
-  return style_for(color, STDERR_FILENO);
+  return style_for(color, Stream::Err);
 }
 
 OutputTap::OutputTap(Take take) {
@@ -94,13 +93,13 @@ void print_out(std::string_view text) {
     return;
   if (is_taken(OutputTap::Stream::Out, text))
     return;
-  if (!print_to(stdout, text) || std::fflush(stdout) != 0)
+  if (!print_to(Stream::Out, text) || std::fflush(stdout) != 0)
     throw OutputError{errno};
 }
 
 void print_err(std::string_view text) {
   if (!is_taken(OutputTap::Stream::Err, text))
-    print_to(stderr, text);
+    print_to(Stream::Err, text);
 }
 
 void print_note(const Context& context, std::string_view message) {

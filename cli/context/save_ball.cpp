@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "cli/context/config_file.h"
+#include "cli/context/user.h"
 #include "disk/disk.h"
 #include "disk/lock.h"
 
@@ -126,7 +127,7 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   const auto path = user_file();
   const auto file = path->string();
   std::error_code error;
-  if (fs::create_directories(*folder, error); error)
+  if (fs::create_directories(disk::as_path(*folder), error); error)
     return unsaved(ExitCode::File,
                    fmt::format("cannot make the folder of {}: {}", file, error.message()));
   // From reading it to writing it again nobody else may.

@@ -43,7 +43,7 @@ std::string DiskFiles::trouble(const std::string& path) {
 
 std::string DiskFiles::identity(const std::string& path) {
   std::error_code unknown; // a file that is not there
-  const auto real = std::filesystem::canonical(path, unknown);
+  const auto real = std::filesystem::canonical(disk::as_path(path), unknown);
   return unknown ? Files::identity(path) : real.string();
 }
 
@@ -85,7 +85,7 @@ void add_stimulus_option(const Command& command, std::vector<std::string>& stimu
 }
 
 bool is_stimulus_line(const std::string& given) {
-  return vm::is_stimulus_line(given) && !std::filesystem::exists(given);
+  return vm::is_stimulus_line(given) && !std::filesystem::exists(disk::as_path(given));
 }
 
 tl::expected<std::vector<vm::TimedStimulus>, Failure>

@@ -1,6 +1,7 @@
 #include "cli/input/programs.h"
 
 #include "base/text.h"
+#include "disk/disk.h"
 #include "run/input.h"
 
 #include <algorithm>
@@ -32,10 +33,10 @@ struct Listing {
 
 Listing list(const std::string& folder) {
   Listing found;
-  for (fs::directory_iterator at(folder, found.error);
+  for (fs::directory_iterator at(disk::as_path(folder), found.error);
        !found.error && at != fs::directory_iterator(); at.increment(found.error)) {
     const auto name = at->path().filename().string();
-    const auto path = (fs::path(folder) / name).string();
+    const auto path = (disk::as_path(folder) / disk::as_path(name)).generic_string();
     std::error_code unknown;
     if (name.starts_with('.'))
       continue;
@@ -58,11 +59,11 @@ public:
   /// What was named on the command line; why it cannot be.
   std::optional<Failure> add(const std::string& path) {
     std::error_code error;
-    const auto link = fs::symlink_status(path, error);
+    const auto link = fs::symlink_status(disk::as_path(path), error);
     if (link.type() == fs::file_type::not_found)
       return Failure{ExitCode::File,
                      fmt::format("cannot read {}; check the name and the folder", path)};
-    if (!fs::is_directory(path, error)) {
+    if (!fs::is_directory(disk::as_path(path), error)) {
       found_.programs.push_back(path);
       return std::nullopt;
     }
@@ -110,9 +111,10 @@ private:
     for (const auto& stem : stems_)
       for (const auto ending : endings) {
         const auto name = stem + std::string(ending);
-        const auto at = std::find_if(
-            listing.programs.begin(), listing.programs.end(),
-            [&](const std::string& path) { return fs::path(path).filename() == name; });
+        const auto at = std::find_if(listing.programs.begin(), listing.programs.end(),
+                                     [&](const std::string& path) {
+                                       return disk::as_path(path).filename() == disk::as_path(name);
+                                     });
         if (at == listing.programs.end())
           continue;
         own.push_back(*at);

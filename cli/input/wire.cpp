@@ -1,11 +1,9 @@
 #include "cli/input/wire.h"
 
+#include "cli/context/console.h"
 #include "cli/context/context.h"
 #include "cli/model/command.h"
 #include "editor/wire.h"
-
-#include <poll.h>
-#include <unistd.h>
 
 namespace orb::cli {
 
@@ -15,8 +13,7 @@ void send_all(const std::vector<std::string>& messages) {
 }
 
 bool client_speaks() {
-  pollfd input{STDIN_FILENO, POLLIN, 0};
-  return ::poll(&input, 1, 0) > 0;
+  return input_waits();
 }
 
 void add_stdio_flag(const Command& command) {

@@ -1,29 +1,18 @@
 #include "cli/many/board.h"
 
 #include "base/utf8.h"
+#include "cli/context/console.h"
 #include "cli/terminal/progress_bar.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
 
 constexpr auto pause = std::chrono::milliseconds{100}; // more often nobody sees
 constexpr std::size_t least_rows = 3;
-
-/// Rows and columns of the terminal.
-std::pair<std::size_t, std::size_t> screen() {
-  constexpr std::size_t usual_rows = 24;
-  constexpr std::size_t usual_columns = 80;
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0 || size.ws_col == 0)
-    return {usual_rows, usual_columns};
-  return {size.ws_row, size.ws_col};
-}
 
 } // namespace
 

@@ -4,6 +4,7 @@
 #include "base/utf8.h"
 #include "cli/context/json.h"
 #include "cli/terminal/interrupt.h"
+#include "disk/disk.h"
 
 #include <algorithm>
 #include <atomic>
@@ -310,7 +311,7 @@ std::string file_of(const std::string& file, const Member& robot) {
   std::replace_if(
       name.begin(), name.end(),
       [](char c) { return !is_letter(c) && !is_digit(c) && c != '-' && c != '_'; }, '_');
-  const std::filesystem::path path(file);
+  const auto path = disk::as_path(file);
   auto own = path.parent_path() / path.stem();
   own += "-" + name;
   own += path.extension();

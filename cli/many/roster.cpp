@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "cli/model/checks.h"
 #include "cli/model/command.h"
+#include "disk/disk.h"
 #include "uploader/endpoint.h"
 
 #include <algorithm>
@@ -131,7 +132,7 @@ private:
     case Scheme::Serial:
     case Scheme::Pty:
     case Scheme::Replay: {
-      const auto path = std::filesystem::canonical(endpoint.path, error);
+      const auto path = std::filesystem::canonical(disk::as_path(endpoint.path), error);
       return error ? endpoint.path : path.string();
     }
     case Scheme::Rfcomm:

@@ -13,7 +13,7 @@ void add_ball_option(const Command& command, std::string& name, const std::strin
 }
 
 tl::expected<std::string, Failure> profile_file(const std::string& name) {
-  if (name.find('/') != name.npos || name.ends_with(".toml"))
+  if (name.find_first_of("/\\") != name.npos || name.ends_with(".toml"))
     return name;
   if (!is_ball_name(name))
     return tl::unexpected(Failure{

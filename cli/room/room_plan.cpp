@@ -112,11 +112,13 @@ std::string unknown(std::string_view key, const Keys& keys, std::string_view of)
 
 /// A path counts from the folder of the room's file.
 std::string beside(const std::string& file, const std::string& path) {
-  return fs::path(path).is_absolute() ? path : (fs::path(file).parent_path() / path).string();
+  return disk::as_path(path).is_absolute()
+             ? path
+             : (disk::as_path(file).parent_path() / disk::as_path(path)).generic_string();
 }
 
 std::string stem(const std::string& path) {
-  return fs::path(path).stem().string();
+  return disk::as_path(path).stem().string();
 }
 
 PlannedBall read_ball(Reading& reading, const std::string& file, const toml::table& table) {

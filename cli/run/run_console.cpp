@@ -1,4 +1,5 @@
 #include "cli/run/run_console.h"
+#include "cli/context/console.h"
 
 #include "base/text.h"
 #include "disk/disk.h"
@@ -7,17 +8,14 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <limits>
-#include <poll.h>
 #include <thread>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
 
 /// Whether a read of standard input would come back at once.
 bool input_is_there() {
-  pollfd in{STDIN_FILENO, POLLIN, 0};
-  return std::cin.rdbuf()->in_avail() > 0 || ::poll(&in, 1, 0) > 0;
+  return std::cin.rdbuf()->in_avail() > 0 || input_waits();
 }
 
 } // namespace
@@ -67,7 +65,7 @@ std::optional<std::int32_t> Console::ask_number() {
                                      "takes",
                                      word, std::numeric_limits<std::int32_t>::min(),
                                      std::numeric_limits<std::int32_t>::max());
-    if (::isatty(STDIN_FILENO) == 0)
+    if (!is_terminal(Stream::In))
       no_number_ = "on standard input " + message;
     else
       print_err(message + "; again\n");

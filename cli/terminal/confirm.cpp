@@ -1,12 +1,12 @@
 #include "cli/terminal/confirm.h"
 
+#include "cli/context/console.h"
 #include "cli/context/context.h"
 #include "cli/terminal/interrupt.h"
 
 #include <fmt/format.h>
 #include <iostream>
 #include <string>
-#include <unistd.h>
 
 namespace orb::cli {
 
@@ -14,7 +14,7 @@ tl::expected<void, Failure> await_enter(std::string_view remedy) {
   print_err("  press Enter to start: ");
   std::string line;
   const bool pressed = static_cast<bool>(std::getline(std::cin, line));
-  if (!pressed || ::isatty(STDIN_FILENO) == 0)
+  if (!pressed || !is_terminal(Stream::In))
     print_err("\n"); // a terminal has shown the Enter itself
   if (pressed)
     return {};

@@ -1,16 +1,11 @@
 #include "cli/terminal/keys.h"
+#include "cli/context/console.h"
 
-#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
 namespace orb::cli {
 namespace {
-
-bool is_there() {
-  pollfd in{STDIN_FILENO, POLLIN, 0};
-  return ::poll(&in, 1, 0) > 0;
-}
 
 /// The next byte; nothing at the end.
 bool read_byte(char& byte) {
@@ -21,7 +16,7 @@ bool read_byte(char& byte) {
 Key read_arrow() {
   char first = 0;
   char second = 0;
-  if (!is_there() || !read_byte(first) || (first != '[' && first != 'O') || !is_there() ||
+  if (!input_waits() || !read_byte(first) || (first != '[' && first != 'O') || !input_waits() ||
       !read_byte(second))
     return Key::None;
   return second == 'A'   ? Key::Up
@@ -39,7 +34,7 @@ struct Keys::Before {
 
 Keys::Keys() {
   termios settings{};
-  if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &settings) != 0)
+  if (!is_terminal(Stream::In) || ::tcgetattr(STDIN_FILENO, &settings) != 0)
     return;
   before_ = std::make_unique<Before>(Before{settings});
   settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO); // Ctrl-C still interrupts
@@ -61,7 +56,7 @@ bool Keys::from_terminal() const {
 
 Pressed Keys::next(Wait wait) {
   constexpr char escape = 0x1B;
-  if ((from_terminal() || wait == Wait::No) && !is_there())
+  if ((from_terminal() || wait == Wait::No) && !input_waits())
     return {};
   char byte = 0;
   if (!read_byte(byte))

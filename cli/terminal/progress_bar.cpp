@@ -1,9 +1,8 @@
 #include "cli/terminal/progress_bar.h"
+#include "cli/context/console.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -25,8 +24,7 @@ double fraction(const Status& status) {
 } // namespace
 
 bool can_animate() {
-  const char* term = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
+  return can_draw(Stream::Err);
 }
 
 std::string progress_bar(const Status& status) {

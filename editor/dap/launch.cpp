@@ -1,5 +1,6 @@
 #include "editor/dap/session.h"
 
+#include "base/path.h"
 #include "editor/wording.h"
 #include "vm/stimulus.h"
 
@@ -80,7 +81,7 @@ std::string in_terms_of_launch(std::string message) {
 debug::Launch wanted_by(const Json& arguments) {
   const auto base = text_of(member(arguments, "cwd"));
   const auto path = [&](const std::string& given) {
-    return given.empty() || given.front() == '/' || base.empty() ? given : base + "/" + given;
+    return given.empty() || is_absolute_path(given) || base.empty() ? given : base + "/" + given;
   };
   debug::Launch wanted;
   wanted.files.push_back(path(text_of(member(arguments, "program"))));

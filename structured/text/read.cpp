@@ -1,6 +1,7 @@
 #include "structured/text/read.h"
 
 #include "assembler/assemble.h"
+#include "base/path.h"
 #include "compiler/check.h"
 #include "compiler/text/rules.h"
 #include "structured/text/blocks.h"
@@ -185,8 +186,8 @@ private:
 } // namespace
 
 std::string resolve_path(std::string_view from, std::string_view path) {
-  std::string whole(path.starts_with('/') ? std::string_view()
-                                          : from.substr(0, from.rfind('/') + 1));
+  std::string whole(is_absolute_path(path) ? std::string_view()
+                                           : from.substr(0, from.rfind('/') + 1));
   whole += path;
   std::vector<std::string_view> parts;
   for (std::string_view rest = whole; !rest.empty();) {

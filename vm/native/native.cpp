@@ -34,8 +34,9 @@ const NativeCode* NativePrograms::find(const Chunk& chunk) {
 
 namespace {
 
-using Entry = std::uint32_t (*)(std::int32_t* registers, Frames* frames, std::int64_t* budget,
-                                const void* line);
+/// It is called as on Unix, on Windows too.
+using Entry [[gnu::sysv_abi]] = std::uint32_t (*)(std::int32_t* registers, Frames* frames,
+                                                  std::int64_t* budget, const void* line);
 
 constexpr std::size_t most_instructions = 4096; // no area of the robot has as many characters
 constexpr std::string_view too_large = "the program is too large for machine code";

@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/robot/ball_profile.h"
 #include "cli/robot/driven_robot.h"
 #include "cli/terminal/confirm.h"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -59,7 +59,7 @@ tl::expected<void, Failure> save(const Context& context, const std::string& name
   const auto file = profile_file(name);
   if (!file)
     return tl::unexpected(file.error());
-  const auto folder = std::filesystem::path(*file).parent_path();
+  const auto folder = disk::as_path(*file).parent_path();
   if (std::error_code error; !folder.empty() && !std::filesystem::create_directories(folder, error))
     if (error)
       return refuse(ExitCode::File,
@@ -75,7 +75,7 @@ tl::expected<std::vector<run::Leg>, Failure> drive(Context& context, DrivenRobot
   auto held = run::hold_robot(*robot.link.transport, robot.tether);
   if (!held)
     return tl::unexpected(held.error());
-  const bool shows = !context.quiet && ::isatty(STDERR_FILENO) == 1;
+  const bool shows = !context.quiet && is_terminal(Stream::Err);
   auto legs = run::drive_course(**held, robot.tether.robot, [&](int done, int all) {
     if (shows)
       print_err(fmt::format("\r\033[K{} of {}{}", done, all, done == all ? "\n" : ""));

@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/context/json.h"
 #include "cli/robot/driven_robot.h"
 #include "cli/terminal/browser.h"
@@ -17,7 +18,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -204,7 +204,7 @@ private:
     if (robot_.now() < next_words_)
       return;
     next_words_ = robot_.now() + between_words;
-    if (!context_.quiet && ::isatty(STDOUT_FILENO) == 1)
+    if (!context_.quiet && is_terminal(Stream::Out))
       print_out(fmt::format("\r\033[K{}", pilot_.words()));
     if (page_ == nullptr || page_->listeners() == 0)
       return;

@@ -3,6 +3,7 @@
 #include "base/duration.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/robot/devices.h"
 #include "cli/context/json.h"
 #include "cli/context/save_ball.h"
 #include "cli/terminal/interrupt.h"
@@ -12,47 +13,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
 
 namespace orb::cli {
-namespace {
-
-namespace fs = std::filesystem;
-
-struct Pattern {
-  std::string_view prefix; ///< of the name below /dev
-  std::string_view what;
-};
-
-constexpr std::string_view device_folder = "/dev";
-constexpr Pattern patterns[] = {
-    {"rfcomm", "Bluetooth serial port (rfcomm bind)"},
-    {"cu.Sphero", "Bluetooth serial port of a paired Sphero"},
-    {"cu.BB-8", "Bluetooth serial port of a paired BB-8"},
-    {"ttyUSB", "USB serial adapter"},
-    {"ttyACM", "USB modem or microcontroller"},
-};
-
-} // namespace
-
 std::vector<Port> find_ports(const Config& config) {
   std::vector<Port> ports;
   for (const auto& [name, ball] : config.balls)
     ports.push_back({"@" + name, ball.url});
-  std::vector<Port> devices;
-  std::error_code error;
-  for (fs::directory_iterator entry(device_folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const auto name = entry->path().filename().string();
-    for (const auto& pattern : patterns)
-      if (name.starts_with(pattern.prefix) && entry->is_character_file(error))
-        devices.push_back({entry->path().string(), std::string(pattern.what)});
-  }
-  std::sort(devices.begin(), devices.end(),
-            [](const Port& a, const Port& b) { return a.url < b.url; });
+  const auto devices = find_devices();
   ports.insert(ports.end(), devices.begin(), devices.end());
   return ports;
 }

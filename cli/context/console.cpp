@@ -1,0 +1,79 @@
+#include "cli/context/console.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <poll.h>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace orb::cli {
+namespace {
+
+int descriptor(Stream stream) {
+  switch (stream) {
+  case Stream::In: return STDIN_FILENO;
+  case Stream::Out: return STDOUT_FILENO;
+  case Stream::Err: break;
+  }
+  return STDERR_FILENO;
+}
+
+/// Keeps a closed stdin, stdout or stderr from being the next file or socket that is opened, where
+/// what is printed would then go. Reading and writing it stay errors.
+void keep_standard_streams_apart() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(fd, F_GETFD) < 0)
+      static_cast<void>(::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
+} // namespace
+
+std::vector<std::string> begin_process(int argc, char** argv) {
+  keep_standard_streams_apart();
+  // A closed pipe or socket, or a file as large as it may be, is an error to handle, not a death.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  return {argv, argv + argc};
+}
+
+bool is_terminal(Stream stream) {
+  return ::isatty(descriptor(stream)) == 1;
+}
+
+bool can_draw(Stream stream) {
+  const char* term = std::getenv("TERM");
+  return is_terminal(stream) && term != nullptr && std::string_view(term) != "dumb";
+}
+
+bool input_waits() {
+  pollfd in{STDIN_FILENO, POLLIN, 0};
+  return ::poll(&in, 1, 0) > 0;
+}
+
+std::pair<std::size_t, std::size_t> screen() {
+  constexpr std::size_t usual_rows = 24;
+  constexpr std::size_t usual_columns = 80;
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0 || size.ws_col == 0)
+    return {usual_rows, usual_columns};
+  return {size.ws_row, size.ws_col};
+}
+
+void end_unread() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+}
+
+std::optional<std::string> make_temporary_folder() {
+  std::error_code problem;
+  const auto folder = std::filesystem::temp_directory_path(problem);
+  auto own = (folder / "orb-XXXXXX").string();
+  if (problem || ::mkdtemp(own.data()) == nullptr)
+    return std::nullopt;
+  return own;
+}
+
+} // namespace orb::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+// The streams that this process was given, and what is at their other end.
+
+namespace orb::cli {
+
+enum class Stream : std::uint8_t { In, Out, Err };
+
+/// Makes the streams ready; the words of the command line in UTF-8, the program's name first.
+std::vector<std::string> begin_process(int argc, char** argv);
+
+/// Whether a person is at its other end.
+bool is_terminal(Stream stream);
+/// The same, where that terminal also has colours and lines that can be drawn over.
+bool can_draw(Stream stream);
+
+/// Whether a read of standard input would come back at once.
+bool input_waits();
+
+/// Rows and columns of the terminal that standard error is; 24 and 80 where nobody knows.
+std::pair<std::size_t, std::size_t> screen();
+
+/// Ends as a program does whose reader has left, without a word, where the system has a way for
+/// that.
+void end_unread();
+
+/// A new folder that nobody else has, for files of this user; nothing where none can be made.
+std::optional<std::string> make_temporary_folder();
+
+} // namespace orb::cli

@@ -1,0 +1,108 @@
+#include "cli/context/console.h"
+
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <io.h>
+#include <windows.h>
+
+#include <shellapi.h> // needs what that declares
+
+namespace orb::cli {
+namespace {
+
+HANDLE handle(Stream stream) {
+  switch (stream) {
+  case Stream::In: return ::GetStdHandle(STD_INPUT_HANDLE);
+  case Stream::Out: return ::GetStdHandle(STD_OUTPUT_HANDLE);
+  case Stream::Err: break;
+  }
+  return ::GetStdHandle(STD_ERROR_HANDLE);
+}
+
+UINT code_page_before = 0;
+
+/// The console outlives this process: it speaks as before then.
+void give_back_code_page() {
+  ::SetConsoleOutputCP(code_page_before);
+}
+
+std::string in_utf8(const wchar_t* text) {
+  const int size = ::WideCharToMultiByte(CP_UTF8, 0, text, -1, nullptr, 0, nullptr, nullptr);
+  std::string out(static_cast<std::size_t>(size), '\0');
+  ::WideCharToMultiByte(CP_UTF8, 0, text, -1, out.data(), size, nullptr, nullptr);
+  out.pop_back(); // the zero at its end
+  return out;
+}
+
+} // namespace
+
+std::vector<std::string> begin_process(int argc, char** argv) {
+  for (const int fd : {0, 1, 2})
+    ::_setmode(fd, _O_BINARY); // what is written is what arrives
+  if (is_terminal(Stream::Out) || is_terminal(Stream::Err)) {
+    code_page_before = ::GetConsoleOutputCP();
+    ::SetConsoleOutputCP(CP_UTF8);
+    std::atexit(give_back_code_page);
+  }
+  for (const auto stream : {Stream::Out, Stream::Err})
+    if (DWORD mode = 0; ::GetConsoleMode(handle(stream), &mode) != 0)
+      ::SetConsoleMode(handle(stream), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+  int count = 0;
+  wchar_t** const words = ::CommandLineToArgvW(::GetCommandLineW(), &count);
+  if (words == nullptr)
+    return {argv, argv + argc};
+  std::vector<std::string> all;
+  for (int i = 0; i < count; ++i)
+    all.push_back(in_utf8(words[i]));
+  ::LocalFree(words);
+  return all;
+}
+
+bool is_terminal(Stream stream) {
+  DWORD mode = 0;
+  return ::GetConsoleMode(handle(stream), &mode) != 0;
+}
+
+bool can_draw(Stream stream) {
+  DWORD mode = 0;
+  return ::GetConsoleMode(handle(stream), &mode) != 0 &&
+         (mode & ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
+
+bool input_waits() {
+  const auto in = handle(Stream::In);
+  DWORD count = 0;
+  if (::GetFileType(in) == FILE_TYPE_PIPE) // at its end a read comes back at once, too
+    return ::PeekNamedPipe(in, nullptr, 0, nullptr, &count, nullptr) == 0 || count > 0;
+  if (is_terminal(Stream::In))
+    return ::GetNumberOfConsoleInputEvents(in, &count) != 0 && count > 0;
+  return true;
+}
+
+std::pair<std::size_t, std::size_t> screen() {
+  constexpr std::size_t usual_rows = 24;
+  constexpr std::size_t usual_columns = 80;
+  CONSOLE_SCREEN_BUFFER_INFO info{};
+  if (::GetConsoleScreenBufferInfo(handle(Stream::Err), &info) == 0)
+    return {usual_rows, usual_columns};
+  return {static_cast<std::size_t>(info.srWindow.Bottom - info.srWindow.Top + 1),
+          static_cast<std::size_t>(info.srWindow.Right - info.srWindow.Left + 1)};
+}
+
+void end_unread() {}
+
+std::optional<std::string> make_temporary_folder() {
+  std::error_code problem;
+  const auto folder = std::filesystem::temp_directory_path(problem);
+  constexpr int tries = 100;
+  for (int i = 0; !problem && i < tries; ++i) {
+    const auto own = folder / fmt::format("orb-{}-{}", ::GetCurrentProcessId(), i);
+    if (std::filesystem::create_directory(own, problem))
+      return own.string();
+  }
+  return std::nullopt;
+}
+
+} // namespace orb::cli

@@ -1,0 +1,12 @@
+#include "serve/other_end.h"
+
+#include <poll.h>
+
+namespace orb::serve {
+
+bool other_end_left(int descriptor) {
+  pollfd query{descriptor, POLLRDHUP, 0}; // POLLHUP comes unasked
+  return ::poll(&query, 1, 0) > 0;
+}
+
+} // namespace orb::serve

@@ -1,0 +1,45 @@
+#include "uploader/device_words.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <fmt/format.h>
+
+namespace orb::uploader {
+
+const std::string_view port_forms =
+    "`COM5`, `tcp://host:port`, `replay://file` or `sim:`; `orb ports` lists them";
+
+bool is_device_name(std::string_view port) {
+  constexpr std::string_view com = "COM";
+  constexpr std::string_view device = R"(\\.\)";
+  if (port.starts_with(device))
+    return port.size() > device.size();
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  return port.size() > com.size() &&
+         std::equal(
+             com.begin(), com.end(), port.begin(),
+             [](char a, char b) { return a == std::toupper(static_cast<unsigned char>(b)); }) &&
+         std::all_of(port.begin() + com.size(), port.end(), is_digit);
+}
+
+std::string open_help(const Endpoint& endpoint, int error) {
+  if (endpoint.scheme == Scheme::Pty)
+    return "Windows has no pty; a virtual ball is at `sim:`, or at `tcp://127.0.0.1:4242` after "
+           "`orb ball --tcp 127.0.0.1:4242`";
+  if (endpoint.scheme == Scheme::Rfcomm)
+    return "pair the ball in the Bluetooth settings of Windows, which gives it a COM port, and "
+           "write "
+           "that one; `orb ports` lists them";
+  if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
+    return fmt::format("nothing listens there; a virtual ball does after `orb ball --tcp {}:{}`",
+                       endpoint.host, endpoint.port);
+  if (endpoint.scheme == Scheme::Serial && (error == EACCES || error == EBUSY))
+    return "another program has it open; end it first";
+  if (endpoint.scheme == Scheme::Serial)
+    return "shake the ball awake, keep it near, and end other connections to it; `orb ports` lists "
+           "the ports that there are";
+  return "`orb doctor` looks for the reason";
+}
+
+} // namespace orb::uploader
