@@ -27,10 +27,16 @@ set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque
 orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 
 # orb_library(<folder> [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its
-# .cpp files, alias orb::<folder>. A new file needs no edit here.
+# .cpp files, alias orb::<folder>. A new file needs no edit here. On Windows NAME_windows.cpp stands in for NAME.cpp.
 function(orb_library folder)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ORB_ROOT}/${folder}/*.cpp)
+  set(windows ${sources})
+  list(FILTER windows INCLUDE REGEX "_windows\\.cpp$")
+  if(WIN32)
+    list(TRANSFORM windows REPLACE "_windows\\.cpp$" ".cpp")
+  endif()
+  list(REMOVE_ITEM sources "" ${windows})
   add_library(orb_${folder} STATIC ${sources})
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
