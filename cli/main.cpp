@@ -101,8 +101,7 @@ int run(const std::vector<std::string>& words) {
 int end_without_output(int error) {
   if (error == EINTR) // Ctrl-C, while whoever reads did not
     return static_cast<int>(ExitCode::Interrupted);
-  if (error == EPIPE)
-    orb::cli::end_unread();
+  orb::cli::end_if_unread(error);
   orb::cli::print_err(fmt::format("orb: error: cannot write <stdout>: {}\n", std::strerror(error)));
   return static_cast<int>(ExitCode::File);
 }

@@ -127,8 +127,14 @@ private:
 
 using Opened = tl::expected<std::unique_ptr<protocol::Transport>, LinkError>;
 
-/// The number that errno would have.
+/// The number that errno would have: sockets of Windows have numbers of their own.
 inline int error_number(const asio::error_code& error) {
+  if (error == asio::error::connection_refused)
+    return ECONNREFUSED;
+  if (error == asio::error::timed_out)
+    return ETIMEDOUT;
+  if (error == asio::error::host_unreachable || error == asio::error::network_unreachable)
+    return EHOSTUNREACH;
   return error.default_error_condition().value();
 }
 

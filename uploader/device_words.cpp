@@ -1,6 +1,7 @@
 #include "uploader/device_words.h"
 
 #include <cerrno>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace orb::uploader {
@@ -11,6 +12,10 @@ const std::string_view port_forms =
 
 bool is_device_name(std::string_view port) {
   return port.find(':') == port.npos && port.find('/') != port.npos;
+}
+
+const char* error_words(int error) {
+  return std::strerror(error);
 }
 
 std::string open_help(const Endpoint& endpoint, int error) {

@@ -15,6 +15,9 @@ bool is_device_name(std::string_view port);
 /// How ports are written, for messages.
 extern const std::string_view port_forms;
 
+/// An error as errno has it, in words.
+const char* error_words(int error);
+
 /// What to do about a link that could not be opened; `error` as errno has it.
 std::string open_help(const Endpoint& endpoint, int error);
 

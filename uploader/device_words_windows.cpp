@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace orb::uploader {
@@ -21,6 +22,17 @@ bool is_device_name(std::string_view port) {
              com.begin(), com.end(), port.begin(),
              [](char a, char b) { return a == std::toupper(static_cast<unsigned char>(b)); }) &&
          std::all_of(port.begin() + com.size(), port.end(), is_digit);
+}
+
+/// The words of its C library end before the errors of sockets.
+const char* error_words(int error) {
+  switch (error) {
+  case ECONNREFUSED: return "connection refused";
+  case ETIMEDOUT: return "connection timed out";
+  case EHOSTUNREACH: return "no route to host";
+  case EAFNOSUPPORT: return "address family not supported by protocol";
+  default: return std::strerror(error);
+  }
 }
 
 std::string open_help(const Endpoint& endpoint, int error) {

@@ -158,7 +158,7 @@ std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& addre
 protocol::LinkError describe_open_error(const Endpoint& endpoint, int error) {
   const auto is_node = endpoint.scheme == Scheme::Serial || endpoint.scheme == Scheme::Pty;
   const auto& name = is_node ? endpoint.path : endpoint.text;
-  const auto* what = error == EWOULDBLOCK ? "in use" : std::strerror(error);
+  const auto* what = error == EWOULDBLOCK ? "in use" : error_words(error);
   std::string seen = what;
   if (seen.size() > 1 && seen[1] >= 'a')
     seen[0] = to_lower(seen[0]);

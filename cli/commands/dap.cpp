@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/input/inputs.h"
 #include "cli/input/wire.h"
 #include "cli/model/checks.h"
@@ -12,7 +13,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -39,7 +39,7 @@ ExitCode serve(const Context& context) {
   const InterruptGuard guard; // a robot is put back as it was, however this ends
   DiskFiles disk;
   std::error_code none;
-  editor::DebugAdapter adapter(disk, std::filesystem::current_path(none).string(),
+  editor::DebugAdapter adapter(disk, std::filesystem::current_path(none).generic_string(),
                                [&](const std::string& port, const std::string& kind) {
                                  return robot_at(context, port, kind);
                                });
@@ -48,7 +48,7 @@ ExitCode serve(const Context& context) {
   for (;;) {
     while (adapter.busy() && !client_speaks())
       send_all(adapter.work(client_speaks));
-    const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+    const auto n = read_input(bytes);
     if (n < 0 && errno == EINTR && InterruptGuard::asked() == 0)
       continue;
     if (n <= 0)

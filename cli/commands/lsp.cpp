@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/input/inputs.h"
 #include "cli/input/wire.h"
 #include "disk/disk.h"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <unistd.h>
 
 namespace orb::cli {
 namespace {
@@ -55,7 +55,7 @@ ExitCode serve() {
   for (bool open = true; open || server.has_waiting();) {
     // What has arrived is taken before the next answer, so that it can cancel what waits.
     if (open && (!server.has_waiting() || client_speaks())) {
-      const auto n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+      const auto n = read_input(bytes);
       if (n < 0 && errno == EINTR)
         continue;
       open = n > 0;

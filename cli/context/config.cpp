@@ -40,8 +40,8 @@ std::optional<fs::path> nearest_project_file() {
     if (fs::is_regular_file(file, error)) {
       if (is_trusted(file))
         return file;
-      print_err(
-          fmt::format("orb: warning: {} belongs to another user and is not read\n", file.string()));
+      print_err(fmt::format("orb: warning: {} belongs to another user and is not read\n",
+                            file.generic_string()));
       break;
     }
     const bool at_home = home && fs::equivalent(folder, *home, error);
@@ -97,7 +97,7 @@ tl::expected<void, ConfigError> apply(const Setting& setting, const Command& orb
         problem(setting.place,
                 fmt::format("a project's file cannot set `{0}`; write `--{0}` on the command line, "
                             "or `{0}` in {1}",
-                            setting.option, user_file().value_or("config.toml").string())));
+                            setting.option, user_file().value_or("config.toml").generic_string())));
   return {};
 }
 

@@ -241,7 +241,7 @@ tl::expected<void, ConfigError> read_into(Config& config, const fs::path& path) 
   const auto text = disk::read(path.string());
   if (!text)
     return tl::unexpected(ConfigError{text.error().message});
-  return read_text_into(config, path.string(), *text);
+  return read_text_into(config, path.generic_string(), *text);
 }
 
 } // namespace orb::cli

@@ -1,5 +1,6 @@
 #include "cli/context/console.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -53,6 +54,10 @@ bool input_waits() {
   return ::poll(&in, 1, 0) > 0;
 }
 
+ssize_t read_input(std::span<char> bytes) {
+  return ::read(STDIN_FILENO, bytes.data(), bytes.size());
+}
+
 std::pair<std::size_t, std::size_t> screen() {
   constexpr std::size_t usual_rows = 24;
   constexpr std::size_t usual_columns = 80;
@@ -62,7 +67,9 @@ std::pair<std::size_t, std::size_t> screen() {
   return {size.ws_row, size.ws_col};
 }
 
-void end_unread() {
+void end_if_unread(int error) {
+  if (error != EPIPE)
+    return;
   std::signal(SIGPIPE, SIG_DFL);
   std::raise(SIGPIPE);
 }

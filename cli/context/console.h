@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <sys/types.h>
 #include <utility>
 #include <vector>
 
@@ -21,15 +23,17 @@ bool is_terminal(Stream stream);
 /// The same, where that terminal also has colours and lines that can be drawn over.
 bool can_draw(Stream stream);
 
-/// Whether a read of standard input would come back at once.
+/// Whether read_input() would come back at once.
 bool input_waits();
+/// As read(2) from standard input, in pieces as they come: how many bytes, 0 at the end.
+ssize_t read_input(std::span<char> bytes);
 
 /// Rows and columns of the terminal that standard error is; 24 and 80 where nobody knows.
 std::pair<std::size_t, std::size_t> screen();
 
-/// Ends as a program does whose reader has left, without a word, where the system has a way for
-/// that.
-void end_unread();
+/// Where an error of writing says that the reader has left, the process ends as programs do then:
+/// without a word. Else this returns.
+void end_if_unread(int error);
 
 /// A new folder that nobody else has, for files of this user; nothing where none can be made.
 std::optional<std::string> make_temporary_folder();

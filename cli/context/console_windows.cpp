@@ -1,10 +1,16 @@
 #include "cli/context/console.h"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <condition_variable>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <io.h>
+#include <mutex>
+#include <thread>
 #include <windows.h>
 
 #include <shellapi.h> // needs what that declares
@@ -20,6 +26,50 @@ HANDLE handle(Stream stream) {
   }
   return ::GetStdHandle(STD_ERROR_HANDLE);
 }
+
+/// Reads standard input ahead, on a thread of its own, where nobody tells whether something waits:
+/// Wine does not for pipes of Unix.
+class ReadAhead {
+public:
+  ReadAhead() {
+    std::thread([this] { fill(); }).detach(); // it may wait for ever, until the process ends
+  }
+
+  bool waits() {
+    const std::lock_guard lock(mutex_);
+    return ended_ || !bytes_.empty();
+  }
+
+  ssize_t read(std::span<char> bytes) {
+    std::unique_lock lock(mutex_);
+    came_.wait(lock, [this] { return ended_ || !bytes_.empty(); });
+    const auto size = std::min(bytes.size(), bytes_.size());
+    std::copy_n(bytes_.begin(), size, bytes.begin());
+    bytes_.erase(0, size);
+    return static_cast<ssize_t>(size);
+  }
+
+private:
+  void fill() {
+    std::array<char, 4096> piece{};
+    int size = 0;
+    while ((size = ::_read(0, piece.data(), piece.size())) > 0) {
+      const std::lock_guard lock(mutex_);
+      bytes_.append(piece.data(), static_cast<std::size_t>(size));
+      came_.notify_one();
+    }
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    came_.notify_one();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::string bytes_;
+  bool ended_ = false;
+};
+
+ReadAhead* ahead = nullptr; ///< outlives everything: its thread may wait for ever
 
 UINT code_page_before = 0;
 
@@ -72,13 +122,26 @@ bool can_draw(Stream stream) {
 }
 
 bool input_waits() {
+  if (ahead != nullptr)
+    return ahead->waits();
   const auto in = handle(Stream::In);
   DWORD count = 0;
-  if (::GetFileType(in) == FILE_TYPE_PIPE) // at its end a read comes back at once, too
-    return ::PeekNamedPipe(in, nullptr, 0, nullptr, &count, nullptr) == 0 || count > 0;
+  if (::GetFileType(in) == FILE_TYPE_PIPE) {
+    if (::PeekNamedPipe(in, nullptr, 0, nullptr, &count, nullptr) != 0)
+      return count > 0;
+    if (::GetLastError() != ERROR_NOT_SUPPORTED)
+      return true; // at its end a read comes back at once, too
+    ahead = new ReadAhead;
+    return ahead->waits();
+  }
   if (is_terminal(Stream::In))
     return ::GetNumberOfConsoleInputEvents(in, &count) != 0 && count > 0;
   return true;
+}
+
+ssize_t read_input(std::span<char> bytes) {
+  return ahead != nullptr ? ahead->read(bytes)
+                          : ::_read(0, bytes.data(), static_cast<unsigned>(bytes.size()));
 }
 
 std::pair<std::size_t, std::size_t> screen() {
@@ -91,7 +154,10 @@ std::pair<std::size_t, std::size_t> screen() {
           static_cast<std::size_t>(info.srWindow.Right - info.srWindow.Left + 1)};
 }
 
-void end_unread() {}
+void end_if_unread(int error) {
+  if (error == EPIPE) // what its C library makes of a broken pipe
+    std::_Exit(EXIT_FAILURE);
+}
 
 std::optional<std::string> make_temporary_folder() {
   std::error_code problem;

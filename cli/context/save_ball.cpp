@@ -112,7 +112,7 @@ tl::expected<std::string, Failure> settings_folder() {
   if (!path)
     return unsaved(ExitCode::File, "there is no place for a configuration: neither "
                                    "XDG_CONFIG_HOME nor HOME is set");
-  return path->parent_path().string();
+  return path->parent_path().generic_string();
 }
 
 tl::expected<std::string, Failure> save_ball(const std::string& name, const std::string& url) {
@@ -125,7 +125,7 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   if (!folder)
     return tl::unexpected(folder.error());
   const auto path = user_file();
-  const auto file = path->string();
+  const auto file = path->generic_string();
   std::error_code error;
   if (fs::create_directories(disk::as_path(*folder), error); error)
     return unsaved(ExitCode::File,

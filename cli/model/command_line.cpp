@@ -101,6 +101,7 @@ std::string HelpFormatter::make_description(const CLI::App* app) const {
 CommandLine::CommandLine(const std::string& name, const std::string& about,
                          const std::string& examples)
     : app_(std::make_unique<CLI::App>(about, name)) {
+  app_->allow_windows_style_options(false); // `/tmp/a.bas` is a path there, too
   app_->formatter(std::make_shared<HelpFormatter>(examples));
   app_->require_subcommand(0, 1); // a word after a command is never a second one: `orb man run`
 }

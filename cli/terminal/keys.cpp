@@ -9,7 +9,7 @@ namespace {
 
 /// The next byte; nothing at the end.
 bool read_byte(char& byte) {
-  return ::read(STDIN_FILENO, &byte, 1) == 1;
+  return read_input({&byte, 1}) == 1;
 }
 
 /// What follows ESC: `[A` or `OA` for an arrow.

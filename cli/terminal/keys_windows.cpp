@@ -3,7 +3,6 @@
 #include "cli/context/console.h"
 
 #include <conio.h>
-#include <unistd.h>
 #include <windows.h>
 
 namespace orb::cli {
@@ -39,7 +38,7 @@ Pressed Keys::next(Wait wait) {
     char byte = 0;
     if (wait == Wait::No && !input_waits())
       return {};
-    return ::read(STDIN_FILENO, &byte, 1) == 1 ? Pressed{Key::None, byte} : Pressed{Key::End, 0};
+    return read_input({&byte, 1}) == 1 ? Pressed{Key::None, byte} : Pressed{Key::End, 0};
   }
   constexpr int first_of_two = 0xE0; // what an arrow begins with
   constexpr int up = 72;
