@@ -151,8 +151,12 @@ TEST(Property, FormattingIsIdempotentAndKeepsTheProgram) {
   }
 }
 
-TEST(Property, FixingIsFinal) {
-  for (std::uint64_t seed = 0; seed < programs; ++seed) {
+/// A test for each, so that they run side by side.
+constexpr std::uint64_t quarters = 4;
+class AQuarterOfThePrograms : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(AQuarterOfThePrograms, IsFinalAfterFixing) {
+  for (auto seed = GetParam(); seed < programs; seed += quarters) {
     const auto text = any_program(seed);
     const auto once = fix(text, {});
     const auto twice = fix(once.text, {});
@@ -174,6 +178,9 @@ TEST(Property, FixingIsFinal) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Property, AQuarterOfThePrograms,
+                         ::testing::Range(std::uint64_t{0}, quarters));
 
 /// The line of a program that has this number; empty where none has.
 std::string line_of(const std::string& text, const std::string& number) {
