@@ -352,6 +352,10 @@ struct Live::State {
   }
 
   tl::expected<void, Failure> begin();
+  /// The greatest duration for `never`.
+  Duration since_start(Instant at) const {
+    return at == never ? Duration::max() : at - watcher.start();
+  }
   bool rolls() const;
   bool advance(Instant target, vm::Ball::Halt halt);
   Ending so_far() const { return ending_of(inputs, options, watcher, ball, limit); }
@@ -469,6 +473,14 @@ void Live::meet(const vm::Shove& shove, std::span<const std::string> names) {
   state_->ball.meet(shove, names);
 }
 
+bool Live::coast(Duration t) {
+  return state_->ball.coast(state_->watcher.start() + t);
+}
+
+Duration Live::next_push() const {
+  return state_->since_start(state_->ball.next_push());
+}
+
 bool Live::over_early() const {
   return state_->watcher.is_over_early();
 }
@@ -485,8 +497,7 @@ void Live::feel(const vm::event::Collision& collision) {
 }
 
 Duration Live::next_event() const {
-  const auto next = state_->ball.next_event();
-  return next == never ? Duration::max() : next - state_->watcher.start();
+  return state_->since_start(state_->ball.next_event());
 }
 
 Duration Live::time() const {

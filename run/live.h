@@ -35,6 +35,9 @@ public:
 
   /// Other balls of its room press on it or have run into it, at time().
   void meet(const vm::Shove& shove, std::span<const std::string> names);
+  /// As vm::Ball has them; times since the start.
+  bool coast(Duration t);
+  Duration next_push() const;
   /// It has printed what was looked for.
   bool over_early() const;
 

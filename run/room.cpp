@@ -54,16 +54,20 @@ public:
   }
 
   void advance_to(Duration t) override {
-    const bool at_slice = t % options_.slice == Duration{} || t == options_.bound;
-    const auto halt = at_slice ? vm::Ball::Halt::Look : vm::Ball::Halt::Pass;
-    while (live_->time() < t && live_->advance(t, halt)) {
+    if (t < next_look_ && live_->coast(t))
+      return;
+    const bool looks = t >= next_look_;
+    const auto halt = looks ? vm::Ball::Halt::Look : vm::Ball::Halt::Pass;
+    while (live_->advance(t, halt) && live_->time() < t) {
     }
     if (live_->time() < t)
       live_->wait(t, halt);
+    if (looks)
+      next_look_ = look_after(t);
   }
   vm::Mover mover() const override { return body().mover(); }
-  double most_speed_cm_s(Duration time) const override {
-    return live_->ball().most_speed_cm_s(time);
+  vm::Outlook outlook() const override {
+    return {body().place(), body().most_speed_cm_s(), live_->next_push()};
   }
   void meet(const vm::Shove& shove, std::span<const std::string> names) override {
     live_->meet(shove, names);
@@ -88,6 +92,11 @@ public:
   }
 
 private:
+  /// A slice ends, or the run.
+  Duration look_after(Duration t) const {
+    const auto slice_end = t - t % options_.slice + options_.slice;
+    return t < options_.bound ? std::min(slice_end, options_.bound) : slice_end;
+  }
   tl::unexpected<Failure> refuse(Failure why) const {
     why.message = fmt::format("{}: {}", ball_.name, why.message);
     return tl::unexpected(std::move(why));
@@ -97,6 +106,7 @@ private:
   Options options_;
   Ear ear_;
   std::unique_ptr<Live> live_;
+  Duration next_look_ = look_after({});
 };
 
 /// All balls, by their names.

@@ -147,6 +147,7 @@ void Ball::advance_until_quiet(Instant target, Halt halt) {
 
 void Ball::advance(Instant target, Until until, Halt halt) {
   programs_.let_go();
+  calm_until_ = {};
   for (;;) {
     if (until == Until::Quiet) {
       if (!idle())
@@ -181,11 +182,12 @@ void Ball::advance(Instant target, Until until, Halt halt) {
       }
       continue;
     }
-    if (event > target)
+    const bool only_motion = halt == Halt::Pass && due > target && !power_.falls_asleep();
+    if (event > target || (only_motion && pass(target))) {
+      calm_until_ = rest_unseen_ ? now_ : std::min(due, power_.battery_holds_until());
       break;
-    if (halt == Halt::Pass && due > target && !power_.falls_asleep())
-      pass(target);
-    else
+    }
+    if (!only_motion)
       run_events(std::min(due, target));
     if (macros_.held())
       return;
@@ -195,19 +197,24 @@ void Ball::advance(Instant target, Until until, Halt halt) {
 }
 
 bool Ball::idle() const {
-  const bool nobody_answers = std::none_of(script_.begin(), script_.end(), [](const auto& event) {
-    return std::holds_alternative<stimulus::Number>(event.stimulus);
-  });
-  return (!programs_.running() || (programs_.waits_in_vain() && nobody_answers)) &&
+  const auto nobody_answers = [&] {
+    return std::none_of(script_.begin(), script_.end(), [](const auto& event) {
+      return std::holds_alternative<stimulus::Number>(event.stimulus);
+    });
+  };
+  return (!programs_.running() || (programs_.waits_in_vain() && nobody_answers())) &&
          !macros_.running() && power_.wake_at() == never && !power_.falls_asleep();
 }
 
-/// Moves on to the target, up to which nothing but motion is due, or to what motion causes.
-void Ball::pass(Instant target) {
+/// Moves on to the target, up to which nothing but motion is due, or to what motion causes. Whether
+/// nothing came of it.
+bool Ball::pass(Instant target) {
   now_ = std::max(now_, body_.advance_to(target));
   rest_unseen_ = was_moving_ && !body_.moving();
-  if (body_.struck())
-    run_events(now_);
+  if (!body_.struck())
+    return !rest_unseen_;
+  run_events(now_);
+  return false;
 }
 
 void Ball::run_events(Instant others) {

@@ -96,10 +96,16 @@ public:
   /// Lets the events of a script happen, their times counted from now().
   void schedule(std::span<const TimedStimulus> script);
 
+  // Among others.
   /// Other balls press on it or have run into it, now; `names` are those of all balls.
   void meet(const Shove& shove, std::span<const std::string> names);
-  /// So fast it can be within `time` from now unless another ball runs into it, cm/s.
-  double most_speed_cm_s(Duration time) const;
+  /// Moves on to `target`, if nothing but motion is due until then and nothing comes of that.
+  /// False: it moved less far or not at all, or something has come of it; advance_to() goes on from
+  /// there. A short cut for who advances in tiny pieces, with `Pass`, and does nothing to it in
+  /// between but meet().
+  bool coast(Instant target);
+  /// When the next push of the script comes; `never` without one.
+  Instant next_push() const;
 
   // Elsewhere.
   /// From now on a robot that is elsewhere is its body and its lamps; it must outlive the ball. The
@@ -162,7 +168,7 @@ private:
   Instant next_step_of_note() const;
   void catch_up();
   void run_events(Instant others);
-  void pass(Instant target);
+  bool pass(Instant target);
   void run_script();
   void run_housekeeping();
   void settle();
@@ -211,6 +217,7 @@ private:
   Instant watch_at_ = never;
   std::optional<Instant> felt_at_; ///< when a robot elsewhere said something last
   bool was_moving_ = false;
+  Instant calm_until_{};     ///< since the last advance nothing but motion is due until then
   bool rest_unseen_ = false; ///< it has come to rest while it was not looked at
 };
 

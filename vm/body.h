@@ -128,7 +128,9 @@ public:
   /// The same in its world, in which it woke up at its placement (0,0 facing +Y where it has none),
   /// whatever the program calls its place and its heading since.
   Pose world_pose() const;
-  /// Where it is and goes in its world.
+  /// Where it is in its world.
+  Point place() const { return world_; }
+  /// The same, and where it goes.
   Mover mover() const;
   /// No way of it to be faster at once, whatever it is ordered, cm/s; only time, pushes and blows.
   double most_speed_cm_s() const { return drive_.most_speed_cm_s(); }

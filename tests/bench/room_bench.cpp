@@ -1,11 +1,17 @@
 // How long 200 balls take for a minute: each alone, and all in one room, where contacts are looked
-// for. On an open floor and between four walls; the second argument is the size of the room in
-// metres.
+// for; and how long the looking takes by itself, with balls that cost nothing. On an open floor and
+// between four walls; the second argument is the size of the room in metres.
 
+#include "base/random.h"
 #include "run/room.h"
 #include "structured/text/files.h"
+#include "vm/body/angles.h"
+#include "vm/room/room.h"
 
 #include <benchmark/benchmark.h>
+#include <chrono>
+#include <cmath>
+#include <deque>
 #include <fmt/format.h>
 #include <string>
 #include <vector>
@@ -61,6 +67,37 @@ struct Balls {
   std::vector<run::RoomBall> balls;
 };
 
+/// A ball without a body: it goes straight on, and turns back at walls and at others.
+class Hiker final : public vm::Resident {
+public:
+  Hiker(vm::Point place, vm::Point velocity, const vm::Point* corner)
+      : mover_{place, velocity}, corner_(corner) {}
+  void advance_to(Duration t) override {
+    const double time = std::chrono::duration<double>(t - now_).count();
+    now_ = t;
+    go(mover_.place.x, mover_.velocity.x, time, corner_ == nullptr ? nullptr : &corner_->x);
+    go(mover_.place.y, mover_.velocity.y, time, corner_ == nullptr ? nullptr : &corner_->y);
+  }
+  vm::Mover mover() const override { return mover_; }
+  vm::Outlook outlook() const override {
+    return {mover_.place, std::hypot(mover_.velocity.x, mover_.velocity.y), Duration::max()};
+  }
+  void meet(const vm::Shove& shove, std::span<const std::string>) override {
+    mover_.velocity.x += shove.change.x;
+    mover_.velocity.y += shove.change.y;
+  }
+
+private:
+  static void go(double& at, double& speed, double time, const double* end) {
+    at += speed * time;
+    if (end != nullptr && ((at < 0 && speed < 0) || (at > *end && speed > 0)))
+      speed = -speed;
+  }
+  vm::Mover mover_;
+  const vm::Point* corner_; ///< opposite of 0,0; null: there are no walls
+  Duration now_{};
+};
+
 void each_alone(benchmark::State& state) {
   Balls all(static_cast<double>(state.range(1)), state.range(0) != 0);
   for (auto _ : state)
@@ -73,6 +110,29 @@ void together(benchmark::State& state) {
     benchmark::DoNotOptimize(run::run_room(all.balls));
 }
 
+void search(benchmark::State& state) {
+  const double side = 100 * static_cast<double>(state.range(1));
+  const vm::Point corner{side, side};
+  for (auto _ : state) {
+    Random random{1};
+    std::deque<Hiker> hikers;
+    vm::Room room;
+    for (int i = 0; i < count; ++i) {
+      constexpr int columns = 15;
+      const double speed = 30 + static_cast<double>(random.next() % 70); // of 255
+      const double way = static_cast<double>(random.next() % 360) * vm::to_radians;
+      const double cm_s = speed / spec::ball::greatest * spec::ball::full_speed;
+      const vm::Point place{side / columns * (i % columns + 0.5),
+                            side / columns * (i / columns + 0.5)};
+      hikers.emplace_back(place, vm::Point{cm_s * std::sin(way), cm_s * std::cos(way)},
+                          state.range(0) != 0 ? &corner : nullptr);
+      room.add(fmt::format("ball{:03}", i), hikers.back());
+    }
+    room.advance_to(std::chrono::minutes{1});
+    benchmark::DoNotOptimize(hikers.back().mover());
+  }
+}
+
 // walls (0 or 1), metres
 void rooms(benchmark::internal::Benchmark* bench) {
   for (const auto metres : {10, 20, 40})
@@ -81,5 +141,6 @@ void rooms(benchmark::internal::Benchmark* bench) {
 }
 BENCHMARK(each_alone)->Apply(rooms);
 BENCHMARK(together)->Apply(rooms);
+BENCHMARK(search)->Apply(rooms);
 
 } // namespace

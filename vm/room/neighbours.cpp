@@ -11,15 +11,14 @@ namespace {
 struct Cell {
   std::int64_t x = 0;
   std::int64_t y = 0;
-
-  friend bool operator==(Cell, Cell) = default;
 };
 
-/// The cells of a grid in as many buckets as there are places, or twice that; cells may share one.
+/// The cells of a grid, in about as many buckets as there are places; cells may share one. Cells
+/// above one another are in buckets that follow one another.
 class Grid {
 public:
   Grid(std::span<const Point> places, double size)
-      : buckets_(std::bit_ceil(places.size() + 1)), first_(buckets_ + 1), cells_(places.size()),
+      : buckets_(std::bit_ceil(places.size() + 3)), first_(buckets_ + 1), cells_(places.size()),
         sorted_(places.size()) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       cells_[i] = {static_cast<std::int64_t>(std::floor(places[i].x / size)),
@@ -33,30 +32,31 @@ public:
       sorted_[next[bucket(cells_[i])]++] = i;
   }
 
-  /// Calls `take` with those after `i` in its cell and the eight around it.
+  /// Calls `take` with those in the cell of `i` and the eight around it, so that each pair comes
+  /// once: with those of its column that come after `i`, and with all of the next column.
   template <class Take>
   void around(std::size_t i, Take take) const {
-    for (std::int64_t dx = -1; dx <= 1; ++dx)
-      for (std::int64_t dy = -1; dy <= 1; ++dy) {
-        const Cell cell{cells_[i].x + dx, cells_[i].y + dy};
-        const auto b = bucket(cell);
+    const auto& [x, y] = cells_[i];
+    for (const auto column : {x, x + 1}) {
+      const auto below = bucket({column, y - 1});
+      for (std::size_t row = 0; row < 3; ++row) {
+        const auto b = (below + row) & (buckets_ - 1);
         for (auto at = first_[b]; at < first_[b + 1]; ++at)
-          if (const auto j = sorted_[at]; j > i && cells_[j] == cell)
+          if (const auto j = sorted_[at]; cells_[j].x == column && (column != x || j > i))
             take(j);
       }
+    }
   }
 
 private:
   std::size_t bucket(Cell cell) const {
-    constexpr std::uint64_t odd_x = 0x9E3779B97F4A7C15; // spreads neighbours: the golden ratio
-    constexpr std::uint64_t odd_y = 0xC2B2AE3D27D4EB4F; // another odd number without a pattern
+    constexpr std::uint64_t odd = 0x9E3779B97F4A7C15; // spreads columns: the golden ratio
     constexpr int half = 32;
-    const auto mixed =
-        static_cast<std::uint64_t>(cell.x) * odd_x + static_cast<std::uint64_t>(cell.y) * odd_y;
-    return static_cast<std::size_t>(mixed >> half) & (buckets_ - 1);
+    const auto column = (static_cast<std::uint64_t>(cell.x) * odd) >> half;
+    return static_cast<std::size_t>(column + static_cast<std::uint64_t>(cell.y)) & (buckets_ - 1);
   }
 
-  std::size_t buckets_;
+  std::size_t buckets_;            ///< a power of two, at least four
   std::vector<std::size_t> first_; ///< of each bucket in `sorted_`
   std::vector<Cell> cells_;
   std::vector<std::size_t> sorted_;
@@ -72,7 +72,7 @@ std::vector<Pair> neighbours(std::span<const Point> places, double distance_cm) 
       const double dx = places[i].x - places[j].x;
       const double dy = places[i].y - places[j].y;
       if (dx * dx + dy * dy <= distance_cm * distance_cm)
-        pairs.push_back({i, j});
+        pairs.push_back({std::min(i, j), std::max(i, j)});
     });
   std::sort(pairs.begin(), pairs.end());
   return pairs;

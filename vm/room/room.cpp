@@ -5,6 +5,7 @@
 #include "vm/room/contacts.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -27,6 +28,10 @@ Duration next_while(Duration now, Duration left, Duration::rep longest) {
   return time;
 }
 
+std::size_t steps_in(Duration time) {
+  return static_cast<std::size_t>(time / Body::step);
+}
+
 double squared(const Point& one, const Point& other) {
   const double dx = one.x - other.x;
   const double dy = one.y - other.y;
@@ -38,7 +43,8 @@ double squared(const Point& one, const Point& other) {
 void Room::add(std::string name, Resident& ball) {
   names_.push_back(std::move(name));
   balls_.push_back(&ball);
-  places_.emplace_back();
+  outlooks_.push_back(ball.outlook());
+  marks_.push_back(0);
 }
 
 void Room::advance_to(Duration t) {
@@ -56,80 +62,86 @@ void Room::advance_to(Duration t) {
   }
 }
 
-/// The pairs of a crowd that may touch within `time`, in order; all of them are among `known`, if
-/// there is that.
-Room::Pairs Room::within_reach(const Crowd& crowd, const Pairs* known, Duration time) {
+/// So near two must be to touch within `time`.
+double Room::reach_cm(const Crowd& crowd, Duration time) const {
   double fastest = 0;
   for (const auto ball : crowd) {
-    places_[ball] = balls_[ball]->mover().place;
-    fastest = std::max(fastest, balls_[ball]->most_speed_cm_s(time));
+    const auto& outlook = outlooks_[ball];
+    const double pushed = outlook.push <= now_ + time ? spec::ball::full_speed : 0;
+    fastest = std::max(fastest, outlook.speed_cm_s + pushed);
   }
+  fastest += spec::ball::acceleration * seconds(time);
   // Who is hit by several at once may become faster than each of them was, but not by that much.
   constexpr double margin = 1.25;
   constexpr double aside = 1; // cm: how far others may push it out of them in the meantime
-  const double reach = 2 * (spec::ball::radius + aside + margin * fastest * seconds(time));
+  return 2 * (spec::ball::radius + aside + margin * fastest * seconds(time));
+}
+
+/// The pairs of a crowd that are within reach, in order; all of them are among `known`, if there is
+/// that.
+void Room::find_pairs(const Crowd& crowd, const Pairs* known, double reach_cm, Pairs& pairs) const {
   constexpr std::size_t cheap = 8; // pairs a ball: to look at more takes longer than to search
-  Pairs pairs;
   if (known != nullptr && known->size() <= cheap * crowd.size()) {
+    pairs.clear();
     std::copy_if(known->begin(), known->end(), std::back_inserter(pairs), [&](const Pair& pair) {
-      return squared(places_[pair.first], places_[pair.second]) <= reach * reach;
+      return squared(outlooks_[pair.first].place, outlooks_[pair.second].place) <=
+             reach_cm * reach_cm;
     });
-    return pairs;
+    return;
   }
   std::vector<Point> places(crowd.size());
   std::transform(crowd.begin(), crowd.end(), places.begin(),
-                 [&](std::size_t ball) { return places_[ball]; });
-  pairs = neighbours(places, reach);
+                 [&](std::size_t ball) { return outlooks_[ball].place; });
+  pairs = neighbours(places, reach_cm);
   for (auto& pair : pairs)
     pair = {crowd[pair.first], crowd[pair.second]};
-  return pairs;
 }
 
 /// Lets `time` pass for a crowd that no other ball can reach in it; how many of them may have
 /// touched another.
 std::size_t Room::pass(const Crowd& crowd, const Pairs* known, Duration time) {
   const auto to = now_ + time;
-  const auto pairs = within_reach(crowd, known, time);
-  std::vector<bool> near(balls_.size());
+  const bool step = time <= Body::step;
+  static_assert(std::bit_width(std::size_t{most_steps}) == std::tuple_size_v<decltype(passes_)>);
+  auto& [pairs, close] = passes_[step ? 0 : std::bit_width(steps_in(time)) - 1];
+  find_pairs(crowd, known, reach_cm(crowd, time), pairs);
   for (const auto& pair : pairs)
-    near[pair.first] = near[pair.second] = true;
-  Crowd close;
-  std::copy_if(crowd.begin(), crowd.end(), std::back_inserter(close),
-               [&](std::size_t ball) { return near[ball]; });
-  if (time <= Body::step) {
-    pass_step(crowd, pairs, to);
-    return close.size();
+    marks_[pair.first] = marks_[pair.second] = 1;
+  close.clear();
+  for (const auto ball : crowd) {
+    if (std::exchange(marks_[ball], 0) != 0)
+      close.push_back(ball);
+    else
+      move(ball, to);
   }
-  for (const auto ball : crowd)
-    if (!near[ball])
-      balls_[ball]->advance_to(to);
-  if (!close.empty()) {
-    pass(close, &pairs, time / 2);
-    pass(close, &pairs, time / 2);
-  }
+  if (step)
+    for (const auto ball : close)
+      move(ball, to);
+  else if (!close.empty())
+    for (int half = 0; half < 2; ++half)
+      pass(close, &pairs, time / 2);
   now_ = to;
+  if (step && to % Body::step == Duration{})
+    touch(pairs);
   return close.size();
 }
 
-void Room::pass_step(const Crowd& crowd, const Pairs& pairs, Duration to) {
-  for (const auto ball : crowd)
-    balls_[ball]->advance_to(to);
-  now_ = to;
-  if (to % Body::step != Duration{})
-    return;
+void Room::move(std::size_t ball, Duration to) {
+  balls_[ball]->advance_to(to);
+  outlooks_[ball] = balls_[ball]->outlook();
+}
+
+/// Lets those of the pairs feel each other that are in touch.
+void Room::touch(const Pairs& pairs) {
+  constexpr double touch = 2 * spec::ball::radius;
   Pairs touching;
-  for (const auto& pair : pairs) {
-    constexpr double touch = 2 * spec::ball::radius;
-    for (const auto ball : {pair.first, pair.second})
-      places_[ball] = balls_[ball]->mover().place;
-    if (squared(places_[pair.first], places_[pair.second]) <= touch * touch)
-      touching.push_back(pair);
-  }
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(touching), [&](const Pair& pair) {
+    return squared(outlooks_[pair.first].place, outlooks_[pair.second].place) <= touch * touch;
+  });
   if (!touching.empty())
     meet(std::move(touching));
 }
 
-/// Lets those of the pairs feel each other, which are in touch.
 void Room::meet(Pairs pairs) {
   Crowd crowd;
   for (const auto& pair : pairs) {
@@ -152,8 +164,10 @@ void Room::meet(Pairs pairs) {
     auto& shove = shoves[i];
     for (auto& knock : shove.knocks)
       knock.other = crowd[knock.other];
-    if (shove.change != Point{} || shove.shift != Point{})
-      balls_[crowd[i]]->meet(shove, names_);
+    if (shove.change == Point{} && shove.shift == Point{})
+      continue;
+    balls_[crowd[i]]->meet(shove, names_);
+    outlooks_[crowd[i]] = balls_[crowd[i]]->outlook();
   }
 }
 

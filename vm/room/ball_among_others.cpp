@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-// What other balls do to a ball.
+// A ball among others: what they do to it, and how far it goes on by itself.
 
 namespace orb::vm {
 
 void Ball::meet(const Shove& shove, std::span<const std::string> names) {
+  calm_until_ = {};
   body_.advance_to(now_);
   const auto [place, velocity] = body_.mover();
   body_.meet(shove);
@@ -21,13 +22,15 @@ void Ball::meet(const Shove& shove, std::span<const std::string> names) {
   watch_motion();
 }
 
-double Ball::most_speed_cm_s(Duration time) const {
-  const bool pushed = std::any_of(script_.begin(), script_.end(), [&](const auto& event) {
-    return std::holds_alternative<stimulus::Push>(event.stimulus) &&
-           Instant{} + event.at <= now_ + time;
+bool Ball::coast(Instant target) {
+  return target < calm_until_ && pass(target);
+}
+
+Instant Ball::next_push() const {
+  const auto push = std::find_if(script_.rbegin(), script_.rend(), [](const auto& event) {
+    return std::holds_alternative<stimulus::Push>(event.stimulus);
   });
-  return body_.most_speed_cm_s() + spec::ball::acceleration * seconds(time) +
-         (pushed ? spec::ball::full_speed : 0);
+  return push == script_.rend() ? never : Instant{} + push->at;
 }
 
 } // namespace orb::vm
