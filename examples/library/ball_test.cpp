@@ -1,4 +1,4 @@
-// Drives the virtual ball by packets, as the test of a client library would.
+// Drives the virtual ball with packets, as the test of a client library would.
 #include <orb/compiler/load.h>
 #include <orb/protocol/decoder.h>
 #include <orb/vm/ball.h>
@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Sends one command and gives what comes back within a tenth of a second.
+// Sends one command and returns what comes back within a tenth of a second.
 orb::protocol::Response answer_to(orb::vm::Ball& ball, orb::spec::ApiCommand command,
                                   orb::Bytes data = {}) {
   ball.receive(encode(orb::protocol::make_command(command, std::move(data), 7)));
@@ -32,7 +32,7 @@ TEST(Ball, AnswersAPing) {
   EXPECT_EQ(answer.seq, 7);
 }
 
-TEST(Ball, KeepsTheColourThatItIsGiven) {
+TEST(Ball, KeepsItsColour) {
   orb::vm::BallOptions options;
   options.loader = orb::compiler::load; // so that it can run programs, too
   orb::vm::Ball ball(options);

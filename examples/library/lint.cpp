@@ -1,4 +1,4 @@
-// Checks a program and prints what is to be said about it, as `orb check` does.
+// Checks a program and prints its findings, as `orb check` does.
 #include <orb/base/render.h>
 #include <orb/compiler/check.h>
 

@@ -1,4 +1,4 @@
-// Runs a program on a ball in this process and reads the way that it went.
+// Runs a program on a ball in this process and reads its path.
 #include <orb/run/run.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Uploads a program over a link of one's own. This one hands the bytes to a ball in this process
-// and writes them down; yours may be a radio, a test double or a cable.
+// Uploads a program over a link of your own. This one counts the bytes and hands them to a ball in
+// this process; yours may be a radio, a test double or a cable.
 #include <orb/compiler/check.h>
 #include <orb/compiler/text/image.h>
 #include <orb/compiler/load.h>
