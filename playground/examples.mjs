@@ -1,7 +1,7 @@
 // Writes examples.json: the examples and lessons of the repository, each with all files that it needs in one
 // folder, and the path that it drives. usage: node playground/examples.mjs ROOT FILE ENGINE, the last a folder with
 // the engine as a package
-import { readdirSync, readFileSync, existsSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -9,6 +9,9 @@ const [root, out, engine_folder] = process.argv.slice(2);
 const { load_engine } = await import(pathToFileURL(resolve(engine_folder, "engine.js")));
 const engine = await load_engine();
 const folder = join(root, "examples");
+const shelves = readdirSync(folder, { withFileTypes: true }).filter(entry => entry.isDirectory() && !["demo", "lessons", "library", "python"].includes(entry.name));
+/** Where each file of the shelves is; no two have one name. */
+const places = Object.fromEntries(shelves.flatMap(({ name: shelf }) => readdirSync(join(folder, shelf)).map(name => [name, join(folder, shelf, name)])));
 const read = path => readFileSync(path, "utf8");
 const stem = name => name.replace(/\.\w+$/, "");
 const ending = name => name.slice(name.lastIndexOf(".") + 1);
@@ -17,22 +20,22 @@ const is_comment = line => /^\s*['#;]/.test(line);
 /** The example files that a text names outside of its comments. */
 const named_in = text => text.split("\n").filter(line => !is_comment(line))
   .flatMap(line => line.match(/[\w-]+\.(?:macro|orb|bas|svg|stimulus)\b/g) ?? [])
-  .filter(name => existsSync(join(folder, name)));
+  .filter(name => name in places);
 
 /** In one folder nothing is further up. */
-const flat = text => text.replaceAll("../../", "");
+const flat = text => text.replaceAll(/\.\.\/\.\.\/(?:\w+\/)?/g, "");
 
 /** A file and what it names, and what that names. */
 function gather(files, name, text) {
   files[name] = flat(text);
   for (const other of named_in(text))
-    if (!(other in files)) gather(files, other, read(join(folder, other)));
+    if (!(other in files)) gather(files, other, read(places[other]));
 }
 
 /** The options of the first command that runs something in a text: the first lines of a program, or a task. */
 function run_of(text, main) {
   const words = (text.match(/orb run (.*)/)?.[1].match(/'[^']*'|\S+/g) ?? [])
-    .map(word => word.replace(/^'(.*)'$/, "$1").replace(/^(examples|\.\.\/\.\.)\//, ""));
+    .map(word => word.replace(/^'(.*)'$/, "$1").replace(/^(examples|\.\.\/\.\.)\/(\w+\/)?/, ""));
   const value = option => words.includes(option) ? words[words.indexOf(option) + 1] : undefined;
   const options = {
     stimuli: value("--stimulus") && [value("--stimulus")],
@@ -48,15 +51,15 @@ function run_of(text, main) {
 }
 
 function example(name) {
-  const text = read(join(folder, name));
+  const text = read(places[name]);
   const [, title, summary] = text.split("\n")[0].match(/^\s*['#;]\s*(?:([^:.]{1,40}):\s*)?(.*)$/);
   const run = run_of(text, name);
   const files = {};
   gather(files, name, text);
   for (const other of [...run.stimuli ?? [], ...run.course ? [run.course] : [], ...run.names ?? []])
-    if (!(other in files)) gather(files, other, read(join(folder, other)));
+    if (!(other in files)) gather(files, other, read(places[other]));
   const test = `${stem(name)}.test`;
-  const tested = existsSync(join(folder, test)) ? read(join(folder, test)) : null;
+  const tested = test in places ? read(places[test]) : null;
   const program = tested?.match(/^program (.*)$/m)?.[1];
   // A test of a macro with the name of a program would take the program.
   const is_tested = tested !== null && (program ? program === name : ending(name) !== "macro");
@@ -127,7 +130,7 @@ function lesson(name) {
 }
 
 const order = ["orb", "bas", "macro"];
-const examples = readdirSync(folder).filter(name => order.includes(ending(name)) && name !== "orchestra.macro")
+const examples = Object.keys(places).filter(name => order.includes(ending(name)) && name !== "orchestra.macro")
   .sort((a, b) => stem(a).localeCompare(stem(b)) || order.indexOf(ending(a)) - order.indexOf(ending(b))).map(example);
 const lessons = readdirSync(join(folder, "lessons")).filter(name => /^\d/.test(name)).sort().map(lesson);
 writeFileSync(out, JSON.stringify({ groups: [{ title: "Lessons", items: lessons }, { title: "Examples", items: examples }] }));

@@ -57,12 +57,12 @@ void compile_program(benchmark::State& state) {
   finish(state, text);
 }
 
-/// The structured programs of a folder, in the order of their names.
+/// The structured programs below a folder, in the order of their names.
 std::vector<std::string> programs_of(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> paths;
   if (std::filesystem::is_directory(folder))
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().extension() == ".orb")
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.path().extension() == ".orb" && entry.path().stem() != "mistakes")
         paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> programs;

@@ -143,8 +143,8 @@ async function ball(...options) {
   return { port, end: () => child.kill() };
 }
 
-const square = readFileSync(join(root, "examples/polygons.bas"), "utf8");
-const dance = readFileSync(join(root, "examples/waltz.macro"), "utf8");
+const square = readFileSync(join(root, "examples/drawing/polygons.bas"), "utf8");
+const dance = readFileSync(join(root, "examples/macros/waltz.macro"), "utf8");
 const uploads = [
   { name: "a program", files: { "a.bas": square }, names: ["a.bas"], run: true },
   { name: "a program into flash", files: { "a.bas": square }, names: ["a.bas"], area: "flash" },

@@ -4,6 +4,7 @@ the numbers on it equal the trace of the same run. usage: page_test.py ORB CHECK
 
 Exits 77 (skipped, to ctest) where no Chromium is installed."""
 
+import glob
 import json
 import os
 import re
@@ -15,7 +16,7 @@ import unittest
 import browser as chromium
 
 orb, root = (os.path.abspath(path) for path in sys.argv[1:3])
-example = lambda name: os.path.join(root, "examples", name)
+example = lambda name: glob.glob(os.path.join(root, "examples", "*", name))[0]
 megabyte = 1_000_000
 
 # Puts the slider where a hand would and tells the page.

@@ -200,12 +200,10 @@ std::string mistyped(const std::string& line, std::mt19937& random) {
 std::array<Counts, 4> mistype_all(const fs::path& root, bool show) {
   std::array<Counts, 4> counts{};
   std::vector<fs::path> paths;
-  for (const auto* folder : {"examples", "examples/lessons"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-      if (entry.is_regular_file())
-        paths.push_back(entry.path());
+  for (const auto& entry : fs::recursive_directory_iterator(root / "examples"))
+    if (entry.is_regular_file())
+      paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
-  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   for (const auto& path : paths) {
     const auto ending = path.extension().string();
     const auto* const known =
