@@ -1,4 +1,4 @@
-#include "reference/knowledge.h"
+#include "reference/sections.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
 #include "structured/text/words.h"
@@ -10,19 +10,11 @@
 namespace orb::reference {
 namespace {
 
-/// `text` fit for a cell of a table.
-std::string cell(std::string_view text) {
-  std::string out;
-  for (const char c : text)
-    (out += c == '|' ? "\\" : "") += c;
-  return out;
-}
-
 /// What structured programs have besides the robot's own statements.
 std::string structured_words() {
   std::string out = "| write | it |\n|---|---|\n";
   for (const auto& row : structured::keywords)
-    out += fmt::format("| `{}` | {} |\n", cell(row.usage), row.summary);
+    out += fmt::format("| `{}` | {} |\n", table_cell(row.usage), row.summary);
   return out;
 }
 
@@ -33,7 +25,7 @@ std::string statements() {
     for (const auto& one : row.parameters())
       values +=
           fmt::format("{}{} {}…{}", values.empty() ? "" : ", ", one.name, one.least, one.greatest);
-    out += fmt::format("| `{}` | {} | {} |\n", cell(row.usage), row.summary, values);
+    out += fmt::format("| `{}` | {} | {} |\n", table_cell(row.usage), row.summary, values);
   }
   return out;
 }

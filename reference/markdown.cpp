@@ -1,5 +1,5 @@
 #include "base/text.h"
-#include "reference/knowledge.h"
+#include "reference/sections.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,15 +9,15 @@
 // leads to it.
 
 namespace orb::reference {
-namespace {
 
-/// `text` fit for a cell of a Markdown table.
-std::string cell(std::string_view text) {
+std::string table_cell(std::string_view text) {
   std::string out;
   for (const char c : text)
     out += c == '|' ? std::string("\\|") : c == '\n' ? std::string("<br>") : std::string(1, c);
   return out;
 }
+
+namespace {
 
 /// The captions that the entries of a section use, in the order of their first appearance.
 std::vector<std::string> captions(const Section& section) {
@@ -56,9 +56,7 @@ public:
   /// For links from the page of `here`.
   Links(const std::vector<Section>& sections, const Section& here) {
     // These pages' words have another meaning wherever a text names them.
-    const auto is_alone = [](const Section& section) {
-      return section.id == "colours";
-    };
+    const auto is_alone = [](const Section& section) { return section.id == "colours"; };
     // A word of several languages leads to the one that the page is about. Only pages about
     // structured programs, and about tests, lead to their words: elsewhere `sub` and `end` are
     // something else.
@@ -150,14 +148,15 @@ std::string table(const Section& section, const Links& links) {
     out += "---|";
   out += "---|\n";
   for (const auto& entry : section.entries) {
-    out += fmt::format("| `{}` |", cell(entry.name));
+    out += fmt::format("| `{}` |", table_cell(entry.name));
     for (const auto& name : names) {
       const auto fact = std::find_if(entry.facts.begin(), entry.facts.end(),
                                      [&](const auto& f) { return f.first == name; });
-      out += fmt::format(
-          " {} |", fact == entry.facts.end() ? "" : cell(fact_text(links, entry.name, *fact)));
+      out += fmt::format(" {} |", fact == entry.facts.end()
+                                      ? ""
+                                      : table_cell(fact_text(links, entry.name, *fact)));
     }
-    out += fmt::format(" {} |\n", cell(links.text(entry.summary, entry.name)));
+    out += fmt::format(" {} |\n", table_cell(links.text(entry.summary, entry.name)));
   }
   return out;
 }
@@ -182,10 +181,10 @@ std::string contents(const Section& section, const Links& links) {
   }
   auto out = table(short_one, links) + "\n";
   for (const auto& entry : section.entries) {
-    const auto plain = fmt::format("\n| `{}` |", cell(entry.name));
+    const auto plain = fmt::format("\n| `{}` |", table_cell(entry.name));
     if (const auto at = out.find(plain); at != std::string::npos)
       out.replace(at, plain.size(),
-                  fmt::format("\n| [`{}`](#{}) |", cell(entry.name), anchor(entry.name)));
+                  fmt::format("\n| [`{}`](#{}) |", table_cell(entry.name), anchor(entry.name)));
   }
   return out;
 }

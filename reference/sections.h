@@ -7,6 +7,9 @@
 
 namespace orb::reference {
 
+/// `text` fit for a cell of a Markdown table.
+std::string table_cell(std::string_view text);
+
 Section statements_section();
 Section words_section();
 Section functions_section();

@@ -1,5 +1,7 @@
 #include "run/delivery.h"
 
+#include "base/refuse.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
@@ -7,10 +9,6 @@
 
 namespace orb::run {
 namespace {
-
-tl::unexpected<Failure> refuse(std::string message) {
-  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
-}
 
 /// The kind of macro that the user or the file asks for.
 uploader::MacroKind macro_kind(const DeliveryOptions& options, const Macro& macro) {
@@ -36,14 +34,16 @@ tl::expected<uploader::Delivery, Failure> arrange(std::span<const Input> inputs,
       uploader::MacroJob job{macro.image, macro_kind(options, macro), false, false};
       job.image.id = options.id.value_or(job.image.id);
       if (job.kind == uploader::MacroKind::User && !ids.insert(job.image.id).second)
-        return refuse(fmt::format("{}: two macros have id {}", macro.name, job.image.id));
+        return refuse(ExitCode::Usage,
+                      fmt::format("{}: two macros have id {}", macro.name, job.image.id));
       job.clear_others = options.clear_macros && delivery.macros.empty();
       delivery.macros.push_back({macro.name, std::move(job)});
     }
     if (!input.program)
       continue;
     if (delivery.program)
-      return refuse(fmt::format("{}: a ball holds one program, and {} is already given",
+      return refuse(ExitCode::Usage,
+                    fmt::format("{}: a ball holds one program, and {} is already given",
                                 input.source->name(), delivery.program_name));
     delivery.program_name = input.source->name();
     const auto& bytes = input.program->image.bytes;
@@ -53,7 +53,8 @@ tl::expected<uploader::Delivery, Failure> arrange(std::span<const Input> inputs,
                                             options.run ? std::optional(start) : std::nullopt};
   }
   if (std::count_if(delivery.macros.begin(), delivery.macros.end(), std::not_fn(is_kept)) > 1)
-    return refuse("a ball holds one temporary or streamed macro; give the others ids from "
+    return refuse(ExitCode::Usage,
+                  "a ball holds one temporary or streamed macro; give the others ids from "
                   "32 to 253");
   if (options.run && !delivery.program && !delivery.macros.empty())
     delivery.macros.back().job.run = true;

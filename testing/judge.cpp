@@ -11,7 +11,6 @@
 namespace orb::testing {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 // Lines that are kept to find the nearest among; a longer list helps nobody.
 constexpr std::size_t most_kept = 50;
 

@@ -21,8 +21,6 @@ std::string plain(double value, int decimals) {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// A number with one decimal, or as many as show that it is greater than `bound`.
 std::string above(double value, double bound) {
   for (int decimals = 1; decimals < 6; ++decimals) {

@@ -2,12 +2,16 @@
 
 #include "testing/judge.h"
 
+#include <limits>
 #include <string>
 #include <string_view>
 
 // What states make of a sighting: how far it is from what is expected, and in which words.
 
 namespace orb::testing {
+
+/// How far off is what cannot be met any more.
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// How far a sighting is from what is expected of it and of all that is joined; 0 where it is met.
 /// Of what happens only the joined states count.

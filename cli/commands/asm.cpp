@@ -52,7 +52,7 @@ bool to_stdout(const AsmOptions& options) {
   return options.out.empty() || options.out == "-";
 }
 
-std::string name_of(const AsmOptions& options, const assembler::AssembledMacro& macro) {
+std::string macro_name(const AsmOptions& options, const assembler::AssembledMacro& macro) {
   if (!macro.name.empty())
     return macro.name;
   return options.file == "-" ? "macro" : disk::as_path(options.file).stem().string();
@@ -92,12 +92,12 @@ bool report(const Context& context, const Source& source, Assembly& assembly) {
 }
 
 /// The macros to write: all, or the one that the user named.
-tl::expected<std::vector<std::size_t>, std::string> select(const AsmOptions& options,
-                                                           const Assembly& assembly) {
+tl::expected<std::vector<std::size_t>, std::string> choose_macros(const AsmOptions& options,
+                                                                  const Assembly& assembly) {
   std::vector<std::size_t> all;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < assembly.macros.size(); ++i) {
-    names.push_back(name_of(options, assembly.macros[i]));
+    names.push_back(macro_name(options, assembly.macros[i]));
     if (options.macro.empty() || options.macro == names.back())
       all.push_back(i);
   }
@@ -123,10 +123,11 @@ ExitCode write_text(const Context& context, const std::string& path, const std::
 void add_note(const Context& context, const AsmOptions& options, const Assembly& assembly,
               std::size_t index) {
   const auto& macro = assembly.macros[index];
-  print_note(context, fmt::format("{}: {}, {} ({} with id and flags), {}", name_of(options, macro),
-                                  plural(macro.commands.size(), "command"),
-                                  plural(macro.body.size(), "byte"), macro.framed_size(),
-                                  assembler::to_string(assembler::time_macro(assembly, index))));
+  print_note(context,
+             fmt::format("{}: {}, {} ({} with id and flags), {}", macro_name(options, macro),
+                         plural(macro.commands.size(), "command"),
+                         plural(macro.body.size(), "byte"), macro.framed_size(),
+                         assembler::to_string(assembler::time_macro(assembly, index))));
 }
 
 ExitCode write_all(const Context& context, const AsmOptions& options, const Source& source,
@@ -139,7 +140,7 @@ ExitCode write_all(const Context& context, const AsmOptions& options, const Sour
                 fmt::format("{} holds {} macros; pick one with `--macro {}`, or name a folder: "
                             "`-o DIR/`",
                             disk::display_name(options.file), macros.size(),
-                            name_of(options, assembly.macros[macros[0]])));
+                            macro_name(options, assembly.macros[macros[0]])));
     return ExitCode::Usage;
   }
   if (to_stdout(options) && format.is_binary && is_terminal(Stream::Out)) {
@@ -157,7 +158,7 @@ ExitCode write_all(const Context& context, const AsmOptions& options, const Sour
   }
   const auto ending = format.endings.substr(0, format.endings.find(' '));
   for (const auto index : macros) {
-    const auto name = name_of(options, assembly.macros[index]);
+    const auto name = macro_name(options, assembly.macros[index]);
     const auto path =
         folder ? (disk::as_path(options.out) / disk::as_path(fmt::format("{}{}", name, ending)))
                      .generic_string()
@@ -176,7 +177,7 @@ ExitCode write_listing(const Context& context, const AsmOptions& options, const 
   std::string text;
   for (const auto index : macros)
     text += (text.empty() ? "" : "\n") +
-            print_listing(name_of(options, assembly.macros[index]), source, assembly, index);
+            print_listing(macro_name(options, assembly.macros[index]), source, assembly, index);
   return write_text(context, to_stdout(options) ? "" : options.out, text);
 }
 
@@ -193,7 +194,7 @@ ExitCode run_asm(const Context& context, const AsmOptions& options) {
                                                                   : assembler::Folding::Keep);
   if (report(context, source, assembly))
     return ExitCode::BadInput;
-  const auto macros = select(options, assembly);
+  const auto macros = choose_macros(options, assembly);
   if (!macros) {
     print_error(context, macros.error());
     return ExitCode::Usage;

@@ -35,7 +35,7 @@ robot_at(const Context& context, const std::string& port, const std::string& kin
 }
 
 /// Serves until the client says `disconnect` or goes away.
-ExitCode serve(const Context& context) {
+ExitCode serve_debugger(const Context& context) {
   const InterruptGuard guard; // a robot is put back as it was, however this ends
   DiskFiles disk;
   std::error_code none;
@@ -71,7 +71,7 @@ void add_dap(const Command& orb, Context& context) {
                       "orb dap\n"
                       "orb dap --stdio");
   add_stdio_flag(command);
-  command.callback([&context] { context.exit = serve(context); });
+  command.callback([&context] { context.exit = serve_debugger(context); });
 }
 
 } // namespace orb::cli

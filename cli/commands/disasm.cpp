@@ -37,7 +37,7 @@ std::optional<Reading> choose(const DisasmOptions& options, const std::string& e
   return framed ? Reading::Framed : Reading::Headerless;
 }
 
-ExitCode run(const Context& context, const DisasmOptions& options) {
+ExitCode disassemble_file(const Context& context, const DisasmOptions& options) {
   auto content = disk::read(options.file);
   if (!content) {
     print_error(context, content.error().message);
@@ -95,7 +95,7 @@ void add_disasm(const Command& orb, Context& context) {
       command.add_flag("--raw", options->raw, "the bytes are commands alone (.sphero)");
   command.add_flag("--framed", options->framed, "the bytes begin with id and flags (.bin)")
       .excludes(raw);
-  command.callback([&context, options] { context.exit = run(context, *options); });
+  command.callback([&context, options] { context.exit = disassemble_file(context, *options); });
 }
 
 } // namespace orb::cli

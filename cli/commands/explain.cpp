@@ -51,7 +51,8 @@ std::vector<std::string> all_names(const std::vector<Section>& sections) {
   return names;
 }
 
-void run(Context& context, const reference::CommandLine& line, const std::string& word) {
+void print_explanation(Context& context, const reference::CommandLine& line,
+                       const std::string& word) {
   auto sections = reference::knowledge();
   for (auto& section : reference::commands_knowledge(line))
     sections.push_back(std::move(section));
@@ -90,8 +91,9 @@ void add_explain(const Command& orb, Context& context) {
           "a statement, variable, colour, error, limit, rule, command or option; or a line of "
           "another language")
       .required();
-  command.callback(
-      [orb, &context, word] { run(context, as_data(orb), std::string(current_id(*word))); });
+  command.callback([orb, &context, word] {
+    print_explanation(context, as_data(orb), std::string(current_id(*word)));
+  });
 }
 
 } // namespace orb::cli

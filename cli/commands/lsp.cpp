@@ -46,7 +46,7 @@ public:
 };
 
 /// Serves until the client says `exit` or goes away.
-ExitCode serve() {
+ExitCode serve_editor() {
   DiskFiles disk;
   DiskFolders folders;
   editor::LanguageServer server(&disk, &folders);
@@ -82,7 +82,7 @@ void add_lsp(const Command& orb, Context& context) {
                       "orb lsp\n"
                       "orb lsp --stdio");
   add_stdio_flag(command);
-  command.callback([&context] { context.exit = serve(); });
+  command.callback([&context] { context.exit = serve_editor(); });
 }
 
 } // namespace orb::cli

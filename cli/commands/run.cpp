@@ -1,4 +1,5 @@
 #include "run/run.h"
+#include "base/refuse.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/context/console.h"
@@ -39,10 +40,6 @@
 namespace orb::cli {
 
 namespace {
-
-tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
-  return tl::unexpected(Failure{code, std::move(message)});
-}
 
 /// What is known of the robot that virtual balls drive like; the one of `sim:` does, too.
 tl::expected<std::optional<run::Profile>, Failure> take_profile(RunOptions& given) {
@@ -106,8 +103,8 @@ std::string where_to_look(const RunOptions& options, const run::Sight& sight) {
   return fmt::format("; {} shows it", options.report.empty() ? "--open" : options.report);
 }
 
-void tell(const Context& context, const RunOptions& options, const run::Ending& ending,
-          const std::string& why) {
+void tell_end(const Context& context, const RunOptions& options, const run::Ending& ending,
+              const std::string& why) {
   const auto story = run::story(ending);
   if (!story.empty())
     print_note(context, story + where_to_look(options, ending.sight));
@@ -248,7 +245,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
     written = write_pictures(given, *journey, planned ? &*planned : nullptr, *before);
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
-  tell(context, given, *ending, run::why(*inputs, *options, *ending));
+  tell_end(context, given, *ending, run::why(*inputs, *options, *ending));
   if (*profile)
     hint_at_guesses(context, given, **profile, console);
   if (ending->robot_stopped)

@@ -37,8 +37,8 @@ std::string plain(const reference::Section& section, Style style) {
 }
 
 /// Keeps the section that the user named; false where there is none.
-bool select(std::vector<reference::Section>& sections, const std::string& id,
-            const Context& context) {
+bool select_section(std::vector<reference::Section>& sections, const std::string& id,
+                    const Context& context) {
   std::vector<std::string_view> ids;
   for (const auto& section : sections)
     ids.push_back(section.id);
@@ -61,7 +61,7 @@ void write_editor_files(Context& context, const std::string& folder) {
   }
 }
 
-void run(Context& context, const SpecOptions& options) {
+void print_spec(Context& context, const SpecOptions& options) {
   if (!options.editors.empty()) {
     write_editor_files(context, options.editors);
     return;
@@ -73,7 +73,7 @@ void run(Context& context, const SpecOptions& options) {
   const auto all = reference::knowledge();
   auto sections = all;
   const bool one = !options.section.empty();
-  if (one && !select(sections, options.section, context)) {
+  if (one && !select_section(sections, options.section, context)) {
     context.exit = ExitCode::Usage;
     return;
   }
@@ -106,7 +106,7 @@ void add_spec(const Command& orb, Context& context) {
                   "write the grammars and syntax files for editors into this folder")
       .type_name("FOLDER")
       .excludes(json);
-  command.callback([&context, options] { run(context, *options); });
+  command.callback([&context, options] { print_spec(context, *options); });
 }
 
 } // namespace orb::cli

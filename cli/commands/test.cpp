@@ -245,8 +245,8 @@ tl::expected<void, Failure> write_results(const Context& context, const TestOpti
 }
 
 /// Prints the results, and leaves the exit code that they are worth.
-tl::expected<void, Failure> tell(Context& context, const TestOptions& options,
-                                 const testing::Results& results) {
+tl::expected<void, Failure> tell_results(Context& context, const TestOptions& options,
+                                         const testing::Results& results) {
   if (auto written = write_results(context, options, results); !written)
     return written;
   if (testing::totals_of(results).failed > 0)
@@ -276,7 +276,7 @@ tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
   const auto results = testing::merge(std::move(parts));
   if (!results)
     return tl::unexpected(results.error());
-  return tell(context, options, *results);
+  return tell_results(context, options, *results);
 }
 
 /// That a test file stands among the programs, where everything after `--program` belongs.
@@ -310,7 +310,7 @@ tl::expected<void, Failure> report_and_tell(Context& context, const TestOptions&
   if (!options.report.empty())
     if (auto written = write_report(options.report, suite, results); !written)
       return written;
-  return tell(context, options, results);
+  return tell_results(context, options, results);
 }
 
 /// The tests on a robot, one after the other. What is known of it is told, even where the link was
@@ -350,7 +350,7 @@ tl::expected<void, Failure> check_port(const TestOptions& options) {
   return {};
 }
 
-tl::expected<void, Failure> test(Context& context, const TestOptions& options) {
+tl::expected<void, Failure> run_tests(Context& context, const TestOptions& options) {
   if (options.merge)
     return join(context, options);
   if (auto fits = check_port(options); !fits)
@@ -435,7 +435,7 @@ void add_test(const Command& orb, Context& context) {
   command.add_flag("--merge", options->merge,
                    "joins results: the files are those that shards wrote with --format json");
   command.callback([&context, options] {
-    if (const auto done = test(context, *options); !done)
+    if (const auto done = run_tests(context, *options); !done)
       fail(context, done.error());
   });
 }

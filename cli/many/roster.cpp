@@ -1,5 +1,6 @@
 #include "cli/many/roster.h"
 
+#include "base/refuse.h"
 #include "base/text.h"
 #include "cli/model/checks.h"
 #include "cli/model/command.h"
@@ -17,10 +18,6 @@ namespace {
 
 constexpr int most_jobs = 1000;
 constexpr int most_tries = 1000;
-
-tl::unexpected<Failure> refuse(std::string message) {
-  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
-}
 
 void add_rest(const Command& command, RosterOptions& options, const std::string& jobs) {
   command
@@ -60,17 +57,18 @@ public:
       return add_group(name, group->second);
     const auto ball = config.balls.find(name);
     if (ball == config.balls.end())
-      return refuse(place + unknown(name));
+      return refuse(ExitCode::Usage, place + unknown(name));
     return add_member({name, port, place.empty() ? ball->second.place + ": " : place, {}});
   }
 
   tl::expected<void, Failure> check_group(const std::string& name, const Group& group) const {
     if (roster_.config.balls.contains(name))
-      return refuse(fmt::format("{}: `{}` is already the name of a ball; give the group another",
+      return refuse(ExitCode::Usage,
+                    fmt::format("{}: `{}` is already the name of a ball; give the group another",
                                 group.place, name));
     for (const auto& member : group.members)
       if (!roster_.config.balls.contains(member.name))
-        return refuse(fmt::format("{}: {}", member.place, unknown(member.name)));
+        return refuse(ExitCode::Usage, fmt::format("{}: {}", member.place, unknown(member.name)));
     return {};
   }
 
@@ -94,13 +92,14 @@ private:
   tl::expected<void, Failure> add_member(Member member) {
     const auto endpoint = find_endpoint(roster_.config, member.port);
     if (!endpoint)
-      return refuse(member.place + endpoint.error().message);
+      return refuse(ExitCode::Usage, member.place + endpoint.error().message);
     member.robot = named_robot(roster_.config, member.port);
     if (endpoint->scheme == uploader::Scheme::Sim)
       return add_virtual(std::move(member));
     const auto where = same_where(*endpoint);
     if (const auto [other, is_new] = known_.emplace(where, member.name); !is_new)
       return refuse(
+          ExitCode::Usage,
           other->second == member.name
               ? fmt::format("{}`{}` is named twice; name it once", member.place, member.port)
               : fmt::format("{}`{}` and `{}` are one robot, {}; leave one of them out",
@@ -116,7 +115,8 @@ private:
                          [&](const Member& one) { return one.name == name; });
     };
     if (member.port.starts_with("@") && taken(member.name))
-      return refuse(fmt::format("{}`{}` is named twice; name it once", member.place, member.port));
+      return refuse(ExitCode::Usage,
+                    fmt::format("{}`{}` is named twice; name it once", member.place, member.port));
     const auto name = member.name;
     for (int i = 2; taken(member.name); ++i)
       member.name = fmt::format("{} {}", name, i);
@@ -202,7 +202,8 @@ tl::expected<Roster, Failure> find_roster(const Context& context, const RosterOp
   const auto* from_environment = std::getenv("ORB_PORT");
   if (!options.file.empty() && options.ports.size() == 1 && from_environment != nullptr &&
       options.ports.front() == from_environment)
-    return refuse(fmt::format("ORB_PORT is {}, and `--ports` names {}: `unset ORB_PORT` for all "
+    return refuse(ExitCode::Usage,
+                  fmt::format("ORB_PORT is {}, and `--ports` names {}: `unset ORB_PORT` for all "
                               "robots of the file",
                               from_environment, options.file));
   roster.is_one = false;
@@ -210,7 +211,7 @@ tl::expected<Roster, Failure> find_roster(const Context& context, const RosterOp
   if (!options.file.empty()) {
     auto read = read_roster(options.file);
     if (!read)
-      return refuse(read.error().message);
+      return refuse(ExitCode::Usage, read.error().message);
     roster.config.balls = std::move(read->balls);
     roster.config.groups = std::move(read->groups);
     for (const auto& [name, group] : roster.config.groups)

@@ -1,5 +1,6 @@
 #include "cli/room/room_plan.h"
 
+#include "base/refuse.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "cli/context/config.h"
@@ -164,10 +165,6 @@ std::string same_name(const std::vector<PlannedBall>& balls) {
                                "another `name`",
                                ball.place, at->second->place, ball.name);
   return {};
-}
-
-tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
-  return tl::unexpected(Failure{code, std::move(message)});
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "cli/room/run_together.h"
 
+#include "base/refuse.h"
 #include "cli/input/inputs.h"
 #include "cli/input/target.h"
 #include "cli/room/room_console.h"
@@ -22,10 +23,6 @@
 
 namespace orb::cli {
 namespace {
-
-tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
-  return tl::unexpected(Failure{code, std::move(message)});
-}
 
 /// What one ball alone can be asked, and a room cannot.
 tl::expected<void, Failure> check_options(const RunOptions& given) {

@@ -1,5 +1,6 @@
 #include "cli/run/on_robot.h"
 
+#include "base/refuse.h"
 #include "cli/robot/driven_robot.h"
 #include "cli/terminal/interrupt.h"
 #include "compiler/lint/lint.h"
@@ -11,10 +12,6 @@
 
 namespace orb::cli {
 namespace {
-
-tl::unexpected<Failure> refuse(std::string message) {
-  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
-}
 
 /// What the program says and this robot does not have, each word once.
 void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs,
@@ -31,7 +28,8 @@ void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs
 
 tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options) {
   const auto of_simulation = [&](std::string_view option) {
-    return refuse(fmt::format("`{}` is for the virtual ball; leave it out, or leave `{}` out",
+    return refuse(ExitCode::Usage,
+                  fmt::format("`{}` is for the virtual ball; leave it out, or leave `{}` out",
                               option, given.replay.empty() ? "--port" : "--replay"));
   };
   if (!given.course.empty())
@@ -42,7 +40,8 @@ tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::
     return of_simulation("--disconnected");
   for (const auto& event : options.stimuli)
     if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
-      return refuse("with a robot a stimulus can only be an `input`: shake and push it by hand, or "
+      return refuse(ExitCode::Usage,
+                    "with a robot a stimulus can only be an `input`: shake and push it by hand, or "
                     "leave `--port` out");
   return {};
 }

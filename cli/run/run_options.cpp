@@ -1,6 +1,7 @@
 #include "cli/run/run_options.h"
 
 #include "base/duration.h"
+#include "base/refuse.h"
 #include "cli/input/inputs.h"
 #include "cli/robot/ball_profile.h"
 
@@ -27,10 +28,6 @@ std::optional<std::vector<std::int32_t>> read_numbers(std::string_view text) {
       return std::nullopt;
     at = next + 1;
   }
-}
-
-tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
-  return tl::unexpected(Failure{code, std::move(message)});
 }
 
 } // namespace

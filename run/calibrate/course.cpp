@@ -1,5 +1,6 @@
 #include "run/calibrate/course.h"
 
+#include "base/refuse.h"
 #include "vm/body.h"
 #include "vm/body/angles.h"
 
@@ -27,10 +28,6 @@ constexpr std::size_t least_seen = 12;
 constexpr int bends_deg[] = {90, -90, 120, -60, 60, -120};
 /// In which order the speeds come: far ones follow each other. Sixths of the range.
 constexpr int sixths[] = {6, 0, 3, 5, 1, 4, 2, 6, 3, 0, 4, 6};
-
-Failure refused(std::string message) {
-  return {ExitCode::Refused, std::move(message)};
-}
 
 struct Shape {
   int speed = 0;
@@ -148,14 +145,14 @@ private:
         return tl::unexpected(felt.error());
       for (const auto& one : *felt)
         if (std::holds_alternative<vm::event::Collision>(one))
-          return tl::unexpected(refused("the robot ran into something; clear 2 m x 2 m of floor "
-                                        "and begin again"));
+          return refuse(ExitCode::Refused, "the robot ran into something; clear 2 m x 2 m of floor "
+                                           "and begin again");
         else if (const auto* sample = std::get_if<vm::Sample>(&one))
           take(*sample);
       const auto here = from_middle();
       if (std::max(std::abs(here.x), std::abs(here.y)) > square_half_cm)
-        return tl::unexpected(refused("the robot left the 2 m x 2 m; put it in the middle of a "
-                                      "level floor, facing along one side, and begin again"));
+        return refuse(ExitCode::Refused, "the robot left the 2 m x 2 m; put it in the middle of a "
+                                         "level floor, facing along one side, and begin again");
     }
     return {};
   }
@@ -186,10 +183,11 @@ tl::expected<Speeds, Failure> course_speeds(spec::Robot robot) {
          spec::speed_cm_s(numbers, speeds.fastest) > fastest_cm_s)
     --speeds.fastest;
   if (speeds.fastest < speeds.slowest + least_range)
-    return tl::unexpected(refused(fmt::format("a robot as fast as {} cannot be measured in 2 m x "
-                                              "2 m: at speed {} it does {:.0f} cm/s",
-                                              spec::info(robot).title, speeds.slowest,
-                                              spec::speed_cm_s(numbers, speeds.slowest))));
+    return refuse(ExitCode::Refused,
+                  fmt::format("a robot as fast as {} cannot be measured in 2 m x "
+                              "2 m: at speed {} it does {:.0f} cm/s",
+                              spec::info(robot).title, speeds.slowest,
+                              spec::speed_cm_s(numbers, speeds.slowest)));
   return speeds;
 }
 

@@ -1,5 +1,6 @@
 #include "run/calibrate/fit.h"
 
+#include "base/refuse.h"
 #include "vm/body.h"
 #include "vm/body/angles.h"
 
@@ -22,10 +23,6 @@ constexpr double furthest = 3;         ///< times the model's number, or a third
 constexpr double open_share = 0.15;    ///< a greater spread leaves a number open
 constexpr double misfit_share = 0.5;   ///< of the error before, left after
 constexpr double misfit_cm = 4;
-
-Failure refused(std::string message) {
-  return {ExitCode::Refused, std::move(message)};
-}
 
 /// Where the model is when the robot was seen.
 void follow(const Leg& leg, const spec::Driving& numbers, std::vector<Seen>& places) {
@@ -242,20 +239,22 @@ tl::expected<void, Failure> believable(const Calibration& result, const Found& f
   for (std::size_t row = 0; row < rows; ++row) {
     const auto& info = driving_rows[row];
     if (std::abs(found.at[row]) > 0.99 * std::log(furthest))
-      return tl::unexpected(refused(
+      return refuse(
+          ExitCode::Refused,
           fmt::format("`{}` would be more than {} times as far as the {} of the model: see that "
                       "`--robot` names this robot, and that nothing holds it",
-                      info.name, furthest, value_of(result.before, info))));
+                      info.name, furthest, value_of(result.before, info)));
     if (found.spread[row] > open_share)
-      return tl::unexpected(refused(
+      return refuse(
+          ExitCode::Refused,
           fmt::format("this drive leaves `{}` open: {:.3g} ± {:.2g}; begin again on a level floor",
-                      info.name, value_of(result.after, info), result.spread[row])));
+                      info.name, value_of(result.after, info), result.spread[row]));
   }
   if (result.error_after_cm > misfit_cm &&
       result.error_after_cm > misfit_share * result.error_before_cm)
-    return tl::unexpected(refused(fmt::format(
-        "no numbers of the model tell where this robot went: {:.1f} cm off before, {:.1f} cm after",
-        result.error_before_cm, result.error_after_cm)));
+    return refuse(ExitCode::Refused, fmt::format("no numbers of the model tell where this robot "
+                                                 "went: {:.1f} cm off before, {:.1f} cm after",
+                                                 result.error_before_cm, result.error_after_cm));
   return {};
 }
 
@@ -269,10 +268,10 @@ tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot ro
       used.push_back(&leg);
   const auto enough = [&] { return 4 * used.size() >= 3 * legs.size() && !used.empty(); };
   const auto too_few = [&] {
-    return tl::unexpected(refused(fmt::format(
-        "only {} of {} legs of the drive can be used, the link lost the others; go nearer to the "
-        "robot and begin again",
-        used.size(), legs.size())));
+    return refuse(ExitCode::Refused, fmt::format("only {} of {} legs of the drive can be used, the "
+                                                 "link lost the others; go nearer to the "
+                                                 "robot and begin again",
+                                                 used.size(), legs.size()));
   };
   if (!enough())
     return too_few();

@@ -14,7 +14,6 @@ constexpr Duration patience = 20s;
 constexpr Duration no_progress = 3s; ///< as long it may come no nearer
 constexpr double progress_cm = 2;
 constexpr Duration turn = 1500ms; ///< for the turn at the end
-constexpr int circle = 360;
 
 double distance(const vm::Sample& sample) {
   return std::hypot(sample.place_cm.x, sample.place_cm.y);
@@ -26,7 +25,8 @@ vm::Roll toward_home(const vm::Sample& sample) {
   constexpr double fastest = 60;
   const double heading =
       std::atan2(-sample.place_cm.x, -sample.place_cm.y) * 180 / std::numbers::pi;
-  return {(static_cast<int>(std::lround(heading)) + circle) % circle,
+  return {(static_cast<int>(std::lround(heading)) + spec::ball::full_circle) %
+              spec::ball::full_circle,
           static_cast<int>(std::clamp(distance(sample), slowest, fastest)), vm::Go::Drive};
 }
 

@@ -8,7 +8,6 @@ namespace {
 
 /// How long the program may be behind the link: a reaction takes no longer than this.
 constexpr Duration shortest_nap = 2ms;
-constexpr Duration longest_nap = 20ms;
 /// A program that is further behind, because the computer slept, does not hurry after.
 constexpr Duration most_behind = 500ms;
 

@@ -10,6 +10,9 @@
 
 namespace orb::run {
 
+/// How long a run waits at most before it looks at its link again.
+inline constexpr Duration longest_nap = 20ms;
+
 /// Lets a run know what the robot says; its time is that of the link.
 void feel(Live& live, const Said& said);
 

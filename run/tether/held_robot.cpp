@@ -1,11 +1,11 @@
 #include "run/tether/held_robot.h"
 
+#include "run/tether/driven.h"
+
 #include <algorithm>
 
 namespace orb::run {
 namespace {
-
-constexpr Duration longest_nap = 20ms;
 
 class Held final : public HeldRobot {
 public:

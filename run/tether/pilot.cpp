@@ -1,5 +1,6 @@
 #include "run/tether/pilot.h"
 
+#include "spec/ball.h"
 #include "spec/basic.h"
 
 #include <algorithm>
@@ -9,14 +10,13 @@
 namespace orb::run {
 namespace {
 
-constexpr int circle = 360;
 constexpr int turn_deg = 15;
 constexpr int speed_step = 20;
 constexpr int fastest = 255;
 constexpr int lamp_level = 255;
 
 int on_circle(int deg) {
-  return (deg % circle + circle) % circle;
+  return (deg % spec::ball::full_circle + spec::ball::full_circle) % spec::ball::full_circle;
 }
 
 std::string side(double cm, std::string_view plus, std::string_view minus) {

@@ -18,9 +18,9 @@ struct Form {
   std::uint32_t follow = none; ///< where it goes on after the loop
 };
 
-class Writer {
+class BlockWriter {
 public:
-  Writer(const Graph& graph, const Hints& hints)
+  BlockWriter(const Graph& graph, const Hints& hints)
       : graph_(graph), hints_(hints), inside_(graph.nodes.size()), outside_(graph.nodes.size()),
         placed_(graph.nodes.size(), false) {}
 
@@ -408,7 +408,7 @@ private:
 } // namespace
 
 Pieces make_blocks(const Graph& graph, const Hints& hints) {
-  auto pieces = Writer(graph, hints).write();
+  auto pieces = BlockWriter(graph, hints).write();
   std::set<std::uint32_t> targets;
   collect_targets(pieces, targets);
   Simplifier(graph, targets).simplify(pieces);

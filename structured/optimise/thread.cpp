@@ -5,7 +5,7 @@
 namespace orb::structured {
 namespace {
 
-constexpr int most_lines = 12; ///< that a way is followed
+constexpr int longest_way = 12; ///< that a way is followed
 
 class Threader {
 public:
@@ -104,7 +104,7 @@ private:
 
   std::uint32_t follow(std::uint32_t i, State& state, std::vector<std::uint32_t>& set) {
     std::uint32_t best = none;
-    for (; i < code_.lines.size() && ++steps_ < most_lines; ++i) {
+    for (; i < code_.lines.size() && ++steps_ < longest_way; ++i) {
       if (const auto b = block_at_[i];
           b != none && std::none_of(set.begin(), set.end(),
                                     [&](std::uint32_t v) { return contains(liveness_.in[b], v); }))

@@ -1,5 +1,7 @@
 #include "testing/verdicts/merge.h"
 
+#include "base/refuse.h"
+
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -9,7 +11,7 @@
 namespace orb::testing {
 namespace {
 
-using Json = nlohmann::json;
+using Value = nlohmann::json;
 
 std::optional<Verdict> verdict_called(std::string_view word) {
   for (const auto verdict : {Verdict::Passed, Verdict::Failed, Verdict::Error})
@@ -23,8 +25,8 @@ class Reader {
 public:
   bool good() const { return good_; }
 
-  const Json& member(const Json& json, const char* name, Json::value_t kind) {
-    static const Json none;
+  const Value& member(const Value& json, const char* name, Value::value_t kind) {
+    static const Value none;
     const auto found = json.is_object() ? json.find(name) : json.end();
     if (!json.is_object() || found == json.end() || found->type() != kind) {
       good_ = false;
@@ -32,29 +34,29 @@ public:
     }
     return *found;
   }
-  std::uint64_t count(const Json& json, const char* name) {
-    const auto& found = member(json, name, Json::value_t::number_unsigned);
+  std::uint64_t count(const Value& json, const char* name) {
+    const auto& found = member(json, name, Value::value_t::number_unsigned);
     return found.is_number_unsigned() ? found.get<std::uint64_t>() : 0;
   }
-  std::string text(const Json& json, const char* name) {
-    const auto& found = member(json, name, Json::value_t::string);
+  std::string text(const Value& json, const char* name) {
+    const auto& found = member(json, name, Value::value_t::string);
     return found.is_string() ? found.get<std::string>() : std::string();
   }
   /// A text that is no member.
-  std::string is_text(const Json& json) {
+  std::string is_text(const Value& json) {
     good_ = good_ && json.is_string();
     return json.is_string() ? json.get<std::string>() : std::string();
   }
-  std::string text_or_none(const Json& json, const char* name) {
+  std::string text_or_none(const Value& json, const char* name) {
     return json.is_object() && json.contains(name) ? text(json, name) : std::string();
   }
 
-  Miss miss(const Json& json) {
+  Miss miss(const Value& json) {
     return {static_cast<std::uint32_t>(count(json, "line")), text(json, "expected"),
             text(json, "seen"), text_or_none(json, "where")};
   }
 
-  CaseResult one_case(const Json& json) {
+  CaseResult one_case(const Value& json) {
     CaseResult one;
     one.seed = count(json, "seed");
     const auto verdict = verdict_called(text(json, "verdict"));
@@ -65,14 +67,14 @@ public:
     one.problem = text_or_none(json, "problem");
     one.again = text_or_none(json, "again");
     if (good_ && json.contains("misses"))
-      for (const auto& entry : member(json, "misses", Json::value_t::array))
+      for (const auto& entry : member(json, "misses", Value::value_t::array))
         one.misses.push_back(miss(entry));
-    one.omitted = good_ && json.value("omitted", Json()) == true;
+    one.omitted = good_ && json.value("omitted", Value()) == true;
     good_ = good_ && (one.verdict != Verdict::Failed || one.omitted || !one.misses.empty());
     return one;
   }
 
-  GroupResult group(const Json& json) {
+  GroupResult group(const Value& json) {
     GroupResult group;
     group.file = text(json, "file");
     group.test = text(json, "test");
@@ -81,7 +83,7 @@ public:
     group.program = text(json, "program");
     group.first = count(json, "first");
     group.count = count(json, "count");
-    for (const auto& entry : member(json, "cases", Json::value_t::array))
+    for (const auto& entry : member(json, "cases", Value::value_t::array))
       group.cases.push_back(one_case(entry));
     return group;
   }
@@ -93,10 +95,6 @@ private:
 bool same_head(const GroupResult& a, const GroupResult& b) {
   return a.file == b.file && a.test == b.test && a.line == b.line && a.points == b.points &&
          a.program == b.program && a.first == b.first && a.count == b.count;
-}
-
-tl::unexpected<Failure> refuse(std::string message) {
-  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
 }
 
 /// Which shards are missing, or how many runs where that cannot be told.
@@ -128,19 +126,19 @@ tl::expected<Part, Failure> read_results(std::string name, std::string_view text
     return tl::unexpected(Failure{
         ExitCode::File, fmt::format("{} holds no results of `orb test --format json`", name)});
   };
-  const auto json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("schema", Json()) != "orb.test/1")
+  const auto json = Value::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("schema", Value()) != "orb.test/1")
     return wrong();
   Reader reader;
   Results results;
   results.cases = reader.count(json, "cases");
   if (json.contains("shards"))
-    for (const auto& shard : reader.member(json, "shards", Json::value_t::array))
+    for (const auto& shard : reader.member(json, "shards", Value::value_t::array))
       results.shards.push_back({reader.count(shard, "index"), reader.count(shard, "count")});
-  for (const auto& group : reader.member(json, "tests", Json::value_t::array))
+  for (const auto& group : reader.member(json, "tests", Value::value_t::array))
     results.groups.push_back(reader.group(group));
   if (json.contains("missing"))
-    for (const auto& one : reader.member(json, "missing", Json::value_t::array))
+    for (const auto& one : reader.member(json, "missing", Value::value_t::array))
       results.missing.push_back(reader.is_text(one));
   if (!reader.good())
     return wrong();
@@ -153,8 +151,8 @@ tl::expected<Results, Failure> merge(std::vector<Part> parts) {
     auto& part = parts[i].results;
     if (part.cases != joined.cases || part.groups.size() != joined.groups.size() ||
         !std::equal(part.groups.begin(), part.groups.end(), joined.groups.begin(), same_head))
-      return refuse(fmt::format("{} and {} are not parts of the same command", parts.front().name,
-                                parts[i].name));
+      return refuse(ExitCode::Usage, fmt::format("{} and {} are not parts of the same command",
+                                                 parts.front().name, parts[i].name));
     joined.shards.insert(joined.shards.end(), part.shards.begin(), part.shards.end());
     for (std::size_t g = 0; g < part.groups.size(); ++g)
       std::move(part.groups[g].cases.begin(), part.groups[g].cases.end(),
@@ -168,13 +166,13 @@ tl::expected<Results, Failure> merge(std::vector<Part> parts) {
         group.cases.begin(), group.cases.end(),
         [](const CaseResult& a, const CaseResult& b) { return a.seed == b.seed; });
     if (twice != group.cases.end())
-      return refuse(fmt::format("\"{}\" with {}, seed {}, is in two files", group.test,
-                                group.program, twice->seed));
+      return refuse(ExitCode::Usage, fmt::format("\"{}\" with {}, seed {}, is in two files",
+                                                 group.test, group.program, twice->seed));
     there += group.cases.size();
     keep_first(group);
   }
   if (there != joined.cases)
-    return refuse(missing(joined, joined.cases - std::min(there, joined.cases)));
+    return refuse(ExitCode::Usage, missing(joined, joined.cases - std::min(there, joined.cases)));
   joined.shards.clear();
   return joined;
 }

@@ -1,3 +1,4 @@
+#include "base/refuse.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
 #include "cli/robot/ball_profile.h"
@@ -23,10 +24,6 @@ struct CalibrateOptions {
   std::string ball;   ///< by which the robot of `sim:` drives
   bool yes = false;
 };
-
-tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
-  return tl::unexpected(Failure{code, std::move(message)});
-}
 
 /// Says what will happen, and waits for Enter.
 tl::expected<void, Failure> ask(spec::Robot robot) {
@@ -54,8 +51,8 @@ void print_result(const run::Calibration& found, const run::Speeds& speeds) {
                         speeds.slowest, speeds.fastest));
 }
 
-tl::expected<void, Failure> save(const Context& context, const std::string& name,
-                                 const run::Profile& profile) {
+tl::expected<void, Failure> save_profile(const Context& context, const std::string& name,
+                                         const run::Profile& profile) {
   const auto file = profile_file(name);
   if (!file)
     return tl::unexpected(file.error());
@@ -71,7 +68,7 @@ tl::expected<void, Failure> save(const Context& context, const std::string& name
 }
 
 /// Whoever drives is held at the end, whatever came of the drive.
-tl::expected<std::vector<run::Leg>, Failure> drive(Context& context, DrivenRobot& robot) {
+tl::expected<std::vector<run::Leg>, Failure> drive_course(Context& context, DrivenRobot& robot) {
   auto held = run::hold_robot(*robot.link.transport, robot.tether);
   if (!held)
     return tl::unexpected(held.error());
@@ -119,7 +116,7 @@ tl::expected<void, Failure> calibrate(Context& context, CalibrateOptions options
   if (!options.yes)
     if (auto asked = ask(robot); !asked)
       return asked;
-  const auto legs = drive(context, **connected);
+  const auto legs = drive_course(context, **connected);
   if (!legs)
     return tl::unexpected(legs.error());
   const auto found = run::fit(*legs, robot);
@@ -128,7 +125,8 @@ tl::expected<void, Failure> calibrate(Context& context, CalibrateOptions options
   print_result(*found, *speeds);
   if (options.output.empty())
     return {};
-  return save(context, options.output, {robot, found->after, speeds->slowest, speeds->fastest});
+  return save_profile(context, options.output,
+                      {robot, found->after, speeds->slowest, speeds->fastest});
 }
 
 } // namespace

@@ -136,8 +136,8 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
 
 enum class Asked { ThePort, TheComputer };
 
-void run(Context& context, const PortOptions& options, const std::string& format,
-         const std::string& robot, Asked asked) {
+void examine(Context& context, const PortOptions& options, const std::string& format,
+             const std::string& robot, Asked asked) {
   auto list = Json::array();
   auto* const gathered = format == "json" ? &list : nullptr;
   Checkup checkup(context, gathered);
@@ -187,7 +187,7 @@ void add_doctor(const Command& orb, Context& context) {
   add_format_option(command, *format);
   command.callback([&context, options, format, robot, command] {
     const auto asked = command.find("--port")->given() ? Asked::ThePort : Asked::TheComputer;
-    run(context, *options, *format, *robot, asked);
+    examine(context, *options, *format, *robot, asked);
   });
 }
 

@@ -224,7 +224,7 @@ private:
   std::unique_ptr<serve::PageServer> page_;
 };
 
-tl::expected<void, Failure> drive(Context& context, const DriveOptions& options) {
+tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& options) {
   const InterruptGuard guard;
   auto connected = connect_robot(context, options.port, options.robot);
   if (!connected)
@@ -279,7 +279,7 @@ void add_drive(const Command& orb, Context& context) {
   command.add_flag("--open", options->open, "the same, and opens it");
   command.footer("Keys: " + key_help());
   command.callback([&context, options] {
-    if (const auto done = drive(context, *options); !done)
+    if (const auto done = drive_by_hand(context, *options); !done)
       fail(context, done.error());
   });
 }

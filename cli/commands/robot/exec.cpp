@@ -28,7 +28,7 @@ struct ExecOptions {
 };
 
 /// Sends a command of packets v2 and prints the answer. A robot that sleeps is woken for it.
-void run_v2(Context& context, const ExecOptions& options, const spec::RobotInfo& robot) {
+void execute_v2(Context& context, const ExecOptions& options, const spec::RobotInfo& robot) {
   const auto* row = spec::find_v2_command(options.name);
   if (row == nullptr) {
     std::vector<std::string_view> names;
@@ -156,9 +156,9 @@ ExitCode print_answer(const Context& context, const ExecOptions& options, spec::
   return ExitCode::LinkLost;
 }
 
-void run(Context& context, const ExecOptions& options) {
+void execute(Context& context, const ExecOptions& options) {
   if (const auto* robot = newer_robot(context, options.port, options.robot))
-    return run_v2(context, options, *robot);
+    return execute_v2(context, options, *robot);
   if (spec::find_command(options.name) == nullptr && spec::find_v2_command(options.name) != nullptr)
     return fail(context, {ExitCode::Usage,
                           fmt::format("`{}` is a command of the newer robots; say which one "
@@ -187,7 +187,7 @@ void run(Context& context, const ExecOptions& options) {
 }
 
 /// Why the command is not for one of several robots.
-std::optional<std::string> misfit(const ExecOptions& options, const Member& member) {
+std::optional<std::string> lacking_command(const ExecOptions& options, const Member& member) {
   if (!member.robot)
     return std::nullopt;
   const auto& robot = spec::info(*member.robot);
@@ -234,12 +234,12 @@ void add_exec(const Command& orb, Context& context) {
         return tl::unexpected(unknown_command(options->name));
       return {};
     };
-    many.misfit = [options](const Member& robot) { return misfit(*options, robot); };
+    many.misfit = [options](const Member& robot) { return lacking_command(*options, robot); };
     with_robots(context, options->roster, many,
                 [&](Context& own, const Member& robot, const Row* row) {
                   auto one = *options;
                   one.port = port_of(one.port, robot, row);
-                  run(own, one);
+                  execute(own, one);
                 });
   });
 }

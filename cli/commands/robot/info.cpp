@@ -213,8 +213,8 @@ void print_info(std::string_view format, const Json& json, const std::string& te
 }
 
 /// What a robot of packets v2 says of itself, a line or a key each.
-void run_v2(Context& context, const PortOptions& options, const std::string& format,
-            const spec::RobotInfo& robot) {
+void tell_all_v2(Context& context, const PortOptions& options, const std::string& format,
+                 const spec::RobotInfo& robot) {
   struct Line {
     std::string_view word;
     spec::V2Command command;
@@ -249,10 +249,10 @@ void run_v2(Context& context, const PortOptions& options, const std::string& for
   });
 }
 
-void run(Context& context, const PortOptions& options, const std::string& format,
-         const std::string& robot) {
+void tell_all(Context& context, const PortOptions& options, const std::string& format,
+              const std::string& robot) {
   if (const auto* row = newer_robot(context, options, robot))
-    return run_v2(context, options, format, *row);
+    return tell_all_v2(context, options, format, *row);
   with_ball(context, options,
             [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
               auto json = info_json(link.name, greeting);
@@ -304,12 +304,12 @@ void add_info(const Command& orb, Context& context) {
     many.again = TryAgain::Lost;
     many.prints = Prints::Answer;
     many.json = options->format == "json";
-    with_robots(
-        context, options->roster, many, [&](Context& own, const Member& robot, const Row* row) {
-          const auto in_table = row != nullptr && options->format == "text";
-          run(own, port_of(options->port, robot, row),
-              in_table ? std::string(row_format) : options->format, options->robot);
-        });
+    with_robots(context, options->roster, many,
+                [&](Context& own, const Member& robot, const Row* row) {
+                  const auto in_table = row != nullptr && options->format == "text";
+                  tell_all(own, port_of(options->port, robot, row),
+                           in_table ? std::string(row_format) : options->format, options->robot);
+                });
   });
 }
 

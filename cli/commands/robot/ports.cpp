@@ -130,7 +130,7 @@ void list(Context& context, const PortsOptions& options) {
 }
 
 /// Gives a port a name in the user's configuration.
-void save(Context& context, const std::string& assignment) {
+void save_port(Context& context, const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == assignment.npos || equals + 1 == assignment.size())
     return fail(context, {ExitCode::Usage, fmt::format("`{}` names no port; write `--save "
@@ -170,7 +170,7 @@ void add_ports(const Command& orb, Context& context) {
   command.callback([&context, options] {
     for (const auto& assignment : options->saved)
       if (context.exit == ExitCode::Done)
-        save(context, assignment);
+        save_port(context, assignment);
     if (options->saved.empty())
       list(context, *options);
   });
