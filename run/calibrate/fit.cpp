@@ -4,19 +4,25 @@
 #include "vm/body.h"
 #include "vm/body/angles.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <unsupported/Eigen/NonLinearOptimization>
+#include <unsupported/Eigen/NumericalDiff>
 #include <vector>
 
 namespace orb::run {
 namespace {
 
 constexpr std::size_t rows = driving_rows.size();
-/// Each number as the logarithm of how many times the model's it is: all are positive.
-using Vector = std::array<double, rows>;
-using Matrix = std::array<Vector, rows>;
+/// Each number as how many times the model's it is.
+using Vector = Eigen::VectorXd;
 using Residuals = std::vector<double>;
+
+Vector as_the_model() {
+  return Vector::Ones(static_cast<Eigen::Index>(rows));
+}
 
 constexpr double yaw_cm_per_deg = 0.2; ///< what a degree counts beside places
 constexpr double furthest = 3;         ///< times the model's number, or a third of it
@@ -76,7 +82,7 @@ Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving&
   numbers = model;
   double steps = 0;
   for (std::size_t row = 0; row < rows; ++row) {
-    const double times = std::exp(at[row]);
+    const double times = std::clamp(at[static_cast<Eigen::Index>(row)], 1 / furthest, furthest);
     if (driving_rows[row].place == nullptr)
       steps = std::clamp(model.dead_steps * times - 0.5, 0.0, spec::most_dead_steps - 1.0);
     else
@@ -95,116 +101,55 @@ Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving&
   return below;
 }
 
-double squares(const Residuals& residuals) {
-  double sum = 0;
-  for (const double one : residuals)
-    sum += one * one;
-  return sum;
-}
+/// The residuals as Eigen asks for them.
+struct Misfit {
+  using Scalar = double;
+  using InputType = Vector;
+  using ValueType = Vector;
+  using JacobianType = Eigen::MatrixXd;
+  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-/// What the squares look like around a place: half their slope and half their curvature.
-struct Slope {
-  Vector down{};
-  Matrix curve{};
+  int inputs() const { return static_cast<int>(rows); }
+  int values() const { return count; }
+  int operator()(const Vector& at, Vector& out) const {
+    const auto residuals = residuals_of(*legs, *model, at);
+    out = Eigen::Map<const Vector>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+    return 0;
+  }
+
+  const std::vector<const Leg*>* legs;
+  const spec::Driving* model;
+  int count;
 };
 
-Slope slope_at(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& at,
-               const Residuals& here) {
-  constexpr double step = 0.02;
-  std::array<Residuals, rows> change;
-  for (std::size_t row = 0; row < rows; ++row) {
-    auto more = at, less = at;
-    more[row] += step;
-    less[row] -= step;
-    change[row] = residuals_of(legs, model, more);
-    const auto other = residuals_of(legs, model, less);
-    for (std::size_t i = 0; i < other.size(); ++i)
-      change[row][i] = (change[row][i] - other[i]) / (2 * step);
-  }
-  Slope slope;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      slope.down[row] -= change[row][i] * here[i];
-      for (std::size_t column = 0; column < rows; ++column)
-        slope.curve[row][column] += change[row][i] * change[column][i];
-    }
-  return slope;
-}
-
-/// The inverse, by elimination with pivots; of a matrix that has none, one of huge numbers.
-Matrix inverse(Matrix of) {
-  Matrix result{};
-  for (std::size_t row = 0; row < rows; ++row)
-    result[row][row] = 1;
-  for (std::size_t column = 0; column < rows; ++column) {
-    std::size_t pivot = column;
-    for (std::size_t row = column; row < rows; ++row)
-      if (std::abs(of[row][column]) > std::abs(of[pivot][column]))
-        pivot = row;
-    std::swap(of[column], of[pivot]);
-    std::swap(result[column], result[pivot]);
-    const double by = std::abs(of[column][column]) < 1e-12 ? 1e-12 : of[column][column];
-    for (std::size_t k = 0; k < rows; ++k) {
-      of[column][k] /= by;
-      result[column][k] /= by;
-    }
-    for (std::size_t row = 0; row < rows; ++row) {
-      const double times = row == column ? 0 : of[row][column];
-      for (std::size_t k = 0; k < rows; ++k) {
-        of[row][k] -= times * of[column][k];
-        result[row][k] -= times * result[column][k];
-      }
-    }
-  }
-  return result;
-}
-
-Vector step_down(const Slope& slope, double damping, Vector at) {
-  auto damped = slope.curve;
-  for (std::size_t row = 0; row < rows; ++row)
-    damped[row][row] *= 1 + damping;
-  const auto inverted = inverse(damped);
-  const double bound = std::log(furthest);
-  for (std::size_t row = 0; row < rows; ++row) {
-    double step = 0;
-    for (std::size_t column = 0; column < rows; ++column)
-      step += inverted[row][column] * slope.down[column];
-    at[row] = std::clamp(at[row] + step, -bound, bound);
-  }
-  return at;
-}
-
 struct Found {
-  Vector at{};
-  Vector spread{}; ///< of the logarithms
+  Vector at = as_the_model();
+  Vector spread; ///< as parts of the model's numbers
 };
 
 Found lowest(const std::vector<const Leg*>& legs, const spec::Driving& model) {
-  constexpr int rounds = 40;
-  constexpr double hardest = 1e6;
+  constexpr double step = 0.02; // of a number: the physics goes in steps, less would be noise
   Found found;
-  auto here = residuals_of(legs, model, found.at);
-  double damping = 1e-2;
-  for (int round = 0; round < rounds && damping < hardest; ++round) {
-    const auto slope = slope_at(legs, model, found.at, here);
-    for (bool fell = false; !fell && damping < hardest;) {
-      const auto next = step_down(slope, damping, found.at);
-      auto there = residuals_of(legs, model, next);
-      fell = squares(there) < squares(here);
-      if (fell && squares(there) > squares(here) * (1 - 1e-7))
-        round = rounds;
-      damping *= fell ? 0.2 : 5;
-      if (fell) {
-        found.at = next;
-        here = std::move(there);
-      }
-    }
-  }
-  const auto inverted = inverse(slope_at(legs, model, found.at, here).curve);
+  const auto count = residuals_of(legs, model, found.at).size();
+  using Differences = Eigen::NumericalDiff<Misfit, Eigen::Central>;
+  Differences misfit(Misfit{&legs, &model, static_cast<int>(count)}, step * step);
+  Eigen::LevenbergMarquardt<Differences> search(misfit);
+  constexpr double close = 1e-5;
+  search.parameters.ftol = close;
+  search.parameters.xtol = close;
+  search.parameters.maxfev = 400;
+  search.minimize(found.at);
+
+  Eigen::MatrixXd slopes(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows));
+  Vector residuals;
+  misfit.df(found.at, slopes);
+  misfit(found.at, residuals);
   const double one =
-      squares(here) / static_cast<double>(std::max<std::size_t>(here.size(), rows + 1) - rows);
-  for (std::size_t row = 0; row < rows; ++row)
-    found.spread[row] = std::sqrt(std::abs(inverted[row][row]) * one);
+      residuals.squaredNorm() / static_cast<double>(std::max(count, rows + 1) - rows);
+  const Eigen::MatrixXd curve = slopes.transpose() * slopes;
+  found.spread = (curve.completeOrthogonalDecomposition().pseudoInverse().diagonal() * one)
+                     .cwiseAbs()
+                     .cwiseSqrt();
   return found;
 }
 
@@ -238,13 +183,14 @@ std::vector<const Leg*> fitting(const std::vector<const Leg*>& legs, const spec:
 tl::expected<void, Failure> believable(const Calibration& result, const Found& found) {
   for (std::size_t row = 0; row < rows; ++row) {
     const auto& info = driving_rows[row];
-    if (std::abs(found.at[row]) > 0.99 * std::log(furthest))
+    const auto at = static_cast<Eigen::Index>(row);
+    if (found.at[at] > 0.99 * furthest || found.at[at] * furthest < 1 / 0.99)
       return refuse(
           ExitCode::Refused,
           fmt::format("`{}` would be more than {} times as far as the {} of the model: see that "
                       "`--robot` names this robot, and that nothing holds it",
                       info.name, furthest, value_of(result.before, info)));
-    if (found.spread[row] > open_share)
+    if (found.spread[at] > open_share * found.at[at])
       return refuse(
           ExitCode::Refused,
           fmt::format("this drive leaves `{}` open: {:.3g} ± {:.2g}; begin again on a level floor",
@@ -287,11 +233,12 @@ tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot ro
   result.legs = legs.size();
   result.used = used.size();
   for (std::size_t row = 0; row < rows; ++row) {
-    const double value = value_of(model, driving_rows[row]) * std::exp(found.at[row]);
-    set_value(result.after, driving_rows[row], value);
-    result.spread[row] = value * found.spread[row];
+    const double value = value_of(model, driving_rows[row]);
+    const auto at = static_cast<Eigen::Index>(row);
+    set_value(result.after, driving_rows[row], value * found.at[at]);
+    result.spread[row] = value * found.spread[at];
   }
-  result.error_before_cm = error_cm(used, model, {});
+  result.error_before_cm = error_cm(used, model, as_the_model());
   result.error_after_cm = error_cm(used, model, found.at);
   if (auto good = believable(result, found); !good)
     return tl::unexpected(good.error());
