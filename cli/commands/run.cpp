@@ -277,7 +277,8 @@ void run_and_report(Context& context, const RunOptions& options) {
     fail(context, done.error());
 }
 
-void run_and_watch(Context& context, const RunOptions& options) {
+void run_and_watch(Context& context, const RunOptions& options,
+                   const std::vector<std::string>& made_up) {
   const auto files = [&] {
     const auto opened = open_rooms(options.files); // broken ones are told by the run
     auto all = files_of(opened ? *opened : options.files, options.language);
@@ -302,7 +303,8 @@ void run_and_watch(Context& context, const RunOptions& options) {
           return; // the page reloads itself, or there is none yet
         shown = true;
         show(context, options);
-      });
+      },
+      made_up);
 }
 
 /// Runs once or at every change, and sees to the page that its options ask for.
@@ -318,16 +320,21 @@ void run_with_report(Context& context, RunOptions& options) {
     return fail(context, {ExitCode::Usage, "`--watch` would drive the robot at every change; leave "
                                            "it out with `--port`"});
   const bool temporary = options.open && options.report.empty();
+  std::vector<std::string> made_up;
   if (temporary) {
     auto report = temporary_report(options.files.front());
     if (!report)
       return fail(context, report.error());
     options.report = *std::move(report);
+    made_up = {"--report", options.report};
   }
   if (!options.compare.empty() && options.report.empty())
     return fail(context, {ExitCode::Usage,
                           "`--compare` shows a report; add `--report OUT.html` or `--open`"});
-  (options.watch ? run_and_watch : run_and_report)(context, options);
+  if (options.watch)
+    run_and_watch(context, options, made_up);
+  else
+    run_and_report(context, options);
   if (std::error_code not_empty; temporary)
     std::filesystem::remove(disk::as_path(options.report).parent_path(), not_empty);
 }

@@ -99,7 +99,8 @@ private:
 } // namespace
 
 void watch(Context& context, const std::function<std::vector<std::string>()>& list,
-           const std::function<void()>& once, const std::function<void()>& ended) {
+           const std::function<void()>& once, const std::function<void()>& ended,
+           const std::vector<std::string>&) {
   context.exit = ExitCode::Done;
   Held held;
   auto files = list();
