@@ -2,11 +2,11 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <poll.h>
-#include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -56,6 +56,11 @@ bool input_waits() {
 
 ssize_t read_input(std::span<char> bytes) {
   return ::read(STDIN_FILENO, bytes.data(), bytes.size());
+}
+
+bool write_to(Stream stream, std::string_view text) {
+  auto* const file = stream == Stream::Out ? stdout : stderr;
+  return std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
 }
 
 std::pair<std::size_t, std::size_t> screen() {

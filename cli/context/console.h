@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <sys/types.h>
 #include <utility>
 #include <vector>
@@ -27,6 +28,9 @@ bool can_draw(Stream stream);
 bool input_waits();
 /// As read(2) from standard input, in pieces as they come: how many bytes, 0 at the end.
 ssize_t read_input(std::span<char> bytes);
+
+/// Writes to standard output or error, at once; false with errno where that fails.
+bool write_to(Stream stream, std::string_view text);
 
 /// Rows and columns of the terminal that standard error is; 24 and 80 where nobody knows.
 std::pair<std::size_t, std::size_t> screen();

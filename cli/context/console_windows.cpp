@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <condition_variable>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -86,6 +87,14 @@ std::string in_utf8(const wchar_t* text) {
   return out;
 }
 
+std::wstring in_utf16(std::string_view text) {
+  const int size = static_cast<int>(text.size());
+  std::wstring out(text.size(), L'\0');
+  out.resize(static_cast<std::size_t>(
+      ::MultiByteToWideChar(CP_UTF8, 0, text.data(), size, out.data(), size)));
+  return out;
+}
+
 } // namespace
 
 std::vector<std::string> begin_process(int argc, char** argv) {
@@ -144,6 +153,27 @@ ssize_t read_input(std::span<char> bytes) {
                           : ::_read(0, bytes.data(), static_cast<unsigned>(bytes.size()));
 }
 
+/// The C library would hand a console one byte after another, none of which is a letter of UTF-8.
+bool write_to(Stream stream, std::string_view text) {
+  if (!is_terminal(stream)) {
+    auto* const file = stream == Stream::Out ? stdout : stderr;
+    return std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
+  }
+  constexpr std::size_t at_once = 8192; // a console takes no more than 64 KB
+  const auto wide = in_utf16(text);
+  for (std::wstring_view left = wide; !left.empty();) {
+    const auto size = std::min(left.size(), at_once);
+    DWORD written = 0;
+    if (::WriteConsoleW(handle(stream), left.data(), static_cast<DWORD>(size), &written, nullptr) ==
+        0) {
+      errno = EIO;
+      return false;
+    }
+    left.remove_prefix(written);
+  }
+  return true;
+}
+
 std::pair<std::size_t, std::size_t> screen() {
   constexpr std::size_t usual_rows = 24;
   constexpr std::size_t usual_columns = 80;
@@ -155,8 +185,9 @@ std::pair<std::size_t, std::size_t> screen() {
 }
 
 void end_if_unread(int error) {
-  if (error == EPIPE) // what its C library makes of a broken pipe
-    std::_Exit(EXIT_FAILURE);
+  // The C library knows of one of the ways in which a pipe breaks; the others are EINVAL to it.
+  if (error == EPIPE || (error == EINVAL && ::GetFileType(handle(Stream::Out)) == FILE_TYPE_PIPE))
+    std::_Exit(ERROR_BROKEN_PIPE);
 }
 
 std::optional<std::string> make_temporary_folder() {

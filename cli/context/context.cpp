@@ -58,8 +58,7 @@ bool print_to(Stream stream, std::string_view text) {
   std::string shown;
   if (is_terminal(stream))
     text = shown = to_terminal_text(text);
-  return std::fwrite(text.data(), 1, text.size(), stream == Stream::Out ? stdout : stderr) ==
-         text.size();
+  return write_to(stream, text);
 }
 
 } // namespace
@@ -93,7 +92,7 @@ void print_out(std::string_view text) {
     return;
   if (is_taken(OutputTap::Stream::Out, text))
     return;
-  if (!print_to(Stream::Out, text) || std::fflush(stdout) != 0)
+  if (!print_to(Stream::Out, text))
     throw OutputError{errno};
 }
 
