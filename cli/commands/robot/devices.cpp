@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string_view>
 
 namespace orb::cli {
 namespace {
@@ -24,6 +23,10 @@ constexpr Pattern patterns[] = {
 };
 
 } // namespace
+
+const std::string_view no_device_help =
+    "for a paired Sphero make one with `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1`, or use its "
+    "address: rfcomm://AA:BB:CC:DD:EE:FF";
 
 std::vector<Port> find_devices() {
   std::vector<Port> devices;

@@ -2,11 +2,15 @@
 
 #include "cli/commands/robot/ports.h"
 
+#include <string_view>
 #include <vector>
 
 namespace orb::cli {
 
 /// The devices of this computer that may be robots, by their names.
 std::vector<Port> find_devices();
+
+/// What to do where there is none.
+extern const std::string_view no_device_help;
 
 } // namespace orb::cli

@@ -124,9 +124,7 @@ void list(Context& context, const PortsOptions& options) {
     print_out(fmt::format("{:<16} {}\n", port["url"].get<std::string>(),
                           port["what"].get<std::string>()));
   if (none)
-    print_note(context, "no serial port was found; for a paired Sphero make one with `sudo rfcomm "
-                        "bind 0 AA:BB:CC:DD:EE:FF 1`, or use its address: "
-                        "rfcomm://AA:BB:CC:DD:EE:FF");
+    print_note(context, fmt::format("no serial port was found; {}", no_device_help));
 }
 
 /// Gives a port a name in the user's configuration.
