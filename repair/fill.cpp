@@ -160,50 +160,6 @@ Text length(const Tokens& tokens) {
   return std::nullopt;
 }
 
-/// The opposite of a condition of one comparison.
-Text opposite(Tokens tokens, Language language) {
-  if (language != Language::Basic)
-    return fmt::format("not ({})", join(tokens));
-  while (tokens.size() > 2 && tokens.front().is("(") && tokens.back().is(")"))
-    tokens = Tokens(tokens.begin() + 1, tokens.end() - 1);
-  std::size_t at = tokens.size();
-  std::size_t relations = 0;
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is("and") || tokens[i].is("or"))
-      return std::nullopt;
-    for (const auto* sign : {"=", "!", "<", ">", "<=", ">=", "==", "!=", "<>"})
-      if (tokens[i].is(sign)) {
-        at = i;
-        ++relations;
-      }
-  }
-  if (relations == 0)
-    return tokens.size() == 1 ? Text(join(tokens) + " = 0") : std::nullopt;
-  if (relations > 1)
-    return std::nullopt;
-  const auto left = join(Tokens(tokens.begin(), tokens.begin() + static_cast<std::ptrdiff_t>(at)));
-  const Tokens right(tokens.begin() + static_cast<std::ptrdiff_t>(at) + 1, tokens.end());
-  const auto& sign = tokens[at].text;
-  const auto with = [&](std::string_view other) {
-    return fmt::format("{} {} {}", left, other, join(right));
-  };
-  if (sign == "=" || sign == "==")
-    return with("!");
-  if (sign == "!" || sign == "!=" || sign == "<>")
-    return with("=");
-  if (sign == "<=")
-    return with(">");
-  if (sign == ">=")
-    return with("<");
-  const auto value = whole(right);
-  if (!value)
-    return sign == "<" ? fmt::format("{0} > {1} or {0} = {1}", left, join(right))
-                       : fmt::format("{0} < {1} or {0} = {1}", left, join(right));
-  const auto limit = plus(right, sign == "<" ? -1 : 1);
-  return limit ? Text(fmt::format("{} {} {}", left, sign == "<" ? '>' : '<', *limit))
-               : std::nullopt;
-}
-
 /// `a` to `b` by the robot's `rnd`, which gives 1 to its value.
 Text dice(const Tokens& from, const Tokens& to, Language language) {
   const auto a = whole(from);
@@ -246,6 +202,12 @@ Text parameters(const Tokens& tokens) {
   return out.empty() ? std::nullopt : Text(out);
 }
 
+bool holds_name(const Tokens& tokens, const Surroundings& around) {
+  return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
+    return std::find(around.names.begin(), around.names.end(), token.text) != around.names.end();
+  });
+}
+
 Text call(std::string_view function, const Tokens& a, const Tokens& b, const Holes& holes,
           const Surroundings& around) {
   const auto language = around.language;
@@ -273,8 +235,12 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return opposite(a, language);
   if (function == "items")
     return print_items(a);
-  if (function == "quoted")
-    return quoted(a);
+  if (function == "quoted") // not what a program sets
+    return around.language == Language::Basic && holds_name(a, around) ? std::nullopt : quoted(a);
+  if (function == "letter")
+    return a.size() == 1 && !holds_name(a, around) && is_letter(a[0].text[0])
+               ? Text(std::string(1, to_upper(a[0].text[0])))
+               : std::nullopt;
   if (function == "known")
     return a.size() == 1 && std::find(around.names.begin(), around.names.end(), a[0].text) !=
                                 around.names.end()
@@ -354,6 +320,86 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
 }
 
 } // namespace
+
+namespace {
+
+/// The opposite of one comparison, or of a value alone.
+std::optional<std::string> opposite_comparison(const Tokens& tokens) {
+  std::size_t at = tokens.size();
+  std::size_t relations = 0;
+  for (std::size_t i = 0; i < tokens.size(); ++i)
+    if (tokens[i].is_relation()) {
+      at = i;
+      ++relations;
+    }
+  if (relations == 0)
+    return tokens.size() == 1 ? std::optional(join(tokens) + " = 0") : std::nullopt;
+  if (relations > 1)
+    return std::nullopt;
+  const auto left = join(Tokens(tokens.begin(), tokens.begin() + static_cast<std::ptrdiff_t>(at)));
+  const Tokens right(tokens.begin() + static_cast<std::ptrdiff_t>(at) + 1, tokens.end());
+  const auto& sign = tokens[at].text;
+  const auto with = [&](std::string_view other) {
+    return fmt::format("{} {} {}", left, other, join(right));
+  };
+  if (sign == "=" || sign == "==")
+    return with("!");
+  if (sign == "!" || sign == "!=" || sign == "<>")
+    return with("=");
+  if (sign == "<=" || sign == "=<")
+    return with(">");
+  if (sign == ">=" || sign == "=>")
+    return with("<");
+  const auto value = whole(right);
+  if (!value)
+    return sign == "<" ? fmt::format("{0} > {1} or {0} = {1}", left, join(right))
+                       : fmt::format("{0} < {1} or {0} = {1}", left, join(right));
+  const auto limit = plus(right, sign == "<" ? -1 : 1);
+  return limit ? Text(fmt::format("{} {} {}", left, sign == "<" ? '>' : '<', *limit))
+               : std::nullopt;
+}
+
+/// Without the parentheses around all of it.
+Tokens bared(Tokens tokens) {
+  while (tokens.size() > 2 && tokens.front().is("(")) {
+    int depth = 0;
+    std::size_t close = 0;
+    for (; close < tokens.size(); ++close) {
+      depth += tokens[close].is("(") ? 1 : tokens[close].is(")") ? -1 : 0;
+      if (depth == 0)
+        break;
+    }
+    if (close + 1 != tokens.size())
+      break;
+    tokens = Tokens(tokens.begin() + 1, tokens.end() - 1);
+  }
+  return tokens;
+}
+
+} // namespace
+
+std::optional<std::string> opposite(Tokens condition, Language language) {
+  if (language != Language::Basic)
+    return fmt::format("not ({})", join(condition));
+  condition = bared(std::move(condition));
+  if (condition.size() > 1 && (condition[0].is("not") || condition[0].is("!")))
+    return join(bared(Tokens(condition.begin() + 1, condition.end())));
+  const auto joins = [](const Token& token) {
+    return token.is("and") || token.is("or") || token.is("&&") || token.is("||");
+  };
+  const auto joint = std::find_if(condition.begin(), condition.end(), joins);
+  if (joint == condition.end())
+    return opposite_comparison(condition);
+  if (std::find_if(joint + 1, condition.end(), joins) != condition.end())
+    return std::nullopt;
+  const auto left = opposite_comparison(bared(Tokens(condition.begin(), joint)));
+  const auto right = opposite_comparison(bared(Tokens(joint + 1, condition.end())));
+  if (!left || !right || left->find(" or ") != std::string::npos ||
+      right->find(" or ") != std::string::npos)
+    return std::nullopt; // three comparisons
+  const bool both = joint->is("and") || joint->is("&&");
+  return fmt::format("{} {} {}", *left, both ? "or" : "and", *right);
+}
 
 std::optional<std::string> fill(std::string_view form, const Holes& holes,
                                 const Surroundings& around) {

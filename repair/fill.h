@@ -20,4 +20,8 @@ struct Holes {
 std::optional<std::string> fill(std::string_view form, const Holes& holes,
                                 const Surroundings& around);
 
+/// The opposite of a condition, with as many comparisons as one condition has; in orbBasic at most
+/// two.
+std::optional<std::string> opposite(Tokens condition, Language language);
+
 } // namespace orb::repair

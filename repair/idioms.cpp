@@ -143,13 +143,6 @@ std::string lower(std::string_view word) {
   return small;
 }
 
-bool is_relation(const Token& token) {
-  for (const auto* sign : {"=", "!", "<", ">", "<=", ">=", "==", "!=", "<>", "=>", "=<"})
-    if (token.is(sign))
-      return true;
-  return false;
-}
-
 /// Words that part a line, and so are in no value.
 bool parts_line(const Token& token) {
   for (const auto* word : {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"})
@@ -282,7 +275,7 @@ private:
       if (token.is_text() || parts_line(token) || token.is(";") || token.is("{") || token.is("}") ||
           token.is(":"))
         return false;
-      if (depth == 0 && (token.is(",") || is_relation(token)))
+      if (depth == 0 && (token.is(",") || token.is_relation()))
         return false;
       const bool value = token.is_word() || token.is_number();
       const bool before = i > begin && tokens_[i - 1].is_number();
@@ -424,6 +417,30 @@ void rewrite(const Tokens& line, const Surroundings& around,
       if (end > begin && use(matcher, begin, end))
         return;
     }
+  }
+}
+
+void explore(const std::string& line, const Surroundings& around, Bounds bounds,
+             std::unordered_set<std::string>& seen,
+             const std::function<bool(const Rewritten&)>& take) {
+  std::vector<std::pair<std::string, int>> open{{line, 0}};
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    const auto [text, depth] = open[next];
+    const auto tokens = tokens_of(text, around.language);
+    if (tokens.size() > most_tokens)
+      continue;
+    bool done = false;
+    rewrite(tokens, around, [&, depth = depth](const Rewritten& one) {
+      if (!seen.insert(one.text).second)
+        return false;
+      if (take(one))
+        return done = true;
+      if (depth + 1 < bounds.deepest)
+        open.emplace_back(one.text, depth + 1);
+      return seen.size() >= bounds.states;
+    });
+    if (done || seen.size() >= bounds.states)
+      return;
   }
 }
 

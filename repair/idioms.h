@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 // What people write who think in another language, as patterns with holes: the rows of
@@ -44,7 +45,7 @@ struct Surroundings {
   std::string free_letter;             ///< a variable that nobody uses; empty without one
   std::string loop;                    ///< the variable of the innermost `for` that is open
   std::string closer;                  ///< what ends the innermost open block
-  std::vector<std::string_view> names; ///< that other lines use, too
+  std::vector<std::string_view> names; ///< that other lines use, too; of orbBasic: that they set
 };
 
 /// What to do where no one line does it.
@@ -64,6 +65,17 @@ struct Rewritten {
 /// Calls `take` with what each row that fits makes of a line, in the order of the table, until it
 /// returns true.
 void rewrite(const Tokens& line, const Surroundings& around,
+             const std::function<bool(const Rewritten&)>& take);
+
+struct Bounds {
+  int deepest = 0; ///< rows that are applied after each other
+  std::size_t states = 0;
+};
+
+/// Calls `take` with what the rows make of a line, one alone first, then two after each other, and
+/// so on, until it returns true. What is in `seen` is not looked at again.
+void explore(const std::string& line, const Surroundings& around, Bounds bounds,
+             std::unordered_set<std::string>& seen,
              const std::function<bool(const Rewritten&)>& take);
 
 /// Whether patterns of that kind begin with the word, in any case: people write it elsewhere.

@@ -1,6 +1,8 @@
 #include "repair/repair.h"
 
+#include "base/fixes.h"
 #include "base/text.h"
+#include "repair/blocks.h"
 #include "repair/idioms.h"
 #include "repair/scenery.h"
 #include "repair/search.h"
@@ -18,13 +20,12 @@ namespace {
 
 constexpr std::size_t most_bytes = 65536; // more than any area of the robot holds
 constexpr std::size_t most_lines = 12;    // with errors; nobody reads more at once
-constexpr std::size_t most_tokens = 64;
-constexpr std::size_t most_states = 150; // of one line, by habits
-constexpr int most_candidates = 1000;    // of one line, by search
-constexpr int most_checks = 16;          // of the whole text, for one line
-constexpr int deepest = 6;               // habits in one line
-constexpr int surely = 6;                // one letter of a word
-constexpr int clearly = 4;               // by so much the best change is cheaper than the next
+constexpr std::size_t most_states = 150;  // of one line, by habits
+constexpr int most_candidates = 1000;     // of one line, by search
+constexpr int most_checks = 16;           // of the whole text, for one line
+constexpr int deepest = 6;                // habits in one line
+constexpr int surely = 6;                 // one letter of a word
+constexpr int clearly = 4;                // by so much the best change is cheaper than the next
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
@@ -50,12 +51,17 @@ struct Accepted {
 /// The search for one line.
 class Repair {
 public:
+  /// `below`: the text after the line, as far as it has been mended already.
   Repair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
-         const std::vector<Diagnostic>& before)
+         std::string_view below, const std::vector<Diagnostic>& before)
       : source_(source), judge_(judge), line_(source.line(line)), begin_(source.line_start(line)),
-        errors_(errors_in(before)), lasting_(lasting_errors(before)),
+        below_(below), errors_(errors_in(before)), lasting_(lasting_errors(before)),
         parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
-        names_(scenery.names_without(parts_.tokens)) {
+        names_(scenery.names_without(parts_.tokens)),
+        is_target_(judge.language == Language::Basic &&
+                   !scenery.jumps_to(scenery.number(line)).empty()) {
+    if (judge.language == Language::Basic)
+      around_.names = scenery.set_without(parts_.tokens);
     for (const auto name : names_)
       if (std::none_of(judge.words.begin(), judge.words.end(),
                        [&](std::string_view word) { return equal_words(word, name); }))
@@ -77,7 +83,7 @@ public:
     if (!best_)
       by_changes(surely);
     if (!best_ || !best_->quiet)
-      explore(start, 0, most_states);
+      habits(start, {deepest, most_states});
     if (!best_ || !best_->quiet)
       by_fix(finding);
     if (!best_)
@@ -166,8 +172,10 @@ private:
       return std::nullopt;
     ++checks_;
     std::string changed(source_.text().substr(0, begin_));
-    changed += text;
-    changed += source_.text().substr(begin_ + line_.size());
+    // What jumps to a line that is left out goes on below it, as it would after one that does
+    // nothing.
+    changed += text.empty() && is_target_ ? parts_.head + "A = A" : text;
+    changed += below_;
     const auto found = judge_.check(changed);
     bool quiet = true;
     for (const auto& one : found)
@@ -186,28 +194,10 @@ private:
     return accepted;
   }
 
-  /// Applies habits until the line is one: every one alone first, then two after each other, and so
-  /// on.
-  void explore(const std::string& statement, int depth, std::size_t most) {
-    std::vector<std::pair<std::string, int>> open{{statement, depth}};
-    for (std::size_t next = 0; next < open.size(); ++next) {
-      const auto [text, deep] = open[next];
-      const auto tokens = tokens_of(text, judge_.language);
-      if (tokens.size() > most_tokens)
-        continue;
-      bool done = false;
-      rewrite(tokens, around_, [&, deep = deep](const Rewritten& one) {
-        if (!seen_.insert(one.text).second)
-          return false;
-        if (attempt(one.text, one.note, one.sure))
-          return done = true;
-        if (deep + 1 < deepest)
-          open.emplace_back(one.text, deep + 1);
-        return seen_.size() >= most;
-      });
-      if (done || seen_.size() >= most)
-        return;
-    }
+  /// Applies habits until the line is one.
+  void habits(const std::string& statement, Bounds bounds) {
+    explore(statement, around_, bounds, seen_,
+            [&](const Rewritten& one) { return attempt(one.text, one.note, one.sure); });
   }
 
   /// What the language itself offers.
@@ -243,7 +233,7 @@ private:
         return;
       // a misspelt habit
       best_.reset();
-      explore(one.text, deepest - 3, seen_.size() + 20);
+      habits(one.text, {3, seen_.size() + 20});
       if (best_)
         good.emplace_back(one, *best_);
       best_.reset();
@@ -272,11 +262,13 @@ private:
   const Judge& judge_;
   std::string_view line_;
   std::uint32_t begin_;
+  std::string_view below_;
   std::size_t errors_;
   std::size_t lasting_;
   SplitLine parts_;
   Surroundings around_;
   std::vector<std::string_view> names_;
+  bool is_target_; ///< something jumps here
   std::unordered_set<std::string> seen_;
   std::unordered_set<std::string> changed_;
   std::optional<Accepted> best_;
@@ -366,67 +358,222 @@ bool goes_on(std::string_view line) {
 
 } // namespace
 
-void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings) {
-  if (text.size() > most_bytes || errors_in(findings) == 0)
-    return;
-  const Source source({}, std::string(text));
-  std::optional<Scenery> scenery;
-  std::set<std::uint32_t> lines;
-  const auto before = findings;
-  for (auto& finding : findings) {
-    if (!is_error(finding) || finding.span.begin > text.size())
-      continue;
-    const auto line = source.position(finding.span.begin).line;
-    const bool continued =
-        judge.language == Language::Structured && line > 1 && goes_on(source.line(line - 1));
-    const bool here = is_about_writing(finding, source, judge, line);
-    if (source.line(line).empty() || (!here && !continued) ||
-        source.line(line).size() > longest_line || lines.size() >= most_lines ||
-        !lines.insert(line).second)
-      continue;
-    if (!scenery)
-      scenery.emplace(source, judge.language);
+namespace {
+
+/// Offers lines for the findings of one text.
+class Offers {
+public:
+  Offers(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings)
+      : source_({}, std::string(text)), judge_(judge), findings_(findings), before_(findings),
+        scenery_(source_, judge.language) {}
+
+  void make() {
+    if (judge_.language == Language::Basic)
+      blocks();
+    // From the last line up: what ends a block is mended before what begins it is judged.
+    std::vector<Diagnostic*> first;
+    for (auto& finding : findings_)
+      if (is_error(finding) && finding.span.begin <= source_.text().size() &&
+          first.size() < most_lines && is_to_mend(finding))
+        first.push_back(&finding);
+    std::stable_sort(first.begin(), first.end(), [](const Diagnostic* a, const Diagnostic* b) {
+      return a->span.begin > b->span.begin;
+    });
+    for (auto* finding : first)
+      offer(*finding);
+    drop_consequences();
+  }
+
+private:
+  Span span_of(std::uint32_t line) const {
+    const auto begin = source_.line_start(line);
+    return {begin, begin + static_cast<std::uint32_t>(source_.line(line).size())};
+  }
+  std::uint32_t line_of(const Diagnostic& finding) const {
+    return source_.position(finding.span.begin).line;
+  }
+
+  /// Blocks of several lines, each with one fix at all of its findings.
+  void blocks() {
+    for (const auto& block : blocks_as_jumps(source_, scenery_, judge_.parses)) {
+      const Fix fix{"write jumps for the block", block.edits, Safety::Safe};
+      Diagnostic all;
+      all.fix = fix;
+      if (errors_in(judge_.check(apply_fixes(source_.text(), {all}).text)) >= errors_in(before_))
+        continue;
+      for (auto& finding : findings_) {
+        const auto written = block.lines.find(line_of(finding));
+        if (!is_error(finding) || written == block.lines.end() ||
+            !lines_.insert(written->first).second)
+          continue;
+        finding.help = written->second.empty() ? "leave the line out"
+                                               : fmt::format("write `{}`", written->second);
+        finding.fix = fix;
+        mended_.insert(&finding);
+      }
+    }
+  }
+
+  /// Whether a finding is the first of a line that another could be written for.
+  bool is_to_mend(const Diagnostic& finding) {
+    const auto line = line_of(finding);
+    return !source_.line(line).empty() && source_.line(line).size() <= longest_line &&
+           (is_about_writing(finding, source_, judge_, line) || continues(line)) &&
+           lines_.insert(line).second;
+  }
+
+  /// Whether a line seems to go on from the one above.
+  bool continues(std::uint32_t line) const {
+    return judge_.language == Language::Structured && line > 1 && goes_on(source_.line(line - 1));
+  }
+
+  void offer(Diagnostic& finding) {
     if ((finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word") &&
-        mend_definition(source, judge, *scenery, before, finding))
-      continue;
-    auto at = line;
-    std::optional<Repair> tried(std::in_place, source, judge, *scenery, at, before);
-    auto found = here ? tried->find(finding) : std::vector<Accepted>();
-    if (found.empty() && continued && lines.insert(at - 1).second) {
-      tried.emplace(source, judge, *scenery, --at, before);
-      found = tried->find(finding);
+        mend_definition(source_, judge_, scenery_, before_, finding)) {
+      mended_.insert(&finding);
+      return;
+    }
+    auto at = line_of(finding);
+    const bool here = is_about_writing(finding, source_, judge_, at);
+    std::optional<Repair> repair;
+    const auto found_at = [&] {
+      repair.emplace(source_, judge_, scenery_, at, below(at), before());
+      return repair->find(finding);
+    };
+    auto found = here ? found_at() : std::vector<Accepted>();
+    if (found.empty() && continues(at) && lines_.insert(at - 1).second) {
+      --at;
+      found = found_at();
       if (!found.empty())
-        finding.span = {source.line_start(at),
-                        source.line_start(at) + static_cast<std::uint32_t>(source.line(at).size())};
+        finding.span = span_of(at);
     }
-    const auto& repair = *tried;
-    if (found.empty()) {
-      if (auto advice = here && says_little(finding) ? repair.advice() : std::string();
-          !advice.empty())
+    if (!found.empty()) {
+      write(finding, *repair, at, found);
+      mended_.insert(&finding);
+      if (found.size() == 1 && found[0].fewer) {
+        below_ = found[0].text + std::string(below(at));
+        below_begin_ = source_.line_start(at);
+        before_now_.reset();
+      }
+    } else if (repair && says_little(finding)) {
+      if (auto advice = repair->advice(); !advice.empty())
         finding.help = std::move(advice);
-      continue;
     }
+  }
+
+  /// The text after a line, as far as it has been mended.
+  std::string_view below(std::uint32_t line) {
+    const auto end = span_of(line).end;
+    if (end < below_begin_) {
+      below_.insert(0, source_.text().substr(end, below_begin_ - end));
+      below_begin_ = end;
+    }
+    return below_;
+  }
+
+  /// The findings about the text as far as it has been mended.
+  const std::vector<Diagnostic>& before() {
+    if (below_begin_ == source_.text().size() || below_ == source_.text().substr(below_begin_))
+      return before_;
+    if (!before_now_)
+      before_now_ = judge_.check(std::string(source_.text().substr(0, below_begin_)) + below_);
+    return *before_now_;
+  }
+
+  /// Errors that are not there once the lines are written that are offered elsewhere: an `end`
+  /// whose block begins in another language.
+  void drop_consequences() {
+    std::vector<Diagnostic> offered;
+    for (const auto& finding : findings_)
+      if (finding.fix && mended_.contains(&finding))
+        offered.push_back(finding);
+    if (offered.empty() || offered.size() == errors_in(findings_))
+      return;
+    for (auto& one : offered)
+      one.fix->safety = Safety::Safe; // as all are taken
+    const Source then({}, apply_fixes(source_.text(), offered).text);
+    const auto after = judge_.check(then.text());
+    if (std::any_of(after.begin(), after.end(), [&](const Diagnostic& one) {
+          return is_error(one) &&
+                 std::none_of(before_.begin(), before_.end(), [&](const auto& was) {
+                   return was.rule == one.rule && was.message == one.message;
+                 });
+        }))
+      return; // what was offered does not go far enough to tell
+    std::set<const Diagnostic*> gone;
+    for (const auto& finding : findings_)
+      if (is_error(finding) && !finding.fix && !mended_.contains(&finding) &&
+          std::none_of(after.begin(), after.end(), [&](const Diagnostic& one) {
+            return is_error(one) && ((one.rule == finding.rule && one.message == finding.message) ||
+                                     then.line(then.position(one.span.begin).line) ==
+                                         source_.line(line_of(finding)));
+          }))
+        gone.insert(&finding);
+    std::erase_if(findings_, [&](const Diagnostic& one) { return gone.contains(&one); });
+  }
+
+  void write(Diagnostic& finding, const Repair& repair, std::uint32_t at,
+             const std::vector<Accepted>& found) const {
     const auto shown = repair.shown(found[0].text);
     if (found.size() > 1) {
       finding.help = fmt::format("write `{}` or `{}`", shown, repair.shown(found[1].text));
       finding.fix.reset();
-      continue;
+      return;
     }
     finding.help = shown.empty() ? "leave the line out" : fmt::format("write `{}`", shown);
     if (!found[0].note.empty())
       finding.help += fmt::format("; {}", found[0].note);
     if (finding.fix && finding.fix->safety == Safety::Safe)
-      continue; // its own fix goes as far as it must
+      return; // its own fix goes as far as it must
+    const auto safety = found[0].fewer && found[0].sure ? Safety::Safe : Safety::Unsafe;
     if (shown.empty() && repair.line().find_first_not_of(" \t") != std::string_view::npos) {
-      finding.fix = Fix{"remove the line",
-                        {{{source.line_start(at), source.line_start(at + 1)}, {}}},
-                        found[0].fewer && found[0].sure ? Safety::Safe : Safety::Unsafe};
-      continue;
+      finding.fix = remove(at, safety);
+      if (finding.fix && finding.fix->edits[0].text.ends_with("end"))
+        finding.help = fmt::format("write `{}`", finding.fix->edits[0].text);
+      return;
     }
     finding.fix = Fix{shown.empty() ? "empty the line" : fmt::format("write `{}`", shown),
                       {difference(repair.line(), found[0].text, repair.begin())},
-                      found[0].fewer && found[0].sure ? Safety::Safe : Safety::Unsafe};
+                      safety};
   }
+
+  /// Removes a line; what jumps to it then jumps to the next one, or to an `end` in its place.
+  std::optional<Fix> remove(std::uint32_t line, Safety safety) const {
+    Fix fix{"remove the line", {}, safety};
+    const auto number = judge_.language == Language::Basic ? scenery_.number(line) : std::string();
+    const auto jumps = number.empty() ? std::vector<Span>() : scenery_.jumps_to(number);
+    const auto next = jumps.empty() ? std::string() : scenery_.number_below(line);
+    if (!jumps.empty() && next.empty()) {
+      fix.title = "end here";
+      fix.edits.push_back({span_of(line), number + " end"});
+      return fix;
+    }
+    for (const auto& jump : jumps)
+      if (source_.position(jump.begin).line != line)
+        fix.edits.push_back({jump, next});
+    fix.edits.push_back({{source_.line_start(line), source_.line_start(line + 1)}, {}});
+    std::sort(fix.edits.begin(), fix.edits.end(),
+              [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
+    return fix;
+  }
+
+  const Source source_;
+  const Judge& judge_;
+  std::vector<Diagnostic>& findings_;
+  const std::vector<Diagnostic> before_;
+  Scenery scenery_;
+  std::set<std::uint32_t> lines_;      ///< looked at
+  std::set<const Diagnostic*> mended_; ///< of `findings_`: with what is offered here
+  std::string below_;                  ///< the text from there on, as far as it is mended
+  std::size_t below_begin_ = source_.text().size();
+  std::optional<std::vector<Diagnostic>> before_now_; ///< of that text; none: not known yet
+};
+
+} // namespace
+
+void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings) {
+  if (text.size() <= most_bytes && errors_in(findings) > 0)
+    Offers(text, judge, findings).make();
 }
 
 } // namespace orb::repair

@@ -24,7 +24,8 @@ struct Judge {
 };
 
 /// Gives the first error of each line the line to write, as help and as a fix, where one is clear.
-/// Bounded: long texts, long lines and all but the first lines with errors stay as they are.
+/// What those lines mend elsewhere, too, is told no longer. Bounded: long texts, long lines and all
+/// but the first lines with errors stay as they are.
 void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings);
 
 } // namespace orb::repair

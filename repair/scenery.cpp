@@ -23,9 +23,14 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
     const auto line = source.line(n);
     if (line.size() > longest_line)
       continue;
-    for (const auto& token : split(line, language).tokens)
-      if (token.is_word())
-        ++words_[token.text];
+    const auto tokens = split(line, language).tokens;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+      if (!tokens[i].is_word())
+        continue;
+      ++words_[tokens[i].text];
+      if (i + 1 < tokens.size() && tokens[i + 1].is("=") && tokens[i].text.size() > 1)
+        ++set_[tokens[i].text];
+    }
   }
 }
 
@@ -38,6 +43,18 @@ std::vector<std::string_view> Scenery::names_without(const Tokens& line) const {
       return token.text == word;
     });
     if (count > static_cast<std::size_t>(here) && word.size() > 1)
+      names.push_back(word);
+  }
+  return names;
+}
+
+std::vector<std::string_view> Scenery::set_without(const Tokens& line) const {
+  std::vector<std::string_view> names;
+  for (const auto& [word, count] : set_) {
+    std::size_t here = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      here += line[i].text == word && line[i + 1].is("=") ? 1 : 0;
+    if (count > here)
       names.push_back(word);
   }
   return names;
@@ -70,12 +87,41 @@ std::string Scenery::number_of(std::string_view name) const {
   return {};
 }
 
+std::string Scenery::number(std::uint32_t line) const {
+  return digits_of(split(source_.line(line).substr(0, longest_line), language_).head);
+}
+
+std::string Scenery::number_below(std::uint32_t line) const {
+  while (++line <= source_.line_count()) {
+    const auto parts = split(source_.line(line).substr(0, longest_line), language_);
+    if (auto digits = digits_of(parts.head); !digits.empty() && !parts.tokens.empty())
+      return digits;
+  }
+  return {};
+}
+
+std::vector<Span> Scenery::jumps_to(std::string_view number) const {
+  std::vector<Span> jumps;
+  for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+    bool target = false; // a number here is a line
+    for (const auto& token : split(source_.line(n).substr(0, longest_line), language_).tokens) {
+      target =
+          token.is("goto") || token.is("gosub") || (target && (token.is_number() || token.is(",")));
+      const auto begin = source_.line_start(n) + token.at;
+      if (target && token.is(number))
+        jumps.push_back({begin, begin + static_cast<std::uint32_t>(token.text.size())});
+    }
+  }
+  return jumps;
+}
+
 Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   Surroundings all;
   all.language = language_;
   all.line_number = digits_of(parts.head);
   if (language_ == Language::Basic) {
-    all.free_letter = free_letter();
+    const auto free = free_letters();
+    all.free_letter = free.empty() ? "" : free.front();
     all.loop = loop_above(line);
   } else if (language_ == Language::Structured) {
     all.closer = closer_above(line);
@@ -83,7 +129,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   return all;
 }
 
-std::string Scenery::free_letter() const {
+std::vector<std::string> Scenery::free_letters() const {
   // A `next` below that no `for` begins names the variable.
   std::multiset<std::string> open;
   for (std::uint32_t n = source_.line_count(); n > 0; --n) {
@@ -96,14 +142,13 @@ std::string Scenery::free_letter() const {
              equal_words(tokens[0].text, "for") && one != open.end())
       open.erase(one);
   }
-  if (!open.empty())
-    return *open.begin();
+  std::vector<std::string> free(open.begin(), open.end());
   for (const char c : std::string_view("IJKNCDEFGHLMOPQRSTUVWXAB")) {
     const std::string upper(1, c);
     if (words_.count(upper) == 0 && words_.count(std::string(1, to_lower(c))) == 0)
-      return upper;
+      free.push_back(upper);
   }
-  return {};
+  return free;
 }
 
 std::string Scenery::loop_above(std::uint32_t line) const {

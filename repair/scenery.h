@@ -26,6 +26,9 @@ public:
   /// Words that stand in other lines, too, or more than once.
   std::vector<std::string_view> names_without(const Tokens& line) const;
 
+  /// Words of several letters that other lines set: `count = 0`.
+  std::vector<std::string_view> set_without(const Tokens& line) const;
+
   /// A name that is written once and is near `word`: its misspelt definition.
   std::optional<std::string> misspelt(std::string_view word,
                                       const std::vector<std::string_view>& known) const;
@@ -33,11 +36,20 @@ public:
   /// The number of the line that begins with `name:`, as a label or in a comment; empty without.
   std::string number_of(std::string_view name) const;
 
+  /// The number of an orbBasic line, and of the first one below that has a number and a statement;
+  /// empty without.
+  std::string number(std::uint32_t line) const;
+  std::string number_below(std::uint32_t line) const;
+
+  /// Where other lines of an orbBasic program jump to a number.
+  std::vector<Span> jumps_to(std::string_view number) const;
+
   Surroundings around(std::uint32_t line, const SplitLine& parts) const;
 
-private:
-  std::string free_letter() const;
+  /// Variables that nobody uses; first those that only a `next` names.
+  std::vector<std::string> free_letters() const;
 
+private:
   std::string loop_above(std::uint32_t line) const;
 
   std::string closer_above(std::uint32_t line) const;
@@ -45,6 +57,7 @@ private:
   const Source& source_;
   Language language_;
   std::map<std::string, std::size_t> words_;
+  std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };
 
 } // namespace orb::repair

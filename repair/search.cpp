@@ -170,7 +170,8 @@ private:
       const bool value_after = after.is_number() || after.is_word() || after.is("(");
       if (value_before && value_after) {
         insert(at, ",", 9, Token::Kind::Sign);
-        insert(at, "=", 14, Token::Kind::Sign);
+        if (wants_relation(at))
+          insert(at, "=", 14, Token::Kind::Sign);
         insert(at, "to", 14, Token::Kind::Word);
       }
       if ((value_before) && after.is_word() && line_[0].is("if"))
@@ -180,6 +181,15 @@ private:
     }
     if (value_before)
       insert(at, ")", at == line_.size() ? 8 : 11, Token::Kind::Sign);
+  }
+
+  /// Whether a `=` may be missing: an assignment and a `for` have one, a condition has its own.
+  bool wants_relation(std::size_t at) const {
+    const bool condition =
+        line_[0].is("if") || line_[0].is("while") || line_[0].is("until") || line_[0].is("elseif");
+    const bool related = std::any_of(line_.begin(), line_.begin() + static_cast<std::ptrdiff_t>(at),
+                                     [](const Token& token) { return token.is_relation(); });
+    return condition || !related;
   }
 
   /// `print hello"`: the quote that opens is missing.

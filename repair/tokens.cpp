@@ -254,6 +254,12 @@ private:
 
 } // namespace
 
+bool Token::is_relation() const {
+  constexpr auto signs = std::to_array<std::string_view>(
+      {"=", "!", "<", ">", "<=", ">=", "==", "!=", "<>", "=>", "=<"});
+  return std::find(signs.begin(), signs.end(), text) != signs.end() && !is_text();
+}
+
 SplitLine split(std::string_view line, Language language) {
   return Splitter(line, language).whole();
 }

@@ -31,9 +31,13 @@ struct Token {
   bool is_word() const { return kind == Kind::Word; }
   bool is_text() const { return kind == Kind::Text; }
   bool is_number() const { return kind == Kind::Number; }
+  bool is_relation() const; ///< as any language writes them
 };
 
 using Tokens = std::vector<Token>;
+
+/// Lines with more of them are not looked at.
+inline constexpr std::size_t most_tokens = 64;
 
 /// A line in its parts.
 struct SplitLine {

@@ -288,10 +288,9 @@ void offer_lines(Compiled& compiled, std::string_view text, const compiler::Targ
     return front(main.name, main.path, changed, target, files);
   };
   repair::offer_lines(text, judge, own);
-  auto next = own.begin();
-  for (auto& d : program.diagnostics)
-    if (is_main(d))
-      d = std::move(*next++);
+  std::erase_if(program.diagnostics, is_main);
+  program.diagnostics.insert(program.diagnostics.begin(), std::make_move_iterator(own.begin()),
+                             std::make_move_iterator(own.end()));
 }
 
 } // namespace

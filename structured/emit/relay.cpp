@@ -132,7 +132,7 @@ private:
       told.help = "read it in the loop";
     if (found.rule == &robot::InvertedWait)
       told.help = "reverse the comparison";
-    if (found.fix && found.fix->edits.size() == 1)
+    if (found.fix && found.fix->edits.size() == 1 && found.rule != &robot::ValueOutOfRange)
       put_fix_into_source(*found.fix, statement, told);
     if (found.rule == &robot::LoopLeavesRange || found.rule == &robot::MayLeaveRange) {
       const auto letters = plain_.text_of(found.span);

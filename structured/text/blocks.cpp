@@ -134,10 +134,51 @@ private:
     const auto word = std::string(program_.text_of(where));
     const auto end = fmt::format("`{}` after its last line", block.end_words);
     alone_.insert(where.begin);
-    report(rules::UnclosedBlock, i, fmt::format("unterminated `{}`", word),
-           equal_words(word, block.word)
-               ? fmt::format("write {}", end)
-               : fmt::format("write `{}` instead, and {}", block.word, end));
+    if (report(rules::UnclosedBlock, i, fmt::format("unterminated `{}`", word),
+               equal_words(word, block.word)
+                   ? fmt::format("write {}", end)
+                   : fmt::format("write `{}` instead, and {}", block.word, end)))
+      offer_end(i, block, program_.diagnostics.back());
+  }
+
+  /// Where a block ends that nothing closes: at a bare `end` right under its word, or where lines
+  /// are no longer indented.
+  void offer_end(std::uint32_t i, const Block& block, Diagnostic& d) const {
+    const auto column = column_of(i);
+    std::uint32_t last = none;
+    for (auto j = i + 1; j < file_.statements_end; ++j) {
+      const auto& statement = program_.statements[j];
+      if (column_of(j) > column) {
+        last = j;
+        continue;
+      }
+      if (parts_block(statement.role()))
+        continue;
+      if (statement.kind == Kind::Broken)
+        return; // it may be the end
+      if (statement.role() == Kind::Robot && statement.robot == spec::Statement::End &&
+          last != none) {
+        d.help = fmt::format("write `{}` for the `end` below", block.end_words);
+        d.fix = Fix{d.help, {{statement.span, std::string(block.end_words)}}, Safety::Unsafe};
+        return;
+      }
+      break;
+    }
+    if (last == none)
+      return;
+    const std::string_view text = program_.text;
+    const auto after = std::min(text.find_first_of("\r\n", program_.statements[last].span.end),
+                                std::size_t{file_.end});
+    const auto at = static_cast<std::uint32_t>(after);
+    d.fix = Fix{d.help,
+                {{{at, at}, fmt::format("\n{}{}", std::string(column, ' '), block.end_words)}},
+                Safety::Unsafe};
+  }
+
+  std::uint32_t column_of(std::uint32_t i) const {
+    const auto begin = program_.statements[i].span.begin;
+    const auto line = std::string_view(program_.text).substr(0, begin).find_last_of("\r\n");
+    return line == std::string_view::npos ? begin : begin - static_cast<std::uint32_t>(line) - 1;
   }
 
   void pop() {
@@ -205,21 +246,29 @@ private:
     std::string help;
     if (!open_.empty()) {
       const auto* block = by_opener(role(open_.back()));
-      help = fmt::format("the open block is a `{}`; `{}` closes it", block->word, block->end_words);
+      help = fmt::format("write `{}`; the open block is a `{}`", block->end_words, block->word);
     }
     alone_.insert(statement.word.begin);
-    report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word), std::move(help));
+    const bool ends = closes_block(statement.role());
+    if (report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word),
+               std::move(help)) &&
+        ends && !open_.empty()) {
+      auto& d = program_.diagnostics.back();
+      const std::string end(by_opener(role(open_.back()))->end_words);
+      d.fix = Fix{fmt::format("write `{}`", end), {{statement.span, end}}, Safety::Unsafe};
+    }
     statement.kind = statement.meant = Kind::Broken;
   }
 
-  /// Of a line that does not parse all is said.
-  void report(const Rule& rule, std::uint32_t i, std::string message, std::string help) {
+  /// Of a line that does not parse all is said: false.
+  bool report(const Rule& rule, std::uint32_t i, std::string message, std::string help) {
     const auto& statement = program_.statements[i];
     if (statement.kind == Kind::Broken)
-      return;
+      return false;
     program_.diagnostics.push_back(
         finding(rule, statement.word.size() > 0 ? statement.word : statement.span,
                 std::move(message), std::move(help)));
+    return true;
   }
 
   Program& program_;

@@ -1,0 +1,29 @@
+#pragma once
+
+// Private to repair/.
+
+#include "base/diagnostic.h"
+#include "repair/scenery.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orb::repair {
+
+/// Blocks of other languages (`if c then` … `else` … `end if`, `while c:` …), over several lines of
+/// a program with line numbers, as the jumps that they are there.
+struct BlockRewrite {
+  std::map<std::uint32_t, std::string> lines; ///< what becomes of each line; empty: it is left out
+  std::vector<Edit> edits;                    ///< all of it, lines that are added included
+};
+
+/// The outermost blocks of a program, each with all that is in it. `parses` says of a line whether
+/// the language knows it as it is. Blocks without an end are not among them.
+std::vector<BlockRewrite> blocks_as_jumps(const Source& source, const Scenery& scenery,
+                                          const std::function<bool(std::string_view)>& parses);
+
+} // namespace orb::repair
