@@ -221,6 +221,12 @@ private:
           report(rules::LoopEnd, command.span, "`loop_end` without `loop_start`",
                  "remove it, or add `loop_start` above");
         open = nullptr;
+      } else if (open != nullptr && is(command, MacroCommand::End) && command.span.size() > 0) {
+        auto& d = report(rules::LoopOpen, command.span, "`end` in a loop ends the whole macro",
+                         "write `loop_end`");
+        d.fix = Fix{d.help, {{command.span, "loop_end"}}, Safety::Unsafe};
+        d.notes.push_back({open->span, "the loop"});
+        return;
       }
     }
     if (open != nullptr)

@@ -117,6 +117,26 @@ Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnost
   return fixed;
 }
 
+void say_lines(std::string_view text, std::vector<Diagnostic>& diagnostics) {
+  for (auto& d : diagnostics) {
+    if (!d.help.empty() || !d.fix || d.span.begin > text.size())
+      continue;
+    const auto before = text.find_last_of("\r\n", d.span.begin == 0 ? 0 : d.span.begin - 1);
+    const auto begin = d.span.begin == 0 || before == std::string_view::npos ? 0 : before + 1;
+    const auto end = std::min(text.find_first_of("\r\n", begin), text.size());
+    std::string line(text.substr(begin, end - begin));
+    bool within = true;
+    for (auto edit = d.fix->edits.rbegin(); within && edit != d.fix->edits.rend(); ++edit) {
+      within = edit->span.begin >= begin && edit->span.end <= end &&
+               edit->text.find_first_of("\r\n") == std::string::npos;
+      if (within)
+        line.replace(edit->span.begin - begin, edit->span.size(), edit->text);
+    }
+    if (within)
+      d.help = "write `" + line.substr(std::min(line.find_first_not_of(" \t"), line.size())) + "`";
+  }
+}
+
 Fixed fix_all(std::string text, const Check& check) {
   return fix_all(std::move(text), check, check);
 }

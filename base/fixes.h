@@ -19,6 +19,9 @@ struct Fixed {
 /// The text with these fixes made; of two that touch each other the first wins.
 Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics);
 
+/// A finding that has a fix within its line and says nothing of what helps says the line to write.
+void say_lines(std::string_view text, std::vector<Diagnostic>& diagnostics);
+
 /// All findings about a text.
 using Check = std::function<std::vector<Diagnostic>(std::string_view text)>;
 

@@ -87,6 +87,7 @@ Checked check(std::string_view text, const Target& target) {
   checked.diagnostics = lint(checked.program, target);
   if (any_error(checked.diagnostics))
     offer_lines(checked.program, target, checked.diagnostics);
+  say_lines(text, checked.diagnostics);
   checked.image_bytes = image_size(checked.program);
   return checked;
 }

@@ -174,6 +174,7 @@ private:
           rules::FallIntoSubroutine, statement(i - 1).span,
           fmt::format("execution falls through into the subroutine at line {}", number_of(i)),
           "add `end` after this line");
+      add_end(d, i);
       add_note(d, statement(i).span, "the subroutine begins here");
     }
     if (reported)
@@ -186,6 +187,18 @@ private:
                           fmt::format("line {} is part of a subroutine and leads to its `return`",
                                       number_of(jump.to)),
                           "call it with `gosub`");
+  }
+
+  /// Offers an `end` in front of a line of code, where there is a number for it.
+  void add_end(Diagnostic& d, std::uint32_t code) const {
+    const auto below = number_of(code);
+    const auto above = number_of(code - 1);
+    if (below < above + 2)
+      return;
+    const auto number = below > above + 5 ? above + 5 : above + 1;
+    const auto at = program_.lines[line_of(code)].span.begin;
+    d.help = fmt::format("write `{} end` after this line", number);
+    d.fix = single_fix("end here", {at, at}, fmt::format("{} end\n", number), Safety::Unsafe);
   }
 
   /// Calls of lines from which no way leads to a `return`.

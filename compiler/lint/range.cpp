@@ -162,6 +162,18 @@ std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Ran
   return lo > hi ? std::nullopt : std::optional(narrow(lo, hi));
 }
 
+std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value) {
+  const auto& heading = spec::info(spec::Variable::Hdgval);
+  const auto& speed = spec::info(spec::Variable::Spdval); // colours have the same range
+  if (parameter.least == heading.least && parameter.greatest == heading.greatest) {
+    const auto turn = std::int64_t{parameter.greatest} + 1;
+    return static_cast<std::int32_t>((value % turn + turn) % turn);
+  }
+  if (parameter.least != speed.least || parameter.greatest != speed.greatest)
+    return std::nullopt;
+  return std::clamp(value, parameter.least, parameter.greatest);
+}
+
 Range widen(std::span<const std::int32_t> landmarks, Range before, Range now) {
   if (now.lo < before.lo)
     now.lo = *std::prev(std::upper_bound(landmarks.begin(), landmarks.end(), now.lo));

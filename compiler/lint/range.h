@@ -48,6 +48,10 @@ Range negate(const Range& operand);
 enum class Holds : std::uint8_t { Yes, No };
 std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Range right);
 
+/// What was most likely meant by a value that a parameter does not take: the same heading within
+/// one turn, the nearest brightness or speed; nothing where that is not clear.
+std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value);
+
 /// `now`, which grows: on to the next of these ascending landmarks, so that it grows a few times
 /// only. They begin and end with the least and the greatest number.
 Range widen(std::span<const std::int32_t> landmarks, Range before, Range now);

@@ -116,6 +116,12 @@ private:
   void check_operand(const Node& node, const Node& operand);
 
   /// How many levels a subtree has, and at most can get by fixes: functions and signs count twice.
+  /// The operand that an operand of a function begins with, up to the first operator of low level,
+  /// or any where `all`.
+  const Node& first_operand(const Node& root, bool all) const;
+  std::string_view inner_text(const Node& node) const;
+  bool is_constant(const Node& root) const;
+
   int deepest_below(const Node& root) const;
 
   const Program& program_;

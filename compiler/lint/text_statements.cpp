@@ -135,6 +135,13 @@ void TextPass::add_empty_target(const Item& target, std::uint32_t index) {
 void TextPass::add_missing_target(const Item& target) {
   auto& d = findings_.add(rules::MissingTarget, target.span,
                           fmt::format("there is no line {}", program_.text_of(target.span)));
+  if (!flow_.numbers.empty() && target.value < flow_.numbers.front().number) {
+    const auto first = flow_.numbers.front().number;
+    d.message += fmt::format("; the first one is {}", first);
+    d.fix = single_fix(fmt::format("jump to line {}", first), target.span, std::to_string(first),
+                       Safety::Unsafe);
+    return;
+  }
   const auto next =
       std::lower_bound(flow_.numbers.begin(), flow_.numbers.end(), target.value,
                        [](const auto& row, std::uint32_t n) { return row.number < n; });
@@ -323,11 +330,20 @@ void TextPass::check_operand(const Node& node, const Node& operand) {
   const bool parenthesis = program_.text[operand.span.begin] == '(';
   if (op.level != spec::Level::Low && !parenthesis)
     return;
+  const auto& first = first_operand(operand, parenthesis);
+  const auto rest = program_.text_of({first.span.end, operand.span.end});
+  const auto all = fmt::format("{} ({})", row.word, program_.text_of(operand.span));
+  const auto less = fmt::format("({} {}){}", row.word, inner_text(first), rest);
   auto& d = findings_.add(
       rules::FunctionOperand, node.span,
-      fmt::format("`{}` applies to all of `{}`", row.word, program_.text_of(operand.span)),
-      fmt::format("write `{} ({})`, or `({} …)` for less", row.word, program_.text_of(operand.span),
-                  row.word));
+      fmt::format("`{}` applies to all of `{}`", row.word, program_.text_of(operand.span)));
+  // A call as other languages write it, or numbers that nobody would leave to the robot to add up.
+  if (parenthesis || is_constant(operand)) {
+    d.help = fmt::format("write `{}`, or `{}` for all of it", less, all);
+    d.fix = single_fix(d.help, {node.span.begin, operand.span.end}, less, Safety::Unsafe);
+    return;
+  }
+  d.help = fmt::format("write `{}`, or `{}` for less", all, less);
   // Other fixes of the same round may put parentheses around and into this operand.
   const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
   if (levels <= spec::value_of(spec::Limit::ExpressionLevels))
@@ -336,6 +352,28 @@ void TextPass::check_operand(const Node& node, const Node& operand) {
                   program_.text[operand.span.begin - 1] == ' ' ? "(" : " ("},
                  {{operand.span.end, operand.span.end}, ")"}},
                 Safety::Safe};
+}
+
+const Node& TextPass::first_operand(const Node& root, bool all) const {
+  const auto* node = &root;
+  while (node->kind == NodeKind::Binary &&
+         (all || spec::operators[node->what].level == spec::Level::Low)) {
+    const auto right = static_cast<std::uint32_t>(node - program_.nodes.data()) - 1;
+    node = &program_.nodes[program_.nodes[right].first - 1];
+  }
+  return *node;
+}
+
+std::string_view TextPass::inner_text(const Node& node) const {
+  const auto& inner = node.kind == NodeKind::Group ? (&node)[-1] : node;
+  return program_.text_of(inner.span);
+}
+
+bool TextPass::is_constant(const Node& root) const {
+  const auto* const first = program_.nodes.data() + root.first;
+  return std::all_of(first, &root, [](const Node& node) {
+    return node.kind == NodeKind::Number || node.kind == NodeKind::Binary;
+  });
 }
 
 int TextPass::deepest_below(const Node& root) const {

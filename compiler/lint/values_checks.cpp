@@ -119,9 +119,16 @@ void ValuesPass::add_may_leave(const Item& value, const std::string& allowed,
 void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
                                   const spec::Parameter& parameter) {
   const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
-  findings_.add(rules::ValueOutOfRange, value.span,
-                fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
-                            parameter.greatest, shown(range_of(value))));
+  auto& d = findings_.add(rules::ValueOutOfRange, value.span,
+                          fmt::format("`{}` takes {}{} to {}, found {}", word, name,
+                                      parameter.least, parameter.greatest, shown(range_of(value))));
+  const auto nodes = nodes_of(program_, value);
+  const bool written = std::all_of(nodes.begin(), nodes.end(), [](const Node& node) {
+    return node.kind == NodeKind::Number || node.kind == NodeKind::Negate;
+  });
+  if (const auto meant = nearest_allowed(parameter, range_of(value).lo); written && meant)
+    d.fix = single_fix(fmt::format("write {}", *meant), value.span, std::to_string(*meant),
+                       Safety::Unsafe);
 }
 
 bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
@@ -186,11 +193,12 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
 void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
   const auto speed = range_of(last);
   auto& d = findings_.add(rules::MissingGo, statement.span,
-                          "`goroll` takes 3 values since orbBasic 1.2 (August 2012), found 2",
-                          "add the go value: 1 drives, 0 brakes");
-  const auto end = last.span.end;
-  if (speed.constant())
-    d.fix = single_fix("add the go value", {end, end}, speed.lo > 0 ? ",1" : ",0", Safety::Unsafe);
+                          "`goroll` takes 3 values since orbBasic 1.2 (August 2012), found 2; the "
+                          "third is 1 to drive, 0 to brake");
+  d.fix =
+      single_fix("add the go value", last.span,
+                 fmt::format("{},{}", program_.text_of(last.span), speed == Range::only(0) ? 0 : 1),
+                 Safety::Unsafe);
 }
 
 void ValuesPass::check_flags(const Item& value) {

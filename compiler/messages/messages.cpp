@@ -6,6 +6,7 @@
 #include "compiler/messages/names.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/words.h"
+#include "repair/idioms.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -152,8 +153,8 @@ private:
     constexpr std::size_t least = 4;
     auto others = statement_words();
     std::erase(others, best);
-    return name.size() >= least && equal_words(name.substr(0, 1), best.substr(0, 1)) &&
-           !closest(name, others);
+    return name.size() >= least && !repair::is_known_word(name, repair::Where::Line) &&
+           equal_words(name.substr(0, 1), best.substr(0, 1)) && !closest(name, others);
   }
 
   /// `name = …`: a variable that does not exist.
@@ -252,8 +253,8 @@ private:
     return d;
   }
 
-  /// `A <= 5` is `A < 6`, `A <= B` is `A < B + 1`; more than a number or a variable on the right is
-  /// not rewritten.
+  /// `A <= 5` is `A < 6`; `A <= B` is `A < B + 1` unless B is the greatest number; more than a
+  /// number or a variable on the right is not rewritten.
   void or_equal(Diagnostic& d, Span span, char sign, int step) const {
     auto begin = span.end;
     while (begin < line_.span.end && is_blank(text_[begin]))
@@ -267,7 +268,8 @@ private:
       const auto changed =
           fmt::format("{} {} {} 1", sign, program_.text_of(name), step > 0 ? '+' : '-');
       d.help = fmt::format("values are integers: write `{}`", changed);
-      offer(d, fmt::format("write `{}`", changed), {{{span.begin, name.end}, changed}});
+      set_fix(d, fmt::format("write `{}`", changed), {span.begin, name.end}, changed,
+              Safety::Unsafe);
       return;
     }
     const auto value = parse_number<std::int32_t>(text_.substr(begin, end - begin));

@@ -22,6 +22,8 @@ public:
       return d;
     if (auto d = long_name())
       return d;
+    if (auto d = used_name())
+      return d;
     return colon();
   }
 
@@ -73,25 +75,86 @@ private:
         return std::nullopt;
     auto d = finding(set ? rules::UnknownStatement : rules::SyntaxError, fault_.span,
                      fmt::format("`{}` is not a variable", token()), "variables are named A to Z");
-    const auto letter = free_letter();
+    const auto named = letters_of_names();
+    const auto letter = letter_of(named, token());
     if (!letter)
       return d;
-    d.help = fmt::format("variables are named A to Z: write `{}`", *letter);
+    d.help = fmt::format("write `{}`; variables are named A to Z", with_letters(named));
     if (&fault_ == &first_name())
       d.fix = Fix{fmt::format("call it `{}` everywhere", *letter), edits_of_name({&*letter, 1}),
                   Safety::Safe};
     return d;
   }
 
-  /// The first letter of the name where nobody has it, else another free one; never Y and Z.
-  std::optional<char> free_letter() const {
+  /// A name that is set on another line, where its value is wanted.
+  std::optional<Diagnostic> used_name() const {
+    if ((!is(Reason::ExpectedExpression) && !is(Reason::Trailing)) || !wordy() ||
+        find_word(token()).kind != WordKind::Unknown)
+      return std::nullopt;
+    const auto named = letters_of_names();
+    if (!letter_of(named, token()))
+      return std::nullopt;
+    return finding(rules::SyntaxError, fault_.span, fmt::format("`{}` is not a variable", token()),
+                   fmt::format("write `{}`; variables are named A to Z", with_letters(named)));
+  }
+
+  using Named = std::vector<std::pair<std::string_view, char>>;
+
+  static std::optional<char> letter_of(const Named& named, std::string_view name) {
+    const auto found = std::find_if(named.begin(), named.end(),
+                                    [&](const auto& one) { return equal_words(one.first, name); });
+    return found == named.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// The long names that the program sets, each with the letter that it gets.
+  Named letters_of_names() const {
+    constexpr std::size_t most = 64; // faults; nobody names more
+    auto used = used_letters();
+    Named named;
+    std::size_t looked_at = 0;
+    for (const auto& fault : program_.faults) {
+      if (++looked_at > most)
+        break;
+      const Names other(program_, fault);
+      if (!other.long_name_here() || find_word(other.token()).kind != WordKind::Unknown ||
+          letter_of(named, other.token()))
+        continue;
+      const auto letter = free_letter(used, other.token());
+      if (!letter)
+        break;
+      used |= std::uint32_t{1} << (*letter - 'A');
+      named.emplace_back(other.token(), *letter);
+    }
+    return named;
+  }
+
+  /// The line with a letter for each long name.
+  std::string with_letters(const Named& named) const {
+    std::vector<Edit> edits;
+    for (const auto& [name, letter] : named)
+      add_edits(edits, line_, name, {&letter, 1});
+    std::sort(edits.begin(), edits.end(),
+              [](const Edit& a, const Edit& b) { return a.span.begin > b.span.begin; });
+    const auto begin = line_.span.begin;
+    std::string line(text_.substr(begin, code_end() - begin));
+    for (const auto& edit : edits)
+      line.replace(edit.span.begin - begin, edit.span.size(), edit.text);
+    return line;
+  }
+
+  std::uint32_t used_letters() const {
     std::uint32_t used = 0;
     for (std::uint32_t i = 0; i < text_.size(); ++i)
       if (is_letter(text_[i]) && (i == 0 || !is_letter(text_[i - 1])) &&
           (i + 1 == text_.size() || !is_letter(text_[i + 1])))
         used |= std::uint32_t{1} << (to_lower(text_[i]) - 'a');
+    return used;
+  }
+
+  /// The first letter of the name where nobody has it, else another free one; never Y and Z.
+  static std::optional<char> free_letter(std::uint32_t used, std::string_view name) {
     const auto is_free = [&](char c) { return (used >> (c - 'A') & 1) == 0; };
-    const char initial = to_upper(token()[0]);
+    const char initial = to_upper(name[0]);
     if (initial < 'Y' && is_free(initial))
       return initial;
     for (char c = 'A'; c < 'Y'; ++c)
@@ -116,21 +179,24 @@ private:
   /// Every occurrence of the token as a word outside of strings and comments.
   std::vector<Edit> edits_of_name(std::string_view letter) const {
     std::vector<Edit> edits;
-    for (const auto& line : program_.lines) {
-      const auto stop = line.comment.size() > 0 ? line.comment.begin : line.span.end;
-      bool quoted = false;
-      for (auto i = line.span.begin; i < stop; ++i) {
-        quoted = quoted != (text_[i] == '"');
-        if (quoted || !is_letter(text_[i]) || (i > 0 && is_letter(text_[i - 1])))
-          continue;
-        auto word_end = i;
-        while (word_end < stop && is_letter(text_[word_end]))
-          ++word_end;
-        if (equal_words(text_.substr(i, word_end - i), token()))
-          edits.push_back({{i, word_end}, std::string(letter)});
-      }
-    }
+    for (const auto& line : program_.lines)
+      add_edits(edits, line, token(), letter);
     return edits;
+  }
+  void add_edits(std::vector<Edit>& edits, const Line& line, std::string_view name,
+                 std::string_view letter) const {
+    const auto stop = line.comment.size() > 0 ? line.comment.begin : line.span.end;
+    bool quoted = false;
+    for (auto i = line.span.begin; i < stop; ++i) {
+      quoted = quoted != (text_[i] == '"');
+      if (quoted || !is_letter(text_[i]) || (i > 0 && is_letter(text_[i - 1])))
+        continue;
+      auto word_end = i;
+      while (word_end < stop && is_letter(text_[word_end]))
+        ++word_end;
+      if (equal_words(text_.substr(i, word_end - i), name))
+        edits.push_back({{i, word_end}, std::string(letter)});
+    }
   }
 
   /// Where a `:` stands between two statements: `print "a" : end`.

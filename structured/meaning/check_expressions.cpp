@@ -204,9 +204,13 @@ void Checker::check_range(const Item& part, std::string_view word,
   if (!value || (value->value >= parameter.least && value->value <= parameter.greatest))
     return;
   const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
-  report(compiler::rules::ValueOutOfRange, part.span,
-         fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
-                     parameter.greatest, value->value));
+  auto& d = report(compiler::rules::ValueOutOfRange, part.span,
+                   fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
+                               parameter.greatest, value->value));
+  const bool written = program_.nodes[part.value].kind == NodeKind::Number;
+  if (const auto meant = compiler::nearest_allowed(parameter, value->value); written && meant)
+    d.fix =
+        Fix{fmt::format("write {}", *meant), {{part.span, std::to_string(*meant)}}, Safety::Unsafe};
 }
 
 bool Checker::require_constant(const Item& part) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/lint/range.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"

@@ -180,7 +180,10 @@ void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
   judge.words = all_words();
   judge.parses = [](std::string_view line) {
     return FileReader(Source({}, "test \"x\"\n" + std::string(line))).read().diagnostics.empty() ||
-           FileReader(Source({}, std::string(line))).read().diagnostics.empty();
+           FileReader(Source({}, std::string(line))).read().diagnostics.empty() ||
+           FileReader(Source({}, std::string(line) + "\n  expect resting"))
+               .read()
+               .diagnostics.empty();
   };
   judge.check = [&](std::string_view text) {
     return FileReader(Source(source.name(), std::string(text))).read().diagnostics;
