@@ -2,6 +2,7 @@
 
 #include "assembler/lint.h"
 #include "compiler/check.h"
+#include "compiler/renumber.h"
 #include "compiler/text/image.h"
 #include "structured/compile.h"
 #include "testing/text/test_file.h"
@@ -104,8 +105,17 @@ std::string meaning(Language language, const Lines& program) {
     return {};
   switch (language) {
   case Language::Basic: {
-    const auto parsed = orb::compiler::check(text, {});
-    auto bytes = orb::compiler::build_image(parsed.program, orb::compiler::Packing::Packed).bytes;
+    const auto image = [](const std::string& of) {
+      const auto parsed = orb::compiler::check(of, {});
+      return orb::compiler::build_image(parsed.program, orb::compiler::Packing::Packed).bytes;
+    };
+    auto bytes = image(text);
+    bytes.resize(bytes.find_last_not_of('\0') + 1);
+    // Which numbers lines have is nobody's meaning.
+    const auto lines = orb::compiler::check(bytes, {});
+    const auto renumbered = orb::compiler::renumber(lines.program, {10, 10});
+    if (const auto* plain = std::get_if<std::string>(&renumbered))
+      bytes = image(*plain);
     bool quoted = false;
     for (std::size_t i = 0; i < bytes.size(); ++i) { // `a` is `A`
       quoted = bytes[i] != '\n' && quoted != (bytes[i] == '"');
@@ -178,6 +188,64 @@ Judged judge(Language language, const Lines& program, std::size_t at,
   const bool runs = !lines.empty() && !meaning(language, placed(program, at, lines[0])).empty();
   const bool fixed = finding->fix && !meaning(language, split(apply(text, *finding->fix))).empty();
   return {runs || fixed ? Verdict::Wrong : Verdict::Named, said};
+}
+
+Judged follow(Language language, const Lines& program, const std::vector<std::size_t>& at,
+              const std::vector<Lines>& meant) {
+  auto first = Judged{Verdict::Silent, ""};
+  for (const auto line : at) {
+    const auto judged = judge(language, program, line, meant);
+    if (judged.verdict == Verdict::Good)
+      return judged;
+    if (first.verdict == Verdict::Silent)
+      first = judged;
+  }
+  Lines wrong;
+  for (const auto line : at)
+    wrong.push_back(program[line]);
+  std::vector<std::string> meanings;
+  for (const auto& one : meant)
+    meanings.push_back(meaning(language, one));
+  auto lines = program;
+  bool moved = true;
+  for (std::size_t round = 0; moved && round < 2 * at.size() + 2; ++round) {
+    moved = false;
+    const auto text = join(lines);
+    const orb::Source source("mistake", text);
+    for (const auto& one : findings(language, text)) {
+      const auto line = source.position(one.span.begin).line - 1;
+      const bool marked =
+          line < lines.size() && std::find(wrong.begin(), wrong.end(), lines[line]) != wrong.end();
+      if (!marked && !is_error(one))
+        continue;
+      auto next = lines;
+      if (const auto written = offered(one); one.fix)
+        next = split(apply(text, *one.fix));
+      else if (!written.empty() && line < lines.size())
+        next = placed(lines, line, written[0]);
+      moved = next != lines;
+      lines = std::move(next);
+      if (moved)
+        break;
+    }
+    if (const auto now = meaning(language, lines);
+        !now.empty() && std::find(meanings.begin(), meanings.end(), now) != meanings.end())
+      return {Verdict::Good, first.said};
+  }
+  if (lines != program && !meaning(language, lines).empty())
+    return {Verdict::Wrong, first.said + " => " + join(lines)};
+  return first.verdict == Verdict::Wrong ? Judged{Verdict::Named, first.said} : first;
+}
+
+Lines said_of(Language language, const Lines& program) {
+  const auto text = join(program);
+  const orb::Source source("program", text);
+  Lines said;
+  for (const auto& one : findings(language, text))
+    said.push_back(fmt::format("{}: {} [{}]: {}{}{}", source.position(one.span.begin).line,
+                               to_string(one.severity), one.rule->id, one.message,
+                               one.help.empty() ? "" : "; ", one.help));
+  return said;
 }
 
 } // namespace slips

@@ -25,12 +25,25 @@ constexpr std::size_t verdicts = 4;
 struct Judged {
   Verdict verdict;
   std::string said; ///< the finding, for people
+
+  /// Whether the finding is in the words of a parser, which are left when nothing else fits.
+  bool of_parser() const {
+    return said.rfind("unexpected ", 0) == 0 || said.rfind("expected ", 0) == 0;
+  }
 };
 
 /// Judges a program with a mistake on line `at` (from 0); `meant` are programs as they may have
 /// been meant. None of them: nobody can know, and a finding on the line is good.
 Judged judge(Language language, const Lines& program, std::size_t at,
              const std::vector<Lines>& meant);
+
+/// The same for a program with mistakes on several lines, all of one kind: it is followed, finding
+/// after finding, as a patient beginner would.
+Judged follow(Language language, const Lines& program, const std::vector<std::size_t>& at,
+              const std::vector<Lines>& meant);
+
+/// What is said of a program, a line for each finding.
+Lines said_of(Language language, const Lines& program);
 
 /// What a program does, as text that can be compared; empty where it has errors.
 std::string meaning(Language language, const Lines& program);
