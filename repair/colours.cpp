@@ -89,7 +89,9 @@ std::optional<std::string> write_colour(std::string_view function, const Tokens&
                                named->name == "white" || named->name == "yellow"
                            ? named->name
                            : std::string_view(hex));
-  return named->name == "purple" || named->name == "orange" ? hex : std::string(named->name);
+  // Web pages' orange and purple are others; who writes the word means the word.
+  const bool other = named->name == "purple" || named->name == "orange";
+  return other && !equal_words(named->name, tokens[0].text) ? hex : std::string(named->name);
 }
 
 } // namespace orb::repair

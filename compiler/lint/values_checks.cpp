@@ -256,8 +256,12 @@ void ValuesPass::check_for(const ForView& loop) {
     auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
                             fmt::format("the loop counts from {} away from {}, so it runs once",
                                         shown(start), shown(end)));
-    if (loop.step == nullptr)
-      d.help = "to count down write `step -1`";
+    if (loop.step == nullptr) {
+      const auto counts = program_.text_of({variable.span.begin, loop.last().span.end});
+      d.help = fmt::format("to count down write `for {} step -1`", counts);
+      const auto at = loop.last().span.end;
+      d.fix = single_fix("count down", {at, at}, " step -1", Safety::Unsafe);
+    }
   }
   if (variable.kind == ItemKind::Indexed) {
     findings_.add(rules::IndexedLoop, variable.span, "`Z` as a loop variable",
