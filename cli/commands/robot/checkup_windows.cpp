@@ -9,7 +9,7 @@ namespace orb::cli {
 void check_bluetooth(Checkup& checkup) {
   const auto devices = find_devices();
   const bool paired = std::any_of(devices.begin(), devices.end(), [](const Port& device) {
-    return device.what.find("Bluetooth") != std::string::npos;
+    return device.what.starts_with("Bluetooth serial port of");
   });
   if (paired)
     checkup.good("a paired Bluetooth device has a COM port");

@@ -15,7 +15,7 @@ namespace {
 using Text = std::array<wchar_t, MAX_PATH>;
 
 /// What is "Ports (COM & LPT)" in the device manager.
-constexpr GUID ports = {0x4D36E978, 0xE325, 0x11CE, {0xBF, 0xC1, 8, 0, 0x2B, 0xE1, 3, 0x18}};
+constexpr GUID ports_class = {0x4D36E978, 0xE325, 0x11CE, {0xBF, 0xC1, 8, 0, 0x2B, 0xE1, 3, 0x18}};
 
 struct Driver {
   std::wstring_view device; ///< how the names of its devices begin
@@ -101,7 +101,7 @@ std::string describe_bluetooth(const Device& port) {
 }
 
 /// In the words of Windows, without the name of the port that stands after them.
-std::string describe(const Device& port) {
+std::string describe_port(const Device& port) {
   return port.id.starts_with("BTHENUM\\") ? describe_bluetooth(port)
                                           : port.name.substr(0, port.name.rfind(" (COM"));
 }
@@ -119,7 +119,7 @@ std::vector<Port> find_devices() {
   if (::RegOpenKeyExW(HKEY_LOCAL_MACHINE, LR"(HARDWARE\DEVICEMAP\SERIALCOMM)", 0, KEY_READ, &key) !=
       ERROR_SUCCESS)
     return devices;
-  const auto known = devices_of(&ports, nullptr);
+  const auto known = devices_of(&ports_class, nullptr);
   Text device{};
   Text port{};
   for (DWORD i = 0;; ++i) {
@@ -134,7 +134,7 @@ std::vector<Port> find_devices() {
       continue;
     const auto name = in_utf8(port.data());
     const auto found = std::ranges::find(known, name, &Device::port);
-    const auto what = found != known.end() ? describe(*found) : std::string();
+    const auto what = found != known.end() ? describe_port(*found) : std::string();
     devices.push_back(
         {name, what.empty() ? std::string(what_is({device.data(), device_size})) : what});
   }
