@@ -1,11 +1,10 @@
 #include "compiler/load.h"
+#include "lively.h"
 #include "vm/ball.h"
 
-#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 namespace orb::vm {
 namespace {
@@ -71,23 +70,6 @@ private:
     mix_int(x.speed);
   }
 };
-
-/// Drives, blinks, reads every sensor, draws random numbers and bumps into walls.
-constexpr std::string_view lively =
-    "10 basflg 1\n"
-    "20 H = rnd 360 - 1\n"
-    "30 goroll H,40 + rnd 200,1\n"
-    "40 for T = 1 to 20\n"
-    "50 RGB speed,yaw/2,T*12\n"
-    "60 print xpos,ypos,yaw;\n"
-    "70 A = A + accelX + accelY * 3 + gyroZ - Qzero + Vbatt\n"
-    "80 if accelone > 2000 then print \"bump\", accelone\n"
-    "90 delay 20 + rnd 30\n"
-    "100 next T\n"
-    "110 if A % 3 = 0 then heading A & 127 else raw 1,rnd 255,2,rnd 255\n"
-    "120 delay 100\n"
-    "130 ctrl = 1\n"
-    "140 goto 20\n";
 
 TraceHash trace(std::string_view text, Duration time, std::uint64_t seed, Dispatch dispatch,
                 Duration piece = 1s) {
@@ -181,34 +163,6 @@ TEST(Trace, IsTheSameHoweverLateTheBodyComes) {
   // The battery becomes low on the way, here or there in the program, or not at all.
   for (const double volts : {1e-5, 2e-5, 3e-5, 4e-5, 5e-5, 0.5})
     EXPECT_EQ(run(volts, nullptr), run(volts, &watching));
-}
-
-/// ORB_SOAK_HOURS simulated hours by 20 seeds, which ./dev fuzz sets to 24; a minute in ./dev test.
-TEST(Trace, SoakTakesNoMemory) {
-  const char* wanted = std::getenv("ORB_SOAK_HOURS");
-  const Duration time = wanted ? std::atoi(wanted) * Duration{1h} : Duration{1min};
-  const auto used = [] {
-    const auto info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-  };
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    BallOptions options;
-    options.seed = seed;
-    options.loader = compiler::load;
-    Ball ball(options);
-    ball.connect();
-    ball.append_basic(Area::Ram, as_bytes(lively));
-    ball.execute_basic(Area::Ram, 10);
-    ball.advance_to(ball.now() + 10s);
-    ball.take_output();
-    const auto before = used();
-    for (Duration passed{}; passed < time; passed += 10s) {
-      ball.advance_to(ball.now() + 10s);
-      ball.take_output();
-    }
-    EXPECT_LT(used(), before + 65536) << "seed " << seed;
-    EXPECT_TRUE(ball.basic_running());
-  }
 }
 
 } // namespace
