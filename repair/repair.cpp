@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,16 +47,26 @@ struct Accepted {
   bool fewer = false; ///< the text has fewer errors with it
   bool quiet = false; ///< nothing else is said about the line
   bool sure = true;   ///< nothing else can have been meant
+  bool open = false;  ///< a block still lacks its end, or an end its block
+  std::size_t errors = 0;
+
+  /// Whether no other line can do more.
+  bool settles() const { return quiet && !open; }
+};
+
+/// The text around a line, as far as it has been mended already.
+struct Context {
+  std::string above;
+  std::string below;
 };
 
 /// The search for one line.
 class Repair {
 public:
-  /// `below`: the text after the line, as far as it has been mended already.
   Repair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
-         std::string_view below, const std::vector<Diagnostic>& before)
+         const Context& context, const std::vector<Diagnostic>& before)
       : source_(source), judge_(judge), line_(source.line(line)), begin_(source.line_start(line)),
-        below_(below), errors_(errors_in(before)), lasting_(lasting_errors(before)),
+        context_(context), errors_(errors_in(before)), lasting_(lasting_errors(before)),
         parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
         names_(scenery.names_without(parts_.tokens)),
         is_target_(judge.language == Language::Basic &&
@@ -82,7 +93,7 @@ public:
       attempt(start, {}, true);
     if (!best_)
       by_changes(surely);
-    if (!best_ || !best_->quiet)
+    if (!best_ || !best_->settles())
       habits(start, {deepest, most_states});
     if (!best_ || !best_->quiet)
       by_fix(finding);
@@ -163,7 +174,7 @@ private:
 
   /// Tries a line in its place; true when it cannot be better.
   bool attempt(const std::string& statement, std::string_view note, bool sure) {
-    return attempt_line(whole(statement), note, sure).has_value() && best_ && best_->quiet;
+    return attempt_line(whole(statement), note, sure).has_value() && best_ && best_->settles();
   }
 
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
@@ -171,25 +182,31 @@ private:
     if (text == line_ || checks_ >= most_checks || !judge_.parses(text))
       return std::nullopt;
     ++checks_;
-    std::string changed(source_.text().substr(0, begin_));
+    auto changed = context_.above;
+    const auto begin = changed.size();
     // What jumps to a line that is left out goes on below it, as it would after one that does
     // nothing.
     changed += text.empty() && is_target_ ? parts_.head + "A = A" : text;
-    changed += below_;
+    changed += context_.below;
     const auto found = judge_.check(changed);
     bool quiet = true;
-    for (const auto& one : found)
-      if (one.span.begin >= begin_ && one.span.begin <= begin_ + text.size()) {
-        if (is_error(one) && one.rule->id != "unclosed-block")
-          return std::nullopt;
-        quiet = quiet && one.severity == Severity::Info;
-      }
+    bool open = false;
+    for (const auto& one : found) {
+      open = open || one.rule->id == "unclosed-block" || one.rule->id == "block-end";
+      if (one.span.begin < begin || one.span.begin > begin + text.size())
+        continue;
+      if (is_error(one) && one.rule->id != "unclosed-block")
+        return std::nullopt;
+      quiet = quiet && one.severity == Severity::Info;
+    }
     const auto errors = errors_in(found);
     if (errors > errors_ || (!keep && errors == errors_))
       return std::nullopt;
-    Accepted accepted{text, note, errors < errors_ || lasting_errors(found) < lasting_, quiet,
-                      sure};
-    if (keep && (!best_ || (quiet && !best_->quiet)))
+    Accepted accepted{text,  note, errors < errors_ || lasting_errors(found) < lasting_,
+                      quiet, sure, open,
+                      errors};
+    if (keep &&
+        (!best_ || errors < best_->errors || (errors == best_->errors && quiet && !best_->quiet)))
       best_ = accepted;
     return accepted;
   }
@@ -262,7 +279,7 @@ private:
   const Judge& judge_;
   std::string_view line_;
   std::uint32_t begin_;
-  std::string_view below_;
+  const Context& context_;
   std::size_t errors_;
   std::size_t lasting_;
   SplitLine parts_;
@@ -381,6 +398,8 @@ public:
     });
     for (auto* finding : first)
       offer(*finding);
+    if (judge_.language == Language::Structured)
+      offer_again(first);
     drop_consequences();
   }
 
@@ -435,9 +454,11 @@ private:
     }
     auto at = line_of(finding);
     const bool here = is_about_writing(finding, source_, judge_, at);
+    Context context;
     std::optional<Repair> repair;
     const auto found_at = [&] {
-      repair.emplace(source_, judge_, scenery_, at, below(at), before());
+      context = around(at);
+      repair.emplace(source_, judge_, scenery_, at, context, before(at, context));
       return repair->find(finding);
     };
     auto found = here ? found_at() : std::vector<Accepted>();
@@ -450,34 +471,66 @@ private:
     if (!found.empty()) {
       write(finding, *repair, at, found);
       mended_.insert(&finding);
-      if (found.size() == 1 && found[0].fewer) {
-        below_ = found[0].text + std::string(below(at));
-        below_begin_ = source_.line_start(at);
-        before_now_.reset();
-      }
+      if (found.size() == 1 && (found[0].fewer || found[0].open))
+        texts_[at] = found[0].text;
     } else if (repair && says_little(finding)) {
       if (auto advice = repair->advice(); !advice.empty())
         finding.help = std::move(advice);
     }
   }
 
-  /// The text after a line, as far as it has been mended.
-  std::string_view below(std::uint32_t line) {
-    const auto end = span_of(line).end;
-    if (end < below_begin_) {
-      below_.insert(0, source_.text().substr(end, below_begin_ - end));
-      below_begin_ = end;
+  /// What a block begins with may have been mended after what is in it: from the first line down,
+  /// each line is judged once more among the others.
+  void offer_again(const std::vector<Diagnostic*>& findings) {
+    if (texts_.empty() || errors_in(judge_.check(whole_text())) == 0)
+      return;
+    for (auto finding = findings.rbegin(); finding != findings.rend(); ++finding) {
+      const auto& first = before_[static_cast<std::size_t>(*finding - findings_.data())];
+      const auto at = line_of(first);
+      if (!is_about_writing(first, source_, judge_, at))
+        continue;
+      const auto context = around(at);
+      const auto before =
+          findings_about(context.above + std::string(source_.line(at)) + context.below);
+      Repair repair(source_, judge_, scenery_, at, context, before);
+      const auto found = repair.find(first);
+      if (found.size() != 1 || !(found[0].fewer || found[0].open) ||
+          (texts_.contains(at) && texts_[at] == found[0].text))
+        continue;
+      **finding = first;
+      write(**finding, repair, at, found);
+      mended_.insert(*finding);
+      texts_[at] = found[0].text;
     }
-    return below_;
   }
 
-  /// The findings about the text as far as it has been mended.
-  const std::vector<Diagnostic>& before() {
-    if (below_begin_ == source_.text().size() || below_ == source_.text().substr(below_begin_))
-      return before_;
-    if (!before_now_)
-      before_now_ = judge_.check(std::string(source_.text().substr(0, below_begin_)) + below_);
-    return *before_now_;
+  /// Lines from `from` to before `to`, those that are mended as they will be, each with its end.
+  std::string lines(std::uint32_t from, std::uint32_t to) const {
+    std::string text;
+    for (auto n = from; n < to; ++n) {
+      const auto mended = texts_.find(n);
+      const auto end = span_of(n).end;
+      text += mended != texts_.end() ? std::string_view(mended->second) : source_.line(n);
+      text += source_.text().substr(end, source_.line_start(n + 1) - end);
+    }
+    return text;
+  }
+  std::string whole_text() const { return lines(1, source_.line_count() + 1); }
+
+  Context around(std::uint32_t line) const {
+    const auto end = span_of(line).end;
+    return {lines(1, line),
+            std::string(source_.text().substr(end, source_.line_start(line + 1) - end)) +
+                lines(line + 1, source_.line_count() + 1)};
+  }
+
+  std::vector<Diagnostic> findings_about(const std::string& text) const {
+    return text == source_.text() ? before_ : judge_.check(text);
+  }
+  std::vector<Diagnostic> before(std::uint32_t line, const Context& context) const {
+    return texts_.empty()
+               ? before_
+               : findings_about(context.above + std::string(source_.line(line)) + context.below);
   }
 
   /// Errors that are not there once the lines are written that are offered elsewhere: an `end`
@@ -562,11 +615,9 @@ private:
   std::vector<Diagnostic>& findings_;
   const std::vector<Diagnostic> before_;
   Scenery scenery_;
-  std::set<std::uint32_t> lines_;      ///< looked at
-  std::set<const Diagnostic*> mended_; ///< of `findings_`: with what is offered here
-  std::string below_;                  ///< the text from there on, as far as it is mended
-  std::size_t below_begin_ = source_.text().size();
-  std::optional<std::vector<Diagnostic>> before_now_; ///< of that text; none: not known yet
+  std::set<std::uint32_t> lines_;              ///< looked at
+  std::set<const Diagnostic*> mended_;         ///< of `findings_`: with what is offered here
+  std::map<std::uint32_t, std::string> texts_; ///< of lines, as they are mended
 };
 
 } // namespace
