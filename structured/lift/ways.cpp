@@ -35,6 +35,12 @@ struct State {
   }
 };
 
+/// A state and the one that it was first reached from.
+struct Reached {
+  State state;
+  std::uint32_t from = none;
+};
+
 class Reader {
 public:
   explicit Reader(const compiler::Program& program)
@@ -44,6 +50,7 @@ public:
     collect_steps();
     find_targets();
     follow();
+    std::sort(ways_.subroutines.begin(), ways_.subroutines.end());
     return std::move(ways_);
   }
 
@@ -99,25 +106,24 @@ private:
 
   // ---- the ways
 
+  /// The nearest steps first, so that the way to each state is a shortest one.
   void follow() {
     if (ways_.steps.empty())
       return;
-    reach(State{});
-    while (!work_.empty() && !ways_.obstacle) {
-      const auto state = work_.back();
-      work_.pop_back();
-      leave(state);
-    }
-    std::sort(ways_.subroutines.begin(), ways_.subroutines.end());
+    in_main_.assign(ways_.steps.size(), false);
+    reach(State{}, none);
+    for (here_ = 0; here_ < states_.size() && !ways_.obstacle; ++here_)
+      leave(State{states_[here_].state});
   }
 
-  void reach(State state) {
+  void reach(State state, std::uint32_t from) {
     if (state.step == ways_.end() || !seen_.insert(state).second)
       return;
+    states_.push_back({state, from});
     if (!ways_.steps[state.step].reached)
       look_at(state);
     ways_.steps[state.step].reached = true;
-    work_.push_back(state);
+    in_main_[state.step] = in_main_[state.step] || state.call_depth == 0;
     if (seen_.size() > most_states)
       stop(state, "the jumps mix loops and calls in too many ways to follow",
            "let loops run to their `next` and subroutines to their `return`");
@@ -184,7 +190,7 @@ private:
 
   void go(State state, std::uint32_t step) {
     state.step = step;
-    reach(state);
+    reach(state, here_);
   }
 
   void leave(const State& state) {
@@ -197,10 +203,8 @@ private:
       return;
     case spec::Form::Branch:
     case spec::Form::IndexedBranch: {
-      const bool calls = statement.kind == spec::Statement::Gosub ||
-                         statement.spelling == compiler::Spelling::OnGosub;
       for (const auto target : step.targets)
-        calls ? call(state, target) : go(state, target);
+        calls(state.step) ? call(state, target) : go(state, target);
       return;
     }
     case spec::Form::Loop: begin_loop(state); return;
@@ -221,11 +225,7 @@ private:
 
   void call(State state, std::uint32_t target) {
     if (state.call_depth == most_calls)
-      return stop(state,
-                  fmt::format("this call can be the {}th one open at once; the robot then stops "
-                              "with `{}`",
-                              most_calls + 1, spec::info(BasicError::GosubDepthExceeded).text),
-                  "let each subroutine run to its `return`; do not leave it by `goto`");
+      return stop_at_call(state);
     if (std::find(ways_.subroutines.begin(), ways_.subroutines.end(), target) ==
         ways_.subroutines.end())
       ways_.subroutines.push_back(target);
@@ -235,11 +235,7 @@ private:
 
   void come_back(State state) {
     if (state.call_depth == 0)
-      return stop(state,
-                  fmt::format("this `return` can be reached without a `gosub`; the robot then "
-                              "stops with `{}`",
-                              spec::info(BasicError::ReturnWithoutGosub).text),
-                  "put `end` above the subroutine");
+      return stop_at_return(state);
     const auto caller = state.calls[--state.call_depth];
     state.calls[state.call_depth] = 0;
     go(state, ways_.steps[caller].next);
@@ -253,11 +249,7 @@ private:
     const bool again = state.loop_depth > 0 &&
                        variable_of(state.loops[state.loop_depth - 1]) == variable_of(state.step);
     if (!again && state.loop_depth == most_loops)
-      return stop(state,
-                  fmt::format("this loop can be the {}th one open at once; the robot then stops "
-                              "with `{}`",
-                              most_loops + 1, spec::info(BasicError::ForDepthExceeded).text),
-                  "let each loop run to its `next`; do not leave it by `goto`");
+      return stop_at_loop(state);
     state.loop_depth += again ? 0 : 1;
     state.loops[state.loop_depth - 1] = state.step;
     go(state, ways_.steps[state.step].next);
@@ -265,14 +257,9 @@ private:
 
   void end_loop(State state) {
     auto& step = ways_.steps[state.step];
-    const auto name = spec::letter_name(variable_of(state.step));
     const auto loop = state.loop_depth > 0 ? state.loops[state.loop_depth - 1] : none;
     if (loop == none || variable_of(loop) != variable_of(state.step))
-      return stop(state,
-                  fmt::format("this `next` can be reached when the innermost loop does not count "
-                              "in `{}`; the robot then stops with `{}`",
-                              name, spec::info(BasicError::NextWithoutFor).text),
-                  "do not jump into or out of loops");
+      return stop_at_next(state);
     if (step.loop != none && step.loop != loop)
       return stop(state,
                   fmt::format("this `next` belongs to the loop of line {} one time and to that of "
@@ -285,8 +272,158 @@ private:
     go(state, step.next);
   }
 
+  // ---- errors about jumps, and the line that is to blame
+
   std::uint32_t number_of(std::uint32_t step) const {
     return program_.lines[ways_.steps[step].line].number;
+  }
+
+  static std::string error_text(BasicError error) {
+    return fmt::format("the robot then stops with `{}`", spec::info(error).text);
+  }
+
+  bool is(std::uint32_t step, spec::Statement kind) const {
+    return statement_of(ways_.steps[step]).kind == kind;
+  }
+  bool calls(std::uint32_t step) const {
+    const auto& statement = statement_of(ways_.steps[step]);
+    return statement.kind == spec::Statement::Gosub ||
+           statement.spelling == compiler::Spelling::OnGosub;
+  }
+
+  /// The last step on the way to the state that is being left which goes from outside of the text
+  /// from `first` to `last` into it, or out of it; none where the way does not.
+  struct Crossing {
+    std::uint32_t from = none;
+    std::uint32_t to = none;
+  };
+  std::optional<Crossing> last_crossing(std::uint32_t first, std::uint32_t last, bool in) const {
+    const auto within = [&](std::uint32_t step) { return first <= step && step <= last; };
+    for (auto at = here_; states_[at].from != none; at = states_[at].from) {
+      const auto from = states_[states_[at].from].state.step;
+      const auto to = states_[at].state.step;
+      if (within(from) != within(to) && within(to) == in && !calls(from) &&
+          !is(from, spec::Statement::Return))
+        return Crossing{from, to};
+    }
+    return std::nullopt;
+  }
+
+  /// The `next` below a `for` that counts in its variable, or none.
+  std::uint32_t next_below(std::uint32_t loop) const {
+    for (auto s = loop + 1; s < ways_.end(); ++s)
+      if (is(s, spec::Statement::Next) && variable_of(s) == variable_of(loop))
+        return s;
+    return none;
+  }
+  /// The jump that left the innermost open loop, which therefore is still open.
+  std::optional<Crossing> way_out_of_loop(const State& state) const {
+    const auto loop = state.loops[state.loop_depth - 1];
+    const auto last = next_below(loop);
+    return last == none ? std::nullopt : last_crossing(loop, last, false);
+  }
+
+  void blame(std::uint32_t step, std::string message, std::string help) {
+    State state;
+    state.step = step;
+    stop(state, std::move(message), std::move(help));
+  }
+  void blame_way_out(const State& state, std::uint32_t from, std::string_view then,
+                     BasicError error) {
+    const auto loop = state.loops[state.loop_depth - 1];
+    blame(from,
+          fmt::format("this jump leaves the loop of line {}, which stays open; at {} in line {} {}",
+                      number_of(loop), then, number_of(state.step), error_text(error)),
+          fmt::format("set `{}` to its last value and jump to line {}, its `next`",
+                      spec::letter_name(variable_of(loop)), number_of(next_below(loop))));
+  }
+
+  void stop_at_next(const State& state) {
+    const auto name = spec::letter_name(variable_of(state.step));
+    auto loop = state.step; // the `for` above in the text
+    while (loop > 0 &&
+           !(is(loop, spec::Statement::For) && variable_of(loop) == variable_of(state.step)))
+      --loop;
+    const auto* const open = state.loops.data();
+    const bool is_open = std::find(open, open + state.loop_depth, loop) != open + state.loop_depth;
+    if (is_open) {
+      if (const auto out = way_out_of_loop(state))
+        return blame_way_out(state, out->from, fmt::format("`next {}`", name),
+                             BasicError::NextWithoutFor);
+    } else if (is(loop, spec::Statement::For)) {
+      if (const auto in = last_crossing(loop, state.step, true); in && in->to != loop)
+        return blame(in->from,
+                     fmt::format("this jump goes into the loop of line {}, past its `for`; at "
+                                 "`next {}` in line {} {}",
+                                 number_of(loop), name, number_of(state.step),
+                                 error_text(BasicError::NextWithoutFor)),
+                     fmt::format("jump to line {}, where the loop begins", number_of(loop)));
+    }
+    stop(state,
+         fmt::format("this `next` can be reached when the innermost loop does not count in `{}`; "
+                     "{}",
+                     name, error_text(BasicError::NextWithoutFor)),
+         "do not jump into or out of loops");
+  }
+
+  void stop_at_loop(const State& state) {
+    if (const auto out = way_out_of_loop(state))
+      return blame_way_out(state, out->from, fmt::format("the {}th open loop", most_loops + 1),
+                           BasicError::ForDepthExceeded);
+    stop(state,
+         fmt::format("this loop can be the {}th one open at once; {}", most_loops + 1,
+                     error_text(BasicError::ForDepthExceeded)),
+         "let each loop run to its `next`; do not leave it by `goto`");
+  }
+
+  /// The steps that some `gosub` calls.
+  std::vector<std::uint32_t> called_steps() const {
+    std::vector<std::uint32_t> called;
+    for (std::uint32_t s = 0; s < ways_.end(); ++s)
+      if (calls(s))
+        called.insert(called.end(), ways_.steps[s].targets.begin(), ways_.steps[s].targets.end());
+    std::sort(called.begin(), called.end());
+    return called;
+  }
+
+  void stop_at_return(const State& state) {
+    const auto called = called_steps();
+    const auto above = std::upper_bound(called.begin(), called.end(), state.step);
+    const auto in =
+        above == called.begin() ? std::nullopt : last_crossing(*std::prev(above), state.step, true);
+    if (!in)
+      return stop(state,
+                  fmt::format("this `return` can be reached without a `gosub`; {}",
+                              error_text(BasicError::ReturnWithoutGosub)),
+                  "put `end` above the subroutine");
+    const auto sub = number_of(*std::prev(above));
+    const bool jumps = !ways_.steps[in->from].targets.empty();
+    blame(in->from,
+          fmt::format("{} into the subroutine of line {} without a `gosub`; at its `return` in "
+                      "line {} {}",
+                      jumps ? "this jump goes" : "the program runs on from here", sub,
+                      number_of(state.step), error_text(BasicError::ReturnWithoutGosub)),
+          jumps ? fmt::format("write `gosub {}`", sub)
+                : fmt::format("put a line with `end` above line {}", sub));
+  }
+
+  void stop_at_call(const State& state) {
+    const auto fifth = fmt::format("{}th", most_calls + 1);
+    // The last jump from where only calls lead to where the main program runs.
+    for (auto at = here_; states_[at].from != none; at = states_[at].from) {
+      const auto from = states_[states_[at].from].state.step;
+      if (is(from, spec::Statement::Goto) && !in_main_[from] && in_main_[states_[at].state.step])
+        return blame(from,
+                     fmt::format("this jump leaves a subroutine, whose call stays open; at the {} "
+                                 "open one in line {} {}",
+                                 fifth, number_of(state.step),
+                                 error_text(BasicError::GosubDepthExceeded)),
+                     "let the subroutine run to its `return`");
+    }
+    stop(state,
+         fmt::format("this call can be the {} one open at once; {}", fifth,
+                     error_text(BasicError::GosubDepthExceeded)),
+         "let each subroutine run to its `return`; do not leave it by `goto`");
   }
 
   const compiler::Program& program_;
@@ -294,7 +431,9 @@ private:
   Ways ways_;
   std::vector<std::uint32_t> first_step_; ///< of each line that holds a statement, and the end
   std::set<State> seen_;
-  std::vector<State> work_;
+  std::vector<Reached> states_; ///< in the order in which they were reached
+  std::uint32_t here_ = 0;      ///< the one that is being left
+  std::vector<bool> in_main_;   ///< of each step: it runs with no call open
 };
 
 } // namespace

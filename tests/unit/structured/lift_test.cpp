@@ -135,7 +135,8 @@ void compare(std::string_view text) {
     expect_same(numbered, run(compiled.robot.text, 16000));
 }
 
-/// A random program in which each line that keeps it from being lifted prints its number instead.
+/// A random program in which each line that keeps it from being lifted prints its number instead,
+/// or ends the program where it does so already.
 std::string liftable(std::uint64_t seed) {
   testing::RandomProgram::Style style;
   style.lines = 4 + static_cast<int>(seed % 14);
@@ -148,7 +149,10 @@ std::string liftable(std::uint64_t seed) {
     const Source source("", text);
     const auto line = source.position(errors.front().span.begin).line;
     const auto number = std::to_string(10 * line);
-    text.replace(source.line_start(line), source.line(line).size(), number + " print " + number);
+    const auto prints = number + " print " + number;
+    const bool again = source.line(line) == prints;
+    text.replace(source.line_start(line), source.line(line).size(),
+                 again ? number + " end" : prints);
   }
   return {};
 }
