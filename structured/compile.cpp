@@ -198,6 +198,11 @@ void keep(Compiled& compiled, std::string_view name) {
   code.variables[variable].kept = true;
 }
 
+/// Whether a variable that nobody reads is likely another one, misspelt.
+bool is_slip(const Diagnostic& one) {
+  return one.rule == &rules::UnusedName && !one.help.empty();
+}
+
 /// Compiles what has been read; the findings say how far that went.
 void compile(Compiled& compiled, const compiler::Target& target,
              const std::vector<std::string>& kept, Shape shape) {
@@ -231,7 +236,14 @@ void compile(Compiled& compiled, const compiler::Target& target,
   }
   write_choices(compiled.code, compiled.letters, compiled.program);
   compiled.robot = print(compiled.program, compiled.code, compiled.letters, {});
+  const auto own = compiled.program.diagnostics.size();
   relay_findings(compiled, target);
+  // What comes of a slip in a name waits until that is mended.
+  auto& all = compiled.program.diagnostics;
+  if (std::any_of(all.begin(), all.end(), is_slip))
+    all.erase(std::remove_if(all.begin() + static_cast<std::ptrdiff_t>(own), all.end(),
+                             [](const Diagnostic& one) { return !is_error(one); }),
+              all.end());
 }
 
 std::vector<std::string_view> all_words() {

@@ -1,3 +1,4 @@
+#include "base/suggest.h"
 #include "structured/meaning/checker.h"
 
 namespace orb::structured {
@@ -117,7 +118,22 @@ void Checker::check_unused() {
 }
 
 void Checker::report_unused(const Symbol& symbol, std::string_view how) {
-  report(rules::UnusedName, symbol.span, fmt::format("`{}` {}", program_.name(symbol.name), how));
+  const auto name = program_.name(symbol.name);
+  std::vector<std::string_view> others; // variables that are read
+  for (const auto& other : names_.symbols)
+    if (other.kind == SymbolKind::Variable && other.read && other.name != symbol.name)
+      others.push_back(program_.name(other.name));
+  constexpr std::size_t clear = 3; // a letter more or less makes another name of a short one
+  const auto meant = symbol.kind == SymbolKind::Variable && name.size() >= clear
+                         ? closest(name, others)
+                         : std::nullopt;
+  std::string help;
+  if (meant) {
+    const auto line = at(symbol.statement).span;
+    help = fmt::format("write `{}{}{}`", program_.text_of({line.begin, symbol.span.begin}), *meant,
+                       program_.text_of({symbol.span.end, line.end}));
+  }
+  report(rules::UnusedName, symbol.span, fmt::format("`{}` {}", name, how), std::move(help));
 }
 
 bool Checker::in_main_file(Span span) const {

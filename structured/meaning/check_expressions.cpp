@@ -1,4 +1,5 @@
 #include "structured/meaning/checker.h"
+#include "structured/text/messages.h"
 
 namespace orb::structured {
 
@@ -37,6 +38,26 @@ void Checker::report_condition(std::uint32_t node) {
          "a condition cannot be used as a number", "write `if … then` and set the value there");
 }
 
+bool Checker::joins_conditions(std::uint32_t n) const {
+  const auto& nodes = program_.nodes;
+  const auto op = static_cast<spec::Operator>(nodes[n].what);
+  if (nodes[n].kind != NodeKind::Binary ||
+      (op != spec::Operator::And && op != spec::Operator::Or) || !nodes[n - 1].is_condition())
+    return false;
+  const auto left = program_.before(n - 1);
+  return nodes[left].is_condition() || joins_conditions(left);
+}
+
+void Checker::report_bitwise(std::uint32_t n) {
+  const bool both = program_.nodes[n].what == static_cast<std::uint8_t>(spec::Operator::And);
+  const auto right = program_.nodes[n - 1].span.begin;
+  const auto sign = std::string_view(program_.text).substr(0, right).find_last_of(both ? '&' : '|');
+  const auto at = static_cast<std::uint32_t>(sign);
+  auto found = habit(program_, {at, at + 1}, both ? "and" : "or");
+  found.message = fmt::format("`{}` joins the bits of numbers, not conditions", both ? '&' : '|');
+  program_.diagnostics.push_back(std::move(found));
+}
+
 bool Checker::names_unknown(std::uint32_t root) const {
   for (auto n = program_.nodes[root].first; n <= root; ++n)
     if (program_.nodes[n].kind == NodeKind::Name && names_.of_node[n] == none)
@@ -54,12 +75,16 @@ void Checker::check_node(std::uint32_t n, bool is_root) {
     check_index(n);
   if (node.kind == NodeKind::Relation)
     check_sensor(n);
-  if (node.kind == NodeKind::Binary)
+  if (node.kind == NodeKind::Binary) {
     check_quotient(n);
+    check_overflow(n);
+  }
   const bool takes_conditions =
       node.kind == NodeKind::Not || node.kind == NodeKind::And || node.kind == NodeKind::Or;
   if (takes_conditions || node.first == n)
     return;
+  if (joins_conditions(n))
+    return report_bitwise(n);
   for (auto operand = n - 1;; operand = program_.nodes[operand].first - 1) {
     if (program_.nodes[operand].is_condition())
       report_condition(operand);
@@ -136,6 +161,29 @@ void Checker::check_quotient(std::uint32_t n) {
   report(compiler::rules::ZeroQuotient, nodes[n].span,
          fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
          fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+}
+
+void Checker::check_overflow(std::uint32_t n) {
+  const auto& node = program_.nodes[n];
+  const auto op = static_cast<spec::Operator>(node.what);
+  if (op != spec::Operator::Add && op != spec::Operator::Subtract && op != spec::Operator::Multiply)
+    return;
+  const auto right = evaluate(program_, names_, n - 1);
+  const auto left = right ? evaluate(program_, names_, program_.before(n - 1)) : std::nullopt;
+  if (!left)
+    return;
+  const std::int64_t a = left->value;
+  const std::int64_t b = right->value;
+  const auto exact = op == spec::Operator::Add        ? a + b
+                     : op == spec::Operator::Subtract ? a - b
+                                                      : a * b;
+  const auto wrapped = static_cast<std::int32_t>(static_cast<std::uint32_t>(exact));
+  if (exact != wrapped)
+    report(rules::ConstantOverflow, node.span,
+           fmt::format("`{}` is {}, which wraps around to {}", program_.text_of(node.span), exact,
+                       wrapped),
+           fmt::format("numbers go from -2147483648 to {}",
+                       spec::value_of(spec::Limit::GreatestInteger)));
 }
 
 void Checker::check_sides(std::uint32_t root) {

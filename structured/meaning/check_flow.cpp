@@ -94,7 +94,7 @@ void Checker::check_recursion() {
 }
 
 void Checker::report_cycle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
-                            std::uint32_t callee) {
+                           std::uint32_t callee) {
   std::string circle;
   bool inside = false;
   for (const auto& [routine, next] : path) {
@@ -109,11 +109,23 @@ void Checker::report_cycle(const std::vector<std::pair<std::uint32_t, std::size_
 
 void Checker::check_loops() {
   for (const auto i : program_.order) {
-    if (at(i).kind == Kind::Loop)
+    if (at(i).kind == Kind::Loop ||
+        (at(i).kind == Kind::While && always_holds(item(at(i), 0).value)))
       check_endless(i);
     if (at(i).kind == Kind::For)
       check_counter(i);
   }
+}
+
+bool Checker::always_holds(std::uint32_t condition) const {
+  const auto& node = program_.nodes[condition];
+  const bool equality =
+      node.kind == NodeKind::Relation && static_cast<Comparison>(node.what) == Comparison::Equal;
+  const auto right = evaluate(program_, names_, equality ? condition - 1 : condition);
+  if (!equality || !right)
+    return right && right->value != 0;
+  const auto left = evaluate(program_, names_, program_.before(condition - 1));
+  return left && left->value == right->value;
 }
 
 void Checker::check_endless(std::uint32_t i) {

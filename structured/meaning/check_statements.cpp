@@ -5,6 +5,8 @@ namespace orb::structured {
 void Checker::check_place(std::uint32_t i, const Statement& statement) {
   const auto routine = names_.routine_of[i];
   const auto word = program_.text_of(statement.word);
+  const bool sets = statement.kind == Kind::Local && i + 1 < program_.statements.size() &&
+                    at(i + 1).kind == Kind::Assign && at(i + 1).span.begin < statement.span.end;
   if (declares(statement.kind) && statement.depth > 0)
     misplaced(statement, fmt::format("`{}` inside a block", word),
               "declarations must be at top level");
@@ -14,8 +16,9 @@ void Checker::check_place(std::uint32_t i, const Statement& statement) {
       !in_broken_routine())
     misplaced(statement,
               routine == 0 ? "`local` outside a sub or function" : "`local` inside a block",
-              routine == 0 ? "variables of the main program need no declaration"
-                           : "move it to the beginning of the sub");
+              routine != 0 ? "move it to the beginning of the sub"
+              : sets       ? fmt::format("write `{}`", program_.text_of(at(i + 1).span))
+                           : "variables of the main program need no declaration");
   if (statement.kind == Kind::Return)
     check_return(routine, statement);
   if (!open_.empty() && at(open_.back()).kind == Kind::Select &&
@@ -159,11 +162,15 @@ void Checker::check_next(const Statement& statement) {
     return;
   const auto& named = program_.nodes[item(statement, 0).value];
   const auto& counter = program_.nodes[item(loop, 0).value];
-  if (counter.kind == NodeKind::Name &&
-      (named.kind != NodeKind::Name || counter.value != named.value))
-    report(rules::LoopVariable, item(statement, 0).span,
-           fmt::format("the innermost loop counts in `{}`", program_.text_of(counter.span)),
-           fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
+  if (counter.kind != NodeKind::Name ||
+      (named.kind == NodeKind::Name && counter.value == named.value))
+    return;
+  if (crossed_ == std::pair{named.value, counter.value})
+    return; // the other `next` of the two said so
+  crossed_ = {counter.value, named.value};
+  report(rules::LoopVariable, item(statement, 0).span,
+         fmt::format("the innermost loop counts in `{}`", program_.text_of(counter.span)),
+         fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
 }
 
 void Checker::check_case(const Statement& statement) {

@@ -40,6 +40,13 @@ private:
   /// Whether a name in an expression is unknown, which has been reported.
   bool names_unknown(std::uint32_t root) const;
 
+  /// A sum or product of constants beyond what a number can be.
+  void check_overflow(std::uint32_t n);
+
+  /// Whether `&` or `|` stands between conditions.
+  bool joins_conditions(std::uint32_t n) const;
+  void report_bitwise(std::uint32_t n);
+
   void check_node(std::uint32_t n, bool is_root);
 
   /// A sensor that is compared with a number, whichever side it stands on.
@@ -143,11 +150,14 @@ private:
   void check_recursion();
 
   void report_cycle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
-                     std::uint32_t callee);
+                    std::uint32_t callee);
 
   // ---- loops
 
   void check_loops();
+
+  /// Whether a condition of constants holds.
+  bool always_holds(std::uint32_t condition) const;
 
   /// What stands after a loop that nothing leaves.
   void check_endless(std::uint32_t i);
@@ -174,6 +184,7 @@ private:
   const compiler::Target& target_;
   std::vector<std::uint32_t> open_;
   std::vector<CaseRange> cases_;
+  std::pair<std::int32_t, std::int32_t> crossed_{-1, -1}; ///< the names of a `for` and its `next`
 };
 
 } // namespace orb::structured

@@ -51,6 +51,12 @@ public:
     return size(program_.names) - 1;
   }
 
+  bool is_known(Span name) const {
+    const auto text = program_.text_of(name);
+    return std::any_of(program_.names.begin(), program_.names.end(),
+                       [&](Span other) { return equal_words(program_.text_of(other), text); });
+  }
+
   // ---- expressions
 
   void leaf(NodeKind kind, std::uint8_t what, std::int32_t value, Span where) {
@@ -157,7 +163,9 @@ public:
     program_.nodes.resize(mark.nodes);
     program_.diagnostics.resize(mark.diagnostics);
     const auto found = stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin, limit);
-    report(explain(program_, stop.reason, found));
+    const auto reason = is_second_index(stop.reason, found) ? Reason::SecondIndex : stop.reason;
+    if (!is_said(reason, found))
+      report(explain(program_, reason, found));
     this->begin(Kind::Broken, span(begin, begin)).meant = meant;
     begin_line();
   }
@@ -184,6 +192,32 @@ public:
 
 private:
   static constexpr int deepest = 64; ///< open brackets
+
+  bool is_second_index(Reason reason, Span found) const {
+    const auto sign = program_.text_of(found);
+    auto above = std::string_view(program_.text).substr(0, found.begin);
+    above.remove_prefix(std::min(above.find_last_of("\r\n") + 1, above.size()));
+    const auto before = above.find_last_not_of(" \t");
+    return above.find('[') != std::string_view::npos &&
+           ((reason == Reason::ExpectedBracket && sign == ",") ||
+            (sign == "[" && above[before] == ']'));
+  }
+
+  /// Whether a line above has the same cause: a name that is too long, a second index.
+  bool is_said(Reason reason, Span found) {
+    const auto text = program_.text_of(found);
+    const bool index = reason == Reason::SecondIndex;
+    if (!index && reason != Reason::NameTooLong)
+      return false;
+    const auto same = [&](Span other) {
+      return index || equal_words(program_.text_of(other), text);
+    };
+    auto& said = index ? indexed_ : long_;
+    if (std::any_of(said.begin(), said.end(), same))
+      return true;
+    said.push_back(found);
+    return false;
+  }
 
   /// What the line that begins at `mark` would have been. An `if` opens a block only where the line
   /// ends: otherwise a statement may have been meant to follow.
@@ -216,6 +250,8 @@ private:
   Program& program_;
   const char* base_;
   std::vector<std::uint32_t> slots_; ///< names by their hash; a power of two
+  std::vector<Span> long_;           ///< names that are too long
+  std::vector<Span> indexed_;        ///< where a second index stands
   int depth_ = 0;
   int brackets_ = 0;
 };

@@ -39,9 +39,34 @@ bool Lines::skip_foreign_comment(Input& in) {
   const bool remark = equal_words(peek_name(in), "rem");
   if (!slashes && *p != '#' && !remark)
     return false;
-  builder_.report(habit(program_, builder_.span(p, p + (slashes ? 2 : remark ? 3 : 1)), "'"));
-  in.bump(static_cast<std::size_t>(find_line_end(p, end_) - p));
+  const char* const line_end = find_line_end(p, end_);
+  const auto sign = builder_.span(p, p + (slashes ? 2 : remark ? 3 : 1));
+  const bool divided = slashes && divides(p, line_end);
+  auto found = habit(program_, sign, divided ? "/" : "'");
+  if (divided)
+    found.fix->safety = Safety::Unsafe; // a comment may have been meant
+  builder_.report(std::move(found));
+  in.bump(static_cast<std::size_t>(line_end - p));
   return true;
+}
+
+bool Lines::divides(const char* sign, const char* line_end) {
+  const char* before = sign;
+  while (before != begin_ && is_blank(before[-1]))
+    --before;
+  const bool value =
+      before != begin_ && (is_name_char(before[-1]) || before[-1] == ')' || before[-1] == ']');
+  const char* p = sign + 2;
+  while (p != line_end && is_blank(*p))
+    ++p;
+  const char* after = end_of_name(p, line_end);
+  const auto operand = builder_.span(p, after);
+  while (after != line_end && is_blank(*after))
+    ++after;
+  const bool known = operand.size() > 0 && (is_digit(*p) || builder_.is_known(operand));
+  const bool alone =
+      after == line_end || std::string_view("+-*/%").find(*after) != std::string_view::npos;
+  return value && ((known && alone) || (p != line_end && *p == '(' && line_end[-1] == ')'));
 }
 
 bool Lines::leave_routine(Input& in, std::string_view word, std::string_view routine) {
@@ -189,6 +214,26 @@ bool Lines::routine_line(Input& in, std::string_view name, Kind kind, Position p
   return true;
 }
 
+bool Lines::begins_cases(const Input& in) const {
+  Input below(find_line_end(in.current(), end_), end_, "");
+  skip_lines(below);
+  return equal_words(peek_name(below), "case");
+}
+
+std::optional<Kind> Lines::innermost() const {
+  int closed = 0;
+  for (auto one = program_.statements.rbegin(); one != program_.statements.rend(); ++one) {
+    const auto role = one->role();
+    closed += closes_block(role) ? 1 : 0;
+    if (!opens_block(role) || closed-- > 0)
+      continue;
+    closed = 0;
+    if (is_loop(role) || role == Kind::Select)
+      return role;
+  }
+  return std::nullopt;
+}
+
 bool Lines::foreign(Input& in, std::string_view name, Position position) {
   const auto is = [&](std::string_view word) { return equal_words(name, word); };
   const auto ended = is("wend")                              ? std::string_view("while")
@@ -204,6 +249,25 @@ bool Lines::foreign(Input& in, std::string_view name, Position position) {
     only_on_line(position, name);
     builder_.report(habit(program_, span(name), "elseif"));
     conditional(in, Kind::ElseIf, name);
+    return true;
+  }
+  if (is("switch") && begins_cases(in)) {
+    only_on_line(position, name);
+    builder_.report(habit(program_, span(name), "select"));
+    simple<g::one_value>(in, Kind::Select, name);
+    return true;
+  }
+  if (is("default") && innermost() == Kind::Select) {
+    only_on_line(position, name);
+    builder_.report(habit(program_, span(name), "else"));
+    bare(in, Kind::Else, name);
+    return true;
+  }
+  if (is("break") && innermost() == Kind::Select) { // a `case` ends where the next one begins
+    bare(in, Kind::Broken, name);
+    if (!in.empty() && *in.current() == ';')
+      in.bump(1);
+    builder_.report(habit(program_, builder_.span(name.data(), in.current()), " "));
     return true;
   }
   if (is("break")) {

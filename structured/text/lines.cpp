@@ -124,6 +124,43 @@ void Lines::repeat_line(Input& in, std::string_view word) {
   builder_.finish(in.current());
 }
 
+void Lines::local_line(Input& in, std::string_view word) {
+  simple<g::locals>(in, Kind::Local, word);
+  while (!in.empty() && *in.current() == '=') {
+    const auto name = program_.items.back();
+    auto& statement = builder_.begin(Kind::Assign, {name.span.begin, name.span.begin});
+    statement.word = {};
+    builder_.leaf(NodeKind::Name, 0, static_cast<std::int32_t>(name.value), name.span);
+    builder_.expression(ItemKind::Place);
+    tail<g::equals>(in);
+    tail<g::one_value>(in);
+    builder_.finish(in.current());
+    if (tao::pegtl::parse<g::comma, Action, Control>(in, builder_)) {
+      builder_.begin(Kind::Local, builder_.span(in.current(), in.current()));
+      tail<g::locals>(in);
+      builder_.finish(in.current());
+    }
+  }
+}
+
+void Lines::next_line(Input& in, std::string_view word) {
+  simple<g::counted>(in, Kind::Next, word);
+  const auto begin = builder_.statement().span.begin;
+  bool several = false;
+  for (; !in.empty() && *in.current() == ','; several = true) {
+    builder_.statement().items_end = builder_.statement().items_begin; // in whatever order
+    tail<g::comma>(in);
+    builder_.begin(Kind::Next, builder_.span(in.current(), in.current()));
+    tail<g::place>(in);
+    builder_.finish(in.current());
+  }
+  if (!several)
+    return;
+  builder_.statement().items_end = builder_.statement().items_begin;
+  builder_.report(habit(program_, {begin, builder_.statement().span.end}, {},
+                        "write `next` on a line of its own for each loop"));
+}
+
 void Lines::select_line(Input& in, std::string_view word) {
   begin(in, Kind::Select, word);
   if (equal_words(peek_name(in), "case")) {
@@ -153,7 +190,7 @@ void Lines::keyword(Input& in, Keyword keyword, std::string_view word, Position 
   case Keyword::Exit: leave_line(in, Kind::Exit, word); return;
   case Keyword::Continue: leave_line(in, Kind::Continue, word); return;
   case Keyword::Const: simple<g::constant>(in, Kind::Const, word); return;
-  case Keyword::Local: simple<g::locals>(in, Kind::Local, word); return;
+  case Keyword::Local: local_line(in, word); return;
   case Keyword::Array: simple<g::array>(in, Kind::Array, word); return;
   case Keyword::Use: simple<g::file>(in, Kind::Use, word); return;
   case Keyword::Include: simple<g::file>(in, Kind::Include, word); return;
@@ -220,7 +257,7 @@ void Lines::robot(Input& in, spec::Statement robot, std::string_view word, Posit
     return;
   case spec::Statement::Next:
     only_on_line(position, word);
-    simple<g::counted>(in, Kind::Next, word);
+    next_line(in, word);
     return;
   case spec::Statement::Goto: simple<g::jump>(in, Kind::Goto, word); return;
   case spec::Statement::Gosub: throw Stop{Reason::Gosub, word.data()};
@@ -332,8 +369,12 @@ void Lines::end_line(Input& in, std::string_view word, Position position) {
   const auto what = peek_name(in);
   auto kind = end_of_block(what);
   const auto routine = foreign_routine(what);
-  if (equal_words(what, "for") || routine) {
-    kind = !routine ? Kind::Next : *routine == Kind::Sub ? Kind::EndSub : Kind::EndFunction;
+  const bool chooses = equal_words(what, "switch") || equal_words(what, "case");
+  if (equal_words(what, "for") || chooses || routine) {
+    kind = chooses                 ? Kind::EndSelect
+           : !routine              ? Kind::Next
+           : *routine == Kind::Sub ? Kind::EndSub
+                                   : Kind::EndFunction;
     builder_.report(habit(program_, builder_.span(word.data(), what.data() + what.size()),
                           words_of_end(*kind)));
   }
@@ -363,7 +404,8 @@ void Lines::named(Input& in, std::string_view name, Position position) {
     step(in, name, {ahead, 2});
     return;
   }
-  if (next == ':' && position == Position::Line) {
+  const bool otherwise = equal_words(name, "default") && innermost() == Kind::Select;
+  if (next == ':' && position == Position::Line && !otherwise) {
     begin(in, Kind::Label, name);
     builder_.statement().word = {};
     set_name(name);
@@ -371,7 +413,7 @@ void Lines::named(Input& in, std::string_view name, Position position) {
     builder_.finish(in.current());
     return;
   }
-  if (next != '(' && foreign(in, name, position))
+  if ((next != '(' || equal_words(name, "switch")) && foreign(in, name, position))
     return;
   call(in, name, next);
 }

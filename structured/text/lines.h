@@ -43,6 +43,8 @@ private:
 
   /// `//` and `#` as they begin comments elsewhere, and `rem`.
   bool skip_foreign_comment(Input& in);
+  /// Whether `//` stands between values: elsewhere it divides.
+  bool divides(const char* sign, const char* line_end);
 
   template <typename Rule>
   void tail(Input& in) {
@@ -71,6 +73,12 @@ private:
   bool leave_routine(Input& in, std::string_view word, std::string_view routine);
 
   void repeat_line(Input& in, std::string_view word);
+
+  /// `local a, b = 5`: what has a value is set right there.
+  void local_line(Input& in, std::string_view word);
+
+  /// `next`; also `next j, i`, which ends two loops elsewhere.
+  void next_line(Input& in, std::string_view word);
 
   void select_line(Input& in, std::string_view word);
 
@@ -125,6 +133,12 @@ private:
   void call(Input& in, std::string_view name, char next);
 
   bool do_line(Input& in, std::string_view name);
+
+  /// Whether a `case` stands in the line below.
+  bool begins_cases(const Input& in) const;
+
+  /// The innermost open loop or `select`.
+  std::optional<Kind> innermost() const;
 
   /// `var x = 1`, `let x = 1`, `call sub` and `dim a[3]`.
   bool declaration(Input& in, std::string_view name, Position position);

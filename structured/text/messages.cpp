@@ -1,6 +1,7 @@
 #include "structured/text/messages.h"
 
 #include "base/suggest.h"
+#include "base/text.h"
 #include "spec/limits.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"
@@ -285,6 +286,45 @@ Diagnostic parenthesised(const Program& program, Span found) {
   return d;
 }
 
+/// What stands between a place and the end of its line.
+std::string_view rest_of_line(const Program& program, std::uint32_t at) {
+  const auto rest = std::string_view(program.text).substr(at);
+  return rest.substr(0, rest.find_first_of("\r\n'"));
+}
+
+/// How many values stand in the brackets or braces after a place; 0 where none do.
+std::size_t list_after(const Program& program, Span found) {
+  const auto rest = rest_of_line(program, found.end);
+  const auto begin = rest.find_first_of("[{(");
+  if (begin == std::string_view::npos)
+    return 0;
+  return static_cast<std::size_t>(std::count(rest.begin(), rest.end(), ',')) + 1;
+}
+
+/// `array a[3, 3]` and `a[1][2] = 5`: how a table is kept in an array.
+Diagnostic second_index(const Program& program, Span found) {
+  const std::string_view text = program.text;
+  const auto bracket = static_cast<std::uint32_t>(text.substr(0, found.begin).find_last_of('['));
+  const auto name = program.text_of(word_before(text, bracket));
+  const auto sizes = rest_of_line(program, bracket);
+  const auto size_at = [&](std::size_t at) {
+    at = std::min(sizes.find_first_not_of("[], ", at), sizes.size());
+    const auto digits = sizes.substr(at, sizes.find_first_of("], ", at) - at);
+    return parse_number<std::int32_t>(digits).value_or(0);
+  };
+  const auto rows = size_at(0);
+  const auto columns = size_at(found.begin - bracket);
+  const bool declared =
+      equal_words(first_word(text, found.begin), "array") && rows > 0 && columns > 0 &&
+      std::int64_t{rows} * columns <= spec::value_of(spec::Limit::IndexedVariables);
+  return malformed(
+      program, found, "an array has one index",
+      declared ? fmt::format("write `array {0}[{1}]`; row `r`, column `c` is "
+                             "`{0}[(r - 1) * {2} + c]`",
+                             name, rows * columns, columns)
+               : fmt::format("with 3 columns, row `r`, column `c` is `{}[(r - 1) * 3 + c]`", name));
+}
+
 } // namespace
 
 Diagnostic explain(const Program& program, Reason reason, Span found) {
@@ -334,6 +374,10 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::ExpectedBracket:
     return malformed(program, found, "missing bracket",
                      text == "(" ? "the size of an array is written in brackets: `array a[5]`"
+                     : text == "=" && list_after(program, found) > 0
+                         ? fmt::format("write `array {0}[{1}]` and set each element: `{0}[1] = …`",
+                                       program.text_of(word_before(program.text, found.begin)),
+                                       list_after(program, found))
                      : equal_words(first_word(program.text, found.begin), "dim")
                          ? "variables need no declaration: remove the line"
                          : "");
@@ -384,6 +428,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(rules::ForeignWord, found, "there is no `on`",
                    "write `select e`, `case 1` … `end select`");
   case Reason::Parenthesised: return parenthesised(program, found);
+  case Reason::SecondIndex: return second_index(program, found);
   }
   return finding(rules::MalformedLine, found, "syntax error");
 }

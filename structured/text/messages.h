@@ -42,6 +42,7 @@ enum class Reason : std::uint8_t {
   Gosub,
   On,
   Parenthesised, ///< `goroll(0, 80, 1)`
+  SecondIndex,   ///< `a[1, 2]`, `a[1][2]`
 };
 
 /// Puts into words why a line does not parse; `found` is the token at which that shows.

@@ -58,7 +58,7 @@ private:
     const int parameters = parameters_of(routine_);
     if (parameters > 0)
       out_ += parameters == 1 ? "(p)" : "(p, q)";
-    out_ += "\n  local v\n";
+    out_ += chance(0.3) ? "\n  local v = " + expression(2) + "\n" : "\n  local v\n";
     loops_ = 0;
     block(2, 1 + upto(3));
     if (function && chance(0.8))
@@ -165,9 +165,24 @@ private:
     return chance(0.95) ? std::to_string(upto(256)) : number();
   }
 
+  /// Two tests of the same value, or of the greater or smaller of two.
+  std::string pair() {
+    static const std::vector<std::string> signs = {"=", "<>", "<", ">", "<=", ">="};
+    static const std::vector<std::string> sensors = {"speed", "yaw", "xpos", "accelX"};
+    const auto value = chance(0.5) ? variable() : sensors[random_.below(sensors.size())];
+    const auto limit = chance(0.7) ? number() : variable();
+    const auto sign = [&] { return " " + signs[random_.below(signs.size())] + " "; };
+    if (chance(0.3))
+      return (chance(0.5) ? "min(" : "max(") + value + ", " + variable() + ")" + sign() + limit;
+    return value + sign() + limit + (chance(0.5) ? " and " : " or ") + value + sign() +
+           (chance(0.6) ? "-" : "") + limit;
+  }
+
   std::string condition(int depth) {
     const int kind = upto(depth > 2 ? 3 : 6);
     static const std::vector<std::string> signs = {"=", "<>", "<", ">", "<=", ">=", "!"};
+    if (chance(0.06))
+      return pair();
     if (kind < 3)
       return expression(2) + " " + signs[random_.below(signs.size())] + " " + expression(2);
     if (kind == 3)
