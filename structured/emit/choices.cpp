@@ -6,6 +6,8 @@
 #include "structured/text/words.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace orb::structured {
 namespace {
@@ -37,6 +39,19 @@ bool in_documented_list(spec::Statement statement) {
   return spec::info(statement).in_then == spec::InThen::Listed;
 }
 
+/// The orders of two values in which a comparison holds, as bits: less, equal, greater.
+unsigned orders_of(Comparison comparison) {
+  switch (comparison) {
+  case Comparison::Less: return 1;
+  case Comparison::Equal: return 2;
+  case Comparison::LessEqual: return 3;
+  case Comparison::Greater: return 4;
+  case Comparison::NotEqual: return 5;
+  case Comparison::GreaterEqual: return 6;
+  }
+  return 0;
+}
+
 class ChoiceWriter {
 public:
   ChoiceWriter(Code& code, const Program& program) : code_(code), program_(program) {}
@@ -44,6 +59,7 @@ public:
   void run() {
     while (join_tests())
       ;
+    return_at_once();
     turn_branches();
     fold_branches();
     finish_tests();
@@ -79,6 +95,65 @@ private:
     return shared && (can_fault(code_, second.left) || can_fault(code_, second.right));
   }
 
+  /// Two relations that are one: of the same terms, or `x < 5 and x > -5`, which is `abs x < 5`.
+  std::optional<Relation> as_one(const Condition& joined) {
+    auto one = joined.first;
+    const auto& other = joined.second;
+    const bool all = joined.glue == Glue::And;
+    if (!structured::is_pure(effects_of(joined)) || !same(code_, one.left, other.left))
+      return std::nullopt;
+    if (same(code_, one.right, other.right)) {
+      const auto orders = all ? orders_of(one.comparison) & orders_of(other.comparison)
+                              : orders_of(one.comparison) | orders_of(other.comparison);
+      for (const auto comparison :
+           {Comparison::Equal, Comparison::NotEqual, Comparison::Less, Comparison::LessEqual,
+            Comparison::Greater, Comparison::GreaterEqual})
+        if (orders_of(comparison) == orders) {
+          one.comparison = comparison;
+          return one;
+        }
+      return std::nullopt;
+    }
+    return as_distance(one, other, all);
+  }
+
+  /// The values that an ordering relation with a number takes end here, that number included.
+  std::optional<std::int64_t> end_of(const Relation& relation) const {
+    if (!code_.is_number(relation.right))
+      return std::nullopt;
+    const std::int64_t number = code_.terms[relation.right].value;
+    switch (relation.comparison) {
+    case Comparison::Less: return number - 1;
+    case Comparison::Greater: return number + 1;
+    case Comparison::LessEqual:
+    case Comparison::GreaterEqual: return number;
+    case Comparison::Equal:
+    case Comparison::NotEqual: break;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Relation> as_distance(const Relation& one, const Relation& other, bool within) {
+    const auto is_upper = [](const Relation& relation) {
+      return relation.comparison == Comparison::Less ||
+             relation.comparison == Comparison::LessEqual;
+    };
+    const auto end = end_of(is_upper(one) ? one : other);
+    const auto begin = end_of(is_upper(one) ? other : one);
+    using Limits = std::numeric_limits<std::int32_t>;
+    if (!end || !begin || is_upper(one) == is_upper(other) || *end != -*begin ||
+        (within ? *end < 0 || *end == Limits::max() : *begin <= 0) ||
+        one.left_range.lo == Limits::min() || code_.terms[one.left].size > 1)
+      return std::nullopt;
+    auto distance = one;
+    distance.comparison = within ? Comparison::Less : Comparison::Greater;
+    distance.left = code_.call(spec::Function::Abs, one.left);
+    distance.right = code_.number(static_cast<std::int32_t>(within ? *end + 1 : *begin - 1));
+    distance.left_range = compiler::apply(spec::Function::Abs, one.left_range);
+    distance.right_range = compiler::Range::only(code_.terms[distance.right].value);
+    return distance;
+  }
+
   /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
   /// must do nothing but give a value.
   bool join_tests() {
@@ -105,6 +180,10 @@ private:
         joined.glue = Glue::And;
       } else {
         continue;
+      }
+      if (const auto one = as_one(joined)) {
+        joined = {};
+        joined.first = *one;
       }
       // One of the two ways to say it is needed later.
       if (!can_say(code_, joined) && !can_say(code_, opposite_of(joined)))
@@ -209,6 +288,36 @@ private:
     line.term = taken;
     line.end = passed;
     return true;
+  }
+
+  /// A test that leads to a `return` returns itself.
+  void return_at_once() {
+    const auto at = lines_of_labels(code_);
+    std::vector<CodeLine> lines;
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      lines.push_back(code_.lines[i]);
+      auto& test = lines.back();
+      auto target = test.kind == LineKind::If ? at[test.label] : none;
+      while (target < code_.lines.size() && code_.lines[target].kind == LineKind::Label)
+        ++target;
+      if (target >= code_.lines.size() || code_.lines[target].kind != LineKind::Return ||
+          code_.lines[i + 1].kind == LineKind::Goto || is_label_there(i + 1, test.label) ||
+          is_label_there(i + 2, test.label))
+        continue;
+      code_.conditions.push_back(opposite_of(code_.conditions[test.condition]));
+      auto leave = code_.lines[target];
+      leave.origin = test.origin;
+      test.condition = static_cast<std::uint32_t>(code_.conditions.size()) - 1;
+      test.label = code_.labels++;
+      auto label = leave;
+      label.kind = LineKind::Label;
+      label.label = test.label;
+      lines.push_back(leave);
+      lines.push_back(label);
+    }
+    code_.lines = std::move(lines);
+    while (remove_unreached())
+      ;
   }
 
   /// Of two ways that meet again, the one whose test the robot has comes first.

@@ -260,12 +260,14 @@ private:
     const auto loop = state.loop_depth > 0 ? state.loops[state.loop_depth - 1] : none;
     if (loop == none || variable_of(loop) != variable_of(state.step))
       return stop_at_next(state);
-    if (step.loop != none && step.loop != loop)
+    if (step.loop != none && step.loop != loop) {
+      const auto [first, second] = std::minmax(step.loop, loop);
       return stop(state,
                   fmt::format("this `next` belongs to the loop of line {} one time and to that of "
                               "line {} another time",
-                              number_of(step.loop), number_of(loop)),
+                              number_of(first), number_of(second)),
                   "give each loop a `next` of its own");
+    }
     step.loop = loop;
     go(state, ways_.steps[loop].next);
     state.loops[--state.loop_depth] = 0;

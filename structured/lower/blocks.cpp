@@ -23,6 +23,8 @@ void Lowering::branch(std::uint32_t root, When when, std::uint32_t label) {
   } else if (node.kind == NodeKind::And || node.kind == NodeKind::Or) {
     branch_chain(root, when, label);
   } else if (node.kind == NodeKind::Relation) {
+    if (branch_choice(root, when, label))
+      return;
     push_value(program_.before(root - 1));
     push_value(root - 1);
     const auto right = pop();
@@ -42,6 +44,57 @@ void Lowering::compare(Comparison comparison, std::uint32_t left, std::uint32_t 
     comparison = mirrored(comparison);
   }
   go_if(comparison, left, right, label);
+}
+
+bool Lowering::branch_choice(std::uint32_t root, When when, std::uint32_t label) {
+  const auto& nodes = program_.nodes;
+  const auto is_choice = [&](std::uint32_t n) {
+    return nodes[n].kind == NodeKind::Least || nodes[n].kind == NodeKind::Greatest;
+  };
+  auto comparison = static_cast<Comparison>(nodes[root].what);
+  const auto first = program_.before(root - 1);
+  const bool on_left = is_choice(first);
+  const auto choice = on_left ? first : root - 1;
+  if (comparison == Comparison::Equal || comparison == Comparison::NotEqual || !is_choice(choice))
+    return false;
+  if (!on_left)
+    push_value(first);
+  push_value(program_.before(choice - 1));
+  push_value(choice - 1);
+  if (on_left)
+    push_value(root - 1);
+  const auto third = pop();
+  const auto second = pop();
+  const auto first_term = pop();
+  const auto a = on_left ? first_term : second;
+  const auto b = on_left ? second : third;
+  const auto limit = on_left ? third : first_term;
+  const bool greatest = nodes[choice].kind == NodeKind::Greatest;
+  const auto effects = code_.terms[a].effects | code_.terms[b].effects | code_.terms[limit].effects;
+  constexpr std::uint16_t small = 3; // it is written twice
+  if (!is_pure(static_cast<std::uint8_t>(effects)) || code_.terms[limit].size > small) {
+    if (!on_left)
+      push(limit);
+    push(a);
+    push(b);
+    push_choice(greatest ? Comparison::GreaterEqual : Comparison::LessEqual);
+    const auto chosen = pop();
+    compare(comparison, on_left ? chosen : pop(), on_left ? limit : chosen, when, label);
+    return true;
+  }
+  comparison = on_left ? comparison : mirrored(comparison);
+  const auto taken = when == When::Fails ? opposite(comparison) : comparison;
+  const bool above = taken == Comparison::Greater || taken == Comparison::GreaterEqual;
+  if (above == greatest) { // either will do
+    compare(comparison, a, limit, when, label);
+    compare(comparison, b, code_.copy(limit), when, label);
+    return true;
+  }
+  const auto skip = new_label();
+  compare(comparison, a, limit, other(when), skip);
+  compare(comparison, b, code_.copy(limit), when, label);
+  this->label(skip);
+  return true;
 }
 
 void Lowering::branch_chain(std::uint32_t root, When when, std::uint32_t label) {

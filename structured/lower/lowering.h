@@ -97,6 +97,13 @@ private:
 
   /// min and max: the first operand stays where `keeps` holds between it and the second.
   void push_choice(Comparison keeps);
+  struct Choice {
+    Comparison keeps = Comparison::Equal;
+    std::uint32_t first = none; ///< terms
+    std::uint32_t second = none;
+    std::uint32_t result = none; ///< a variable
+    std::size_t end = 0;         ///< of the lines that compute it
+  };
 
   /// Sets the index to an element of an array and makes sure that it is one of it: a wrong index
   /// becomes 0, at which the robot stops.
@@ -143,6 +150,10 @@ private:
   void compare(Comparison comparison, std::uint32_t left, std::uint32_t right, When when,
                std::uint32_t label);
 
+  /// A relation with `min` or `max` on one side: `max(a, b) > c` is `a > c or b > c`. False where
+  /// it has none.
+  bool branch_choice(std::uint32_t root, When when, std::uint32_t label);
+
   /// Operands joined by the same word, from left to right and no further than needed.
   void branch_chain(std::uint32_t root, When when, std::uint32_t label);
 
@@ -178,11 +189,12 @@ private:
   std::vector<std::uint32_t> called_;                ///< routines that get a place of their own
   std::unordered_map<std::string_view, Span> texts_; ///< equal texts are one
   std::vector<std::uint32_t> pending_;
+  Choice last_choice_;
   std::vector<Frame> frames_;
   std::vector<Loop> loops_;
   std::uint32_t origin_ = 0;
   std::uint32_t expansion_ = 0; ///< that is being written
-  std::uint32_t written_ = 0; ///< the routine whose place is being filled
+  std::uint32_t written_ = 0;   ///< the routine whose place is being filled
 };
 
 } // namespace orb::structured::lowering

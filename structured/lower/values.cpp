@@ -134,13 +134,22 @@ std::uint32_t Lowering::name(std::uint32_t symbol) {
 void Lowering::push_choice(Comparison keeps) {
   const auto second = pop();
   const auto first = pop();
-  settle(static_cast<std::uint8_t>(code_.terms[first].effects | code_.terms[second].effects));
+  const auto effects =
+      static_cast<std::uint8_t>(code_.terms[first].effects | code_.terms[second].effects);
+  // `RGB min(h, 255), 255 - min(h, 255), 0`: nothing has happened in between.
+  if (last_choice_.end == code_.lines.size() && last_choice_.keeps == keeps && effects == 0 &&
+      same(code_, last_choice_.first, first) && same(code_, last_choice_.second, second)) {
+    push(code_.read(last_choice_.result));
+    return;
+  }
+  settle(effects);
   const auto result = into_temporary(first);
   const auto compared = code_.is_leaf(second) ? second : code_.read(into_temporary(second));
   const auto done = new_label();
   go_if(keeps, code_.read(result), compared, done);
   let(result, compared);
   label(done);
+  last_choice_ = {keeps, first, second, result, code_.lines.size()};
   push(code_.read(result));
 }
 

@@ -42,6 +42,7 @@ public:
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
     reuse_elements();
+    reuse_values();
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
         repeat(i);
@@ -243,15 +244,17 @@ private:
     return true;
   }
 
-  /// Computes a sum of two leaves again where it is read, which is shorter than a line for it.
+  /// Computes a sum of two leaves again where it is read, which is shorter than a line for it;
+  /// reads an element again.
   void repeat(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
     const auto term = code_.lines[i].term;
     constexpr std::uint32_t most_reads = 2;
+    const auto& node = code_.terms[term];
+    const bool element = node.kind == TermKind::Element && node.effects == effect::elements;
+    const bool sum = node.kind == TermKind::Binary && node.size == 3 && node.effects == 0;
     if (variable == index_variable || code_.variables[variable].kept ||
-        reads_[variable] > most_reads || code_.terms[term].kind != TermKind::Binary ||
-        code_.terms[term].size != 3 || code_.terms[term].effects != 0 ||
-        facts_.reads(term, variable))
+        reads_[variable] > most_reads || (!element && !sum) || facts_.reads(term, variable))
       return;
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> better; // roots
     std::uint32_t found = 0;
@@ -332,32 +335,65 @@ private:
   }
 
   /// Reads the original all through the program where a copy, once made, is never another value
-  /// while it is needed.
+  /// while it is needed; computes a sum where it is read, if that is one place.
   bool copy_everywhere() {
+    count_reads();
     std::vector<std::uint32_t> writes(code_.variables.size(), 0);
     for (const auto& line : code_.lines)
       each_write(code_, line, [&](std::uint32_t v) { ++writes[v]; });
     const auto first = liveness_.in[0];
     for (auto& line : code_.lines) {
-      if (line.kind != LineKind::Let || code_.terms[line.term].kind != TermKind::Variable)
+      if (line.kind != LineKind::Let)
         continue;
       const auto copied = line.variable;
-      const auto original = code_.terms[line.term].left;
-      if (copied == index_variable || original == index_variable || copied == original ||
-          code_.variables[copied].kept || writes[copied] != 1 || contains(first, copied) ||
-          meet(copied, original))
+      const auto& term = code_.terms[line.term];
+      constexpr std::uint16_t small = 5;
+      const bool is_copy = term.kind == TermKind::Variable;
+      const bool is_sum = (term.kind == TermKind::Binary || term.kind == TermKind::Call) &&
+                          term.effects == 0 && term.size <= small && reads_[copied] == 1;
+      if ((!is_copy && !is_sum) || copied == index_variable || code_.variables[copied].kept ||
+          writes[copied] != 1 || contains(first, copied))
+        continue;
+      bool moves = false;
+      each_read(code_, line.term, [&](std::uint32_t v) {
+        moves = moves || v == index_variable || v == copied || meet(copied, v, is_copy);
+      });
+      if (!moves && (is_copy ? rename(line, copied) : compute_there(line, copied)))
+        return true;
+    }
+    return false;
+  }
+
+  bool rename(CodeLine& line, std::uint32_t copied) {
+    const auto original = code_.terms[line.term].left;
+    drop(line);
+    for (auto& other : code_.lines)
+      each_root(code_, other, [&](std::uint32_t& root) { root = renamed(root, copied, original); });
+    return true;
+  }
+
+  bool compute_there(CodeLine& line, std::uint32_t copied) {
+    for (auto& other : code_.lines) {
+      std::uint8_t before = 0;
+      bool done = false;
+      if (other.kind == LineKind::For) // its end is computed when its variable is set
+        continue;
+      each_root(code_, other, [&](std::uint32_t& root) {
+        const auto result = replaced(root, copied, line.term, before);
+        done = done || (result && *result != root);
+        root = result.value_or(root);
+      });
+      if (!done)
         continue;
       drop(line);
-      for (auto& other : code_.lines)
-        each_root(code_, other,
-                  [&](std::uint32_t& root) { root = renamed(root, copied, original); });
       return true;
     }
     return false;
   }
 
-  /// Whether a variable is set while another one is needed, or that one is what a loop counts in.
-  bool meet(std::uint32_t needed, std::uint32_t set) const {
+  /// Whether a variable is set while another one is needed or, for copies, is what a loop counts
+  /// in.
+  bool meet(std::uint32_t needed, std::uint32_t set, bool is_copy) const {
     std::vector<std::uint64_t> live;
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
       const auto out = liveness_.out[b];
@@ -367,7 +403,7 @@ private:
         bool writes = false;
         each_write(code_, line, [&](std::uint32_t v) { writes = writes || v == set; });
         if (writes && (contains(live, needed) || contains(liveness_.across[line.routine], needed) ||
-                       line.kind == LineKind::For || line.kind == LineKind::Next))
+                       (is_copy && (line.kind == LineKind::For || line.kind == LineKind::Next))))
           return true;
         if (line.kind == LineKind::Next && line.variable == needed)
           return true;
@@ -435,11 +471,96 @@ private:
     }
   }
 
+  // ---- values that a variable holds
+
+  struct HeldValue {
+    std::uint32_t term;
+    std::uint32_t variable;
+    std::uint32_t since; ///< this line
+  };
+
+  /// What a variable that stays holds already is read from it, and not set again.
+  void reuse_values() {
+    values_.clear();
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      auto& line = code_.lines[i];
+      if (LineFacts::ends_text(line)) {
+        values_.clear();
+        continue;
+      }
+      if (line.kind == LineKind::Let && holds(line.variable, line.term)) {
+        drop(line);
+        continue;
+      }
+      if (!values_.empty() && line.kind != LineKind::For) // whose end is computed later
+        each_root(code_, line, [&](std::uint32_t& root) { root = reused(root, i); });
+      std::erase_if(values_, [&](const HeldValue& held) {
+        return facts_.disturbs(line, held.term) || facts_.writes(line, held.variable);
+      });
+      if (line.kind == LineKind::Let && !facts_.reads(line.term, line.variable))
+        keep_value(i);
+    }
+  }
+
+  void keep_value(std::uint32_t i) {
+    const auto& line = code_.lines[i];
+    const auto& term = code_.terms[line.term];
+    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
+    if (term.kind == TermKind::Variable) {
+      for (std::size_t n = 0, size = values_.size(); n < size; ++n)
+        if (values_[n].variable == term.left)
+          values_.push_back({values_[n].term, line.variable, i});
+    } else if (!code_.is_number(line.term) && (term.effects & moving) == 0) {
+      values_.push_back({line.term, line.variable, i});
+    }
+  }
+
+  /// Whether a variable has the value of a term, which is one that is held or a variable that has
+  /// it, too.
+  bool holds(std::uint32_t variable, std::uint32_t term) const {
+    const auto has = [&](std::uint32_t v, std::uint32_t value) {
+      return std::any_of(values_.begin(), values_.end(), [&](const HeldValue& held) {
+        return held.variable == v && same(code_, held.term, value);
+      });
+    };
+    const auto& node = code_.terms[term];
+    if (node.kind != TermKind::Variable)
+      return has(variable, term);
+    return std::any_of(values_.begin(), values_.end(), [&](const HeldValue& held) {
+      return held.variable == node.left && has(variable, held.term);
+    });
+  }
+
+  /// A term with the variables that hold parts of it.
+  std::uint32_t reused(std::uint32_t root, std::uint32_t line) {
+    const auto node = code_.terms[root];
+    if (node.kind != TermKind::Binary && node.kind != TermKind::Call)
+      return root;
+    for (const auto& held : values_)
+      if ((held.variable == index_variable || reads_[held.variable] > 1) &&
+          same(code_, held.term, root)) {
+        each_read(code_, root, [&](std::uint32_t v) { --reads_[v]; });
+        ++reads_[held.variable];
+        for (auto k = held.since; k < line; ++k) // it is read on
+          remove(last_reads_[k], held.variable);
+        changed_ = true;
+        return code_.read(held.variable);
+      }
+    const auto left = reused(node.left, line);
+    if (node.kind == TermKind::Call)
+      return left == node.left ? root : code_.call(static_cast<spec::Function>(node.what), left);
+    const auto right = reused(node.right, line);
+    return left == node.left && right == node.right
+               ? root
+               : code_.binary(static_cast<spec::Operator>(node.what), left, right);
+  }
+
   Code& code_;
   Flow flow_;
   LineFacts facts_;
   Liveness liveness_;
   std::vector<Held> held_;
+  std::vector<HeldValue> values_;
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
   bool changed_ = false;

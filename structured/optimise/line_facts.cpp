@@ -77,6 +77,10 @@ bool LineFacts::passes(const CodeLine& line, std::uint32_t term) const {
     return false;
   if (acts(line) && (effects & (noticed | effect::senses)) != 0)
     return false;
+  bool seen = false; // what is kept is looked at when the program has stopped
+  each_write(code_, line, [&](std::uint32_t v) { seen = seen || code_.variables[v].kept; });
+  if (seen && (effects & effect::faults) != 0)
+    return false;
   const bool splits = line.kind == LineKind::If || line.kind == LineKind::Next;
   return !splits || (effects & noticed) == 0;
 }

@@ -1,6 +1,7 @@
 #include "structured/optimise/optimise.h"
 
 #include "structured/optimise/forward.h"
+#include "structured/optimise/hoist.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
@@ -45,6 +46,8 @@ void optimise(Code& code, Shape shape) {
     changed = use_values(code) || changed;
   }
   clean_jumps(code);
+  if (shape == Shape::Shortest)
+    hoist_arms(code);
   code.wrong_indices = wrong_indices;
   cut_prints(code);
 }

@@ -162,6 +162,10 @@ TEST(Agreement, KeptVariablesHoldTheirValues) {
     compare_kept(seed);
 }
 
+TEST(Agreement, KeptVariablesHoldTheirValuesWhereAProgramStops) {
+  compare_kept(2652);
+}
+
 /// A statement whose index is said to be wrong never runs to its end.
 TEST(Agreement, IndicesThatAreErrorsAreWrong) {
   std::size_t seen = 0;
