@@ -4,10 +4,13 @@
 #include "repair/fill.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <unordered_set>
+#include <utility>
 
 namespace orb::repair {
 namespace {
@@ -303,8 +306,10 @@ private:
     open_.pop_back();
     auto kept = lines_;
     const auto out = own_line ? i + 1 : i;
-    if (!(block.role == Role::If ? own_line && (write(i, ""), true),
-          arms(block, out)       : loop(block, i, out, own_line))) {
+    if (block.role == Role::If && own_line)
+      write(i, "");
+    const bool made = block.role == Role::If ? arms(block, out) : loop(block, i, out, own_line);
+    if (!made) {
       lines_ = std::move(kept);
       return;
     }
@@ -319,8 +324,8 @@ private:
     if (!open_.empty()) {
       auto& inner = open_.back().inner;
       inner.insert(inner.end(), changed.begin(), changed.end());
-    } else if (auto made = finished(std::move(changed))) {
-      found_.push_back(std::move(*made));
+    } else if (auto all = finished(std::move(changed))) {
+      found_.push_back(std::move(*all));
     }
   }
 

@@ -65,8 +65,8 @@ class Repair {
 public:
   Repair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
          const Context& context, const std::vector<Diagnostic>& before)
-      : source_(source), judge_(judge), line_(source.line(line)), begin_(source.line_start(line)),
-        context_(context), errors_(errors_in(before)), lasting_(lasting_errors(before)),
+      : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
+        errors_(errors_in(before)), lasting_(lasting_errors(before)),
         parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
         names_(scenery.names_without(parts_.tokens)),
         is_target_(judge.language == Language::Basic &&
@@ -275,7 +275,6 @@ private:
       other_ = good[1].second;
   }
 
-  const Source& source_;
   const Judge& judge_;
   std::string_view line_;
   std::uint32_t begin_;
