@@ -10,11 +10,12 @@ const to_json = value => JSON.stringify(value, (key, one) => one instanceof Uint
 const from_json = text => JSON.parse(text, (key, one) =>
   one !== null && typeof one === "object" && typeof one.hex === "string" && Object.keys(one).length === 1 ? bytes_of(one.hex) : one);
 
-async function instantiate(imports, receive) {
+/** Of the file beside this one. */
+export async function instance_of(imports) {
   const url = new URL("./orb.wasm", import.meta.url);
   if (url.protocol === "file:" && typeof process === "object") {
     const { readFile } = await import("node:fs/promises");
-    return receive((await WebAssembly.instantiate(await readFile(url), imports)).instance);
+    return (await WebAssembly.instantiate(await readFile(url), imports)).instance;
   }
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`${url}: ${answer.status} ${answer.statusText}`);
@@ -22,13 +23,14 @@ async function instantiate(imports, receive) {
   const { instance } = streams
     ? await WebAssembly.instantiateStreaming(answer, imports)
     : await WebAssembly.instantiate(await answer.arrayBuffer(), imports);
-  receive(instance);
+  return instance;
 }
 
-/** Loads the wasm; `call(method, params)` of the result returns the answer or throws an OrbError. */
-export async function load_engine() {
+/** Loads the wasm, of which `instantiate(imports)` brings an instance; `call(method, params)` of the result returns
+ *  the answer or throws an OrbError. */
+export async function load_engine(instantiate = instance_of) {
   const wasm = await new Promise((done, failed) =>
-    load({ instantiateWasm: (imports, receive) => (instantiate(imports, receive).catch(failed), {}) }).then(done, failed));
+    load({ instantiateWasm: (imports, receive) => (instantiate(imports).then(receive, failed), {}) }).then(done, failed));
   const encoder = new TextEncoder(), decoder = new TextDecoder();
   function call_text(request) {
     const bytes = encoder.encode(request);

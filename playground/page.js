@@ -1,13 +1,12 @@
 // The playground's page: what its parts have to do with each other.
 
-import { renderSVG as qr_code } from "uqr";
 import { orb_player } from "../report/page/player.js";
 import { Client } from "./client.js";
 import { make_editor } from "./editor.js";
 import { Ball } from "./page/ball.js";
+import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from "./page/task.js";
 import { Verdicts } from "./page/verdicts.js";
 import { $, element, button, say, download, with_code } from "./page/dom.js";
-import { set_up_flash } from "./page/flash.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
 import { set_up_mine } from "./page/mine.js";
 import { fill_sheet } from "./page/sheet.js";
@@ -19,6 +18,21 @@ import { AddressError, checked, empty, from_fragment, keep, kept, kind_of, limit
 // One worker answers while somebody types; the other runs programs and is ended with them.
 const worker_url = new URL("./worker.js", import.meta.url);
 const language = new Client(worker_url), machine = new Client(worker_url);
+
+/** What few visits need is loaded when somebody asks for it, once. */
+function on_demand(load) {
+  let loaded = null;
+  return async deed => {
+    let part;
+    try {
+      part = await (loaded ??= load());
+    } catch {
+      loaded = null;
+      return say("This part of the page could not be loaded. Is there a network? Load the page again.", "bad");
+    }
+    return deed(part);
+  };
+}
 
 let workspace = empty();
 window.addEventListener("beforeprint", () => fill_sheet(workspace));
@@ -148,7 +162,7 @@ function show_tabs() {
   show_test_button();
 }
 function show_test_button() {
-  $("test").textContent = workspace.lesson ? "Am I done?" : "Test";
+  $("test").textContent = workspace.lesson || workspace.task ? "Am I done?" : "Test";
   $("test").hidden = !tests_of(workspace).length;
   $("test").setAttribute("aria-disabled", String(!!ball.busy)); // a disabled one would lose the focus
 }
@@ -181,10 +195,15 @@ function open_workspace(next) {
   $("verdicts").hidden = true;
   world.show();
   show_file(workspace.active);
-  show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution });
+  show_task_of();
   steps.show(workspace);
   show_came();
   ball.rest();
+}
+function show_task_of(stays = false) {
+  show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution }, stays);
+  if (workspace.task && !workspace.lesson) show_own_task(workspace);
+  show_class_buttons(workspace);
 }
 /** What was open before, and the way back to it: also after the page was loaded again. */
 function show_came(words = "", more = []) {
@@ -214,11 +233,12 @@ async function go_back() {
   if (before) exchange({ ...before, before: "" }, `“${before.title}”, as you left it.`);
   else say("This browser has not kept it.", "bad");
 }
-/** A lesson or an example: as it was left, where somebody has worked on it. */
-async function pick(item) {
-  const fresh = { ...checked(as_workspace(item)), document: item.id, title: item.title };
-  const mine = await document_of(item.id);
-  const what = `${item.readme ? "The lesson" : "The example"} “${item.title}”`;
+/** A lesson or an example of the page. */
+const pick = item => resume({ ...checked(as_workspace(item)), document: item.id, title: item.title },
+  `${item.readme ? "The lesson" : "The example"} “${item.title}”`);
+/** Opens what others begin with, as it was left where somebody has worked on it. */
+async function resume(fresh, what) {
+  const mine = await document_of(fresh.document);
   if (!mine || same_files(mine, fresh)) exchange(fresh, `${what} is open.`);
   else exchange({ ...mine, before: "" }, `${what}, as you left it.`, [button("Begin it again", () => {
     mark_version();
@@ -289,6 +309,12 @@ $("open").addEventListener("click", () => $("files-to-open").click());
 async function take_files(list) {
   const files = {}, troubles = [];
   for (const file of list) {
+    if (file.name.endsWith(".link")) {
+      const addresses = addresses_in(file.size <= 4 * limits.text ? await file.text() : "");
+      if (addresses.length === 1) location.hash = addresses[0];
+      else troubles.push(addresses.length ? `${file.name} holds ${addresses.length} addresses: open them one at a time.` : `${file.name} holds no address.`);
+      continue;
+    }
     const text = file.size <= 4 * limits.text ? await file.text() : null;
     const trouble = name_trouble(file.name) || (text === null || text.length > limits.text ? `${limit_words.text}.` : "")
       || (Object.keys(files).length >= limits.files ? `${limit_words.files}.` : "");
@@ -318,9 +344,10 @@ document.addEventListener("drop", event => {
 });
 
 // ---- sharing ----
-$("share").addEventListener("click", async () => {
+const address_of = async what => `${location.origin === "null" ? "file://" : location.origin}${location.pathname}#${await to_fragment(what)}`;
+async function share() {
   try {
-    const link = `${location.origin === "null" ? "file://" : location.origin}${location.pathname}#${await to_fragment(workspace)}`;
+    const link = await address_of({ ...workspace, name: "" });
     $("share-link").value = link;
     $("share-dialog").showModal();
     $("share-link").select();
@@ -328,14 +355,16 @@ $("share").addEventListener("click", async () => {
   } catch (error) {
     say(error instanceof AddressError ? error.message : `No address can be made: ${error.message}`, "bad");
   }
-});
+}
+$("share").addEventListener("click", share);
 /** The address for a telephone's camera, where it is short enough for one. */
 function show_code(link) {
   const most = 2331; // bytes in the largest code with its damage repaired to a seventh
   $("share-code").hidden = link.length > most;
   $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code; the address holds it." : "";
-  if (link.length <= most) $("share-code").innerHTML = qr_code(link, { ecc: "M", border: 2 });
+  if (link.length <= most) with_codes(({ renderSVG }) => { $("share-code").innerHTML = renderSVG(link, { ecc: "M", border: 2 }); });
 }
+const with_codes = on_demand(() => import("uqr"));
 $("share-copy").addEventListener("click", async () => {
   $("share-link").select();
   try { await navigator.clipboard.writeText($("share-link").value); } catch { document.execCommand("copy"); }
@@ -358,8 +387,11 @@ async function take_address(hash) {
   if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which says nothing to this page.`);
   const next = await from_fragment(hash);
   if (!next) throw new AddressError("The address is damaged: there is no program in it that can be read.");
-  return () => exchange({ ...next, document: new_id() }, "A shared program is open.");
+  if (next.name) return () => exchange({ ...next, document: new_id(), title: `${next.name}: ${title_of(next)}` }, `What ${next.name} has handed in is open.`);
+  if (!next.task) return () => exchange({ ...next, document: new_id() }, "A shared program is open.");
+  return () => resume({ ...next, document: id_of(hash), title: title_of(next) }, `The lesson “${title_of(next)}”`);
 }
+const title_of = ({ task, main, active }) => parts_of(task).title || main || active;
 async function open_address() {
   const { hash } = location;
   if (hash.length < 2) return false;
@@ -387,18 +419,31 @@ const ball = new Ball({ machine, player, workspace: () => workspace, on_mistakes
     show_program();
     steps.ran();
   } });
-const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_place: go_to,
+const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_place: go_to, on_hand_in: () => hand_in(),
   on_passed() {
-    if (!workspace.lesson) return null;
+    if (!workspace.lesson) return workspace.task ? undefined : null;
     mark_done(workspace.lesson);
-    show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution }, true);
+    show_task_of(true);
     const next = lesson_after(workspace.lesson);
     return next && (() => pick(next));
   } });
+const with_class = on_demand(async () => (await import("./page/class.js")).set_up_class({
+  machine, workspace: () => workspace, share, address_of,
+  on_change(name = workspace.active) {
+    if (workspace.task) workspace.title = title_of(workspace);
+    workspace.document ||= new_id();
+    show_file(name);
+    show_task_of();
+  },
+}));
+const hand_in = () => with_class(parts => parts.hand_in());
+$("hand-in").addEventListener("click", hand_in);
+for (const id of ["lesson-write", "task-edit", "share-lesson"]) $(id).addEventListener("click", () => with_class(parts => parts.write()));
 const mine = set_up_mine({ store, workspace: () => workspace, on_open: (next, words) => { exchange(next, words); show_view("work"); },
   begin: () => checked({ files: { "program.orb": welcome }, active: "program.orb" }) });
 const world = set_up_world({ workspace: () => workspace, keep: keep_soon });
-set_up_flash({ machine, workspace: () => workspace, ball, on_mistakes: show_mistakes });
+const with_robots = on_demand(async () => (await import("./page/flash.js")).set_up_flash({ machine, workspace: () => workspace, ball, on_mistakes: show_mistakes }));
+$("flash").addEventListener("click", () => with_robots(robots => robots.open()));
 
 /** A run shows its lines in the text of the program, so that one is shown. */
 function show_program() {
@@ -421,6 +466,17 @@ $("task-fold").addEventListener("click", () => {
   const hidden = $("task").classList.toggle("folded");
   $("task-fold").setAttribute("aria-expanded", String(!hidden));
   $("task-fold").textContent = hidden ? "Show" : "Hide";
+});
+
+// ---- the menu: what is chosen in it, or pressed beside it, closes it ----
+$("print").addEventListener("click", () => window.print());
+document.addEventListener("click", ({ target }) => {
+  if (!$("menu").contains(target) || target.closest(".more-list") && target.id !== "theme") $("menu").open = false;
+});
+$("menu").addEventListener("keydown", event => {
+  if (event.key !== "Escape" || !$("menu").open) return;
+  $("menu").open = false;
+  $("menu").firstElementChild.focus();
 });
 
 // ---- a narrow page shows one of both ----

@@ -1,7 +1,9 @@
 // Keeps the playground on this device, so that it works without a network. The build puts in the names
-// of the files and a hash of all that is in them: another build has another cache.
+// of the files and a hash of all that is in them: another build has another cache. What is loaded on demand
+// is kept once it was.
 const cache_name = "orb-playground-/*{hash}*/";
-const core = /*{files}*/[];
+const core = /*{core}*/[];
+const on_demand = /*{on_demand}*/[];
 
 self.addEventListener("install", event =>
   event.waitUntil(caches.open(cache_name).then(cache => cache.addAll(core.map(url => new Request(url, { cache: "no-cache" }))))));
@@ -20,7 +22,8 @@ async function answer(request) {
   const held = await cache.match(url.href);
   if (held) return held;
   const fetched = await fetch(request);
-  if (fetched.ok && url.href.startsWith(`${self.registration.scope}docs/`)) await cache.put(url.href, fetched.clone());
+  const name = url.href.slice(self.registration.scope.length);
+  if (fetched.ok && (name.startsWith("docs/") || on_demand.includes(name))) await cache.put(url.href, fetched.clone());
   return fetched;
 }
 self.addEventListener("fetch", event => {

@@ -1,8 +1,20 @@
 // The engine behind messages, and the clock of live runs: {id, method, params} in, {id, result} or {id, error}
 // out, and events {event, data}.
-import { load_engine } from "./engine.js";
+import { instance_of, load_engine } from "./engine.js";
+import { OrbError } from "./error.js";
+import { instance_in_parts } from "./split/parts.js";
 
 const frame_ms = 33;
+/** The bytes of what few visits need, in a file whose name the build knows: a call is waiting for them. */
+function rest_of_wasm() {
+  const request = new XMLHttpRequest();
+  request.open("GET", new URL(ORB_REST, import.meta.url), false);
+  request.responseType = "arraybuffer";
+  request.send();
+  if (request.status !== 200) throw new Error(`a part of orb could not be loaded (${request.status})`);
+  return request.response;
+}
+
 let engine;
 let clock = null; // of the live run: robot time `robot` at the moment `real`, and how much faster it runs
 
@@ -34,7 +46,14 @@ function tick() {
 function end() {
   clearTimeout(clock?.timer);
   clock = null;
-  post("end", engine.call("live_end"));
+  let answer;
+  try {
+    answer = engine.call("live_end");
+  } catch (error) {
+    if (!(error instanceof OrbError)) throw error;
+    answer = { ending: { words: error.message } }; // such as a macro that the robot refused
+  }
+  post("end", answer);
 }
 
 const own = {
@@ -61,8 +80,8 @@ function answer({ id, method, params = {} }) {
     const result = Object.hasOwn(own, method) ? own[method](params) : engine.call(method, params);
     postMessage({ id, result });
   } catch (error) {
-    // After that nothing in its memory can be relied on.
-    if (error instanceof WebAssembly.RuntimeError) post("broken", { message: `${method}: ${error.message}` });
+    // Not an answer of orb: after that nothing in its memory can be relied on.
+    if (!(error instanceof OrbError)) post("broken", { message: `${method}: ${error.message}` });
     postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });
   }
 }
@@ -70,7 +89,7 @@ function answer({ id, method, params = {} }) {
 // What comes while the wasm is loading waits.
 const waiting = [];
 onmessage = ({ data }) => engine ? answer(data) : waiting.push(data);
-load_engine().then(made => {
+load_engine(instance_in_parts(instance_of, rest_of_wasm)).then(made => {
   engine = made;
   post("ready", engine.call("version"));
   waiting.splice(0).forEach(answer);

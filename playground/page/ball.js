@@ -1,6 +1,5 @@
 // Runs: in the time of the robot, at once, and what is done to the ball meanwhile.
 
-import { do_wish } from "../link.js";
 import { $, announce, button, element, with_code } from "./dom.js";
 import { ending_of, program_of } from "./workspace.js";
 
@@ -91,8 +90,8 @@ export class Ball {
       if (this.run_number === run) this.fail(error);
     }
   }
-  /** On a robot: the program runs here, and the robot at the other end of `link` is its body. */
-  async drive(link) {
+  /** On a robot: the program runs here, and the robot at the other end of `link` is its body; `do_wish` of link.js uses that. */
+  async drive(link, do_wish) {
     const asked = request(this.workspace());
     if (!this.ready(asked)) return;
     this.set_busy("robot");

@@ -1,6 +1,6 @@
 // A program onto a real ball, where the browser can; else the file for `orb upload`.
 
-import { can_serial, can_bluetooth, serial_link, bluetooth_link, deliver } from "../link.js";
+import { can_serial, can_bluetooth, serial_link, bluetooth_link, deliver, do_wish } from "../link.js";
 import { $, download } from "./dom.js";
 import { request } from "./ball.js";
 import { ending_of } from "./workspace.js";
@@ -100,7 +100,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       say("");
       set_running(null);
       $("flash-dialog").close();
-      await ball.drive(link);
+      await ball.drive(link, do_wish);
     } catch (error) {
       say(error.name === "NotFoundError" ? "No robot was chosen." : error.message, error.name !== "NotFoundError");
     } finally {
@@ -157,7 +157,6 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       say(error.findings ? "The program has mistakes." : error.message, true);
     }
   }
-  $("flash").addEventListener("click", open);
   $("robot-run").addEventListener("click", () => tell("run"));
   $("robot-stop").addEventListener("click", () => tell("stop"));
   window.addEventListener("pagehide", () => let_go());
@@ -168,4 +167,5 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   $("flash-file").addEventListener("click", as_file);
   $("flash-cancel").addEventListener("click", () => running?.abort());
   $("flash-dialog").addEventListener("cancel", event => { if (running) event.preventDefault(); });
+  return { open };
 }

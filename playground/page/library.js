@@ -87,10 +87,13 @@ function kept_done() {
 export function mark_done(id) {
   try { localStorage.setItem(done_key, JSON.stringify([...kept_done().add(id)])); } catch { /* no storage */ }
 }
+let asked = "";
 /** Shows the task of a lesson, or hides it where `id` is none. */
 export async function show_task(id, { on_pick, on_solution }, stays = false) {
+  asked = id;
   if (!id) { $("task").hidden = true; return; }
   await load_library().catch(() => {});
+  if (asked !== id) return; // something else was opened meanwhile
   const all = lessons(), at = all.findIndex(lesson => lesson.id === id), lesson = all[at];
   $("task").hidden = !lesson;
   if (!lesson) return;

@@ -6,7 +6,8 @@ import { checked } from "./workspace.js";
 /** How many earlier states of a document are kept. */
 export const most_versions = 50;
 
-const same = (one, other) => JSON.stringify([one?.files, one?.main, one?.run]) === JSON.stringify([other?.files, other?.main, other?.run]);
+const content = one => JSON.stringify([one?.files, one?.main, one?.run, one?.task ?? ""]);
+const same = (one, other) => content(one) === content(other);
 const is_full = error => error?.name === "QuotaExceededError";
 
 export class Store {

@@ -5,8 +5,9 @@ import { $, element, button } from "./dom.js";
 const signs = { __proto__: null, passed: "✓", failed: "✗", error: "!" };
 
 export class Verdicts {
-  constructor({ machine, ball, workspace, on_place, on_passed }) {
+  constructor({ machine, ball, workspace, on_place, on_passed, on_hand_in }) {
     Object.assign(this, { machine, ball, workspace, on_place, on_passed });
+    $("cheer-hand-in").addEventListener("click", on_hand_in);
     $("verdicts-close").addEventListener("click", () => { $("verdicts").hidden = true; });
   }
   /** `names`: the test files. */
@@ -38,9 +39,10 @@ export class Verdicts {
     if (passed === all) this.cheer(this.on_passed());
     $("verdicts").scrollIntoView({ block: "nearest" });
   }
-  /** A lesson is done: that deserves a moment, and leads on. */
+  /** A lesson is done: that deserves a moment, and leads on; `next` is null where it is no lesson. */
   cheer(next) {
     $("cheer").hidden = next === null;
+    $("cheer-hand-in").hidden = $("hand-in").hidden;
     $("cheer-next").hidden = !next;
     $("cheer-next").onclick = next ?? null;
   }

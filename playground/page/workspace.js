@@ -1,7 +1,7 @@
 // The files that somebody works on: what may be one, and how they are kept and shared.
 
-/** `text`: letters of a file; `shared`: bytes of a program in an address, `link`: those bytes packed. */
-export const limits = { text: 256 * 1024, files: 24, shared: 1024 * 1024, link: 200 * 1024 };
+/** `text`: letters of a file; `shared`: bytes of a program in an address, `link`: those bytes packed, `task`: letters of a lesson's task. */
+export const limits = { text: 256 * 1024, files: 24, shared: 1024 * 1024, link: 200 * 1024, task: 10_000 };
 const thousands = number => number.toLocaleString("en");
 export const limit_words = {
   text: `A file holds at most ${thousands(limits.text)} letters`,
@@ -36,7 +36,7 @@ export function name_trouble(name) {
 }
 
 /** Files and how they are run; plain data, so that it can be kept and shared. */
-export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "", document: "", title: "", before: "" });
+export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "", task: "", name: "", document: "", title: "", before: "" });
 
 /** A workspace from data that anybody may have written: what does not fit is left out. */
 export function checked(data) {
@@ -57,8 +57,9 @@ export function checked(data) {
   made.run.input = Array.isArray(run.input) ? run.input.filter(Number.isFinite).join(", ") : typeof run.input === "string" ? run.input.slice(0, 500) : "";
   if (Number.isInteger(run.seed)) made.run.seed = run.seed;
   if (/^\d{1,4}(ms|s|min)$/.test(run.for)) made.run.for = run.for;
-  for (const key of ["lesson", "document", "title", "before"])
+  for (const key of ["lesson", "name", "document", "title", "before"])
     if (typeof data[key] === "string") made[key] = data[key].slice(0, 80);
+  if (typeof data.task === "string") made.task = data.task.slice(0, limits.task);
   return made;
 }
 
@@ -119,8 +120,8 @@ const packs = () => {
 
 /** The part of an address behind `#` that holds a workspace. */
 export async function to_fragment(workspace) {
-  const { files, active, main, run, lesson } = workspace;
-  const bytes = new TextEncoder().encode(JSON.stringify({ files, active, main, run, lesson }));
+  const { files, active, main, run, lesson, task, name } = workspace;
+  const bytes = new TextEncoder().encode(JSON.stringify({ files, active, main, run, lesson: lesson || undefined, task: task || undefined, name: name || undefined }));
   packs();
   if (bytes.length > limits.shared) throw new AddressError("That is too much for an address; save the files instead.");
   return "p=" + to_base64url(await read_all(through(bytes, new CompressionStream("deflate-raw")), limits.link).catch(() => {
@@ -133,6 +134,6 @@ export async function from_fragment(fragment) {
   if (!found) throw new AddressError("The address is damaged: part of it is missing, or something else is in it. Ask for it again.");
   packs();
   const bytes = await read_all(through(from_base64url(found[1]), new DecompressionStream("deflate-raw")), limits.shared);
-  const { files, active, main, run, lesson } = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
-  return checked({ files, active, main, run, lesson });
+  const { files, active, main, run, lesson, task, name } = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
+  return checked({ files, active, main, run, lesson, task, name });
 }

@@ -23,14 +23,24 @@ const places = {
     build.onResolve({ filter: /^(\.\/orb\.mjs|marked)$/ }, ({ path }) => ({ path: stand_ins[path] }));
   },
 };
-const bundle = await esbuild.build({
-  entryPoints: ["page", "worker"].map(name => join(root, `playground/${name}.js`)), outdir: out, absWorkingDir: root, write: false,
-  bundle: true, format: "esm", target: "es2022", external: ["node:*"], plugins: [places],
+const shared = {
+  outdir: out, absWorkingDir: root, write: false, bundle: true, format: "esm", target: "es2022", external: ["node:*"], plugins: [places],
   metafile: true, legalComments: "none", logLevel: "warning",
-});
+};
+// What the page imports when it is asked for becomes a file of its own; one that is imported at once is loaded at once.
+const page = await esbuild.build({ ...shared, entryPoints: [join(root, "playground/page.js")], splitting: true, chunkNames: "[name]-[hash]" });
+const rest = readFileSync(join(root, "build/wasm/rest.wasm"));
+const rest_name = `orb-rest-${createHash("sha256").update(rest).digest("hex").slice(0, 8)}.wasm`; // a page never takes that of another build
+writeFileSync(join(out, rest_name), rest);
+const worker = await esbuild.build({ ...shared, entryPoints: [join(root, "playground/worker.js")], define: { ORB_REST: JSON.stringify(`./${rest_name}`) } });
 // Terser takes twenty times as long as esbuild, and makes the page's script lighter by a thirtieth.
-for (const { path, text } of bundle.outputFiles)
+for (const { path, text } of [...page.outputFiles, ...worker.outputFiles])
   writeFileSync(path, (await minify(text, { module: true, ecma: 2020, compress: { passes: 3 } })).code);
+const parts = Object.fromEntries(Object.entries(page.metafile.outputs).map(([path, { imports }]) => [relative(out, resolve(root, path)),
+  imports.filter(({ kind }) => kind === "import-statement").map(one => relative(out, resolve(root, one.path)))]));
+const at_once = new Set(["page.js"]);
+for (const name of at_once) for (const one of parts[name]) at_once.add(one); // a set goes on to what is added
+const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => !at_once.has(name))]);
 const minified = (await esbuild.transform(`${read("report/page.css")}\n${read("playground/page.css")}`, { loader: "css", minify: true })).code;
 writeFileSync(join(out, "page.css"), minified);
 
@@ -49,11 +59,12 @@ function composed() {
     lanes: part("lanes", /<section class="lanes"[^]*?<\/section>/),
     transport: part("transport", /<footer class="transport"[^]*?<\/footer>/).replaceAll("footer", "div"),
   };
-  return read("playground/page.html").replace(/<!--\{(\w+)\}-->/g, (_, name) => parts[name]);
+  return read("playground/page.html").replace(/<!--\{(\w+)\}-->/g, (_, name) => parts[name])
+    .replace(/.*"modulepreload".*\n/, [...at_once].map(name => `<link rel="modulepreload" href="${name}">\n`).join(""));
 }
 writeFileSync(join(out, "index.html"), composed());
 for (const name of ["icon.svg", "manifest.webmanifest"]) copyFileSync(join(root, "playground", name), join(out, name));
-writeFileSync(join(out, "LICENSES.txt"), licences(root, bundle.metafile));
+writeFileSync(join(out, "LICENSES.txt"), licences(root, { ...page.metafile.inputs, ...worker.metafile.inputs }));
 build_docs(root, join(out, "docs"));
 
 // ---- the service worker, last: it knows all files ----
@@ -70,6 +81,7 @@ list(out);
 files.sort();
 const hash = createHash("sha256");
 for (const path of files) hash.update(relative(out, path)).update("\0").update(readFileSync(path));
-const core = files.map(path => relative(out, path));
-writeFileSync(join(out, "sw.js"), read("playground/sw.js")
-  .replace("/*{hash}*/", hash.digest("hex").slice(0, 16)).replace("/*{files}*/[]", JSON.stringify(core)));
+const names = files.map(path => relative(out, path));
+const json = list => JSON.stringify(list);
+writeFileSync(join(out, "sw.js"), read("playground/sw.js").replace("/*{hash}*/", hash.digest("hex").slice(0, 16))
+  .replace("/*{core}*/[]", json(names.filter(name => !on_demand.has(name)))).replace("/*{on_demand}*/[]", json(names.filter(name => on_demand.has(name)))));

@@ -6,8 +6,9 @@ import { join } from "node:path";
 /** What is linked into orb.wasm, as Debian calls it; emscripten brings the C and C++ libraries. */
 const linked = ["tao-pegtl-dev", "nlohmann-json3-dev", "libexpected-dev", "libfmt-dev", "libpugixml-dev", "libpcre2-dev", "emscripten"];
 
-export function licences(root, metafile) {
-  const packages = new Set(Object.keys(metafile.inputs).map(path => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
+/** `inputs`: the files that were bundled, by their paths. */
+export function licences(root, inputs) {
+  const packages = new Set(Object.keys(inputs).map(path => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
   const texts = [`orb\n\n${readFileSync(join(root, "LICENSE"), "utf8")}`];
   for (const path of [...packages].sort()) {
     const folder = join(root, path);

@@ -3,7 +3,7 @@
 // usage: node engine.mjs ORB ROOT [FOLDER]; exits 77 where `./dev playground` has built nothing.
 import assert from "node:assert/strict";
 import { execFile, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import net from "node:net";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -16,7 +16,13 @@ if (!existsSync(join(folder, "orb.wasm"))) {
 }
 const { load_engine } = await import(pathToFileURL(join(root, "build/npm/engine.js")));
 const { deliver } = await import(pathToFileURL(join(root, "playground/link.js")));
-const engine = await load_engine();
+// In the two parts in which the page loads it.
+const { instance_in_parts } = await import(pathToFileURL(join(root, "playground/split/parts.js")));
+const rest = readdirSync(folder).find(name => /^orb-rest-.*\.wasm$/.test(name));
+let rest_was_read = 0;
+const engine = await load_engine(instance_in_parts(
+  async imports => (await WebAssembly.instantiate(readFileSync(join(folder, "orb.wasm")), imports)).instance,
+  () => (++rest_was_read, readFileSync(join(folder, rest)))));
 const place = mkdtempSync(join(tmpdir(), "orb-playground-"));
 process.setMaxListeners(100); // each ball is ended with us
 process.on("exit", () => rmSync(place, { recursive: true, force: true }));
@@ -173,6 +179,8 @@ for (const fault of faults)
     const native = await native_outcome(upload, recording);
     same("upload", `${upload.name}, ${fault || "a good link"}`, { code: outcome.code, message: comparable(outcome.message) }, native);
   }
+
+same("parts", "what was loaded for uploads, once", rest_was_read, 1);
 
 // ---- an upload that somebody stops, and one to nobody ----
 {

@@ -24,6 +24,18 @@ def load(browser, server):
     return page, paint, float(page.evaluate("document.documentElement.dataset.ready"))
 
 
+def newcomer(browser, server):
+    """From the first paint until the ball moves, where Run is pressed at once."""
+    page = browser.page(fresh=True)
+    page.go(server.url)
+    page.wait("document.readyState === 'complete'")
+    page.evaluate("document.getElementById('run').click()")
+    page.wait("document.querySelectorAll('#map .run').length > 0")
+    took = page.evaluate("performance.now() - performance.getEntriesByName('first-contentful-paint')[0].startTime")
+    page.close()
+    return took
+
+
 keystroke = """new Promise(done => {
   const list = document.getElementById('findings'), began = performance.now(), there = list.children.length;
   const watch = new MutationObserver(() => { if (list.children.length !== there) { watch.disconnect(); done(performance.now() - began); } });
@@ -36,15 +48,17 @@ def row(name, values, unit, digits=0):
     print(f"{name:46}{min(values):8.{digits}f}{statistics.median(values):8.{digits}f}{max(values):8.{digits}f} {unit}")
 
 
-sizes = weight.weights(folder)
-print("brotli, KB: " + ", ".join(f"{name} {size / 1000:.0f}" for name, size in sorted(sizes.items(), key=lambda one: -one[1]) if size > 1000)
-      + f"; all {sum(sizes.values()) / 1000:.0f}")
+for words, names in (("a first visit", "core"), ("on demand", "on_demand")):
+    sizes = weight.weights(folder, names)
+    print(f"brotli, KB, {words}: " + ", ".join(f"{name} {size / 1000:.0f}" for name, size in sorted(sizes.items(), key=lambda one: -one[1]) if size > 1000)
+          + f"; all {sum(sizes.values()) / 1000:.0f}")
 server, browser = site_server.Site(folder), chromium.Browser(chromium.find())
 try:
     loads = [load(browser, server) for _ in range(rounds)]
     print(f"{'':46}{'least':>8}{'median':>8}{'most':>8}")
     row("first paint", [paint for _, paint, _ in loads], "ms")
     row("from first paint to a program that can run", [max(0, ready - paint) for _, paint, ready in loads], "ms")
+    row("from first paint to a ball that moves", [newcomer(browser, server) for _ in range(rounds)], "ms")
     page = loads[-1][0]
     page.wait("document.querySelector('.tok-keyword') !== null")
     page.evaluate("document.querySelector('.cm-content').focus()")

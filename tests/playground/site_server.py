@@ -14,8 +14,9 @@ import urllib.parse
 class Handler(http.server.SimpleHTTPRequestHandler):
     wire = None  # what mocked ports of the browser lead to
 
-    def __init__(self, *arguments, without=frozenset(), **more):
+    def __init__(self, *arguments, without=frozenset(), asked=None, **more):
         self._without = without
+        self._asked = asked
         super().__init__(*arguments, **more)
 
     def log_message(self, *_):
@@ -27,6 +28,8 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         self.end_headers()
 
     def do_GET(self):
+        if self._asked is not None:
+            self._asked.add(self.path)
         if self.path.lstrip("/") in self._without:
             return self.send_error(404)
         if self.path != "/wire/read":
@@ -39,9 +42,11 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
 class Site:
     def __init__(self, folder, without=()):
-        """`without`: names of files that are not found, until they are taken out of the set."""
+        """`without`: names of files that are not found, until they are taken out of the set. `asked` are the paths that were
+        asked for."""
         self.without = set(without)
-        handler = functools.partial(Handler, directory=folder, without=self.without)
+        self.asked = set()
+        handler = functools.partial(Handler, directory=folder, without=self.without, asked=self.asked)
         self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
         self._server.daemon_threads = True
         self.url = f"http://127.0.0.1:{self._server.server_port}/"

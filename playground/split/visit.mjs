@@ -1,0 +1,97 @@
+// What somebody does on the page who does not reach for a robot, as calls of the engine: what is called here
+// becomes the part of orb.wasm that is loaded at once.
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { welcome } from "../page/steps.js";
+
+const is_source = name => /\.(orb|test|stimulus|svg)$/.test(name);
+const attempt = deed => { try { return deed(); } catch (error) { if (error instanceof WebAssembly.RuntimeError) throw error; } };
+
+/** The sources in the transcripts of a folder. */
+function* transcripts(folder) {
+  for (const entry of readdirSync(folder, { withFileTypes: true, recursive: true }).sort((a, b) => a.name < b.name ? -1 : 1)) {
+    if (!entry.isFile() || !entry.name.endsWith(".txt")) continue;
+    const files = {};
+    for (const part of readFileSync(join(entry.parentPath ?? entry.path, entry.name), "utf8").split(/^=== /m).slice(1)) {
+      const [name, ...lines] = part.split("\n");
+      if (is_source(name) && !name.includes("/")) files[name] = lines.join("\n");
+    }
+    if (Object.keys(files).length) yield { files };
+  }
+}
+
+/** What an editor asks about a text that is open. */
+function edit(engine, files) {
+  let id = 0;
+  const tell = (method, params) => attempt(() => engine.call("lsp", { message: { jsonrpc: "2.0", method, params } }));
+  const ask = (method, params) => attempt(() => engine.call("lsp", { message: { jsonrpc: "2.0", id: ++id, method, params } }));
+  ask("initialize", { processId: null, clientInfo: { name: "visit" }, rootUri: "file:///", capabilities: {
+    textDocument: { completion: { completionItem: { snippetSupport: true, documentationFormat: ["plaintext", "markdown"] } }, hover: { contentFormat: ["markdown", "plaintext"] }, publishDiagnostics: { versionSupport: true } },
+  } });
+  tell("initialized", {});
+  engine.call("files", { files });
+  for (const [name, text] of Object.entries(files).filter(([one]) => one.endsWith(".orb"))) {
+    const textDocument = { uri: `file:///${name}` }, lines = text.split("\n");
+    const range = { start: { line: 0, character: 0 }, end: { line: lines.length, character: 0 } };
+    tell("textDocument/didOpen", { textDocument: { ...textDocument, version: 1, languageId: "", text } });
+    ask("textDocument/codeAction", { textDocument, range, context: { diagnostics: [] } });
+    ask("textDocument/semanticTokens/full", { textDocument });
+    ask("textDocument/formatting", { textDocument, options: { tabSize: 2, insertSpaces: true } });
+    lines.slice(0, 25).forEach((words, line) => {
+      for (const { index } of [...words.matchAll(/[\w.$&]+/g)].slice(0, 6)) ask("textDocument/hover", { textDocument, position: { line, character: index + 1 } });
+      const position = { line, character: words.length };
+      ask("textDocument/completion", { textDocument, position, context: { triggerKind: 1 } });
+      ask("textDocument/signatureHelp", { textDocument, position });
+      ask("textDocument/definition", { textDocument, position: { line, character: Math.floor(words.length / 2) } });
+    });
+    tell("textDocument/didChange", { textDocument: { ...textDocument, version: 2 }, contentChanges: [{ range: { start: range.start, end: range.start }, text: "\n" }] });
+    tell("textDocument/didClose", { textDocument });
+  }
+}
+
+/** Times as a clock of a browser gives them, with digits of any length. */
+const begin = 1234.4000000953674, clocked = ms => Math.max(0, begin + ms * 1.0031 - begin);
+/** A run in the time of the robot, in which somebody does what can be done. */
+function play(engine, given) {
+  if (!attempt(() => engine.call("live_start", { ...given, for: "0" }))) return;
+  const at = ms => attempt(() => engine.call("live_advance", { ms: clocked(ms) }));
+  for (let ms = .1; ms < 100; ms += ms < 2 ? .1 : 3.1) at(ms);
+  ["shake", "push 90 120", "toss 500ms", "tilt 40 0", "tilt 0 0", "wall y=80", "hop"].forEach((line, i) => {
+    attempt(() => engine.call("stimulus", { line }));
+    at(300 + i * 300);
+  });
+  attempt(() => engine.call("input", { value: 7 }));
+  at(4000);
+  for (let ms = 4000; ms < 15_000; ms += 33) at(ms); // as the worker does
+  attempt(() => engine.call("report"));
+  attempt(() => engine.call("live_end"));
+}
+
+function test(engine, files, name) {
+  const done = attempt(() => engine.call("test", { files, names: [name] }));
+  const [first] = done?.results?.tests ?? [];
+  if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
+}
+
+/** `root`: the checkout; `examples`: the file that the page loads. Lessons and examples in the structured language, with the
+ *  mistakes that transcripts show. Who edits numbered programs, macros or tests, or drives through a course, loads the rest, as
+ *  for a robot. */
+export function visit(engine, root, examples) {
+  engine.call("version");
+  const items = JSON.parse(readFileSync(examples, "utf8")).groups.flatMap(group => group.items)
+    .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")));
+  const solved = items.filter(item => item.solution).map(item => ({ ...item, files: { ...item.files, [item.main]: item.solution } }));
+  const run_all = (files, main, run = {}) => {
+    const given = { files, ...run, names: run.names ?? [main], for: "10s" };
+    attempt(() => engine.call("run", { ...given, report: true }));
+    play(engine, given);
+    for (const name of Object.keys(files).filter(one => one.endsWith(".test"))) test(engine, files, name);
+  };
+  for (const { files, main, run } of [...items, ...solved]) {
+    edit(engine, files);
+    run_all(files, main, run);
+  }
+  for (const { files } of transcripts(join(root, "tests/golden/check/structured"))) edit(engine, files);
+  for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
+    run_all({ "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
+}
