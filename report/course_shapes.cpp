@@ -134,7 +134,7 @@ void Reader::zone(const Element& element) {
         "give it one, such as `id=\"goal\"`: tests call it by that");
   else if (!ids_.insert(zone.id).second)
     say(rules::CourseZone, place(element.node, "id"),
-        fmt::format("duplicate zone id `{}`", zone.id), "each zone has an id of its own");
+        fmt::format("duplicate zone id `{}`", zone.id), "each zone needs an id of its own");
   if (is_round(element))
     round_zone(element, zone);
   else if (const auto lines = element.name == "line" ? std::nullopt : outlines(element))

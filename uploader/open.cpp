@@ -71,7 +71,7 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
   case Scheme::Replay:
   case Scheme::Sim: break;
   }
-  return failed(LinkError::Kind::CannotOpen, "the operating system has no such link");
+  return failed(LinkError::Kind::CannotOpen, "the operating system does not support this kind of link");
 }
 
 } // namespace

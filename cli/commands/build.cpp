@@ -160,7 +160,7 @@ void add_build(const Command& orb, Context& context) {
       command.add_option("--map", options->map, "write which source line became which robot line");
   const auto readable =
       command.add_flag("--readable", options->readable,
-                       "of a structured program: orbBasic for people, with comments");
+                       "for a structured program: readable orbBasic, with comments");
   readable.excludes(map);
   add_target_options(command, options->target);
   command.add_flag(

@@ -203,7 +203,7 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
       auto name = error.description().substr(at + twice.size());
       name = name.substr(0, name.find('\''));
       return tl::unexpected(problem(place_in(file, error.source().begin),
-                                    fmt::format("`{}` stands twice; give one of them another name, "
+                                    fmt::format("`{}` is given twice; give one of them another name, "
                                                 "or delete it",
                                                 name)));
     }

@@ -85,7 +85,7 @@ public:
       add_pupil(folder);
     if (found_.programs.size() == before)
       return Failure{ExitCode::Usage,
-                     fmt::format("there is no program in {}: neither {} nor a folder with one",
+                     fmt::format("no program in {}: neither {} nor a folder with one",
                                  path, wanted())};
     std::sort(found_.programs.begin() + static_cast<std::ptrdiff_t>(before), found_.programs.end());
     return std::nullopt;

@@ -117,7 +117,7 @@ ExitCode Link::finish(const Context& context, ExitCode exit) {
     if (!kept)
       written = tl::unexpected(kept.error());
     else if (*kept)
-      print_note(context, fmt::format("the recording of this is {}; the one before stays", **kept));
+      print_note(context, fmt::format("this attempt is recorded in {}; the earlier recording is kept", **kept));
   }
   if (written)
     return exit;

@@ -46,7 +46,7 @@ Answer calls(const Workspace& space, const Json& params, bool incoming) {
   const auto name = text_of(member(data, "name"));
   const auto found = space.documents().find(uri);
   if (found == space.documents().end() || found->second.shape().calls == nullptr)
-    return refuse(RpcError::InvalidParams, "the item is none of an open document");
+    return refuse(RpcError::InvalidParams, "the item belongs to no open document");
   const auto& root = found->second.source;
   const auto all = found->second.shape().calls(root, space.options);
   std::map<std::size_t, Json> sites; // by the other end
