@@ -2,10 +2,13 @@
 
 #include "assembler/assemble.h"
 #include "base/render.h"
+#include "compiler/check.h"
 #include "compiler/text/image.h"
 #include "editor/language.h"
+#include "editor/languages/structured_tree.h"
 #include "protocol/macro.h"
 #include "report/course.h"
+#include "structured/lift/lift.h"
 #include "testing/check_files.h"
 
 #include <fmt/format.h>
@@ -73,6 +76,36 @@ Answer assemble(Request& request) {
   return print({{"name", fmt::format("{}.bin", stem(request.names.front()))},
                 {"bytes", macros.front()["bin"]},
                 {"macros", macros}});
+}
+
+Answer tree(Request& request) {
+  const auto sources = request.sources();
+  if (!sources)
+    return tl::unexpected(sources.error());
+  const auto& file = sources->front();
+  if (&service_of(file) != &editor::structured_service)
+    return refuse(ExitCode::Usage, fmt::format("{} is no structured program", file.path));
+  if (const auto refused = compiler::refuse_text(file.source.text()))
+    return refuse(ExitCode::BadInput, refused->message);
+  return editor::structured_tree(file.source.text());
+}
+
+Answer words(Request&) {
+  return editor::structured_vocabulary();
+}
+
+Answer lift(Request& request) {
+  const auto sources = request.sources();
+  if (!sources)
+    return tl::unexpected(sources.error());
+  const auto& file = sources->front();
+  if (&service_of(file) != &editor::basic_service)
+    return refuse(ExitCode::Usage, fmt::format("{} is no program with line numbers", file.path));
+  const auto lifted = structured::lift(compiler::check(file.source.text(), {}));
+  if (lifted.text.empty())
+    return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} has mistakes", file.path),
+                                  render_json({{&file.source, lifted.findings, {}}})});
+  return print({{"text", lifted.text}});
 }
 
 } // namespace orb::playground

@@ -10,5 +10,8 @@ Answer check(Request& request);
 Answer format(Request& request);
 Answer build(Request& request);
 Answer assemble(Request& request);
+Answer tree(Request& request);
+Answer words(Request& request);
+Answer lift(Request& request);
 
 } // namespace orb::playground
