@@ -1,0 +1,101 @@
+// The fields of blocks. A field holds what stands in the text, so that nothing is lost of a text that is shown.
+
+/** What `read_numeral` takes, and a minus sign before it. */
+const numeral = /^-?(?:0x[0-9a-f]+|\d+|\d+(?:\.\d{1,9})?(?:ms|s|min))$/i;
+const milliseconds = { ms: 1, s: 1000, min: 60_000 };
+const value_of = text => {
+  const unit = /(ms|s|min)$/i.exec(text)?.[0] ?? "";
+  return unit ? Math.round(parseFloat(text) * milliseconds[unit.toLowerCase()]) : Number(text);
+};
+const name = /^[a-z_]\w*$/i;
+
+export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
+  const taken = new Set([...words.statements, ...words.sensors, ...words.functions, ...words.keywords].map(({ word }) => word.toLowerCase()));
+  const is_name = text => name.test(text) && text.length <= words.longest_name && !taken.has(text.toLowerCase());
+
+  /** A number as it is written: `0x7F`, `1.5s`. Somebody who types one is kept in the range of where it stands. */
+  class NumeralField extends FieldTextInput {
+    doClassValidation_(text) {
+      text = String(text).trim();
+      if (!this.isBeingEdited_) return text;
+      if (!numeral.test(text)) return null;
+      const range = this.range();
+      if (!range) return text;
+      const value = value_of(text);
+      return value < range.least ? String(range.least) : value > range.greatest ? String(range.greatest) : text;
+    }
+    /** What the tables allow where it stands. */
+    range() {
+      const input = this.getSourceBlock()?.outputConnection?.targetConnection?.getParentInput();
+      return input?.getSourceBlock().ranges?.[input.name];
+    }
+  }
+
+  /** A text of which `fits` tells what somebody may type. */
+  class CheckedField extends FieldTextInput {
+    constructor(text, fits) {
+      super(text);
+      this.fits = fits;
+    }
+    doClassValidation_(text) {
+      return !this.isBeingEdited_ || this.fits(text) ? text : null;
+    }
+  }
+  const list_of_names = text => text.trim() === "" || text.split(",").every(one => is_name(one.trim()));
+
+  /** A choice among `options(block)`, which are looked for when it opens. What a text has is among them, whatever it is. */
+  class ChoiceField extends FieldDropdown {
+    constructor(value, options, { look = one => one || " ", more = [] } = {}) {
+      super(function () {
+        const own = this.coming ?? this.value_ ?? value;
+        if (!this.opening) return [[look(own), own]];
+        const list = options(this.getSourceBlock());
+        return [...list.includes(own) ? list : [own, ...list], ...more].map(one => [look(one), one]);
+      });
+      this.setValue(value);
+    }
+    doClassValidation_(value) {
+      return value;
+    }
+    doValueUpdate_(value) {
+      this.coming = value;
+      this.getOptions(false);
+      super.doValueUpdate_(value);
+      this.coming = undefined;
+    }
+    showEditor_(event) {
+      this.opening = true;
+      super.showEditor_(event);
+    }
+    dropdownDispose_() {
+      this.opening = false;
+      super.dropdownDispose_();
+    }
+  }
+
+  /** A name of the program, of a kind that `of` tells, or a new one. */
+  const another = "\n";
+  class NameField extends ChoiceField {
+    constructor(value, of) {
+      super(value, ({ workspace }) => names_in(workspace.targetWorkspace ?? workspace, of), { more: [another], look: one => one === another ? "another name…" : one });
+    }
+    doClassValidation_(value) {
+      if (value !== another) return value;
+      dialog.prompt("Name", this.getValue(), text => {
+        if (text !== null && is_name(text.trim())) this.setValue(text.trim());
+      });
+      return null;
+    }
+  }
+
+  return { NumeralField, CheckedField, ChoiceField, NameField, is_name, list_of_names };
+}
+
+/** The names that the blocks of a program make, of the kinds in `of`, each once. */
+export function names_in(workspace, of) {
+  const names = new Map();
+  for (const block of workspace.getAllBlocks(false))
+    for (const [kind, name] of block.makes())
+      if (of.includes(kind) && name && !names.has(name.toLowerCase())) names.set(name.toLowerCase(), name);
+  return [...names.values()];
+}

@@ -1,0 +1,459 @@
+// The blocks, from the tables: how each looks, which names it makes, and what it writes into the text.
+// A block is called after what it stands for in the tree of the engine (playground/README.md).
+//
+// `memory` of a block is what it does not show: how its line was laid out, that it follows a blank line. Where a
+// statement is unchanged, its line is written as it was.
+
+import { make_fields } from "./fields.js";
+
+/** Where a statement of the robot belongs; the others are in their own drawer. */
+const drawers = { goroll: "drive", raw: "drive", basflg: "drive", heading: "turn", locate: "turn", RGB: "light", LEDC: "light", backLED: "light",
+  delay: "wait", sleep: "wait", end: "start", reset: "start", random: "sensors", input: "sensors", print: "print", macrun: "subs", mackill: "subs",
+  data: "names", read: "names", rstr: "names", tron: "print", troff: "print" };
+
+/** How strongly the parts of an expression hold together; a part that holds less than what is around it wants parentheses. */
+export const levels = { any: 0, or: 1, and: 2, simple: 3, sum: 5, product: 6, factor: 7, whole: 8 };
+/** Of a value: how strongly its own parts hold together, and what the parts must hold at least. */
+export function hold(kind, text) {
+  const pair = (own, right = own + 1) => ({ own, parts: [own, right] });
+  switch (kind) {
+    case "number": return { own: text.startsWith("-") ? levels.factor : levels.whole, parts: [] };
+    case "negate": return { own: levels.factor, parts: [levels.whole] };
+    case "operation": return pair("*/%{}".includes(text) ? levels.product : levels.sum);
+    case "relation": return { own: levels.simple, parts: [levels.sum, levels.sum] };
+    case "not": return { own: levels.simple, parts: [levels.simple] };
+    case "logic": return pair(levels[text]);
+    default: return { own: levels.whole, parts: [] };
+  }
+}
+const shown_signs = { "-": "−", "*": "×", "/": "÷", "<>": "≠", "!=": "≠", "!": "≠", "==": "=", "<=": "≤", ">=": "≥" };
+const look = sign => shown_signs[sign] ?? sign;
+
+const comment_sign = /^(?:'|\/\/|#|rem\b)? ?/i;
+export const without_sign = comment => comment.replace(comment_sign, "");
+export const sign_of = comment => comment_sign.exec(comment)[0];
+
+/** The type of the block of a statement, or of a value. */
+export const type_of = ({ kind, word, items }) => kind === "robot" ? is_one_colour(word, items) ? "colour" : `robot ${word}` : kind;
+const is_one_colour = (word, items) => word === "RGB" && items?.length === 1 && (items[0].kind === "colour" || items[0].value?.kind === "name");
+
+export function define_blocks(Blockly, words) {
+  const { NumeralField, CheckedField, ChoiceField, NameField, is_name, list_of_names } = make_fields(Blockly, words);
+  const { FieldLabel, FieldTextInput, FieldImage, Events, inputs: { inputTypes } } = Blockly;
+  const word_row = Object.fromEntries([...words.keywords, ...words.functions, ...words.sensors, ...words.statements].map(row => [row.word, row]));
+  const kinds = {};
+  const text_of = (block, field) => block.getFieldValue(field);
+
+  // ---- pieces that blocks are made of ----
+  const condition = ["Boolean", "Any"], anything = ["Any", "Boolean"], item = ["Any", "Boolean", "String"];
+  const row = (block, name, ...fields) => {
+    const input = block.appendDummyInput(name);
+    for (const field of fields) add_field(input, field);
+    return input;
+  };
+  const add_field = (input, field) => Array.isArray(field) ? input.appendField(field[1], field[0]) : input.appendField(typeof field === "string" ? new FieldLabel(field) : field);
+  const value = (block, name, check, ...fields) => {
+    const input = block.appendValueInput(name).setCheck(check);
+    for (const field of fields) add_field(input, field);
+    return input;
+  };
+  const body = (block, name) => block.appendStatementInput(name);
+  /** A comment behind the statement, where the text has one. */
+  const note = (block, has, key = "") => {
+    if (has) row(block, `NOTES${key}`, [`NOTE${key}`, new FieldTextInput("' ")]);
+  };
+  /** What can be had more or less often has buttons for that. */
+  const sign_image = sign => `data:image/svg+xml,${encodeURIComponent(`<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 18 18"><circle cx="9" cy="9" r="8" fill="#fff" fill-opacity=".25"/><path d="${sign === "+" ? "M4 9h10M9 4v10" : "M4 9h10"}" stroke="#fff" stroke-width="2"/></svg>`)}`;
+  const step_button = (block, sign, words, change) => new FieldImage(sign_image(sign), 20, 20, words, () => reshape(block, change));
+  const steps = (block, { more, less, what }) => {
+    if (block.isInFlyout) return;
+    const input = row(block, "STEPS");
+    if (less) input.appendField(step_button(block, "-", `fewer ${what}`, less));
+    if (more) input.appendField(step_button(block, "+", `more ${what}`, more));
+  };
+  const numbers = n => Array.from({ length: n }, (_, i) => i);
+
+  // ---- values ----
+  const output = check => ({ output: check });
+  kinds.number = { style: "numbers", ...output(["Number", "Any"]),
+    build: block => row(block, "ROW", ["TEXT", new NumeralField("0")]),
+    print: block => text_of(block, "TEXT") };
+  kinds.string = { style: "print", ...output(["String"]),
+    build: block => row(block, "ROW", "“", ["TEXT", new CheckedField("", text => !/["\n\r]/.test(text))], "”"),
+    print: block => `"${text_of(block, "TEXT")}"` };
+  kinds.character = { style: "print", ...output(["String"]), tip: "the character of that number",
+    build: block => value(block, "A0", anything, "character"),
+    print: (block, part) => `$${part("A0")}` };
+  kinds.name = { style: "names", ...output(["Number", "Any", "Place"]),
+    build: block => row(block, "ROW", ["TEXT", new NameField("name", ["variable", "constant", "parameter"])]),
+    print: block => text_of(block, "TEXT") };
+  kinds.sensor = { style: "sensors", ...output(["Number", "Any", "Place"]),
+    tip: block => describe(word_row[text_of(block, "TEXT")]),
+    build: block => row(block, "ROW", ["TEXT", new ChoiceField("speed", () => words.sensors.map(({ word }) => word))]),
+    print: block => text_of(block, "TEXT") };
+  kinds.element = { style: "names", ...output(["Number", "Any", "Place"]), tip: word_row.array.summary,
+    build: block => { row(block, "ROW", ["TEXT", new NameField("list", ["array"])], "["); value(block, "A0", anything); row(block, "END", "]"); },
+    print: (block, part) => `${text_of(block, "TEXT")}[${part("A0")}]` };
+  const operands = (block, n) => {
+    for (const i of numbers(n)) value(block, `A${i}`, anything, ...i > 0 ? [","] : []);
+    if (n > 0) row(block, "END", ")");
+  };
+  const argument_steps = (block, n) => steps(block, { what: "values",
+    more: memory => { memory.n = n + 1; }, less: n > 0 && (memory => { memory.n = n - 1; }) });
+  kinds.call = { style: "subs", ...output(["Number", "Any"]), tip: word_row.function.summary,
+    build(block, { n = 0 }) {
+      row(block, "ROW", ["TEXT", new NameField("half", ["function"])], n > 0 ? "(" : "( )");
+      operands(block, n);
+      argument_steps(block, n);
+    },
+    print: (block, part, { n = 0 }) => `${text_of(block, "TEXT")}(${numbers(n).map(i => part(`A${i}`)).join(", ")})` };
+  const functions = [...words.functions.map(({ word }) => word), "min", "max"];
+  const takes = word => word === "min" || word === "max" ? 2 : 1;
+  kinds.builtin = { style: "numbers", ...output(["Number", "Any"]), tip: block => word_row[text_of(block, "TEXT")]?.summary,
+    build(block, { n = 1 }) {
+      row(block, "ROW", ["TEXT", new ChoiceField(n === 2 ? "min" : "abs", () => functions.filter(word => takes(word) === n))], "(");
+      operands(block, n);
+    },
+    print: (block, part, { n = 1 }) => `${text_of(block, "TEXT")}(${numbers(n).map(i => part(`A${i}`)).join(", ")})` };
+  kinds.negate = { style: "numbers", ...output(["Number", "Any"]),
+    build: block => value(block, "A0", anything, "−"),
+    print: (block, part) => `-${part("A0")}` };
+  const between = (block, field, check = anything) => { value(block, "A0", check); value(block, "A1", check, ["TEXT", field]); };
+  kinds.operation = { style: "numbers", ...output(["Number", "Any"]), tip: block => words.operators.find(({ sign }) => sign === text_of(block, "TEXT"))?.summary,
+    build: block => between(block, new ChoiceField("+", () => words.operators.map(({ sign }) => sign), { look })),
+    print: (block, part) => `${part("A0")} ${text_of(block, "TEXT")} ${part("A1")}` };
+  kinds.relation = { style: "decide", ...output(condition),
+    build: block => between(block, new ChoiceField("=", () => ["=", "<>", "<", ">", "<=", ">="], { look })),
+    print: (block, part) => `${part("A0")} ${text_of(block, "TEXT")} ${part("A1")}` };
+  kinds.not = { style: "decide", ...output(condition), tip: word_row.not.summary,
+    build: block => value(block, "A0", condition, "not"),
+    print: (block, part) => `not ${part("A0")}` };
+  kinds.logic = { style: "decide", ...output(condition), tip: block => word_row[text_of(block, "TEXT")]?.summary,
+    build: block => between(block, new ChoiceField("and", () => ["and", "or"]), condition),
+    print: (block, part) => `${part("A0")} ${text_of(block, "TEXT")} ${part("A1")}` };
+
+  // ---- statements of the robot ----
+  for (const { word, form, required, parameters, summary } of words.statements) {
+    if (form === "own") continue;
+    const style = drawers[word] ?? "start", tip = summary;
+    const type = `robot ${word}`;
+    if (form === "arguments") kinds[type] = { style, tip, statement: true,
+      build(block, { n = required }) {
+        row(block, "ROW", word);
+        parameters.slice(0, n).forEach((parameter, i) => {
+          value(block, `A${i}`, anything, ...parameters.length > 1 || !["milliseconds", "brightness"].includes(parameter.name) ? [parameter.name] : []);
+          block.ranges[`A${i}`] = parameter;
+        });
+      },
+      print: (block, part, { n = required }) => [word, numbers(n).map(i => part(`A${i}`)).join(", ")].filter(Boolean).join(" ") };
+    else if (form === "entry") kinds[type] = { style, tip, statement: true,
+      build(block, { n = 1 }) {
+        value(block, "A0", ["Place"], word);
+        if (n < 3) return;
+        value(block, "A1", anything, "wait");
+        block.ranges.A1 = parameters[0];
+        value(block, "A2", anything, "else");
+      },
+      makes: block => [["variable", name_at(block, "A0")]],
+      print: (block, part, { n = 1 }) => `${word} ${numbers(n).map(i => part(`A${i}`)).join(", ")}` };
+    else kinds[type] = { style, tip, statement: true,
+      build(block, { n = 1 }) {
+        row(block, "ROW", word);
+        for (const i of numbers(n)) value(block, `A${i}`, form === "places" ? ["Place"] : anything, ...i > 0 ? [","] : []);
+        steps(block, { what: "values", more: memory => { memory.n = n + 1; }, less: n > 1 && (memory => { memory.n = n - 1; }) });
+      },
+      makes: (block, { n = 1 }) => form === "places" ? numbers(n).map(i => ["variable", name_at(block, `A${i}`)]) : [],
+      print: (block, part, { n = 1 }) => `${word} ${numbers(n).map(i => part(`A${i}`)).join(", ")}` };
+  }
+  const name_at = (block, input) => {
+    const found = block.getInputTargetBlock(input);
+    return found?.type === "name" ? text_of(found, "TEXT") : "";
+  };
+  kinds.colour = { style: "light", statement: true, tip: word_row.RGB.summary,
+    build(block, { mixed }) {
+      row(block, "ROW", "RGB", ["TEXT", mixed ? new CheckedField("#00FF80", text => /^#[0-9a-f]{6}$/i.test(text)) : new ChoiceField("red", () => words.colours.map(({ name }) => name))]);
+    },
+    print: block => `RGB ${text_of(block, "TEXT")}` };
+
+  // ---- values and names ----
+  const assignments = ["=", "+=", "-=", "*=", "/=", "%="];
+  kinds.assign = { style: "names", statement: true, tip: "gives a name a value",
+    build: block => value(block, "VALUE", anything, "set", ["NAME", new NameField("name", ["variable", "parameter"])], ["SIGN", new ChoiceField("=", () => assignments)]),
+    makes: block => [["variable", text_of(block, "NAME")]],
+    print: (block, part) => `${text_of(block, "NAME")} ${text_of(block, "SIGN")} ${part("VALUE")}` };
+  kinds["assign element"] = { style: "names", statement: true, tip: word_row.array.summary,
+    build(block) {
+      value(block, "INDEX", anything, "set", ["NAME", new NameField("list", ["array"])], "[");
+      value(block, "VALUE", anything, "]", ["SIGN", new ChoiceField("=", () => assignments)]);
+    },
+    print: (block, part) => `${text_of(block, "NAME")}[${part("INDEX")}] ${text_of(block, "SIGN")} ${part("VALUE")}` };
+  kinds.const = { style: "names", statement: true, tip: word_row.const.summary,
+    build: block => value(block, "VALUE", anything, "const", ["NAME", new CheckedField("side", is_name)], "="),
+    makes: block => [["constant", text_of(block, "NAME")]],
+    print: (block, part) => `const ${text_of(block, "NAME")} = ${part("VALUE")}` };
+  kinds.array = { style: "names", statement: true, tip: word_row.array.summary,
+    build(block) { value(block, "VALUE", anything, "array", ["NAME", new CheckedField("list", is_name)], "["); row(block, "END", "]"); },
+    makes: block => [["array", text_of(block, "NAME")]],
+    print: (block, part) => `array ${text_of(block, "NAME")}[${part("VALUE")}]` };
+  const names_of = block => text_of(block, "NAMES").split(",").map(one => one.trim()).filter(Boolean);
+  kinds.local = { style: "names", statement: true, tip: word_row.local.summary,
+    build: block => row(block, "ROW", "local", ["NAMES", new CheckedField("n", text => list_of_names(text) && text.trim() !== "")]),
+    makes: block => names_of(block).map(name => ["variable", name]),
+    print: block => `local ${names_of(block).join(", ")}` };
+  for (const word of ["use", "include"]) kinds[word] = { style: "subs", statement: true, tip: word_row[word].summary,
+    build: block => row(block, "ROW", word, "“", ["TEXT", new CheckedField("", text => !/["\n\r]/.test(text))], "”"),
+    print: block => `${word} "${text_of(block, "TEXT")}"` };
+
+  // ---- print ----
+  kinds.print = { style: "print", statement: true, tip: word_row.print.summary,
+    build(block, { seps = ["", ""] }) {
+      const n = seps.length - 1;
+      row(block, "ROW", "print");
+      seps.forEach((sep, i) => {
+        // Between two items stands what may stand there; before the first and after the last only where it does.
+        const field = sep || (i > 0 && i < n) ? [[`SEP${i}`, new ChoiceField(sep, () => ["", ",", ";"], { look: sign => sign || "·" })]] : [];
+        if (i < n) value(block, `A${i}`, item, ...field);
+        else row(block, "LAST", ...field);
+      });
+      steps(block, { what: "values", more: memory => { memory.seps = [...signs(block, n), ""]; }, less: n > 0 && (memory => { memory.seps = signs(block, n).slice(0, -1); }) });
+    },
+    print(block, part, { seps = ["", ""] }) {
+      const n = seps.length - 1;
+      return numbers(n).reduce((text, i) => `${text}${sign_before(block, i)} ${part(`A${i}`)}`, "print") + (block.getFieldValue(`SEP${n}`) ?? "");
+    } };
+  const signs = (block, n) => numbers(n + 1).map(i => block.getFieldValue(`SEP${i}`) ?? "");
+  /** Without a sign two values that stand side by side could be read as one. */
+  const sign_before = (block, i) => {
+    const sign = block.getFieldValue(`SEP${i}`) ?? "";
+    if (sign || i === 0) return sign;
+    const before = block.getInputTargetBlock(`A${i - 1}`), after = block.getInputTargetBlock(`A${i}`);
+    const merges = before && after && before.type !== "string" && merge(print_value(before), print_value(after));
+    return merges ? ";" : "";
+  };
+
+  // ---- decide ----
+  const part_words = { elseif: "else if", else: "else" };
+  kinds.if = { style: "decide", statement: true, opens: 1, tip: word_row.if.summary,
+    build(block, { parts = [], note: has, end }) {
+      value(block, "COND", condition, "if");
+      row(block, "THEN", "then");
+      note(block, has);
+      body(block, "DO");
+      parts.forEach((part, i) => {
+        if (part.kind === "elseif") {
+          value(block, `COND${i}`, condition, "else if");
+          row(block, `THEN${i}`, "then");
+        } else row(block, `ELSE${i}`, "else");
+        note(block, part.note, i);
+        body(block, `DO${i}`);
+      });
+      note(block, end?.note, "E");
+      const has_else = parts.at(-1)?.kind === "else";
+      steps(block, { what: "branches",
+        more: memory => { memory.one_line = false; memory.parts = has_else ? [...parts.slice(0, -1), { kind: "elseif" }, parts.at(-1)] : [...parts, { kind: "else" }]; },
+        less: parts.length > 0 && (memory => { memory.parts = parts.slice(0, -1); }) });
+    },
+    print: (block, part) => `if ${part("COND")} then`,
+    part: (block, part, { kind }, i) => kind === "elseif" ? `elseif ${part(`COND${i}`)} then` : "else",
+    end: () => "end if" };
+  kinds.select = { style: "decide", statement: true, opens: 2, tip: word_row.select.summary,
+    build(block, { parts = [], note: has, end, before }) {
+      value(block, "VALUE", anything, "select");
+      note(block, has);
+      if (before) body(block, "DO");
+      else block.appendEndRowInput("BREAK");
+      parts.forEach((part, i) => {
+        if (part.kind === "else") row(block, `ELSE${i}`, "else");
+        else (part.values ?? [1]).forEach((n, j) => {
+          value(block, `C${i}_${j}`, anything, j === 0 ? "case" : ",");
+          if (n === 2) value(block, `C${i}_${j}T`, anything, "to");
+        });
+        note(block, part.note, i);
+        body(block, `DO${i}`);
+      });
+      note(block, end?.note, "E");
+      const has_else = parts.at(-1)?.kind === "else";
+      steps(block, { what: "cases",
+        more: memory => { memory.parts = has_else ? [...parts.slice(0, -1), { kind: "case" }, parts.at(-1)] : [...parts, { kind: parts.length ? "else" : "case" }]; },
+        less: parts.length > 1 && (memory => { memory.parts = parts.slice(0, -1); }) });
+    },
+    print: (block, part) => `select ${part("VALUE")}`,
+    part: (block, part, { kind, values = [1], words: own = "else" }, i) => kind === "else" ? own
+      : `case ${values.map((n, j) => part(`C${i}_${j}`) + (n === 2 ? ` to ${part(`C${i}_${j}T`)}` : "")).join(", ")}`,
+    end: () => "end select" };
+
+  // ---- repeat ----
+  const loop = (word, ends, head, print) => ({ style: "repeat", statement: true, opens: 1, tip: word_row[word].summary,
+    build(block, { note: has, end }) {
+      head(block);
+      note(block, has);
+      body(block, "DO");
+      if (ends === "until") value(block, "COND", condition, "until");
+      note(block, end?.note, "E");
+    },
+    print, end: (block, part) => ends === "until" ? `until ${part("COND")}` : ends });
+  kinds.loop = loop("loop", "end loop", block => row(block, "ROW", "loop forever"), () => "loop");
+  kinds.while = loop("while", "end while", block => value(block, "COND", condition, "while"), (block, part) => `while ${part("COND")}`);
+  kinds.repeat = loop("repeat", "until", block => row(block, "ROW", "repeat"), () => "repeat");
+  kinds["repeat times"] = loop("repeat", "end repeat", block => { value(block, "TIMES", anything, "repeat"); row(block, "END", "times"); }, (block, part) => `repeat ${part("TIMES")}`);
+  kinds.for = { style: "repeat", statement: true, opens: 1, tip: word_row.for.summary,
+    build(block, { step, note: has, end }) {
+      value(block, "FROM", anything, "for", ["NAME", new NameField("n", ["variable", "parameter"])], "=");
+      value(block, "TO", anything, "to");
+      if (step) value(block, "STEP", anything, "step");
+      note(block, has);
+      body(block, "DO");
+      note(block, end?.note, "E");
+    },
+    makes: block => [["variable", text_of(block, "NAME")]],
+    print: (block, part, { step }) => `for ${text_of(block, "NAME")} = ${part("FROM")} to ${part("TO")}${step ? ` step ${part("STEP")}` : ""}`,
+    end: (block, part, { bare }) => bare ? "next" : `next ${text_of(block, "NAME")}` };
+  kinds.exit = { style: "repeat", statement: true, tip: word_row.exit.summary, build: block => row(block, "ROW", "exit"), print: () => "exit" };
+  kinds.continue = { style: "repeat", statement: true, tip: word_row.continue.summary, build: block => row(block, "ROW", "continue"), print: () => "continue" };
+
+  // ---- subs ----
+  for (const word of ["sub", "function"]) kinds[word] = { style: "subs", tip: word_row[word].summary, opens: 1, routine: true,
+    build(block, { note: has, end, docs = 0 }) {
+      for (const i of numbers(docs)) row(block, `DOCS${i}`, [`DOC${i}`, new FieldTextInput("")]);
+      row(block, "ROW", word, ["NAME", new CheckedField(word === "sub" ? "leg" : "half", is_name)], "(", ["NAMES", new CheckedField("", list_of_names)], ")");
+      note(block, has);
+      body(block, "DO");
+      note(block, end?.note, "E");
+    },
+    makes: block => [[word, text_of(block, "NAME")], ...names_of(block).map(name => ["parameter", name])],
+    print: (block, part, { empty }) => `${word} ${text_of(block, "NAME")}${empty || names_of(block).length ? `(${names_of(block).join(", ")})` : ""}`,
+    end: () => `end ${word}` };
+  kinds["call sub"] = { style: "subs", statement: true, tip: word_row.sub.summary,
+    build(block, { n = 0 }) {
+      row(block, "ROW", "do", ["NAME", new NameField("leg", ["sub"])], ...n > 0 ? ["("] : []);
+      operands(block, n);
+      argument_steps(block, n);
+    },
+    print: (block, part, { n = 0, empty }) => `${text_of(block, "NAME")}${n || empty ? `(${numbers(n).map(i => part(`A${i}`)).join(", ")})` : ""}` };
+  kinds.return = { style: "subs", statement: true, tip: word_row.return.summary,
+    build: (block, { n = 0 }) => n ? value(block, "A0", anything, "return") : row(block, "ROW", "return"),
+    print: (block, part, { n = 0 }) => n ? `return ${part("A0")}` : "return" };
+  kinds.label = { style: "grey", statement: true, build: block => row(block, "ROW", ["NAME", new CheckedField("again", is_name)], ":"),
+    makes: block => [["label", text_of(block, "NAME")]], print: block => `${text_of(block, "NAME")}:` };
+  kinds.goto = { style: "grey", statement: true, tip: word_row.goto.summary, build: block => row(block, "ROW", "goto", ["NAME", new NameField("again", ["label"])]),
+    print: block => `goto ${text_of(block, "NAME")}` };
+
+  // ---- what is no statement ----
+  const long = field => Object.assign(field, { maxDisplayLength: 70 });
+  kinds.program = { style: "start", hat: true, tip: "What hangs below runs from top to bottom when the program starts.",
+    build: block => row(block, "ROW", "when the program starts"), print: () => "" };
+  kinds.comment = { style: "note", statement: true, tip: "a comment: for people, the robot does not see it",
+    build: block => row(block, "ROW", ["TEXT", long(new FieldTextInput("what this is for"))]),
+    print: (block, part, { sign = "' " }) => `${sign}${text_of(block, "TEXT")}`.trimEnd() };
+  kinds.text = { style: "grey", statement: true, tip: "There is no block for this, so it stands here as it is written.",
+    build(block, { lines = [""] }) {
+      lines.forEach((line, i) => row(block, `ROW${i}`, [`TEXT${i}`, long(new FieldTextInput(line.trim()))]));
+      block.setInputsInline(false);
+    },
+    lines: (block, { lines = [""] }) => lines.map((line, i) => text_of(block, `TEXT${i}`) === line.trim() ? { whole: line } : { text: text_of(block, `TEXT${i}`) }) };
+
+  // ---- blocks that change ----
+  function rebuild(block) {
+    for (const { name } of [...block.inputList]) block.removeInput(name);
+    block.build();
+  }
+  /** Another number of parts: what hangs in those that stay, stays there. */
+  function reshape(block, change) {
+    const before = block.saveExtraState() ?? {}, memory = structuredClone(before);
+    change(memory);
+    const moves = moves_of(before.parts ?? [], memory.parts ?? []);
+    Events.setGroup(true);
+    try {
+      const held = block.inputList.filter(({ connection }) => connection).map(({ name, connection }) =>
+        ({ name: moves(name), shadow: connection.getShadowState(true), target: connection.targetBlock()?.isShadow() ? null : connection.targetConnection }));
+      const texts = block.inputList.flatMap(({ fieldRow }) => fieldRow).filter(({ name }) => name).map(field => [moves(field.name), field.getValue()]);
+      block.memory = memory;
+      rebuild(block);
+      for (const [name, text] of texts) block.getField(name)?.setValue(text);
+      for (const { name, shadow, target } of held) {
+        const connection = block.getInput(name)?.connection;
+        if (!connection) continue;
+        if (shadow) connection.setShadowState(shadow);
+        if (target) connection.connect(target);
+      }
+      block.fill_empty();
+      Events.fire(new (Events.get(Events.BLOCK_CHANGE))(block, "mutation", null, JSON.stringify(before), JSON.stringify(memory)));
+    } finally {
+      Events.setGroup(false);
+    }
+  }
+  function shadow_for(block, input) {
+    if (block.type === "print") return { type: "string", fields: { TEXT: "" } };
+    if (block.getInput(input).connection.getCheck()?.includes("Place")) return { type: "name", fields: { TEXT: "n" } };
+    return { type: "number", fields: { TEXT: String(Math.max(block.ranges[input]?.least ?? 0, 0)) } };
+  }
+
+  // ---- what all of them do ----
+  const build = block => {
+    block.ranges = {};
+    block.kind.build(block, block.memory);
+    if (!block.kind.opens) note(block, block.memory.note);
+  };
+  const tip_of = ({ tip = "" }, block) => typeof tip === "function" ? tip(block) ?? "" : tip;
+  for (const [type, kind] of Object.entries(kinds))
+    Blockly.Blocks[type] = {
+      init() {
+        this.memory = {};
+        this.setStyle?.(`${kind.style}_blocks`);
+        this.setInputsInline(true);
+        build(this);
+        if (kind.output) this.setOutput(true, kind.output);
+        if (kind.statement) {
+          this.setPreviousStatement(true);
+          this.setNextStatement(true);
+        } else if (kind.hat) this.setNextStatement(true);
+        this.setTooltip(() => tip_of(kind, this));
+      },
+      saveExtraState() {
+        return Object.keys(this.memory).length ? structuredClone(this.memory) : null;
+      },
+      loadExtraState(state) {
+        this.memory = structuredClone(state);
+        rebuild(this);
+      },
+      build() {
+        build(this);
+      },
+      /** Each value has one, so that what is written is a program. */
+      fill_empty() {
+        for (const { name, connection, type } of this.inputList)
+          if (type === inputTypes.VALUE && !connection.targetBlock() && !connection.getShadowState()) connection.setShadowState(shadow_for(this, name));
+      },
+      makes() {
+        return kind.makes?.(this, this.memory) ?? [];
+      },
+      kind,
+    };
+  return kinds;
+}
+
+/** `(a) (b)` are two values, `a (b)` is a call, `a -b` a difference. */
+const merge = (before, after) => /^[-[]/.test(after) || (after.startsWith("(") && !before.endsWith(")"));
+
+/** Where the inputs of part `i` go: a last `else` stays the last. */
+function moves_of(before, after) {
+  const last = before.length - 1;
+  if (before.at(-1)?.kind !== "else" || after.length <= before.length) return name => name;
+  return name => name.replace(/^(DO|ELSE|NOTE|NOTES)(\d+)$/, (whole, word, i) => Number(i) === last ? `${word}${after.length - 1}` : whole);
+}
+const describe = row => !row ? "" : `${row.summary} (${row.least} to ${row.greatest}${row.unit ? ` ${row.unit}` : ""})`;
+
+// ---- what a block writes ----
+
+/** A value as it stands where parts must hold together by `least`. */
+export function print_value(block, least = levels.any) {
+  const groups = (hold_of(block).own < least ? 1 : 0) + (block.memory.groups ?? 0);
+  return "(".repeat(groups) + block.kind.print(block, part_of(block), block.memory) + ")".repeat(groups);
+}
+const hold_of = block => hold(block.type, block.getFieldValue("TEXT") ?? "");
+/** What prints the values in a block's inputs. */
+export const part_of = block => input => {
+  const found = block.getInputTargetBlock(input);
+  if (!found) return block.type === "print" ? '""' : "0";
+  return print_value(found, hold_of(block).parts[Number(input.slice(1))]);
+};
