@@ -1,7 +1,7 @@
 // The editor: CodeMirror, and the language server of `orb lsp` in a worker behind it.
 
 import { closeBrackets, closeBracketsKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, isolateHistory, redo, undo } from "@codemirror/commands";
 import { bracketMatching } from "@codemirror/language";
 import { EditorView, Decoration, ViewPlugin, drawSelection, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers } from "@codemirror/view";
 import { EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
@@ -209,6 +209,22 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     forget(name) { states.delete(name); if (shown === name) shown = ""; },
     /** Puts another text in, as one step that can be undone. */
     replace(text) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }); },
+    /** The same of what differs; one step for each unless somebody is `typing` it. */
+    put(text, typing) {
+      const { doc } = view.state, old = doc.toString();
+      if (text === old) return;
+      let from = 0, to = old.length, end = text.length;
+      while (from < to && from < end && old[from] === text[from]) ++from;
+      while (to > from && end > from && old[to - 1] === text[end - 1]) --to, --end;
+      view.dispatch({ changes: { from, to, insert: text.slice(from, end) }, userEvent: typing ? "input.type" : "input.blocks", annotations: typing ? [] : isolateHistory.of("full") });
+    },
+    undo: () => undo(view),
+    redo: () => redo(view),
+    /** It was hidden; what stands in `line` is what somebody is looking at. */
+    shown_again(line) {
+      view.requestMeasure();
+      if (line) this.go_to(line);
+    },
     focus: () => view.focus(),
     format: () => formatDocument(view),
     run_line(line) {

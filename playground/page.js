@@ -5,6 +5,7 @@ import { Client } from "./client.js";
 import { make_editor } from "./editor.js";
 import { Ball } from "./page/ball.js";
 import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from "./page/task.js";
+import { set_up_blocks } from "./page/blocks/toggle.js";
 import { Verdicts } from "./page/verdicts.js";
 import { $, element, button, say, download, with_code } from "./page/dom.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
@@ -40,19 +41,34 @@ const nonce = "orb-editor"; // of the policy in page.html: the editor makes its 
 
 const player = orb_player({
   keys: $("player"),
-  on_moment: places => editor?.run_line(places.find(({ name }) => name === workspace.active)?.line ?? 0),
+  on_moment(places) {
+    const line = places.find(({ name }) => name === workspace.active)?.line ?? 0;
+    editor?.run_line(line);
+    blocks?.run_line(line);
+  },
 });
-let editor = null;
+let editor = null, blocks = null;
 editor = make_editor({
   parent: $("editor"), nonce, language, say,
   files: () => workspace.files,
   on_change(name, text) {
     workspace.files[name] = text;
+    if (name === workspace.active) blocks.changed(text);
     steps.changed();
     keep_soon();
   },
-  on_findings: (name, list) => show_findings(list),
+  on_findings(name, list) {
+    show_findings(list);
+    blocks?.findings(list);
+  },
 });
+blocks = set_up_blocks({ nonce, language, editor, editor_pane: $("editor"), before: $("new-file"),
+  active: () => ({ name: workspace.active, text: workspace.files[workspace.active] ?? "" }),
+  add_file(name, text) {
+    while (Object.hasOwn(workspace.files, name)) name = name.replace(/(\d*)\.orb$/, (_, n) => `${Number(n || 1) + 1}.orb`);
+    workspace.files[name] = text;
+    show_file(name);
+  } });
 
 // ---- the engines: one that does not answer is named ----
 function show_trouble(id, words) {
@@ -123,7 +139,7 @@ function show_findings(list) {
   $("findings").replaceChildren(...ordered.slice(0, 100).map(one => {
     const [first, ...more] = one.message.split("\n");
     const item = element("li", { class: one.severity, "data-rule": one.source });
-    item.append(button(`line ${one.line}`, () => editor.select(one), { class: "link" }),
+    item.append(button(`line ${one.line}`, () => blocks.go_to(one.line) || editor.select(one), { class: "link" }),
       element("span", {}, element("span", { class: "severity" }, `${one.severity}: `), ...with_code(first), ...more.length ? [element("span", { class: "hint" }, " ", ...with_code(more.join(" ")))] : []));
     for (const action of one.actions) item.append(button(action.name.replaceAll("`", ""), () => editor.apply(action), { class: "fix" }));
     return item;
@@ -144,7 +160,7 @@ function show_mistakes(document) {
 function go_to(name, line) {
   if (Object.hasOwn(workspace.files, name)) show_file(name);
   show_view("work");
-  editor.go_to(line);
+  blocks.go_to(line) || editor.go_to(line);
 }
 
 // ---- files ----
@@ -186,6 +202,7 @@ function show_file(name) {
   if (course) $("course-picture").src = pictured = URL.createObjectURL(new Blob([workspace.files[name]], { type: "image/svg+xml" }));
   $("course-picture").alt = course ? `the course ${name}` : "";
   editor.show(name, workspace.files[name]);
+  blocks.open();
   keep_soon();
 }
 function open_workspace(next) {

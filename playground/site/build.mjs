@@ -41,8 +41,13 @@ const parts = Object.fromEntries(Object.entries(page.metafile.outputs).map(([pat
 const at_once = new Set(["page.js"]);
 for (const name of at_once) for (const one of parts[name]) at_once.add(one); // a set goes on to what is added
 const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => !at_once.has(name))]);
-const minified = (await esbuild.transform(`${read("report/page.css")}\n${read("playground/page.css")}`, { loader: "css", minify: true })).code;
-writeFileSync(join(out, "page.css"), minified);
+const styled = (...paths) => esbuild.transformSync(paths.map(read).join("\n"), { loader: "css", minify: true }).code;
+writeFileSync(join(out, "page.css"), styled("report/page.css", "playground/page.css", "playground/page/blocks/toggle.css"));
+writeFileSync(join(out, "blocks.css"), styled("playground/page/blocks/blocks.css"));
+// The pointers and marks of Blockly; it makes no sounds here.
+mkdirSync(join(out, "blocks"), { recursive: true });
+const media = join(root, "playground/node_modules/blockly/media");
+for (const name of readdirSync(media)) if (!name.endsWith(".mp3")) copyFileSync(join(media, name), join(out, "blocks", name));
 
 /** The parts of the report's page that show a run, where the page has their names. */
 function composed() {
@@ -82,6 +87,7 @@ files.sort();
 const hash = createHash("sha256");
 for (const path of files) hash.update(relative(out, path)).update("\0").update(readFileSync(path));
 const names = files.map(path => relative(out, path));
+const comes_later = name => on_demand.has(name) || /^blocks[./]/.test(name);
 const json = list => JSON.stringify(list);
 writeFileSync(join(out, "sw.js"), read("playground/sw.js").replace("/*{hash}*/", hash.digest("hex").slice(0, 16))
-  .replace("/*{core}*/[]", json(names.filter(name => !on_demand.has(name)))).replace("/*{on_demand}*/[]", json(names.filter(name => on_demand.has(name)))));
+  .replace("/*{core}*/[]", json(names.filter(name => !comes_later(name)))).replace("/*{on_demand}*/[]", json(names.filter(comes_later))));

@@ -65,6 +65,12 @@ def sheet(page):
     page.evaluate(pause(300))
 
 
+def blocks(page):
+    page.evaluate(click("as-blocks"))
+    page.wait("document.querySelectorAll('#blocks .blocklySvg .blocklyBlockCanvas .blocklyText').length > 10", 60)
+    page.evaluate(pause(600))
+
+
 def on_phone(page):
     instant(page)
     play(page)
@@ -80,6 +86,7 @@ pictures = {
     "dark": ("#example=hall.orb", 1366, 768, "dark", instant),
     "phone": ("#lesson=lessons/03-square", 390, 844, "light", lambda page: page.wait(f"!{by_id('task')}.hidden")),
     "phone-dark": ("#example=star.orb", 390, 844, "dark", on_phone),
+    "blocks": ("#example=dance.orb", 1366, 768, "light", blocks),
     "share": ("#example=spiral.orb", 1366, 768, "light", shared),
     "sheet": ("#lesson=lessons/03-square", 794, 1123, "light", sheet),
 }

@@ -1,0 +1,133 @@
+// Blocks or text: the switch beside the files, and what stands in the editor's place while blocks are shown.
+
+import { element, button } from "../dom.js";
+
+const store = "orb-playground-blocks";
+const remembered = () => { try { return localStorage.getItem(store) === "blocks"; } catch { return false; } };
+const remember = blocks => { try { localStorage.setItem(store, blocks ? "blocks" : "text"); } catch { /* not allowed: for this visit only */ } };
+
+/** `editor`: of the page; `active()`: the name and the text that are open; `add_file(name, text)`. */
+export function set_up_blocks({ nonce, language, editor, active, add_file, editor_pane, before }) {
+  let wanted = remembered(), view = null, loading = null;
+  let shown = ""; // the name of the file whose blocks are shown
+  let own_text = null; // what the blocks have written last
+  let asked = 0, last_findings = [];
+
+  const choice = (words, blocks) => button(words, () => choose(blocks), { id: blocks ? "as-blocks" : "as-text", "aria-pressed": "false" });
+  const switches = element("div", { class: "row forms", role: "group", "aria-label": "Show the program as" }, choice("Blocks", true), choice("Text", false));
+  before.before(switches);
+  const canvas = element("div", { id: "blocks-canvas", class: "blocks-canvas" });
+  const zooms = element("div", { class: "blocks-zoom", role: "group", "aria-label": "Size of the blocks" }, button("−", () => view?.zoom(-1), { "aria-label": "Smaller" }), button("+", () => view?.zoom(1), { "aria-label": "Larger" }));
+  const words = element("div", { class: "blocks-words", hidden: true });
+  const pane = element("div", { id: "blocks", class: "blocks", role: "tabpanel", "aria-label": "Program as blocks", hidden: true }, canvas, zooms, words);
+  editor_pane.after(pane);
+
+  const is_structured = name => name.endsWith(".orb");
+  const has_blocks = name => is_structured(name) || name.endsWith(".bas");
+  function show_switch() {
+    const { name } = active();
+    switches.hidden = !has_blocks(name);
+    const blocks = wanted && has_blocks(name);
+    for (const one of switches.children) one.setAttribute("aria-pressed", String((one.id === "as-blocks") === blocks));
+    pane.hidden = !blocks;
+    editor_pane.hidden = blocks;
+    return blocks;
+  }
+  /** Says in the place of the blocks why there are none. */
+  function explain(...parts) {
+    shown = "";
+    words.replaceChildren(...parts);
+    words.hidden = false;
+    canvas.hidden = zooms.hidden = true;
+  }
+  async function load() {
+    document.head.append(element("link", { rel: "stylesheet", href: new URL("./blocks.css", import.meta.url).href }));
+    const [{ make_blocks, most_rows }, vocabulary] = await Promise.all([import("./view.js"), language.call("words")]);
+    words.hidden = true;
+    canvas.hidden = zooms.hidden = false;
+    view = make_blocks({ parent: canvas, nonce, words: vocabulary, narrow: matchMedia("(max-width: 860px)").matches,
+      on_text(text, typed) {
+        own_text = text;
+        editor.put(text, typed);
+      } });
+    view.most_rows = most_rows;
+    new ResizeObserver(() => { if (!pane.hidden) view.resize(); }).observe(canvas);
+  }
+  async function show({ fresh }) {
+    if (!show_switch()) {
+      shown = "";
+      return;
+    }
+    const { name, text } = active(), question = ++asked;
+    if (!is_structured(name)) {
+      explain(element("p", {}, "Blocks show structured programs. This one has line numbers, and jumps from line to line, for which there are no blocks."),
+        element("p", {}, button("Make a structured program of it", lift, { class: "strong", id: "lift" }), " in a file of its own; this one stays as it is."));
+      return;
+    }
+    try {
+      if (!view) {
+        explain(element("p", {}, "The blocks are being loaded…"));
+        await (loading ??= load());
+      }
+      const { rows } = await language.call("tree", { files: { [name]: text } });
+      if (question !== asked) return; // it has changed meanwhile
+      if (rows.length > view.most_rows) return explain(element("p", {}, `This program has ${rows.length} lines, which is too much for blocks. It is under Text.`));
+      words.hidden = true;
+      canvas.hidden = zooms.hidden = false;
+      view.resize();
+      view.show(text, rows, { fresh: fresh || shown !== name });
+      shown = name;
+      own_text = text;
+      view.findings(last_findings);
+    } catch (error) {
+      loading = view ? loading : null;
+      if (question === asked) explain(element("p", {}, `The blocks cannot be shown: ${error.message}. The program is under Text.`));
+    }
+  }
+  async function lift() {
+    const { name, text } = active();
+    try {
+      const { text: lifted } = await language.call("lift", { files: { [name]: text } });
+      add_file(name.replace(/\.bas$/, ".orb"), lifted);
+    } catch (error) {
+      explain(element("p", {}, error.findings ? "It has mistakes, which are listed below. Mend them under Text first." : `It cannot be made into one: ${error.message}.`));
+    }
+  }
+  function choose(blocks) {
+    if (blocks === wanted && blocks === !pane.hidden) return;
+    const line = !blocks && shown ? view.chosen_line() : 0;
+    wanted = blocks;
+    remember(blocks);
+    show({ fresh: true });
+    if (!blocks) editor.shown_again(line);
+  }
+  // The keys of the text's history work on the text.
+  pane.addEventListener("keydown", event => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.target.closest("input, textarea")) return;
+    const key = event.key.toLowerCase();
+    const deed = key === "z" && !event.shiftKey ? editor.undo : key === "y" || key === "z" ? editor.redo : null;
+    if (!deed) return;
+    event.preventDefault();
+    event.stopPropagation();
+    deed();
+  }, { capture: true });
+  show_switch();
+
+  return {
+    /** Another file is open. */
+    open() { own_text = null; show({ fresh: true }); },
+    changed(text) { if (!pane.hidden && text !== own_text) show({ fresh: false }); },
+    findings(list) {
+      last_findings = list ?? [];
+      if (list && shown && !pane.hidden) view.findings(list);
+    },
+    run_line(line) { if (shown && !pane.hidden) view.run_line(line); },
+    /** Whether it has gone there itself. */
+    go_to(line) {
+      if (!shown || pane.hidden) return false;
+      view.go_to(line);
+      return true;
+    },
+    view: () => view,
+  };
+}

@@ -1,0 +1,194 @@
+// The blocks of a program on the page: Blockly, loaded when somebody asks for blocks. They are a view of the text: what
+// is changed here is written there at once, and what is changed there is shown here.
+
+import * as Blockly from "blockly/core";
+import * as messages from "blockly/msg/en";
+import { define_blocks } from "./kinds.js";
+import { names_in } from "./fields.js";
+import { load_rows } from "./rows.js";
+import { write } from "./write.js";
+import { theme_of } from "./look.js";
+import { drawers, toolbox_of } from "./toolbox.js";
+
+export { most_rows } from "./rows.js";
+
+Blockly.setLocale(messages);
+// The page's own history is that of the text.
+for (const name of ["undo", "redo"]) Blockly.ShortcutRegistry.registry.unregister(name);
+
+/** Style sheets that are made meanwhile carry the nonce of the page's policy. */
+function with_nonce(nonce, deed) {
+  const create = document.createElement;
+  document.createElement = function (name, ...more) {
+    const made = create.call(this, name, ...more);
+    if (name === "style") made.nonce = nonce;
+    return made;
+  };
+  try {
+    return deed();
+  } finally {
+    document.createElement = create;
+  }
+}
+
+const gap = 40;
+
+/** `on_text(text, typed)`: the blocks say something else now; `typed`: somebody is still typing. */
+export function make_blocks({ parent, nonce, words, narrow, on_text }) {
+  define_blocks(Blockly, words);
+  let places = new Map(); // of lines of the text: the blocks that stand for them
+  let loading = false, written = null, planned = false;
+  const moved = new Set(); // subs that somebody has put somewhere else
+  const routines = () => workspace.getTopBlocks(true).filter(({ kind }) => kind.routine).map(block => ({ type: block.type, name: block.getFieldValue("NAME"),
+    parameters: block.makes().filter(([kind]) => kind === "parameter") }));
+  const list = drawers(words, { made: of => names_in(workspace, of), routines: () => routines(), labels: !narrow });
+  const workspace = with_nonce(nonce, () => Blockly.inject(parent, {
+    renderer: "zelos", theme: theme_of(Blockly, document.documentElement), toolbox: toolbox_of(list), horizontalLayout: narrow,
+    media: new URL("./blocks/", import.meta.url).href, sounds: false, trashcan: false, comments: false, collapse: false, disable: false,
+    move: { scrollbars: true, drag: true, wheel: true }, zoom: { controls: false, wheel: false, pinch: true, startScale: narrow ? .62 : .7, minScale: .3, maxScale: 2 },
+  }));
+  workspace.MAX_UNDO = 0;
+  for (const [name, , contents] of list)
+    if (typeof contents === "function") workspace.registerToolboxCategoryCallback(name, contents);
+
+  const is_part = block => block.type === "program" || block.kind.routine;
+  /** Blocks that hang nowhere are no part of the program, and look like it. */
+  function mark_loose() {
+    for (const top of workspace.getTopBlocks(false)) {
+      const loose = !is_part(top);
+      for (const block of top.getDescendants(false)) if (block.hasDisabledReason("loose") !== (loose && block === top)) block.setDisabledReason(loose && block === top, "loose");
+    }
+  }
+  function without_events(deed) {
+    Blockly.Events.disable();
+    try { return deed(); } finally { Blockly.Events.enable(); }
+  }
+  function say_text(typed) {
+    planned = false;
+    if (workspace.isDragging()) return;
+    without_events(() => {
+      for (const block of workspace.getAllBlocks(false)) block.fill_empty();
+      mark_loose();
+    });
+    const { text, ids } = write(workspace);
+    places = new Map(ids.map((id, i) => [i + 1, id]));
+    if (text === written) return;
+    written = text;
+    on_text(text, typed);
+  }
+  workspace.addChangeListener(event => {
+    if (loading || (event.isUiEvent && event.type !== Blockly.Events.BLOCK_DRAG) || event.type === Blockly.Events.FINISHED_LOADING) return;
+    if (event.type === Blockly.Events.BLOCK_DRAG) {
+      if (event.isStart) return;
+      const block = workspace.getBlockById(event.blockId);
+      if (block?.kind.routine) moved.add(key_of(block));
+    }
+    if (planned) return;
+    planned = true;
+    queueMicrotask(() => say_text(event.type === Blockly.Events.BLOCK_FIELD_INTERMEDIATE_CHANGE));
+  });
+
+  /** The main program first, the subs beside it, or below where there is no room. */
+  function lay_out(kept) {
+    const scale = workspace.scale, wide = workspace.getMetrics().viewWidth / scale > 900;
+    const program = workspace.getBlockById("program");
+    program.moveTo(new Blockly.utils.Coordinate(20, 20));
+    const { width, height } = program.getHeightWidth();
+    let x = wide ? 20 + width + gap : 20, y = wide ? 20 : 20 + height + gap, widest = 0;
+    for (const block of workspace.getTopBlocks(false)) {
+      if (block === program) continue;
+      const place = kept.get(key_of(block));
+      if (place) {
+        block.moveTo(place);
+        continue;
+      }
+      const size = block.getHeightWidth();
+      block.moveTo(new Blockly.utils.Coordinate(x, y));
+      y += size.height + gap;
+      widest = Math.max(widest, size.width);
+      if (wide && y > 1200) {
+        x += widest + gap;
+        y = 20;
+      }
+    }
+  }
+  const key_of = block => block.kind.routine ? block.getFieldValue("NAME").toLowerCase() : block.id;
+
+  let marked = null; // the block that runs
+  const look = () => workspace.setTheme(theme_of(Blockly, document.documentElement));
+  const observer = new MutationObserver(look);
+  observer.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", look);
+
+  const shown = new Map(); // the findings that blocks show
+  return {
+    /** Shows the rows of a text. What hangs nowhere stays, and who moved a sub finds it there. */
+    show(text, rows, { fresh }) {
+      const view = fresh ? null : { x: workspace.scrollX, y: workspace.scrollY };
+      const tops = fresh ? [] : workspace.getTopBlocks(false);
+      const loose = tops.filter(block => !is_part(block)).map(block => Blockly.serialization.blocks.save(block, { addCoordinates: true }));
+      const kept = new Map(tops.filter(block => moved.has(key_of(block)) || !is_part(block)).map(block => [key_of(block), block.getRelativeToSurfaceXY()]));
+      Blockly.hideChaff();
+      loading = true;
+      marked = null;
+      shown.clear();
+      try {
+        without_events(() => {
+          workspace.clear();
+          places = load_rows(Blockly, workspace, rows);
+          for (const state of loose) Blockly.serialization.blocks.append(state, workspace);
+          mark_loose();
+        });
+        Blockly.renderManagement.triggerQueuedRenders(workspace);
+        without_events(() => lay_out(kept));
+        written = write(workspace).text;
+        if (written !== text) written = null; // the first change lays the text out
+        if (view) workspace.scroll(view.x, view.y);
+        else workspace.scroll(narrow ? 4 : 10, 10);
+      } finally {
+        loading = false;
+      }
+    },
+    findings(list) {
+      const now = new Map();
+      for (const { line, message, severity } of list) {
+        const id = places.get(line);
+        if (!id || severity === "hint") continue;
+        now.set(id, [...now.get(id) ?? [], message.split("\n")[0].replaceAll("`", "")]);
+      }
+      without_events(() => {
+        for (const id of new Set([...shown.keys(), ...now.keys()])) {
+          const words = now.get(id)?.join("\n") ?? null;
+          if (words === (shown.get(id) ?? null)) continue;
+          workspace.getBlockById(id)?.setWarningText(words);
+          if (words) shown.set(id, words);
+          else shown.delete(id);
+        }
+      });
+    },
+    run_line(line) {
+      const block = workspace.getBlockById(places.get(line) ?? "");
+      if (block === marked) return;
+      marked?.getSvgRoot()?.classList.remove("orb-runs");
+      block?.getSvgRoot().classList.add("orb-runs");
+      marked = block;
+    },
+    go_to(line) {
+      const id = places.get(line);
+      const block = id && workspace.getBlockById(id);
+      if (!block) return;
+      workspace.centerOnBlock(id);
+      Blockly.getFocusManager().focusNode(block);
+    },
+    /** The line of the block that is chosen; 0 for none. */
+    chosen_line() {
+      let block = Blockly.getSelected();
+      while (block && ![...places.values()].includes(block.id)) block = block.getParent?.();
+      return block ? [...places].find(([, id]) => id === block.id)[0] : 0;
+    },
+    zoom: step => workspace.zoomCenter(step),
+    resize: () => Blockly.svgResize(workspace),
+    workspace: () => workspace,
+    Blockly: () => Blockly,
+  };
+}
