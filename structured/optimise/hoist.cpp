@@ -189,7 +189,7 @@ private:
     const auto calls = std::count_if(code_.lines.begin(), code_.lines.end(), [&](const auto& line) {
       return line.kind == LineKind::Gosub && line.variable == routine;
     });
-    if (entry == none || named_[code_.routines[routine]] != calls)
+    if (entry == none || std::int64_t{named_[code_.routines[routine]]} != calls)
       return false;
     const auto live = read_liveness(code_, flow).in[flow.entries[routine]];
     for (auto i = entry; i < code_.lines.size(); ++i) {
