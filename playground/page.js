@@ -7,33 +7,20 @@ import { Ball } from "./page/ball.js";
 import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from "./page/task.js";
 import { set_up_blocks } from "./page/blocks/toggle.js";
 import { Verdicts } from "./page/verdicts.js";
-import { $, element, button, say, download, with_code } from "./page/dom.js";
+import { $, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
+import { watch_engines } from "./page/engines.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
 import { set_up_mine } from "./page/mine.js";
+import { address_of, set_up_share } from "./page/share.js";
 import { fill_sheet } from "./page/sheet.js";
 import { first_steps, welcome } from "./page/steps.js";
 import { Store, new_id } from "./page/store.js";
 import { set_up_world } from "./page/world.js";
-import { AddressError, checked, empty, from_fragment, keep, kept, kind_of, limit_words, limits, name_trouble, program_of, tests_of, to_fragment, ending_of, kinds } from "./page/workspace.js";
+import { AddressError, checked, empty, from_fragment, keep, kept, kind_of, limit_words, limits, name_trouble, program_of, tests_of, ending_of, kinds } from "./page/workspace.js";
 
 // One worker answers while somebody types; the other runs programs and is ended with them.
 const worker_url = new URL("./worker.js", import.meta.url);
 const language = new Client(worker_url), machine = new Client(worker_url);
-
-/** What few visits need is loaded when somebody asks for it, once. */
-function on_demand(load) {
-  let loaded = null;
-  return async deed => {
-    let part;
-    try {
-      part = await (loaded ??= load());
-    } catch {
-      loaded = null;
-      return say("This part of the page could not be loaded. Is there a network? Load the page again.", "bad");
-    }
-    return deed(part);
-  };
-}
 
 let workspace = empty();
 window.addEventListener("beforeprint", () => fill_sheet(workspace));
@@ -70,33 +57,7 @@ blocks = set_up_blocks({ nonce, language, editor, editor_pane: $("editor"), befo
     show_file(name);
   } });
 
-// ---- the engines: one that does not answer is named ----
-function show_trouble(id, words) {
-  $(id).firstElementChild.textContent = words;
-  $(id).hidden = !words;
-}
-const broken = new Set();
-for (const client of [language, machine]) {
-  let lives = 3; // one that has run, and ends, is begun again
-  let has_run = false;
-  client.on("broken", ({ message }) => {
-    if (client === machine) ball.give_up();
-    if (has_run && lives-- > 0) return client.restart();
-    broken.add(client);
-    show_trouble("engine", `The engine of orb does not run: ${message}. Nothing can be checked or run until it does.`);
-    if (client === language) $("count").textContent = "not checked";
-  });
-  client.on("late", () => show_trouble("engine", "The engine of orb is still being loaded. On a slow network that takes a while."));
-  client.on("ready", () => {
-    has_run = true;
-    broken.delete(client);
-    if (!broken.size) show_trouble("engine", "");
-  });
-}
-$("engine-again").addEventListener("click", () => {
-  show_trouble("engine", "");
-  for (const client of [language, machine]) client.restart();
-});
+const engines = watch_engines({ language, machine, on_machine_gone: () => ball.give_up() });
 
 // ---- what is written is kept ----
 const store = new Store(words => show_trouble("storage", words));
@@ -131,7 +92,7 @@ window.addEventListener("pagehide", () => { if (keeping) keep_now(); }); // a ta
 function show_findings(list) {
   if (!list) {
     $("findings").replaceChildren();
-    $("count").textContent = broken.has(language) ? "not checked" : "checking…";
+    $("count").textContent = engines.checks() ? "checking…" : "not checked";
     $("count").className = "";
     return;
   }
@@ -361,33 +322,7 @@ document.addEventListener("drop", event => {
 });
 
 // ---- sharing ----
-const address_of = async what => `${location.origin === "null" ? "file://" : location.origin}${location.pathname}#${await to_fragment(what)}`;
-async function share() {
-  try {
-    const link = await address_of({ ...workspace, name: "" });
-    $("share-link").value = link;
-    $("share-dialog").showModal();
-    $("share-link").select();
-    show_code(link);
-  } catch (error) {
-    say(error instanceof AddressError ? error.message : `No address can be made: ${error.message}`, "bad");
-  }
-}
-$("share").addEventListener("click", share);
-/** The address for a telephone's camera, where it is short enough for one. */
-function show_code(link) {
-  const most = 2331; // bytes in the largest code with its damage repaired to a seventh
-  $("share-code").hidden = link.length > most;
-  $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code; the address holds it." : "";
-  if (link.length <= most) with_codes(({ renderSVG }) => { $("share-code").innerHTML = renderSVG(link, { ecc: "M", border: 2 }); });
-}
-const with_codes = on_demand(() => import("uqr"));
-$("share-copy").addEventListener("click", async () => {
-  $("share-link").select();
-  try { await navigator.clipboard.writeText($("share-link").value); } catch { document.execCommand("copy"); }
-  $("share-copy").textContent = "Copied";
-  setTimeout(() => { $("share-copy").textContent = "Copy"; }, 1500);
-});
+const share = set_up_share({ workspace: () => workspace });
 /** Takes what the address holds, and then takes it off the address: what is written from now on is not in it. */
 async function take_address(hash) {
   const named = /^#(?:lesson|example)=(.*)$/.exec(hash);

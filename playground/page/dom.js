@@ -21,6 +21,27 @@ export function say(words, look = "") {
   $("status").className = look;
 }
 
+/** What few visits need is loaded when somebody asks for it, once. */
+export function on_demand(load) {
+  let loaded = null;
+  return async deed => {
+    let part;
+    try {
+      part = await (loaded ??= load());
+    } catch {
+      loaded = null;
+      return say("This part of the page could not be loaded. Is there a network? Load the page again.", "bad");
+    }
+    return deed(part);
+  };
+}
+
+/** A bar over the page that stays until it is no longer so. */
+export function show_trouble(id, words) {
+  $(id).firstElementChild.textContent = words;
+  $(id).hidden = !words;
+}
+
 let announced = 0, unsaid = "";
 /** Says it to screen readers, what comes quickly in one piece. */
 export function announce(words) {

@@ -1,0 +1,31 @@
+// The engines of the page: one that does not answer is named, and can be tried again.
+
+import { $, show_trouble } from "./dom.js";
+
+/** `language` checks while somebody types, `machine` runs; `on_machine_gone()` is called where the second has ended.
+ *  Gives `checks()`: whether the first runs, as far as is known. */
+export function watch_engines({ language, machine, on_machine_gone }) {
+  const broken = new Set();
+  for (const client of [language, machine]) {
+    let lives = 3; // one that has run, and ends, is begun again
+    let has_run = false;
+    client.on("broken", ({ message }) => {
+      if (client === machine) on_machine_gone();
+      if (has_run && lives-- > 0) return client.restart();
+      broken.add(client);
+      show_trouble("engine", `The engine of orb does not run: ${message}. Nothing can be checked or run until it does.`);
+      if (client === language) $("count").textContent = "not checked";
+    });
+    client.on("late", () => show_trouble("engine", "The engine of orb is still being loaded. On a slow network that takes a while."));
+    client.on("ready", () => {
+      has_run = true;
+      broken.delete(client);
+      if (!broken.size) show_trouble("engine", "");
+    });
+  }
+  $("engine-again").addEventListener("click", () => {
+    show_trouble("engine", "");
+    for (const client of [language, machine]) client.restart();
+  });
+  return { checks: () => !broken.has(language) };
+}

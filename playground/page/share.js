@@ -1,0 +1,38 @@
+// The address that holds a program, to be copied, or taken by a telephone's camera.
+
+import { $, on_demand, say } from "./dom.js";
+import { AddressError, to_fragment } from "./workspace.js";
+
+export const address_of = async what => `${location.origin === "null" ? "file://" : location.origin}${location.pathname}#${await to_fragment(what)}`;
+const with_codes = on_demand(() => import("uqr"));
+
+/** The address as a picture, where it is short enough for one. */
+function show_code(link) {
+  const most = 2331; // bytes in the largest code with its damage repaired to a seventh
+  $("share-code").hidden = link.length > most;
+  $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code; the address holds it." : "";
+  if (link.length <= most) with_codes(({ renderSVG }) => { $("share-code").innerHTML = renderSVG(link, { ecc: "M", border: 2 }); });
+}
+
+/** Gives what shows the address of the workspace. */
+export function set_up_share({ workspace }) {
+  async function share() {
+    try {
+      const link = await address_of({ ...workspace(), name: "" });
+      $("share-link").value = link;
+      $("share-dialog").showModal();
+      $("share-link").select();
+      show_code(link);
+    } catch (error) {
+      say(error instanceof AddressError ? error.message : `No address can be made: ${error.message}`, "bad");
+    }
+  }
+  $("share").addEventListener("click", share);
+  $("share-copy").addEventListener("click", async () => {
+    $("share-link").select();
+    try { await navigator.clipboard.writeText($("share-link").value); } catch { document.execCommand("copy"); }
+    $("share-copy").textContent = "Copied";
+    setTimeout(() => { $("share-copy").textContent = "Copy"; }, 1500);
+  });
+  return share;
+}
