@@ -23,6 +23,7 @@ class Items extends Map {
 }
 const registered = { commands: {}, factories: {}, providers: {}, profiles: [], ended: [] };
 let controller;
+let orbPath = orb;
 const editor = {
   Uri,
   Position: class { constructor(line, character) { Object.assign(this, { line, character }); } },
@@ -37,7 +38,7 @@ const editor = {
   TaskRevealKind: { Always: 1 },
   TestRunProfileKind: { Run: 1, Debug: 2 },
   workspace: {
-    getConfiguration: () => ({ get: (name) => ({ path: orb, target: '1.5' })[name] }),
+    getConfiguration: () => ({ get: (name) => ({ path: orbPath, target: '1.5' })[name] }),
     textDocuments: [],
     findFiles: async () => [new Uri(path.join(work, 'dice.test'))],
     fs: { readFile: async (uri) => fs.readFileSync(uri.fsPath) },
@@ -107,6 +108,34 @@ function checkManifest() {
     ['a.bas', '3', '4', 'error']);
 }
 
+// ---- where the program is, as Windows has it and as Linux does
+
+function checkFind() {
+  const { find } = require(path.resolve(folder, 'find.js'));
+  const on = (platform, PATH, files) => (name) => find(name, { platform, env: { PATH }, isFile: (file) => files.includes(file) });
+  const unzipped = 'C:\\Users\\Jörg\\my robots\\orb.exe';
+  const windows = on('win32', 'C:\\Windows;.;"C:\\Users\\Jörg\\my robots"', ['orb.exe', '.\\orb.exe', unzipped, 'D:\\orb\\orb.exe']);
+  assert.strictEqual(windows('orb'), unzipped, 'never the one in the folder that is open');
+  assert.strictEqual(windows('orb.exe'), unzipped);
+  assert.strictEqual(windows('D:\\orb\\orb'), 'D:\\orb\\orb.exe');
+  assert.strictEqual(windows('D:/orb/orb.exe'), undefined, 'only what is there');
+  assert.strictEqual(windows('other'), undefined);
+  assert.strictEqual(on('win32', undefined, [])('orb'), undefined);
+  const linux = on('linux', '/usr/local/bin:bin:/usr/bin', ['bin/orb', '/usr/bin/orb', '/opt/orb']);
+  assert.strictEqual(linux('orb'), '/usr/bin/orb');
+  assert.strictEqual(linux('/opt/orb'), '/opt/orb');
+}
+
+async function checkMissing(extension) {
+  orbPath = path.join(work, 'nowhere', 'orb');
+  await extension.activate({ subscriptions: [] });
+  assert.strictEqual(registered.client, undefined, 'nothing is started that is not there');
+  assert(registered.error.includes(orbPath) && registered.error.includes('orb.path'), registered.error);
+  orbPath = orb;
+  registered.profiles.length = 0;
+  delete registered.error;
+}
+
 async function checkTests() {
   const test = path.join(work, 'dice.test');
   fs.writeFileSync(path.join(work, 'dice.bas'), '10 print "side"\n');
@@ -135,6 +164,8 @@ async function checkTests() {
 
 async function main() {
   const extension = require(path.resolve(folder, 'extension.js'));
+  checkFind();
+  await checkMissing(extension);
   await extension.activate({ subscriptions: [] });
   checkManifest();
 

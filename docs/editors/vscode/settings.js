@@ -1,12 +1,15 @@
 // The settings, and the file that a command is about.
 
 const vscode = require('vscode');
+const { find } = require('./find');
 
 const programs = ['orbbasic', 'orbstructured', 'orbmacro'];
 
 function settings() {
   const all = vscode.workspace.getConfiguration('orb');
-  return { path: all.get('path') || 'orb', target: all.get('target') || '' };
+  const name = all.get('path') || 'orb';
+  const found = find(name);
+  return { path: found || name, isFound: found !== undefined, target: all.get('target') || '' };
 }
 
 /// The path of what a lens or a menu gave, else of the file in front; it is saved first, because
