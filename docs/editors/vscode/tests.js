@@ -41,7 +41,8 @@ function verdictsOf(json) {
 function orbTest(file, only, token) {
   const args = ['test', file, '--format', 'json', ...(only ? ['--only', only] : [])];
   return new Promise((resolve) => {
-    const child = execFile(settings().path, args, { cwd: path.dirname(file), maxBuffer: 1 << 28 },
+    const options = { cwd: path.dirname(file), maxBuffer: 1 << 28, windowsHide: true }; // no console of its own
+    const child = execFile(settings().path, args, options,
       (error, stdout, stderr) => {
         try {
           resolve({ json: JSON.parse(stdout) });
