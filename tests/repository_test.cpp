@@ -1,10 +1,7 @@
 // What holds for the repository as a whole, read from its files.
 
-#include "spec/macro.h"
-
 #include <algorithm>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -348,32 +345,6 @@ TEST(Editors, TheVsCodeExtensionNamesFilesThatExistAndParse) {
     EXPECT_TRUE(fs::exists(path)) << path;
 }
 
-/// The bytes of a command as its table in docs/macros.md shows them: `05 speed heading:2
-/// [delay]`.
-std::string command_row(const orb::spec::MacroCommandInfo& info) {
-  using orb::spec::MacroOperandKind;
-  using orb::spec::MacroUnit;
-  auto bytes = fmt::format("{:02X}", info.code);
-  std::string operands;
-  for (const auto& operand : info) {
-    const bool text = operand.kind == MacroOperandKind::Text;
-    bytes += text                 ? " length:2 text"
-             : operand.width == 2 ? fmt::format(" {}:2", operand.name)
-                                  : fmt::format(" {}", operand.name);
-    const auto* unit = operand.unit == MacroUnit::Milliseconds ? " ms"
-                       : operand.unit == MacroUnit::Ticks10ms  ? " x 10 ms"
-                       : operand.unit == MacroUnit::Degrees    ? " deg"
-                                                               : "";
-    const auto name = operand.kind == MacroOperandKind::Delay ? fmt::format("[{}]", operand.name)
-                                                              : std::string(operand.name);
-    operands += fmt::format(
-        "{}{} {}", operands.empty() ? "" : ", ", name,
-        text ? "\"...\"" : fmt::format("{} to {}{}", operand.minimum, operand.maximum, unit));
-  }
-  return fmt::format("| `{}` | `{}` | {} | {} | {} |\n", info.mnemonic, bytes, operands,
-                     info.executive, info.summary);
-}
-
 TEST(Docs, ArchitectureNamesFilesThatExist) {
   const auto text = read_all(root / "docs" / "architecture.md");
   const std::regex path(R"(`([a-z_]+/[a-z_0-9]+\.(?:cpp|h|def|js))`)");
@@ -395,25 +366,6 @@ TEST(Docs, LibraryShowsTheExamplesAndTheHeaders) {
   const std::regex header(R"([a-z]+/[a-z_/]+\.h)");
   for (std::sregex_iterator at(list.begin(), list.end(), header), end; at != end; ++at)
     EXPECT_NE(page.find("`orb/" + at->str() + "`"), std::string::npos) << at->str();
-}
-
-TEST(Docs, MacrosHasTheTableOfCommands) {
-  std::string table = "| command | bytes | operands | executive | |\n|---|---|---|---|---|\n";
-  for (const auto& info : orb::spec::macro_commands)
-    table += command_row(info);
-  EXPECT_NE(read_all(root / "docs" / "macros.md").find(table), std::string::npos)
-      << "docs/macros.md should hold:\n"
-      << table;
-}
-
-TEST(Docs, MacrosHasTheTableOfFlags) {
-  std::string table = "| word | bit | documented as | |\n|---|---|---|---|\n";
-  for (const auto& info : orb::spec::macro_flags)
-    table +=
-        fmt::format("| `{}` | {:02X} | {} | {} |\n", info.word, info.bit, info.name, info.summary);
-  EXPECT_NE(read_all(root / "docs" / "macros.md").find(table), std::string::npos)
-      << "docs/macros.md should hold:\n"
-      << table;
 }
 
 } // namespace
