@@ -355,11 +355,22 @@ TEST(Docs, ArchitectureNamesFilesThatExist) {
   EXPECT_GT(count, 25U);
 }
 
-TEST(Docs, LibraryShowsTheExamplesAndTheHeaders) {
+TEST(Docs, LibraryLinksToTheExamplesAndNamesTheHeaders) {
   const auto page = read_all(root / "docs" / "library.md");
-  for (const auto& file : files_below(root / "examples" / "library", {".cpp"}))
-    EXPECT_NE(page.find("```cpp\n" + read_all(file) + "```"), std::string::npos)
-        << "docs/library.md should show " << file;
+  std::set<std::string> programs;
+  for (const auto& file : files_below(root / "examples" / "library", {".cpp"})) {
+    programs.insert(read_all(file));
+    EXPECT_NE(page.find("../examples/library/" + file.filename().string()), std::string::npos)
+        << "docs/library.md should link to " << file;
+  }
+  const std::string fence = "```cpp\n";
+  std::size_t shown = 0;
+  for (auto at = page.find(fence); at != std::string::npos; at = page.find(fence, at), ++shown) {
+    at += fence.size();
+    const auto text = page.substr(at, page.find("```", at) - at);
+    EXPECT_EQ(programs.count(text), 1U) << "no program of examples/library:\n" << text;
+  }
+  EXPECT_GT(shown, 0U);
   const auto package = read_all(root / "cmake" / "library.cmake");
   const auto begin = package.find("set(library_headers");
   const auto list = package.substr(begin, package.find(')', begin) - begin);

@@ -9,9 +9,9 @@
 // (other parts of the ball, the end of `--for`, tracing) is part of that budget.
 //
 // Measured without gain (speed of the kernels of `./dev bench` against without): `-O3` 0.97;
-// `(b + c) & d` in one instruction 1.00; no counting of lines after operations 1.00; instructions of
-// 32 bytes instead of 24 1.00; the following line as an index 0.99; the number of open calls in a
-// register 1.04 for subroutines, 0.93 for the sort; a jump instead of a conditional move 0.87 for
+// `(b + c) & d` in one instruction 1.00; no counting of lines after operations 1.00; instructions
+// of 32 bytes instead of 24 1.00; the following line as an index 0.99; the number of open calls in
+// a register 1.04 for subroutines, 0.93 for the sort; a jump instead of a conditional move 0.87 for
 // branches; no alignment of blocks, blocks in text order, `-fno-tree-pre` 0.98 to 1.00; an unsigned
 // index into Z 1.00.
 
