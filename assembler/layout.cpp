@@ -27,14 +27,6 @@ std::size_t end_of_text(std::string_view line, std::size_t begin) {
   return std::min(at + 1, line.size());
 }
 
-/// Where the remark of a line begins; its size where it has none.
-std::size_t remark_of(std::string_view line) {
-  std::size_t at = 0;
-  while (at < line.size() && line[at] != '#')
-    at = line[at] == '"' ? end_of_text(line, at) : at + 1;
-  return std::min(at, line.size());
-}
-
 /// The blanks of a statement as they should be: none before a comma, one after it; none around the
 /// `=` of an operand; else one where there are any.
 std::string respace(std::string_view code) {
@@ -74,6 +66,13 @@ bool is(std::string_view word, spec::MacroCommand command) {
 }
 
 } // namespace
+
+std::size_t remark_of(std::string_view line) {
+  std::size_t at = 0;
+  while (at < line.size() && line[at] != '#' && line[at] != ';')
+    at = line[at] == '"' ? end_of_text(line, at) : at + 1;
+  return std::min(at, line.size());
+}
 
 std::string layout(std::string_view text) {
   std::string out;

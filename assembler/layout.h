@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,8 @@ namespace orb::assembler {
 /// LF. Total: any bytes will do. The result assembles to the same bytes, and laying it out again
 /// changes nothing.
 std::string layout(std::string_view text);
+
+/// Where the remark of a line begins, at `#` or `;`; the line's size where it has none.
+std::size_t remark_of(std::string_view line);
 
 } // namespace orb::assembler

@@ -284,20 +284,6 @@ private:
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// Where the remark of a line begins; the end of the line where it has none.
-std::size_t remark_of(std::string_view line) {
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (quoted && line[i] == '\\')
-      ++i;
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (!quoted && (line[i] == '#' || line[i] == ';'))
-      return i;
-  }
-  return line.size();
-}
-
 /// Leaves out what remarks allow.
 void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
   std::vector<AllowComment> comments;
