@@ -1,8 +1,7 @@
 #pragma once
 
 // What an editor may ask about a text, without any protocol: places are bytes of a Source. The
-// languages answer in editor/languages/basic.cpp, editor/languages/structured.cpp,
-// editor/languages/macro.cpp and editor/languages/test.cpp.
+// languages answer in editor/languages/, each on its own shelf (language.cpp).
 
 #include "base/diagnostic.h"
 #include "base/source.h"

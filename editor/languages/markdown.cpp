@@ -1,8 +1,8 @@
 #include "editor/languages/markdown.h"
 
 #include "compiler/text/parse.h"
-#include "editor/languages/basic_names.h"
-#include "editor/languages/structured_names.h"
+#include "editor/languages/basic/names.h"
+#include "editor/languages/structured/names.h"
 
 #include <algorithm>
 #include <fmt/format.h>

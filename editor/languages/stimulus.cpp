@@ -1,7 +1,7 @@
 // What an editor may ask about a stimulus script.
 
 #include "vm/stimulus.h"
-#include "editor/languages/test_names.h"
+#include "editor/languages/test/names.h"
 
 namespace orb::editor {
 namespace {

@@ -5,7 +5,7 @@
 #include "compiler/check.h"
 #include "compiler/text/image.h"
 #include "editor/language.h"
-#include "editor/languages/structured_tree.h"
+#include "editor/languages/structured/tree.h"
 #include "protocol/macro.h"
 #include "report/course.h"
 #include "structured/lift/lift.h"

@@ -39,10 +39,6 @@ struct Session : LspClient {
   }
 };
 
-bool has(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(LspBasicHover, SaysWhatAStatementDoesItsRangesItsVersionAndItsError) {
   Session session("10 goroll 0,100,1\n");
   const auto text = session.hover(0, 5);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace orb::editor {
@@ -21,6 +22,10 @@ public:
     return found == texts.end() ? std::nullopt : std::optional(found->second);
   }
 };
+
+inline bool has(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// A scripted editor: speaks to a server in this process and keeps what it answered.
 class LspClient {

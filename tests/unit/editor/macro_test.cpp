@@ -15,35 +15,31 @@ using Json = nlohmann::json;
 const std::string macro_uri = "file:///dance.macro";
 
 // Columns below count in this text.
-constexpr auto program = ".const fast = 200\n"               // 0
-                         ".macro dance id=40 flags=endsig\n" // 1
-                         "  roll fast, 90, delay=200ms\n"    // 2
-                         "  stabilization off\n"             // 3
-                         "  gosub turn\n"                    // 4
-                         "  goto 41 # turn\n"                // 5
-                         ".macro turn id=41\n"               // 6
-                         "  rotate 90, 500ms\n";             // 7
+constexpr auto macro_text = ".const fast = 200\n"               // 0
+                            ".macro dance id=40 flags=endsig\n" // 1
+                            "  roll fast, 90, delay=200ms\n"    // 2
+                            "  stabilization off\n"             // 3
+                            "  gosub turn\n"                    // 4
+                            "  goto 41 # turn\n"                // 5
+                            ".macro turn id=41\n"               // 6
+                            "  rotate 90, 500ms\n";             // 7
 
-struct Session : LspClient {
-  explicit Session(const std::string& text = program) : LspClient("utf-8") {
+struct MacroSession : LspClient {
+  explicit MacroSession(const std::string& text = macro_text) : LspClient("utf-8") {
     document = macro_uri;
     open(text, document);
   }
 };
 
-bool has(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(LspMacro, FindingsComeFromAssemblerAndLinter) {
-  Session session("rol 1, 2\nloop_end\n");
+  MacroSession session("rol 1, 2\nloop_end\n");
   const auto codes = session.codes();
   EXPECT_NE(std::find(codes.begin(), codes.end(), "macro-unknown-command"), codes.end());
   EXPECT_NE(std::find(codes.begin(), codes.end(), "macro-loop-end"), codes.end());
 }
 
 TEST(LspMacro, HoverKnowsCommandsOperandsFlagsNamesAndDirectives) {
-  Session session;
+  MacroSession session;
   EXPECT_TRUE(has(session.hover(2, 3), "rolls at a speed along a heading"));
   EXPECT_TRUE(has(session.hover(2, 14), "heading")) << session.hover(2, 14);
   EXPECT_TRUE(has(session.hover(2, 14), "0 to 359")) << session.hover(2, 14);
@@ -55,7 +51,7 @@ TEST(LspMacro, HoverKnowsCommandsOperandsFlagsNamesAndDirectives) {
 }
 
 TEST(LspMacro, CompletionFollowsThePlaceInTheLine) {
-  Session session(
+  MacroSession session(
       ".const fast = 200\n.macro dance id=40 \n  \n  roll \n  roll speed=\n"
       "  gosub \n  stabilization \n.macro turn flags=endsig,\n  # ro\n  comment \"ro\n");
   EXPECT_TRUE(session.suggests(2, 2, "roll"));
@@ -74,15 +70,15 @@ TEST(LspMacro, CompletionFollowsThePlaceInTheLine) {
 }
 
 TEST(LspMacro, NamesLeadToTheirDefinitions) {
-  Session session;
-  EXPECT_EQ(Session::places(session.ask("definition", 4, 9)), "6:7-11");
-  EXPECT_EQ(Session::places(session.ask("definition", 5, 8)), "6:7-11"); // by its id
-  EXPECT_EQ(Session::places(session.ask("references", 6, 8)), "6:7-11 4:8-12");
-  EXPECT_EQ(Session::places(session.ask("references", 2, 8)), "0:7-11 2:7-11");
+  MacroSession session;
+  EXPECT_EQ(MacroSession::places(session.ask("definition", 4, 9)), "6:7-11");
+  EXPECT_EQ(MacroSession::places(session.ask("definition", 5, 8)), "6:7-11"); // by its id
+  EXPECT_EQ(MacroSession::places(session.ask("references", 6, 8)), "6:7-11 4:8-12");
+  EXPECT_EQ(MacroSession::places(session.ask("references", 2, 8)), "0:7-11 2:7-11");
 }
 
 TEST(LspMacro, RenameChangesANameEverywhere) {
-  Session session;
+  MacroSession session;
   EXPECT_EQ(session.renamed(4, 9, "spin"), "4:8-12 6:7-11");
   EXPECT_EQ(session.renamed(4, 9, "fast"), "`fast` is in use already");
   EXPECT_EQ(session.renamed(4, 9, "4th"),
@@ -91,7 +87,7 @@ TEST(LspMacro, RenameChangesANameEverywhere) {
 }
 
 TEST(LspMacro, OutlineListsTheMacros) {
-  Session session;
+  MacroSession session;
   const auto symbols = session.request("textDocument/documentSymbol",
                                        {{"textDocument", {{"uri", macro_uri}}}})["result"];
   ASSERT_EQ(symbols.size(), 2U);
@@ -101,7 +97,7 @@ TEST(LspMacro, OutlineListsTheMacros) {
 }
 
 TEST(LspMacro, FormattingIndents) {
-  Session session(".macro a id=40\nroll 1,2\n");
+  MacroSession session(".macro a id=40\nroll 1,2\n");
   const auto edits = session.request("textDocument/formatting",
                                      {{"textDocument", {{"uri", macro_uri}}}})["result"];
   ASSERT_EQ(edits.size(), 1U);

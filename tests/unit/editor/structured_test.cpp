@@ -1,4 +1,4 @@
-// What an editor may ask about a structured program.
+// What an editor may ask about a structured structured_text.
 
 #include "tests/unit/editor/client.h"
 
@@ -12,31 +12,31 @@ namespace {
 using Json = nlohmann::json;
 
 // Columns below count in this text.
-constexpr auto program = "const side = 1.5s\n"             // 0
-                         "array visits[4]\n"               // 1
-                         "' drives one side\n"             // 2
-                         "sub leg(n)\n"                    // 3
-                         "  goroll n * 90, 80, 1\n"        // 4
-                         "  delay side\n"                  // 5
-                         "  visits[n] += 1\n"              // 6
-                         "end sub\n"                       // 7
-                         "function twice(x)\n"             // 8
-                         "  return x * 2\n"                // 9
-                         "end function\n"                  // 10
-                         "turns = rnd(3)\n"                // 11
-                         "for n = 1 to turns\n"            // 12
-                         "  leg(n)\n"                      // 13
-                         "  leg(twice(n) - 1)\n"           // 14
-                         "next n\n"                        // 15
-                         "again:\n"                        // 16
-                         "delay side\n"                    // 17
-                         "print visits[1]\n"               // 18
-                         "if turns > 1 then goto again\n"; // 19
+constexpr auto structured_text = "const side = 1.5s\n"             // 0
+                                 "array visits[4]\n"               // 1
+                                 "' drives one side\n"             // 2
+                                 "sub leg(n)\n"                    // 3
+                                 "  goroll n * 90, 80, 1\n"        // 4
+                                 "  delay side\n"                  // 5
+                                 "  visits[n] += 1\n"              // 6
+                                 "end sub\n"                       // 7
+                                 "function twice(x)\n"             // 8
+                                 "  return x * 2\n"                // 9
+                                 "end function\n"                  // 10
+                                 "turns = rnd(3)\n"                // 11
+                                 "for n = 1 to turns\n"            // 12
+                                 "  leg(n)\n"                      // 13
+                                 "  leg(twice(n) - 1)\n"           // 14
+                                 "next n\n"                        // 15
+                                 "again:\n"                        // 16
+                                 "delay side\n"                    // 17
+                                 "print visits[1]\n"               // 18
+                                 "if turns > 1 then goto again\n"; // 19
 
 const std::string name = "file:///robot/patrol.orb";
 
-struct Session : LspClient {
-  explicit Session(const std::string& text = program) : LspClient("utf-8") {
+struct StructuredSession : LspClient {
+  explicit StructuredSession(const std::string& text = structured_text) : LspClient("utf-8") {
     document = name;
     open(text, document);
   }
@@ -51,14 +51,14 @@ struct Session : LspClient {
 };
 
 TEST(Structured, IsCheckedAsWhatItIs) {
-  Session session("turns = 1\nprint turnes\n");
+  StructuredSession session("turns = 1\nprint turnes\n");
   EXPECT_EQ(session.codes(), (std::vector<std::string>{"unknown-name"}));
-  Session good;
+  StructuredSession good;
   EXPECT_EQ(good.codes(), (std::vector<std::string>{"unstructured"}));
 }
 
 TEST(Structured, HoverSaysWhatANameStandsFor) {
-  Session session;
+  StructuredSession session;
   EXPECT_NE(session.hover(12, 14).find("**`turns`** (variable)"), std::string::npos);
   EXPECT_NE(session.hover(12, 14).find("- set: in line 12\n"), std::string::npos);
   EXPECT_NE(session.hover(12, 14).find("- the robot's `"), std::string::npos);
@@ -74,18 +74,19 @@ TEST(Structured, HoverSaysWhatANameStandsFor) {
 }
 
 TEST(Structured, DefinitionsAndReferences) {
-  Session session;
-  EXPECT_EQ(Session::places(session.ask("definition", 13, 3)), "3:4-7");
-  EXPECT_EQ(Session::places(session.ask("references", 3, 5)), "3:4-7 13:2-5 14:2-5");
-  EXPECT_EQ(Session::places(session.ask("definition", 4, 9)), "3:8-9");
-  EXPECT_EQ(Session::places(session.ask("references", 12, 4)), "12:4-5 13:6-7 14:12-13 15:5-6");
-  EXPECT_EQ(Session::places(session.ask("definition", 19, 24)), "16:0-5");
+  StructuredSession session;
+  EXPECT_EQ(StructuredSession::places(session.ask("definition", 13, 3)), "3:4-7");
+  EXPECT_EQ(StructuredSession::places(session.ask("references", 3, 5)), "3:4-7 13:2-5 14:2-5");
+  EXPECT_EQ(StructuredSession::places(session.ask("definition", 4, 9)), "3:8-9");
+  EXPECT_EQ(StructuredSession::places(session.ask("references", 12, 4)),
+            "12:4-5 13:6-7 14:12-13 15:5-6");
+  EXPECT_EQ(StructuredSession::places(session.ask("definition", 19, 24)), "16:0-5");
   // Its declaration, not what it is set to.
-  EXPECT_EQ(Session::places(session.ask("definition", 18, 8)), "1:6-12");
+  EXPECT_EQ(StructuredSession::places(session.ask("definition", 18, 8)), "1:6-12");
 }
 
 TEST(Structured, RenameKeepsToOneMeaning) {
-  Session session;
+  StructuredSession session;
   EXPECT_EQ(session.renamed(12, 4, "lap"), "12:4-5 13:6-7 14:12-13 15:5-6");
   EXPECT_EQ(session.renamed(3, 8, "which"), "3:8-9 4:9-10 6:9-10");
   EXPECT_EQ(session.renamed(14, 7, "doubled"), "8:9-14 14:6-11");
@@ -93,11 +94,11 @@ TEST(Structured, RenameKeepsToOneMeaning) {
   EXPECT_EQ(session.renamed(12, 4, "Turns"), "`Turns` is in use already");
   EXPECT_EQ(session.renamed(12, 4, "2nd"),
             "a name is a letter or `_`, then letters, digits and `_`, at most 31 of them");
-  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the program");
+  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the structured_text");
 }
 
 TEST(Structured, CompletionKnowsWhatIsVisible) {
-  Session session;
+  StructuredSession session;
   EXPECT_TRUE(session.suggests(13, 2, "leg"));
   EXPECT_TRUE(session.suggests(13, 2, "repeat"));
   EXPECT_TRUE(session.suggests(13, 2, "goroll"));
@@ -109,13 +110,13 @@ TEST(Structured, CompletionKnowsWhatIsVisible) {
   EXPECT_TRUE(session.suggests(19, 23, "again"));
   EXPECT_FALSE(session.suggests(19, 23, "turns"));
   EXPECT_TRUE(session.suggests(7, 4, "sub"));
-  Session comment("print 1 ' orb: allow \n");
+  StructuredSession comment("print 1 ' orb: allow \n");
   EXPECT_TRUE(comment.suggests(0, 21, "unused-name"));
   EXPECT_FALSE(comment.suggests(0, 12, "print"));
 }
 
 TEST(Structured, OutlineListsDeclarations) {
-  Session session;
+  StructuredSession session;
   const auto found = session.of_all("documentSymbol");
   std::string names;
   for (const auto& one : found)
@@ -125,19 +126,19 @@ TEST(Structured, OutlineListsDeclarations) {
 }
 
 TEST(Structured, FormattingAndFixes) {
-  Session session("if yaw==90 then PRINT 1\n");
+  StructuredSession session("if yaw==90 then PRINT 1\n");
   const auto actions = session.of_all("codeAction");
   ASSERT_EQ(actions.size(), 2U);
   EXPECT_EQ(actions[0]["kind"], "quickfix");
   EXPECT_EQ(actions[1]["kind"], "source.fixAll");
-  Session good("if yaw=90 then PRINT 1\n");
+  StructuredSession good("if yaw=90 then PRINT 1\n");
   EXPECT_EQ(good.of_all("formatting")[0]["newText"], "if yaw = 90 then print 1\n");
 }
 
 TEST(Structured, HintsSayLettersAndBytes) {
-  Session session("sub leg(n)\n  print \"a text of some length\", n\n  goroll n, 80, 1\n"
-                  "  delay 1s\nend sub\nsub once\n  print 1\nend sub\n"
-                  "turns = rnd(3)\nleg(turns)\nleg(2)\nleg(3)\nonce\n");
+  StructuredSession session("sub leg(n)\n  print \"a text of some length\", n\n  goroll n, 80, 1\n"
+                            "  delay 1s\nend sub\nsub once\n  print 1\nend sub\n"
+                            "turns = rnd(3)\nleg(turns)\nleg(2)\nleg(3)\nonce\n");
   std::string hints;
   for (const auto& hint : session.of_all("inlayHint"))
     hints += hint["position"]["line"].dump() + ":" + hint["position"]["character"].dump() +
@@ -257,7 +258,7 @@ TEST(Structured, AFileThatChangesOnTheDiskIsReadAgain) {
 TEST(Structured, AnyTextIsAnswered) {
   for (const auto* text : {"", "\n", "sub", "sub a(\nend", "a[", "goto\n", "\"", "next\n",
                            "end if\n", "10 print 1\n", "x = y(\n", "select\ncase\n"}) {
-    Session session(text);
+    StructuredSession session(text);
     for (const auto* method :
          {"hover", "completion", "definition", "references", "prepareRename", "documentHighlight"})
       for (int character = 0; character < 8; ++character)

@@ -1,6 +1,6 @@
 // A structured program as rows: what a page makes blocks of.
 
-#include "editor/languages/structured_tree.h"
+#include "editor/languages/structured/tree.h"
 
 #include "spec/basic.h"
 #include "structured/text/format.h"

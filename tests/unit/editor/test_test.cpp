@@ -7,8 +7,8 @@
 namespace orb::editor {
 namespace {
 
-struct Session : LspClient {
-  explicit Session(const std::string& text) : LspClient("utf-8") {
+struct TestSession : LspClient {
+  explicit TestSession(const std::string& text) : LspClient("utf-8") {
     document = "file:///robot/corner.test";
     open("10 print \"x\"\n", "file:///robot/corner.bas");
     open(text, document);
@@ -16,21 +16,21 @@ struct Session : LspClient {
 };
 
 TEST(Tests, AreCheckedBesideTheirPrograms) {
-  Session wrong("expect prnt \"x\"\nexpect lap = 3 at end\n");
+  TestSession wrong("expect prnt \"x\"\nexpect lap = 3 at end\n");
   EXPECT_EQ(wrong.codes(), (std::vector<std::string>{"test-word", "test-variable"}));
-  Session good("expect print \"x\"\nexpect A = 3 at end\n");
+  TestSession good("expect print \"x\"\nexpect A = 3 at end\n");
   EXPECT_TRUE(good.codes().empty());
 }
 
 TEST(Tests, HoverSaysWhatAWordExpects) {
-  Session session("at 1s shake\nexpect near 60,0 by 12cm at end\n");
+  TestSession session("at 1s shake\nexpect near 60,0 by 12cm at end\n");
   EXPECT_NE(session.hover(1, 9).find("no farther than that"), std::string::npos);
   EXPECT_NE(session.hover(1, 2).find("what shall happen"), std::string::npos);
   EXPECT_NE(session.hover(0, 8).find("somebody shakes the ball"), std::string::npos);
 }
 
 TEST(Tests, CompletionFitsThePlace) {
-  Session session("\nexpect \nexpect color \nat 1s \nexpect moving \n");
+  TestSession session("\nexpect \nexpect color \nat 1s \nexpect moving \n");
   EXPECT_TRUE(session.suggests(0, 0, "never"));
   EXPECT_TRUE(session.suggests(0, 0, "wall"));
   EXPECT_TRUE(session.suggests(1, 7, "beyond"));

@@ -1,10 +1,10 @@
-#include "editor/languages/structured_completion.h"
+#include "editor/languages/structured/completion.h"
 
 #include "base/silence.h"
 #include "base/text.h"
 #include "compiler/text/rules.h"
 #include "editor/languages/markdown.h"
-#include "editor/languages/structured_names.h"
+#include "editor/languages/structured/names.h"
 #include "editor/words.h"
 #include "reference/sections.h"
 #include "structured/text/blocks.h"
@@ -20,8 +20,6 @@ namespace {
 
 using structured::Kind;
 using structured::SymbolKind;
-
-constexpr auto language_id = structured_language_id;
 
 enum class Context : std::uint8_t { Statement, Expression, Label, Block, Macro };
 
@@ -124,14 +122,14 @@ private:
       if (word.kind == structured::WordKind::Statement && !is_numbered)
         out_.items.push_back({std::string(spec::statements[i].word), SuggestionKind::Keyword,
                               std::string(spec::statements[i].usage),
-                              entry_markdown(section, section.entries[i], language_id)});
+                              entry_markdown(section, section.entries[i], structured_language_id)});
     }
   }
 
   void rows(const reference::Section& section, SuggestionKind kind) {
     for (const auto& entry : section.entries)
-      out_.items.push_back(
-          {entry.name, kind, entry.summary, entry_markdown(section, entry, language_id)});
+      out_.items.push_back({entry.name, kind, entry.summary,
+                            entry_markdown(section, entry, structured_language_id)});
   }
 
   void words(const reference::Section& section) {
@@ -141,7 +139,7 @@ private:
                       [&](const Suggestion& item) { return item.label == entry.name; });
       if (!listed)
         out_.items.push_back({entry.name, SuggestionKind::Keyword, entry.summary,
-                              entry_markdown(section, entry, language_id)});
+                              entry_markdown(section, entry, structured_language_id)});
     }
   }
 

@@ -1,10 +1,10 @@
 // What an editor draws of macro source, and which macro calls which.
 
+#include "editor/languages/shape.h"
 #include "assembler/parse.h"
 #include "editor/directives.h"
-#include "editor/languages/macro_names.h"
+#include "editor/languages/macro/names.h"
 #include "editor/languages/markdown.h"
-#include "editor/languages/shape.h"
 #include "reference/sections.h"
 #include "spec/macro.h"
 

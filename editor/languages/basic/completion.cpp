@@ -1,10 +1,10 @@
-#include "editor/languages/basic_completion.h"
+#include "editor/languages/basic/completion.h"
 
 #include "base/silence.h"
 #include "base/text.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
-#include "editor/languages/basic_names.h"
+#include "editor/languages/basic/names.h"
 #include "editor/languages/markdown.h"
 #include "editor/words.h"
 #include "reference/sections.h"
@@ -17,8 +17,6 @@ namespace orb::editor {
 namespace {
 
 using compiler::Program;
-
-constexpr auto language_id = basic_language_id;
 
 /// Where in a line the cursor is, told by the words before it.
 enum class Context : std::uint8_t { LineNumber, Statement, BranchStatement, Target, Expression };
@@ -57,14 +55,14 @@ void suggest_statements(Suggestions& out, Context context) {
       continue;
     out.items.push_back({std::string(row.word), SuggestionKind::Keyword,
                          fmt::format("{} (since {})", row.usage, spec::info(row.since).text),
-                         entry_markdown(section, section.entries[i], language_id)});
+                         entry_markdown(section, section.entries[i], basic_language_id)});
   }
   const auto variables = reference::variables_section();
   for (std::size_t i = 0; i < spec::variables.size(); ++i)
     if (spec::variables[i].access == spec::Access::ReadWrite)
       out.items.push_back({std::string(spec::variables[i].word), SuggestionKind::Variable,
                            std::string(spec::variables[i].summary),
-                           entry_markdown(variables, variables.entries[i], language_id)});
+                           entry_markdown(variables, variables.entries[i], basic_language_id)});
 }
 
 void suggest_expression(Suggestions& out) {
@@ -74,13 +72,13 @@ void suggest_expression(Suggestions& out) {
     out.items.push_back({std::string(row.word), SuggestionKind::Variable,
                          fmt::format("{} to {}{}{}", row.least, row.greatest,
                                      row.unit.empty() ? "" : " ", row.unit),
-                         entry_markdown(variables, variables.entries[i], language_id)});
+                         entry_markdown(variables, variables.entries[i], basic_language_id)});
   }
   const auto functions = reference::functions_section();
   for (std::size_t i = 0; i < spec::functions.size(); ++i)
     out.items.push_back({std::string(spec::functions[i].word), SuggestionKind::Function,
                          std::string(spec::functions[i].summary),
-                         entry_markdown(functions, functions.entries[i], language_id)});
+                         entry_markdown(functions, functions.entries[i], basic_language_id)});
   for (const auto word : spec::particles)
     out.items.push_back({std::string(word), SuggestionKind::Keyword, "", ""});
   for (const auto statement : {spec::Statement::Goto, spec::Statement::Gosub}) // after `on e`

@@ -1,4 +1,4 @@
-#include "editor/languages/structured_names.h"
+#include "editor/languages/structured/names.h"
 
 #include "base/text.h"
 #include "editor/text.h"

@@ -1,6 +1,6 @@
 // What an editor draws of test files and stimulus scripts, and where they lead.
 
-#include "editor/languages/test_names.h"
+#include "editor/languages/test/names.h"
 #include "editor/text.h"
 #include "testing/suite.h"
 

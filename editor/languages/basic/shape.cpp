@@ -1,10 +1,10 @@
 // What an editor draws of an orbBasic program, and who calls whom in it.
 
+#include "editor/languages/shape.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/words.h"
-#include "editor/languages/basic_names.h"
+#include "editor/languages/basic/names.h"
 #include "editor/languages/markdown.h"
-#include "editor/languages/shape.h"
 #include "reference/sections.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // What an editor may ask about an orbBasic program.
 
+#include "editor/language.h"
 #include "base/silence.h"
 #include "base/text.h"
 #include "compiler/check.h"
@@ -8,9 +9,8 @@
 #include "compiler/text/print.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/words.h"
-#include "editor/language.h"
-#include "editor/languages/basic_completion.h"
-#include "editor/languages/basic_names.h"
+#include "editor/languages/basic/completion.h"
+#include "editor/languages/basic/names.h"
 #include "editor/languages/markdown.h"
 #include "editor/languages/shape.h"
 #include "editor/words.h"
@@ -26,8 +26,6 @@ namespace orb::editor {
 namespace {
 
 using compiler::Program;
-
-constexpr auto language_id = basic_language_id;
 
 const Token* token_at(const std::vector<Token>& tokens, std::uint32_t offset) {
   for (const auto& token : tokens)
@@ -116,7 +114,7 @@ std::optional<std::string> markdown_with_errors(const reference::Section& sectio
     for (const auto error : errors)
       entry.facts.emplace_back(
           "can stop with", fmt::format("{:02X}h {}", spec::code(error), spec::info(error).text));
-    return entry_markdown(section, entry, language_id);
+    return entry_markdown(section, entry, basic_language_id);
   }
   return std::nullopt;
 }
@@ -132,7 +130,7 @@ std::optional<std::string> word_markdown(std::string_view word) {
     return markdown_with_errors(reference::functions_section(), word, errors);
   }
   if (spec::find_variable(word))
-    return find_markdown(reference::variables_section(), word, language_id);
+    return find_markdown(reference::variables_section(), word, basic_language_id);
   return std::nullopt;
 }
 
@@ -166,7 +164,7 @@ std::string letter_markdown(const Source& source, const Program& program,
 std::string line_markdown(const Program& program, std::uint32_t number) {
   const auto* line = find_line(program, number);
   if (line != nullptr)
-    return fmt::format("```{}\n{}\n```\n", language_id, program.text_of(line->span));
+    return fmt::format("```{}\n{}\n```\n", basic_language_id, program.text_of(line->span));
   const auto error = spec::BasicError::BadLineNumber;
   return fmt::format("there is no line {}; going there stops the program with {:02X}h {}\n", number,
                      spec::code(error), spec::info(error).text);
@@ -204,7 +202,7 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset, const Lan
     const auto word = text == "?" ? std::string_view("print") : text;
     if (auto found = word_markdown(word))
       return Hover{token->span, *found};
-    if (auto found = find_markdown(reference::operators_section(), word, language_id))
+    if (auto found = find_markdown(reference::operators_section(), word, basic_language_id))
       return Hover{token->span, *found};
     return std::nullopt;
   }

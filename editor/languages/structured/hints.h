@@ -1,7 +1,7 @@
 #pragma once
 
 #include "editor/language.h"
-#include "editor/languages/structured_names.h"
+#include "editor/languages/structured/names.h"
 
 #include <cstdint>
 #include <map>

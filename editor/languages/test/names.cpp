@@ -1,4 +1,4 @@
-#include "editor/languages/test_names.h"
+#include "editor/languages/test/names.h"
 
 #include "base/text.h"
 

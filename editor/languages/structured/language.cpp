@@ -1,16 +1,16 @@
 // What an editor may ask about a structured program.
 
+#include "editor/language.h"
 #include "assembler/assemble.h"
 #include "base/fixes.h"
 #include "base/text.h"
 #include "compiler/check.h"
 #include "compiler/text/rules.h"
-#include "editor/language.h"
 #include "editor/languages/markdown.h"
 #include "editor/languages/shape.h"
-#include "editor/languages/structured_completion.h"
-#include "editor/languages/structured_hints.h"
-#include "editor/languages/structured_names.h"
+#include "editor/languages/structured/completion.h"
+#include "editor/languages/structured/hints.h"
+#include "editor/languages/structured/names.h"
 #include "editor/text.h"
 #include "editor/words.h"
 #include "reference/sections.h"
@@ -32,8 +32,6 @@ using structured::Kind;
 using structured::none;
 using structured::Program;
 using structured::SymbolKind;
-
-constexpr auto language_id = structured_language_id;
 
 // ---- names
 
@@ -183,7 +181,7 @@ std::string declaration_markdown(const Part& part, const structured::Symbol& sym
     return fmt::format("**`{}`**: a macro\n", part.reading.program.name(symbol.name));
   const auto& source = *place->source;
   const auto line = source.position(place->span.begin).line;
-  auto text = fmt::format("```{}\n{}\n```\n", language_id, trim(source.line(line)));
+  auto text = fmt::format("```{}\n{}\n```\n", structured_language_id, trim(source.line(line)));
   if (const auto above = comment_above(part.reading, symbol.span); !above.empty())
     text += above + "\n";
   if (place->source != part.reading.sources[part.file])
@@ -226,11 +224,12 @@ std::optional<std::string> word_markdown(std::string_view text) {
     return std::nullopt;
   };
   // Words of the robot that mean more here have an entry of their own.
-  if (auto wider = find_markdown(reference::structured_words_section(), spelled, language_id);
+  if (auto wider =
+          find_markdown(reference::structured_words_section(), spelled, structured_language_id);
       wider && word.kind != structured::WordKind::Name)
     return wider;
   const auto found = section();
-  return found ? find_markdown(*found, spelled.empty() ? text : spelled, language_id)
+  return found ? find_markdown(*found, spelled.empty() ? text : spelled, structured_language_id)
                : std::nullopt;
 }
 

@@ -1,18 +1,18 @@
 // What an editor may ask about macro source.
 
-#include "spec/macro.h"
+#include "editor/language.h"
 #include "assembler/assemble.h"
 #include "assembler/layout.h"
 #include "assembler/lint.h"
 #include "assembler/parse.h"
 #include "base/text.h"
 #include "editor/directives.h"
-#include "editor/language.h"
-#include "editor/languages/macro_names.h"
+#include "editor/languages/macro/names.h"
 #include "editor/languages/markdown.h"
 #include "editor/languages/shape.h"
 #include "editor/words.h"
 #include "reference/sections.h"
+#include "spec/macro.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,8 +23,6 @@ namespace {
 using assembler::Program;
 using assembler::Statement;
 using assembler::Value;
-
-constexpr auto language_id = macro_language_id;
 
 bool is_word_part(char c) {
   return is_letter(c) || is_digit(c) || c == '_';
@@ -135,7 +133,8 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset, const Lan
     if (!touches(statement.head, offset))
       continue;
     const auto head = source.text(statement.head);
-    if (const auto text = find_markdown(reference::macro_commands_section(), head, language_id))
+    if (const auto text =
+            find_markdown(reference::macro_commands_section(), head, macro_language_id))
       return Hover{statement.head, *text};
     const auto* directive = head.starts_with(".") ? find_directive(head.substr(1)) : nullptr;
     if (directive == nullptr)
@@ -147,7 +146,7 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset, const Lan
   if (const auto* here = name_at(names, offset)) {
     for (const auto& name : names)
       if (name.is_definition && source.text(name.span) == source.text(here->span))
-        return Hover{here->span, fmt::format("```{}\n{}\n```\n", language_id,
+        return Hover{here->span, fmt::format("```{}\n{}\n```\n", macro_language_id,
                                              line_text(source, name.span.begin))};
     return std::nullopt;
   }
@@ -158,8 +157,8 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset, const Lan
   if (const auto* operand = operand_of(source, program, *spot->statement, spot->index))
     return Hover{value.span, fmt::format("**`{}`** (operand of `{}`): {}\n", operand->name,
                                          source.text(spot->statement->head), range_text(*operand))};
-  if (const auto text =
-          find_markdown(reference::macro_flags_section(), source.text(value.span), language_id))
+  if (const auto text = find_markdown(reference::macro_flags_section(), source.text(value.span),
+                                      macro_language_id))
     return Hover{value.span, *text};
   return std::nullopt;
 }
@@ -174,7 +173,7 @@ void suggest_heads(Suggestions& out) {
     for (const auto& operand : row)
       operands += fmt::format("{}{}", operands.empty() ? "" : ", ", operand.name);
     out.items.push_back({std::string(row.mnemonic), SuggestionKind::Keyword, operands,
-                         entry_markdown(section, section.entries[i], language_id)});
+                         entry_markdown(section, section.entries[i], macro_language_id)});
   }
   for (const auto& row : macro_directives)
     out.items.push_back({fmt::format(".{}", row.word), SuggestionKind::Keyword,

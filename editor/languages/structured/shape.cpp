@@ -1,9 +1,9 @@
 // What an editor draws of a structured program, where it leads, and who calls whom in it.
 
+#include "editor/languages/shape.h"
 #include "base/text.h"
 #include "editor/languages/markdown.h"
-#include "editor/languages/shape.h"
-#include "editor/languages/structured_names.h"
+#include "editor/languages/structured/names.h"
 #include "editor/text.h"
 #include "reference/sections.h"
 #include "structured/text/blocks.h"

@@ -1,7 +1,7 @@
 // What an editor may ask about a test file.
 
 #include "base/text.h"
-#include "editor/languages/test_names.h"
+#include "editor/languages/test/names.h"
 #include "editor/text.h"
 #include "report/course.h"
 #include "spec/basic.h"

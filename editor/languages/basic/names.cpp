@@ -1,4 +1,4 @@
-#include "editor/languages/basic_names.h"
+#include "editor/languages/basic/names.h"
 
 #include "base/text.h"
 

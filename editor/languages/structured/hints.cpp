@@ -1,4 +1,4 @@
-#include "editor/languages/structured_hints.h"
+#include "editor/languages/structured/hints.h"
 
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"

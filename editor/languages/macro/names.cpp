@@ -1,4 +1,4 @@
-#include "editor/languages/macro_names.h"
+#include "editor/languages/macro/names.h"
 
 #include "spec/macro.h"
 
