@@ -26,6 +26,28 @@ set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque
     <variant> <vector>)
 orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 
+option(ORB_JOIN "Compile up to eight files of a folder together: less than half the time from nothing" OFF)
+
+# orb_join(<target>): with ORB_JOIN, files of one folder are compiled together, up to eight at a time. They see each
+# other's private names, so a folder has no such name twice. A file with options of its own stays alone.
+function(orb_join target)
+  if(NOT ORB_JOIN)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${ORB_ROOT})
+    string(REPLACE "/" "_" folder "${folder}")
+    math(EXPR group "(0${count_${folder}}) / 8")
+    math(EXPR count_${folder} "0${count_${folder}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+  endforeach()
+  # Two warnings are for files alone: here a name of another file may be hidden, and no file is the main one.
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP UNITY_BUILD_CODE_BEFORE_INCLUDE
+    "#pragma GCC diagnostic ignored \"-Wshadow\"\n#pragma GCC diagnostic ignored \"-Wsubobject-linkage\"")
+endfunction()
+
 # orb_library(<folder> [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its
 # .cpp files, alias orb::<folder>. A new file needs no edit here. On Windows NAME_windows.cpp stands in for NAME.cpp.
 function(orb_library folder)
@@ -41,6 +63,7 @@ function(orb_library folder)
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_precompile_headers(orb_${folder} REUSE_FROM precompiled_rooms)
+  orb_join(orb_${folder})
 endfunction()
 
 # orb_page(<folder> <name> <script>...): NAME.html, NAME.css and the modules NAME/SCRIPT.js, written as real

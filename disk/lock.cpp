@@ -1,10 +1,10 @@
 #include "disk/lock.h"
 
 #include "disk/disk.h"
+#include "disk/io.h"
 
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -32,11 +32,6 @@ std::string holder(int fd) {
   const auto size = ::pread(fd, text, sizeof text - 1, 0);
   const std::string_view read(text, size > 0 ? static_cast<std::size_t>(size) : 0);
   return std::string(read.substr(0, read.find('\n')));
-}
-
-tl::unexpected<IoError> failure(std::string_view action, const std::string& path) {
-  return tl::unexpected(
-      IoError{fmt::format("cannot {} {}: {}", action, path, std::strerror(errno))});
 }
 
 } // namespace

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t greatest_number = 65535;
 constexpr std::size_t most_foreign = 64; // lines that do not parse; nobody mends more at once
-constexpr std::size_t most_states = 40;  // of one line
+constexpr std::size_t block_states = 40;  // of one line
 
 /// What a line is to a block, by the words that structured programs have for it.
 enum class Role : std::uint8_t {
@@ -192,7 +192,7 @@ private:
     Surroundings around;
     around.language = Language::Structured;
     std::unordered_set<std::string> seen;
-    explore(join(tokens), around, {3, most_states}, seen, [&](const Rewritten& one) {
+    explore(join(tokens), around, {3, block_states}, seen, [&](const Rewritten& one) {
       return take_role(line, tokens_of(one.text, Language::Structured));
     });
     if (begins(tokens, "do") && (line.role == Role::Loop || line.role == Role::While))
@@ -402,7 +402,7 @@ private:
     Surroundings around;
     around.language = Language::Basic;
     std::unordered_set<std::string> seen;
-    explore(text, around, {4, most_states}, seen, [&](const Rewritten& one) {
+    explore(text, around, {4, block_states}, seen, [&](const Rewritten& one) {
       if (parses_("1 " + one.text))
         known = one.text;
       return known.has_value();

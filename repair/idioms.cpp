@@ -10,11 +10,11 @@
 namespace orb::repair {
 namespace {
 
-struct Word {
+struct ForeignWord {
   std::string_view meaning;
   std::string_view patterns;
 };
-constexpr auto words = std::to_array<Word>({
+constexpr auto words = std::to_array<ForeignWord>({
 #define ORB_WORD(meaning, patterns) {meaning, patterns},
 #include "repair/idioms.def"
 });

@@ -8,7 +8,7 @@ constexpr std::size_t most_points = 10'000; // of all lines together, and so of 
 constexpr double farthest_cm = 100'000;
 
 /// A millionth of a centimetre: what is left of rounding in a transform vanishes.
-double rounded(double cm) {
+double rounded_cm(double cm) {
   return std::round(cm * 1e6) / 1e6 + 0.0;
 }
 
@@ -244,10 +244,10 @@ bool Reader::find_start() {
 void Reader::move_to(const Arrow& start, Point ahead) {
   const auto moved = [&](Point point) {
     const Point way{point.x - start.place.x, point.y - start.place.y};
-    return Point{rounded(way.x * ahead.y - way.y * ahead.x),
-                 rounded(way.x * ahead.x + way.y * ahead.y)};
+    return Point{rounded_cm(way.x * ahead.y - way.y * ahead.x),
+                 rounded_cm(way.x * ahead.x + way.y * ahead.y)};
   };
-  out_.course.ahead = {rounded(ahead.x), rounded(ahead.y)};
+  out_.course.ahead = {rounded_cm(ahead.x), rounded_cm(ahead.y)};
   bool narrow = false;
   for (const auto& piece : pieces_) {
     const auto wall = vm::Wall::between(moved(piece.from), moved(piece.to));

@@ -10,7 +10,7 @@ namespace orb::report {
 namespace {
 
 /// Before this the page says its encoding, which browsers want to read first.
-constexpr std::string_view place = "<meta name=\"viewport\"";
+constexpr std::string_view head_mark = "<meta name=\"viewport\"";
 
 /// A page from a folder may not read files, but it may show one in a frame and be told by it who it
 /// is. The query keeps browsers from refusing a page inside itself.
@@ -44,7 +44,7 @@ constexpr std::string_view script = R"(<script>
 
 std::string reloading(std::string page) {
   const auto stamp = hash(page);
-  return page.insert(page.find(place), fmt::format(script, stamp));
+  return page.insert(page.find(head_mark), fmt::format(script, stamp));
 }
 
 } // namespace orb::report

@@ -16,7 +16,6 @@ namespace {
 
 using compiler::NodeKind;
 using compiler::none;
-using compiler::Program;
 using compiler::StatementNode;
 using spec::BasicError;
 using spec::Statement;
@@ -48,7 +47,7 @@ std::string elsewhere(const Suspect& suspect, std::int64_t value) {
 class Teller {
 public:
   /// `names` are those of a structured program; null where letters are the names.
-  Teller(const Program& program, const compiler::Line& line, const vm::Machine* machine,
+  Teller(const compiler::Program& program, const compiler::Line& line, const vm::Machine* machine,
          const LetterNames* names)
       : program_(program), line_(line), statement_(program.statements[line.statement]),
         machine_(machine), names_(names) {}
@@ -328,7 +327,7 @@ public:
   }
 
 private:
-  const Program& program_;
+  const compiler::Program& program_;
   const compiler::Line& line_;
   const StatementNode& statement_;
   const vm::Machine* machine_;

@@ -13,7 +13,6 @@ using bytecode::Op;
 using compiler::Item;
 using compiler::ItemKind;
 using compiler::NodeKind;
-using compiler::Program;
 using compiler::StatementNode;
 using spec::BasicError;
 using spec::Statement;
@@ -24,7 +23,7 @@ using Kind = SuspectKind;
 
 class Places {
 public:
-  explicit Places(const Program& program) : program_(program) {}
+  explicit Places(const compiler::Program& program) : program_(program) {}
 
   std::vector<Suspect> of(const StatementNode& whole) {
     for (const auto& statement : program_.whole(whole))
@@ -135,7 +134,7 @@ private:
     }
   }
 
-  const Program& program_;
+  const compiler::Program& program_;
   std::vector<Suspect> found_;
 };
 

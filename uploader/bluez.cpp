@@ -11,9 +11,9 @@
 namespace orb::uploader {
 namespace {
 
+using bluez::ble_interrupted;
 using bluez::Bus;
 using bluez::CallError;
-using bluez::interrupted;
 using protocol::BleStep;
 using spec::BleCharacteristic;
 
@@ -164,7 +164,7 @@ private:
   tl::unexpected<BleError> failed(BleFailure failure, std::string_view what,
                                   const CallError& call) const {
     if (call.interrupted)
-      return tl::unexpected(interrupted());
+      return tl::unexpected(ble_interrupted());
     if (auto error = bluez::trouble(*bus_, adapter_))
       return tl::unexpected(*std::move(error));
     if (call.is("AccessDenied"))
@@ -241,7 +241,7 @@ private:
 
   tl::expected<std::string, BleError> not_found(Duration budget, const Patience& patience) const {
     if (patience.stopped())
-      return tl::unexpected(interrupted());
+      return tl::unexpected(ble_interrupted());
     if (auto error = bluez::trouble(*bus_, adapter_))
       return tl::unexpected(*std::move(error));
     std::vector<std::string> names;
@@ -282,7 +282,7 @@ private:
       return risen || !bus_->alive();
     }));
     if (patience.stopped())
-      return tl::unexpected(interrupted());
+      return tl::unexpected(ble_interrupted());
     if (!risen)
       return failed(BleFailure::NotConnected, "the robot does not connect", {});
     ours_ = ours_ || !before;
@@ -295,7 +295,7 @@ private:
     const auto start = now();
     static_cast<void>(bus_->wait(patience, [&] { return flag("ServicesResolved") || lost(); }));
     if (patience.stopped())
-      return tl::unexpected(interrupted());
+      return tl::unexpected(ble_interrupted());
     if (lost() || !flag("ServicesResolved"))
       return failed(BleFailure::NotResolved,
                     fmt::format("the robot did not describe its services within {:.1f} s",
@@ -351,7 +351,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
   if (error)
     return tl::unexpected(*std::move(error));
   if (patience.stopped())
-    return tl::unexpected(interrupted());
+    return tl::unexpected(ble_interrupted());
   std::vector<SeenDevice> devices;
   for (auto& [path, device] : seen)
     devices.push_back(std::move(device));

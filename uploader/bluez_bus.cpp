@@ -15,7 +15,7 @@ constexpr auto manager_interface = "org.freedesktop.DBus.ObjectManager";
 
 BleError describe(const CallError& error) {
   if (error.interrupted)
-    return interrupted();
+    return ble_interrupted();
   if (error.is("AccessDenied"))
     return {BleFailure::NotAllowed, "no permission to use Bluetooth"};
   if (error.name.empty())
@@ -25,7 +25,7 @@ BleError describe(const CallError& error) {
 
 } // namespace
 
-BleError interrupted() {
+BleError ble_interrupted() {
   return {BleFailure::Interrupted, interrupted_opening};
 }
 
@@ -42,7 +42,7 @@ tl::expected<std::unique_ptr<Bus>, BleError> Bus::open(const Patience& patience)
   } catch (const sdbus::Error& error) {
     // A signal, too, ends the library's own wait: it is nothing the bus has done.
     if (patience.stopped())
-      return tl::unexpected(interrupted());
+      return tl::unexpected(ble_interrupted());
     return tl::unexpected(BleError{
         BleFailure::NoBus, fmt::format("there is no D-Bus system bus: {}", error.getMessage())});
   }

@@ -112,7 +112,7 @@ private:
 };
 
 /// That nobody waits any more.
-BleError interrupted();
+BleError ble_interrupted();
 
 /// The steady clock as an Instant.
 Instant steady_now();

@@ -89,7 +89,7 @@ private:
   std::map<std::uint64_t, int> seen_;
 };
 
-Json fix_json(const Source& source, const Fix& fix) {
+Json sarif_fix(const Source& source, const Fix& fix) {
   Json replacements = Json::array();
   for (const auto& edit : fix.edits) {
     Json replacement;
@@ -122,7 +122,7 @@ Json result_json(const Source& source, const Diagnostic& diagnostic, std::size_t
     json["relatedLocations"].push_back(std::move(related));
   }
   if (diagnostic.fix && !diagnostic.fix->edits.empty())
-    json["fixes"] = Json::array({fix_json(source, *diagnostic.fix)});
+    json["fixes"] = Json::array({sarif_fix(source, *diagnostic.fix)});
   if (diagnostic.basic_line)
     json["properties"] = {{"basicLine", *diagnostic.basic_line}};
   return json;

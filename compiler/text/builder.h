@@ -38,15 +38,15 @@ inline constexpr auto operator_of = [] {
   return table;
 }();
 
-struct Digits {
+struct NumberRead {
   std::uint32_t value = 0; ///< modulo 2^32
   bool above_integer = false;
   bool above_word = false; ///< 2^32 or more
 };
 
-inline Digits read_digits(const char* begin, const char* end) {
+inline NumberRead read_digits(const char* begin, const char* end) {
   std::uint64_t value = 0;
-  Digits digits;
+  NumberRead digits;
   for (; begin != end; ++begin) {
     value = value * 10 + static_cast<std::uint64_t>(*begin - '0');
     if (value > static_cast<std::uint64_t>(spec::value_of(spec::Limit::GreatestInteger))) {

@@ -8,14 +8,14 @@ namespace orb::cli {
 namespace {
 
 /// A small option model, so that the test does not depend on what the commands take today.
-struct Model {
+struct Parser {
   CommandLine line{"tool", "", ""};
   std::vector<reference::Candidate> ports{{"@red", "rfcomm://68:86:E7:00:11:22"}};
   std::string text;
   std::vector<std::string> files;
   bool flag = false;
 
-  Model() {
+  Parser() {
     const auto tool = line.root();
     tool.add_flag("-q,--quiet", flag, "say less");
     const auto send = tool.add_command("send", "sends", "tool send a.bas");
@@ -33,7 +33,7 @@ struct Model {
 };
 
 TEST(Complete, OffersCommands) {
-  Model model;
+  Parser model;
   EXPECT_EQ(model.answer({""}), "send\tsends\nexplain\texplains\n");
   EXPECT_EQ(model.answer({"se"}), "send\tsends\n");
   EXPECT_EQ(model.answer({}), model.answer({""}));
@@ -41,14 +41,14 @@ TEST(Complete, OffersCommands) {
 }
 
 TEST(Complete, OffersOptionsOfTheCommandAndThoseThatStandAnywhere) {
-  Model model;
+  Parser model;
   EXPECT_EQ(model.answer({"send", "--p"}), "--port\twhere to\n--pty\ta link\n");
   EXPECT_EQ(model.answer({"send", "--q"}), "--quiet\tsay less\n");
   EXPECT_EQ(model.answer({"-q", "se"}), "send\tsends\n");
 }
 
 TEST(Complete, OffersTheValuesOfAnOption) {
-  Model model;
+  Parser model;
   EXPECT_EQ(model.answer({"send", "--format", ""}), "text\njson\n");
   EXPECT_EQ(model.answer({"send", "--format=j"}), "--format=json\n");
   EXPECT_EQ(model.answer({"send", "--port", "@"}), "@red\trfcomm://68:86:E7:00:11:22\n:files\n");
@@ -56,13 +56,13 @@ TEST(Complete, OffersTheValuesOfAnOption) {
 }
 
 TEST(Complete, AnOptionalValueStandsOnlyBehindEquals) {
-  Model model;
+  Parser model;
   EXPECT_EQ(model.answer({"send", "--pty", ""}), ":files\n"); // the argument FILE
   EXPECT_EQ(model.answer({"send", "--pty="}), ":files\n");
 }
 
 TEST(Complete, OffersWhatAnArgumentTakes) {
-  Model model;
+  Parser model;
   EXPECT_EQ(model.answer({"send", "a.bas", ""}), ":files\n");
   EXPECT_EQ(model.answer({"send", "--", "--p"}), ":files\n");
   EXPECT_NE(model.answer({"explain", "gor"}).find("goroll\t"), std::string::npos);
@@ -70,7 +70,7 @@ TEST(Complete, OffersWhatAnArgumentTakes) {
 }
 
 TEST(OneOf, NamesTheWordThatWasMeant) {
-  Model model;
+  Parser model;
   const auto parsed = model.line.parse({"send", "a.bas", "--format", "jsno"});
   EXPECT_EQ(parsed.kind, Parsed::Kind::Misread);
   EXPECT_EQ(parsed.command, "send");

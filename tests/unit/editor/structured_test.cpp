@@ -94,7 +94,7 @@ TEST(Structured, RenameKeepsToOneMeaning) {
   EXPECT_EQ(session.renamed(12, 4, "Turns"), "`Turns` is in use already");
   EXPECT_EQ(session.renamed(12, 4, "2nd"),
             "a name is a letter or `_`, then letters, digits and `_`, at most 31 of them");
-  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the structured_text");
+  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the program");
 }
 
 TEST(Structured, CompletionKnowsWhatIsVisible) {

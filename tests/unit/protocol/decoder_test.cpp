@@ -48,10 +48,10 @@ Bytes operator+(Bytes left, const Bytes& right) {
   return left;
 }
 
-const Bytes ping = {0xFF, 0xFF, 0x00, 0x01, 0x52, 0x01, 0xAB};
+const Bytes ping_bytes = {0xFF, 0xFF, 0x00, 0x01, 0x52, 0x01, 0xAB};
 
 TEST(Packet, PingIsTheExampleOfTheDocument) {
-  EXPECT_EQ(encode(make_command(spec::ApiCommand::Ping, {}, 0x52)), ping);
+  EXPECT_EQ(encode(make_command(spec::ApiCommand::Ping, {}, 0x52)), ping_bytes);
 }
 
 TEST(Packet, AnswersAndMessagesHaveTheDocumentedLayout) {
@@ -71,7 +71,7 @@ TEST(Packet, LongPayloadsGoOutUnderDlenFF) {
 TEST(Packet, DlenFFIsAnOrdinaryLengthElsewhere) {
   const auto append = make_command(spec::ApiCommand::AppendOrbbasicFragment, Bytes(254, 1));
   EXPECT_EQ(encode(append).size(), 6u + 255);
-  const auto found = decode(Direction::ToBall, {encode(append) + ping});
+  const auto found = decode(Direction::ToBall, {encode(append) + ping_bytes});
   ASSERT_EQ(kinds(found), (std::vector{Kind::Command, Kind::Command}));
   EXPECT_EQ(found[0].data.size(), 254u);
 }
@@ -88,25 +88,25 @@ TEST(Packet, ChecksumOfManyLargeBytesDoesNotOverflow) {
 }
 
 TEST(Decoder, SkipsNoiseAndReportsItOnce) {
-  const auto found = decode(Direction::ToBall, {Bytes{0x0D, 0x75, 0xFF, 0x3E} + ping});
+  const auto found = decode(Direction::ToBall, {Bytes{0x0D, 0x75, 0xFF, 0x3E} + ping_bytes});
   ASSERT_EQ(kinds(found), (std::vector{Kind::Noise, Kind::Command}));
   EXPECT_EQ(found[0].raw, (Bytes{0x0D, 0x75, 0xFF, 0x3E}));
-  EXPECT_EQ(found[1].raw, ping);
+  EXPECT_EQ(found[1].raw, ping_bytes);
 }
 
 TEST(Decoder, AStrayFFBeforeAPacketCostsOnlyItself) {
   // FF FF FF 00 … reads as device FFh at first, which would wait for 81 bytes more.
   Decoder decoder(Direction::ToBall);
-  const auto bytes = Bytes{0xFF} + ping;
+  const auto bytes = Bytes{0xFF} + ping_bytes;
   decoder.feed(bytes);
   std::vector<Found> found;
   drain(decoder, found);
   ASSERT_EQ(kinds(found), (std::vector{Kind::Noise, Kind::Command}));
-  EXPECT_EQ(found[1].raw, ping);
+  EXPECT_EQ(found[1].raw, ping_bytes);
 }
 
 TEST(Decoder, RescansFromTheByteAfterSop1OfADamagedPacket) {
-  auto damaged = encode(make_command(spec::ApiCommand::SaveTemporaryMacro, ping));
+  auto damaged = encode(make_command(spec::ApiCommand::SaveTemporaryMacro, ping_bytes));
   damaged.back() ^= 1;
   const auto found = decode(Direction::ToBall, {damaged});
   ASSERT_GE(found.size(), 2u);
@@ -114,12 +114,13 @@ TEST(Decoder, RescansFromTheByteAfterSop1OfADamagedPacket) {
   EXPECT_EQ(found[0].raw, damaged);
   bool ping_found = false;
   for (const auto& item : found)
-    ping_found |= item.kind == Kind::Command && item.raw == ping;
+    ping_found |= item.kind == Kind::Command && item.raw == ping_bytes;
   EXPECT_TRUE(ping_found);
 }
 
 TEST(Decoder, AnExpiredHalfPacketIsOneFragmentAndGivesBackWhatItSwallowed) {
-  const auto found = decode(Direction::ToBall, {{0xFF, 0xFF, 0x02, 0x61, 0x09, 0x40}, ping, ping});
+  const auto found =
+      decode(Direction::ToBall, {{0xFF, 0xFF, 0x02, 0x61, 0x09, 0x40}, ping_bytes, ping_bytes});
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].kind, Kind::Fragment);
   std::size_t pings = 0, fragments = 0;

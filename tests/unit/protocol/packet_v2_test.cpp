@@ -23,25 +23,25 @@ TEST(PacketV2, EscapesTheThreeSpecialBytesAfterTheChecksum) {
 }
 
 TEST(PacketV2, ReadsTargetSourceAndErrorWhereTheFlagsSaySo) {
-  const auto items = decode(encode({.flags = 0x31,
-                                    .target = 0x12,
-                                    .source = 0x01,
-                                    .did = 0x11,
-                                    .cid = 0x06,
-                                    .seq = 5,
-                                    .error = 7,
-                                    .data = {1, 2}}));
+  const auto items = decode(encode(PacketV2{.flags = 0x31,
+                                            .target = 0x12,
+                                            .source = 0x01,
+                                            .did = 0x11,
+                                            .cid = 0x06,
+                                            .seq = 5,
+                                            .error = 7,
+                                            .data = {1, 2}}));
   ASSERT_EQ(items.size(), 1u);
   ASSERT_EQ(items[0].kind, ItemV2::Kind::Packet);
-  EXPECT_EQ(
-      describe(items[0]),
-      "response get-mac-address: flags 31 (response, target, source), tid 12 (port 1, node 2), sid 01 (port 0, "
-      "node 1), did 11, cid 06, seq 05, err 07 (bad parameter value), data 01 02, chk 95");
+  EXPECT_EQ(describe(items[0]),
+            "response get-mac-address: flags 31 (response, target, source), tid 12 (port 1, node "
+            "2), sid 01 (port 0, "
+            "node 1), did 11, cid 06, seq 05, err 07 (bad parameter value), data 01 02, chk 95");
 }
 
 TEST(PacketV2, FindsPacketsAfterNoiseLostEndsAndBadChecksums) {
   auto stream = Bytes{0x00, 0x01};
-  const auto good = encode({.flags = 2, .did = 1, .cid = 2, .seq = 3, .data = {}});
+  const auto good = encode(PacketV2{.flags = 2, .did = 1, .cid = 2, .seq = 3, .data = {}});
   stream.insert(stream.end(), good.begin(), good.end() - 1); // its end is lost
   stream.insert(stream.end(), good.begin(), good.end());
   auto damaged = good;

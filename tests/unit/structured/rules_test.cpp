@@ -10,7 +10,7 @@
 namespace orb::structured {
 namespace {
 
-Compiled compiled(std::string_view text) {
+Compiled compile_text(std::string_view text) {
   NoFiles files;
   return compile("test.orb", "test.orb", text, {}, files);
 }
@@ -18,7 +18,7 @@ Compiled compiled(std::string_view text) {
 TEST(Rules, EachBadExampleRaisesItsRule) {
   for (const auto& rule : rules::all())
     if (!rule.bad.empty()) {
-      const auto found = compiled(rule.bad).program.diagnostics;
+      const auto found = compile_text(rule.bad).program.diagnostics;
       EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const Diagnostic& d) {
         return d.rule == &rule;
       })) << rule.id;
@@ -28,14 +28,14 @@ TEST(Rules, EachBadExampleRaisesItsRule) {
 TEST(Rules, EachBadExampleHasOneFinding) {
   for (const auto& rule : rules::all())
     if (!rule.bad.empty()) {
-      for (const auto& d : compiled(rule.bad).program.diagnostics)
+      for (const auto& d : compile_text(rule.bad).program.diagnostics)
         EXPECT_EQ(d.rule, &rule) << rule.id << ": " << d.rule->id << ": " << d.message;
     }
 }
 
 TEST(Rules, EachGoodExampleIsFine) {
   for (const auto& rule : rules::all())
-    for (const auto& d : compiled(rule.good).program.diagnostics)
+    for (const auto& d : compile_text(rule.good).program.diagnostics)
       if (!rule.good.empty())
         ADD_FAILURE() << rule.id << ": " << d.rule->id << ": " << d.message;
 }
@@ -50,7 +50,7 @@ TEST(Rules, RowsAreWritten) {
 
 std::string fixed(std::string text) {
   for (int round = 0; round < 8; ++round) {
-    auto next = apply_fixes(text, findings_by_file(compiled(text).program).front());
+    auto next = apply_fixes(text, findings_by_file(compile_text(text).program).front());
     if (next.count == 0)
       break;
     text = std::move(next.text);
@@ -76,9 +76,9 @@ TEST(Habits, OfOtherLanguagesAreRewritten) {
       {"rem hello\nprint 1\n", "' hello\nprint 1\n"},
   };
   for (const auto& [foreign, own] : habits) {
-    EXPECT_TRUE(compiled(foreign).has_errors()) << foreign;
+    EXPECT_TRUE(compile_text(foreign).has_errors()) << foreign;
     EXPECT_EQ(fixed(foreign), own);
-    EXPECT_FALSE(compiled(own).has_errors()) << own;
+    EXPECT_FALSE(compile_text(own).has_errors()) << own;
   }
 }
 

@@ -24,7 +24,7 @@ public:
   std::vector<std::pair<Instant, Event>> events;
 };
 
-class TheBall : public testing::Test {
+class TheBall : public ::testing::Test {
 protected:
   TheBall() : ball(options()) { ball.connect(); }
 

@@ -116,7 +116,7 @@ const Case cases[] = {
     {"everything starts at zero", "10 ? A,Y,timerB\n", "0 0 0\n", "end"},
 };
 
-class Programs : public testing::TestWithParam<Case> {};
+class Programs : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Programs, PrintAndEnd) {
   const auto& test = GetParam();
@@ -140,7 +140,7 @@ TEST_P(Programs, PrintAndEnd) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Machine, Programs, testing::ValuesIn(cases), [](const auto& program) {
+INSTANTIATE_TEST_SUITE_P(Machine, Programs, ::testing::ValuesIn(cases), [](const auto& program) {
   std::string name = program.param.name;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)))
