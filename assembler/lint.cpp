@@ -1,5 +1,6 @@
 #include "assembler/lint.h"
 
+#include "assembler/layout.h"
 #include "assembler/lint_timing.h"
 #include "assembler/parse.h"
 #include "assembler/rules.h"
