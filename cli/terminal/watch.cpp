@@ -1,13 +1,13 @@
 #include "cli/terminal/watch.h"
 
-#include <algorithm>
+#include "cli/terminal/watch_loop.h"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <fmt/format.h>
-#include <optional>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <tuple>
@@ -16,8 +16,6 @@
 namespace orb::cli {
 namespace {
 
-/// How often the files are looked at. Looking works on every file system and through every way in
-/// which an editor saves; a notification does not.
 constexpr timespec period{0, 100'000'000};
 
 /// What changes when a file is written, replaced or removed.
@@ -28,13 +26,6 @@ Stamp stamp(const std::string& path) {
   if (::stat(path.c_str(), &status) != 0)
     return {};
   return {true, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
-}
-
-std::vector<Stamp> stamps(const std::vector<std::string>& files) {
-  std::vector<Stamp> list;
-  for (const auto& file : files)
-    list.push_back(stamp(file));
-  return list;
 }
 
 /// The signals that end watching, held back so that none is lost between two looks; in the watching
@@ -58,41 +49,52 @@ private:
   sigset_t before_;
 };
 
-/// One run of the command in a process of its own.
-class Run {
+/// One run of the command at a time, in a process of its own.
+class Runs {
 public:
-  Run(Context& context, Held& held, const std::function<void()>& once) {
+  Runs(Context& context, const std::function<void()>& once) : context_(context), once_(once) {}
+  ~Runs() { stop(); }
+  Runs(const Runs&) = delete;
+  Runs& operator=(const Runs&) = delete;
+
+  void start() {
+    stop();
     std::fflush(nullptr);
     process_ = ::fork();
     if (process_ < 0)
-      print_error(context, fmt::format("cannot start a run: {}; the next change tries again",
-                                       std::strerror(errno)));
+      print_error(context_, fmt::format("cannot start a run: {}; the next change tries again",
+                                        std::strerror(errno)));
     if (process_ != 0)
       return;
-    held.release();
-    once();
+    held_.release();
+    once_();
     std::fflush(nullptr);
-    ::_exit(static_cast<int>(context.exit));
+    ::_exit(static_cast<int>(context_.exit));
   }
-  ~Run() {
+
+  RunEnd end() {
+    int status = 0;
+    if (process_ <= 0 || ::waitpid(process_, &status, WNOHANG) == 0)
+      return RunEnd::NotYet;
+    process_ = 0;
+    const bool pipe = WIFSIGNALED(status) && WTERMSIG(status) == SIGPIPE;
+    return pipe ? RunEnd::ReaderGone : RunEnd::Finished;
+  }
+
+  bool interrupted() { return held_.came(); }
+
+private:
+  void stop() {
     if (process_ <= 0)
       return;
     ::kill(process_, SIGTERM);
     ::waitpid(process_, nullptr, 0);
-  }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-
-  /// Takes note of an end since the last call: its status, as waitpid(2) gives it.
-  std::optional<int> ended() {
-    int status = 0;
-    if (process_ <= 0 || ::waitpid(process_, &status, WNOHANG) == 0)
-      return std::nullopt;
     process_ = 0;
-    return status;
   }
 
-private:
+  Context& context_;
+  const std::function<void()>& once_;
+  Held held_;
   pid_t process_ = 0;
 };
 
@@ -102,28 +104,7 @@ void watch(Context& context, const std::function<std::vector<std::string>()>& li
            const std::function<void()>& once, const std::function<void()>& ended,
            const std::vector<std::string>&) {
   context.exit = ExitCode::Done;
-  Held held;
-  auto files = list();
-  auto seen = stamps(files);
-  std::optional<Run> run;
-  run.emplace(context, held, once);
-  while (!held.came()) {
-    if (const auto status = run->ended()) {
-      if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGPIPE)
-        return; // nobody reads any more
-      ended();
-      print_note(context, "waiting for a change; Ctrl-C ends");
-    }
-    const auto now = stamps(files);
-    if (now == seen)
-      continue;
-    const auto changed = std::mismatch(now.begin(), now.end(), seen.begin()).first - now.begin();
-    print_note(context, fmt::format("--- {} changed", files[static_cast<std::size_t>(changed)]));
-    files = list();
-    seen = stamps(files);
-    run.reset();
-    run.emplace(context, held, once);
-  }
+  watch_with(Runs(context, once), stamp, context, list, ended);
 }
 
 } // namespace orb::cli

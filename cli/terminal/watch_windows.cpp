@@ -1,15 +1,14 @@
 #include "cli/terminal/watch.h"
 
 #include "cli/terminal/interrupt.h"
+#include "cli/terminal/watch_loop.h"
 #include "disk/disk.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
-#include <optional>
 #include <system_error>
-#include <tuple>
 #include <windows.h>
 
 #include <shellapi.h> // needs what that declares
@@ -17,14 +16,14 @@
 namespace orb::cli {
 namespace {
 
-constexpr DWORD period_ms = 100; ///< how often the files are looked at
+constexpr DWORD period_ms = 100;
 
 /// Is set for a process that is one run of a command that is watched.
 constexpr const wchar_t* mark = L"ORB_WATCHED_RUN";
 
 /// What changes when a file is written, replaced or removed: whether it is there, which one, how
 /// long and when written.
-using Stamp = std::tuple<bool, DWORD, DWORD, DWORD, DWORD, DWORD>;
+using Stamp = std::array<DWORD, 6>;
 
 Stamp stamp(const std::string& path) {
   const auto file = ::CreateFileW(disk::as_path(path).c_str(), FILE_READ_ATTRIBUTES,
@@ -35,19 +34,12 @@ Stamp stamp(const std::string& path) {
   BY_HANDLE_FILE_INFORMATION info{};
   ::GetFileInformationByHandle(file, &info);
   ::CloseHandle(file);
-  return {true,
+  return {1,
           info.nFileIndexHigh,
           info.nFileIndexLow,
           info.nFileSizeLow,
           info.ftLastWriteTime.dwHighDateTime,
           info.ftLastWriteTime.dwLowDateTime};
-}
-
-std::vector<Stamp> stamps(const std::vector<std::string>& files) {
-  std::vector<Stamp> list;
-  for (const auto& file : files)
-    list.push_back(stamp(file));
-  return list;
 }
 
 /// A word of a command line, as CommandLineToArgvW() reads it back: a backslash counts as one of
@@ -88,10 +80,19 @@ HANDLE make_job() {
   return job;
 }
 
-/// One run of the command in a process of its own.
-class Run {
+/// One run of the command at a time, in a process of its own.
+class Runs {
 public:
-  Run(Context& context, HANDLE job, std::wstring line) {
+  Runs(Context& context, std::wstring line) : context_(context), line_(std::move(line)) {}
+  ~Runs() {
+    stop();
+    ::CloseHandle(job_);
+  }
+  Runs(const Runs&) = delete;
+  Runs& operator=(const Runs&) = delete;
+
+  void start() {
+    stop();
     std::array<wchar_t, 32768> program{}; // as long as a path may be
     ::GetModuleFileNameW(nullptr, program.data(), program.size());
     STARTUPINFOW start{};
@@ -101,44 +102,53 @@ public:
     start.hStdOutput = ::GetStdHandle(STD_OUTPUT_HANDLE);
     start.hStdError = ::GetStdHandle(STD_ERROR_HANDLE);
     PROCESS_INFORMATION made{};
+    auto line = line_; // is written into
     ::SetEnvironmentVariableW(mark, L"1");
     const bool begun = ::CreateProcessW(program.data(), line.data(), nullptr, nullptr, TRUE,
                                         CREATE_SUSPENDED, nullptr, nullptr, &start, &made) != 0;
     const auto error = static_cast<int>(::GetLastError());
     ::SetEnvironmentVariableW(mark, nullptr);
     if (!begun) {
-      print_error(context, fmt::format("cannot start a run: {}; the next change tries again",
-                                       std::system_category().message(error)));
+      print_error(context_, fmt::format("cannot start a run: {}; the next change tries again",
+                                        std::system_category().message(error)));
       return;
     }
-    ::AssignProcessToJobObject(job, made.hProcess);
+    ::AssignProcessToJobObject(job_, made.hProcess);
     ::ResumeThread(made.hThread);
     ::CloseHandle(made.hThread);
     process_ = made.hProcess;
   }
-  ~Run() {
+
+  RunEnd end() {
+    if (process_ == nullptr || ::WaitForSingleObject(process_, 0) != WAIT_OBJECT_0)
+      return RunEnd::NotYet;
+    DWORD code = 0;
+    ::GetExitCodeProcess(process_, &code);
+    ::CloseHandle(process_);
+    process_ = nullptr;
+    return code == ERROR_BROKEN_PIPE ? RunEnd::ReaderGone : RunEnd::Finished;
+  }
+
+  bool interrupted() {
+    ::Sleep(period_ms);
+    return InterruptGuard::asked() > 0;
+  }
+
+private:
+  void stop() {
     if (process_ == nullptr)
       return;
     ::TerminateProcess(process_, EXIT_FAILURE);
     ::WaitForSingleObject(process_, INFINITE);
     ::CloseHandle(process_);
-  }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-
-  /// Takes note of an end since the last call: the code that it left.
-  std::optional<DWORD> ended() {
-    if (process_ == nullptr || ::WaitForSingleObject(process_, 0) != WAIT_OBJECT_0)
-      return std::nullopt;
-    DWORD code = 0;
-    ::GetExitCodeProcess(process_, &code);
-    ::CloseHandle(process_);
     process_ = nullptr;
-    return code;
   }
 
-private:
+  Context& context_;
+  std::wstring line_;
+  HANDLE job_ = make_job();
   HANDLE process_ = nullptr;
+  InterruptGuard guard_;
 };
 
 } // namespace
@@ -149,30 +159,7 @@ void watch(Context& context, const std::function<std::vector<std::string>()>& li
   if (::GetEnvironmentVariableW(mark, nullptr, 0) != 0)
     return once();
   context.exit = ExitCode::Done;
-  const InterruptGuard guard;
-  const auto job = make_job();
-  const auto line = command_line(words);
-  auto files = list();
-  auto seen = stamps(files);
-  std::optional<Run> run;
-  run.emplace(context, job, line);
-  for (; InterruptGuard::asked() == 0; ::Sleep(period_ms)) {
-    if (const auto code = run->ended()) {
-      if (*code == ERROR_BROKEN_PIPE)
-        return; // nobody reads any more
-      ended();
-      print_note(context, "waiting for a change; Ctrl-C ends");
-    }
-    const auto now = stamps(files);
-    if (now == seen)
-      continue;
-    const auto changed = std::mismatch(now.begin(), now.end(), seen.begin()).first - now.begin();
-    print_note(context, fmt::format("--- {} changed", files[static_cast<std::size_t>(changed)]));
-    files = list();
-    seen = stamps(files);
-    run.reset();
-    run.emplace(context, job, line);
-  }
+  watch_with(Runs(context, command_line(words)), stamp, context, list, ended);
 }
 
 } // namespace orb::cli
