@@ -1,5 +1,7 @@
 #include "cli/terminal/browser.h"
 
+#include "disk/disk.h"
+
 #include <filesystem>
 #include <fmt/format.h>
 #include <windows.h>
@@ -10,7 +12,7 @@ namespace orb::cli {
 
 tl::expected<void, std::string> show_in_browser(const std::string& path) {
   std::error_code ignored;
-  const auto file = std::filesystem::absolute(path, ignored);
+  const auto file = std::filesystem::absolute(disk::as_path(path), ignored).make_preferred();
   constexpr INT_PTR least_success = 32;
   const auto result =
       ::ShellExecuteW(nullptr, L"open", file.c_str(), nullptr, nullptr, SW_SHOWNORMAL);

@@ -2,7 +2,6 @@
 
 #include "cli/context/console.h"
 
-#include <conio.h>
 #include <windows.h>
 
 namespace orb::cli {
@@ -40,23 +39,25 @@ Pressed Keys::next(Wait wait) {
       return {};
     return read_input({&byte, 1}) == 1 ? Pressed{Key::None, byte} : Pressed{Key::End, 0};
   }
-  constexpr int first_of_two = 0xE0; // what an arrow begins with
-  constexpr int up = 72;
-  constexpr int left = 75;
-  constexpr int right = 77;
-  constexpr int down = 80;
-  if (::_kbhit() == 0)
-    return {};
-  const int key = ::_getch();
-  if (key != 0 && key != first_of_two)
-    return {Key::None, static_cast<char>(key)};
-  switch (::_getch()) {
-  case up: return {Key::Up, 0};
-  case down: return {Key::Down, 0};
-  case left: return {Key::LeftArrow, 0};
-  case right: return {Key::RightArrow, 0};
-  default: return {};
+  const auto in = ::GetStdHandle(STD_INPUT_HANDLE);
+  INPUT_RECORD record{};
+  DWORD count = 0;
+  while (::PeekConsoleInputW(in, &record, 1, &count) != 0 && count == 1) {
+    ::ReadConsoleInputW(in, &record, 1, &count);
+    const auto& key = record.Event.KeyEvent;
+    if (record.EventType != KEY_EVENT || key.bKeyDown == 0)
+      continue;
+    switch (key.wVirtualKeyCode) {
+    case VK_UP: return {Key::Up, 0};
+    case VK_DOWN: return {Key::Down, 0};
+    case VK_LEFT: return {Key::LeftArrow, 0};
+    case VK_RIGHT: return {Key::RightArrow, 0};
+    default: break;
+    }
+    if (const auto letter = key.uChar.UnicodeChar; letter > 0 && letter < 0x80)
+      return {Key::None, static_cast<char>(letter)};
   }
+  return {};
 }
 
 } // namespace orb::cli
