@@ -15,6 +15,12 @@ bool is_device_name(std::string_view port);
 /// How ports are written, for messages.
 extern const std::string_view port_forms;
 
+/// What a port begins with, for help.
+extern const std::string_view port_kinds;
+
+/// A text with examples of ports, which is written for Linux, with those of this system.
+std::string with_ports_of_this_system(std::string text);
+
 /// An error as errno has it, in words.
 const char* error_words(int error);
 

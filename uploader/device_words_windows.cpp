@@ -5,11 +5,32 @@
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
+#include <sstream>
 
 namespace orb::uploader {
 
 const std::string_view port_forms =
     "`COM5`, `tcp://host:port`, `replay://file` or `sim:`; `orb ports` lists them";
+
+const std::string_view port_kinds = "COM5, tcp://, sim:";
+
+/// A line about Bluetooth LE is left out, and one that is as the line before has become.
+std::string with_ports_of_this_system(std::string text) {
+  constexpr std::string_view linux_ports[] = {"/dev/rfcomm0", "rfcomm://68:86:E7:00:11:22"};
+  std::istringstream lines(text);
+  std::string out;
+  std::string before;
+  for (std::string line; std::getline(lines, line); before = line) {
+    for (const auto port : linux_ports)
+      if (const auto at = line.find(port); at != line.npos)
+        line.replace(at, port.size(), "COM5");
+    if (line.find("ble://") == line.npos && (line.empty() || line != before))
+      out += line + '\n';
+  }
+  if (!text.ends_with('\n') && !out.empty())
+    out.pop_back();
+  return out;
+}
 
 bool is_device_name(std::string_view port) {
   constexpr std::string_view com = "COM";
@@ -41,8 +62,7 @@ std::string open_help(const Endpoint& endpoint, int error) {
            "`orb ball --tcp 127.0.0.1:4242`";
   if (endpoint.scheme == Scheme::Rfcomm)
     return "pair the ball in the Bluetooth settings of Windows, which gives it a COM port, and "
-           "write "
-           "that one; `orb ports` lists them";
+           "write that one; `orb ports` lists them";
   if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
     return fmt::format("nothing listens there; a virtual ball does after `orb ball --tcp {}:{}`",
                        endpoint.host, endpoint.port);

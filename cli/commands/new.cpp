@@ -1,6 +1,7 @@
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "disk/disk.h"
+#include "uploader/device_words.h"
 
 #include <array>
 #include <cerrno>
@@ -167,7 +168,7 @@ std::string filled(std::string_view text, const std::string& name, std::string_v
     else
       out += c;
   }
-  return out;
+  return uploader::with_ports_of_this_system(std::move(out));
 }
 
 void make(Context& context, const NewOptions& options) {

@@ -5,6 +5,7 @@
 #include "cli/model/checks.h"
 #include "cli/model/command.h"
 #include "disk/disk.h"
+#include "uploader/device_words.h"
 #include "uploader/endpoint.h"
 
 #include <algorithm>
@@ -169,8 +170,9 @@ void add_roster_options(const Command& command, RosterOptions& options, const st
   command
       .add_option(
           "-p,--port", options.ports,
-          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim:, @ball or "
-          "@group; several for several robots")
+          fmt::format(
+              "where the ball is: {}, replay://, @ball or @group; several for several robots",
+              uploader::port_kinds))
       .one_value_each()
       .environment("ORB_PORT")
       .type_name("URL")
@@ -182,8 +184,9 @@ void add_robot_roster_options(const Command& command, RosterOptions& options,
                               const std::string& jobs) {
   command
       .add_option("-p,--port", options.ports,
-                  "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
-                  "pty://, sim:, @ball or @group; several for several robots")
+                  fmt::format("a robot that the program drives from here: {}, @ball or @group; "
+                              "several for several robots",
+                              uploader::port_kinds))
       .one_value_each()
       .type_name("URL");
   add_rest(command, options, jobs);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "uploader/device_words.h"
+
 #include <CLI/CLI.hpp>
 #include <string>
 #include <utility>
@@ -9,7 +11,8 @@ namespace orb::cli {
 /// Help with the examples first: people paste before they read.
 class HelpFormatter : public CLI::Formatter {
 public:
-  explicit HelpFormatter(std::string examples) : examples_(std::move(examples)) {}
+  explicit HelpFormatter(std::string examples)
+      : examples_(uploader::with_ports_of_this_system(std::move(examples))) {}
 
   std::string make_description(const CLI::App* app) const override;
 

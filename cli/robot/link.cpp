@@ -8,6 +8,7 @@
 #include "compiler/load.h"
 #include "disk/disk.h"
 #include "uploader/ble.h"
+#include "uploader/device_words.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
 #include "vm/bluetooth.h"
@@ -59,9 +60,8 @@ void add_waits(const Command& command, PortOptions& options) {
 
 void add_port_options(const Command& command, PortOptions& options) {
   command
-      .add_option(
-          "-p,--port", options.port,
-          "where the ball is: a path, rfcomm://, ble://, tcp://, pty://, replay://, sim: or @ball")
+      .add_option("-p,--port", options.port,
+                  fmt::format("where the ball is: {}, replay:// or @ball", uploader::port_kinds))
       .environment("ORB_PORT")
       .type_name("URL")
       .show_default();
@@ -78,8 +78,8 @@ void add_robot_port_options(const Command& command, PortOptions& options, std::s
   options.port.clear();
   command
       .add_option("-p,--port", options.port,
-                  "a robot that the program drives from here: a path, rfcomm://, ble://, tcp://, "
-                  "pty://, sim: or @ball")
+                  fmt::format("a robot that the program drives from here: {} or @ball",
+                              uploader::port_kinds))
       .type_name("URL");
   add_robot_options(command, options, robot);
 }
@@ -117,7 +117,9 @@ ExitCode Link::finish(const Context& context, ExitCode exit) {
     if (!kept)
       written = tl::unexpected(kept.error());
     else if (*kept)
-      print_note(context, fmt::format("this attempt is recorded in {}; the earlier recording is kept", **kept));
+      print_note(
+          context,
+          fmt::format("this attempt is recorded in {}; the earlier recording is kept", **kept));
   }
   if (written)
     return exit;

@@ -135,6 +135,7 @@ void add_calibrate(const Command& orb, Context& context) {
   const auto command = orb.add_command(
       "calibrate", "measure how a robot drives, for virtual balls that drive like it",
       "orb calibrate --port ble://SB-1A2B -o red\n"
+      "orb calibrate --port @red -o red\n"
       "orb calibrate --port sim: --ball red --yes");
   auto options = std::make_shared<CalibrateOptions>();
   add_robot_port_options(command, options->port, options->robot);

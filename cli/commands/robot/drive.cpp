@@ -268,6 +268,7 @@ void add_drive(const Command& orb, Context& context) {
   const auto command = orb.add_command("drive", "drive a robot by hand, and see what it feels",
                                        "orb drive --port ble://SB-1A2B\n"
                                        "orb drive --port ble://SB-1A2B --open\n"
+                                       "orb drive --port sim: --robot bolt --open\n"
                                        "printf 'wwwdddx' | orb drive --port sim: --robot mini");
   auto options = std::make_shared<DriveOptions>();
   add_robot_port_options(command, options->port, options->robot);
