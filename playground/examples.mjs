@@ -4,6 +4,7 @@
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { flat, for_page } from "./task.mjs";
 
 const [root, out, engine_folder] = process.argv.slice(2);
 const { load_engine } = await import(pathToFileURL(resolve(engine_folder, "engine.js")));
@@ -21,9 +22,6 @@ const is_comment = line => /^\s*['#;]/.test(line);
 const named_in = text => text.split("\n").filter(line => !is_comment(line))
   .flatMap(line => line.match(/[\w-]+\.(?:macro|orb|bas|svg|stimulus)\b/g) ?? [])
   .filter(name => name in places);
-
-/** In one folder nothing is further up. */
-const flat = text => text.replaceAll(/\.\.\/\.\.\/(?:\w+\/)?/g, "");
 
 /** A file and what it names, and what that names. */
 function gather(files, name, text) {
@@ -68,16 +66,6 @@ function example(name) {
     id: name, title: title ?? stem(name)[0].toUpperCase() + stem(name).slice(1), summary: summary.replace(/[,.]$/, ""),
     language: ending(name), files, main: name, ...is_tested && { test }, run, ...drawing({ files, run }, name),
   };
-}
-
-/** A task as the page gives it: a block is replaced by the comment `page:` that follows it, and what is to be typed into a
- *  terminal is a button there. */
-function for_page(readme) {
-  const blocks = flat(readme).trim().split(/\n\n+/), said = block => /^<!-- page: ([^]*) -->$/.exec(block ?? "")?.[1];
-  return blocks.flatMap((block, i) => {
-    if (said(block) || said(blocks[i + 1])) return said(block) ?? [];
-    return block.split("\n").every(line => line.startsWith("    orb ")) ? [] : block;
-  }).join("\n\n") + "\n";
 }
 
 /** The path as a drawing of 120 by 72: [colour, d] of each stretch; and the last colour of the LED. */

@@ -54,20 +54,25 @@ std::string excerpt(const Source& source, Span span, Role role, Style style) {
 
 } // namespace
 
-std::string render_text(const Source& source, const Diagnostic& diagnostic, Style style) {
+std::string in_english(std::string_view text) {
+  return std::string(text);
+}
+
+std::string render_text(const Source& source, const Diagnostic& diagnostic, Style style,
+                        const Say& say) {
   const auto place = source.position(diagnostic.span.begin);
   const auto role = role_of(diagnostic.severity);
-  const auto kind = fmt::format("{}[{}]", to_string(diagnostic.severity), diagnostic.rule->id);
+  const auto kind = fmt::format("{}[{}]", say(to_string(diagnostic.severity)), diagnostic.rule->id);
   auto out = fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), place.line, place.column,
-                         style.paint(role, kind), to_printable(diagnostic.message));
+                         style.paint(role, kind), to_printable(say(diagnostic.message)));
   out += excerpt(source, diagnostic.span, role, style);
   if (!diagnostic.help.empty())
-    out +=
-        fmt::format("  {}: {}\n", style.paint(Role::Good, "help"), to_printable(diagnostic.help));
+    out += fmt::format("  {}: {}\n", style.paint(Role::Good, say("help")),
+                       to_printable(say(diagnostic.help)));
   for (const auto& note : diagnostic.notes) {
     const auto at = source.position(note.span.begin);
     out += fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), at.line, at.column,
-                       style.paint(Role::Note, "note"), to_printable(note.message));
+                       style.paint(Role::Note, say("note")), to_printable(say(note.message)));
     out += excerpt(source, note.span, Role::Note, style);
   }
   return out;
@@ -86,18 +91,19 @@ std::string render_gcc(const Source& source, const Diagnostic& diagnostic) {
   return out;
 }
 
-std::string render_summary(const std::vector<FileFindings>& files) {
+std::string render_summary(const std::vector<FileFindings>& files, const Say& say) {
   const auto counts = count(files);
   std::string out;
-  if (counts.errors > 0)
-    out += plural(counts.errors, "error");
-  if (counts.warnings > 0)
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", plural(counts.warnings, "warning"));
-  if (counts.infos > 0)
-    out += fmt::format("{}{}", out.empty() ? "" : ", ", plural(counts.infos, "note"));
+  const auto add = [&](std::size_t n, std::string_view what) {
+    if (n > 0)
+      out += fmt::format("{}{}", out.empty() ? "" : ", ", say(plural(n, what)));
+  };
+  add(counts.errors, "error");
+  add(counts.warnings, "warning");
+  add(counts.infos, "note");
   if (out.empty())
-    out = "no findings";
-  return fmt::format("{} in {}\n", out, plural(files.size(), "file"));
+    out = say("no findings");
+  return fmt::format("{} {}\n", out, say(fmt::format("in {}", plural(files.size(), "file"))));
 }
 
 } // namespace orb

@@ -3,11 +3,11 @@
 #include "assembler/formats.h"
 #include "assembler/lint.h"
 #include "assembler/timing.h"
-#include "base/render.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
+#include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 
@@ -87,7 +87,7 @@ bool report(const Context& context, const Source& source, Assembly& assembly) {
   sort_by_place(assembly.diagnostics);
   for (const auto& diagnostic : assembly.diagnostics)
     if (diagnostic.severity == Severity::Error || !context.quiet)
-      print_err(render_text(source, diagnostic, context.err_style()));
+      print_finding(context, source, diagnostic);
   return fatal;
 }
 

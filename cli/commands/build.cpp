@@ -1,4 +1,3 @@
-#include "base/render.h"
 #include "cli/commands/asm.h"
 #include "cli/commands/commands.h"
 #include "cli/input/inputs.h"
@@ -40,7 +39,7 @@ bool has_errors(Context& context, const Source& source, const std::vector<Diagno
         diagnostic.rule == &compiler::rules::ProgramTooLarge)
       continue;
     errors = true;
-    print_err(render_text(source, diagnostic, context.err_style()));
+    print_finding(context, source, diagnostic);
   }
   return errors;
 }

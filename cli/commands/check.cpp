@@ -2,6 +2,7 @@
 #include "base/render.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
+#include "cli/context/language.h"
 #include "cli/input/inputs.h"
 #include "cli/input/policy.h"
 #include "cli/input/target.h"
@@ -102,14 +103,15 @@ void print_findings(Context& context, const CheckOptions& options,
     print_out(render_sarif(files, [&](const Rule& rule) { return page_of(sections, rule); }));
   } else {
     const auto style = context.out_style();
+    const auto say = say_in(context.ui_language);
     std::string out;
     for (const auto& file : files)
       for (const auto& diagnostic : file.diagnostics)
         out += options.format == "gcc" ? render_gcc(*file.source, diagnostic)
-                                       : render_text(*file.source, diagnostic, style);
+                                       : render_text(*file.source, diagnostic, style, say);
     print_out(out);
     if (options.format == "text" && is_terminal(Stream::Out))
-      print_out(render_summary(files));
+      print_out(render_summary(files, say));
   }
 }
 

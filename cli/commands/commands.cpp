@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/context/language.h"
 #include "cli/model/command_line.h"
 
 #include "uploader/bluez.h"
@@ -77,6 +78,9 @@ std::unique_ptr<CommandLine> frame(Context& context) {
   orb.add_option("--color", context.color, "auto, always or never")
       .check(one_of({"auto", "always", "never"}))
       .show_default();
+  orb.add_option("--lang-ui", context.ui_language,
+                 "the language of findings, else that of LC_ALL, LC_MESSAGES or LANG")
+      .check(one_of(ui_languages()));
   return line;
 }
 

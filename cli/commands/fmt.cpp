@@ -1,7 +1,6 @@
 #include "assembler/layout.h"
 #include "assembler/lint.h"
 #include "assembler/rules.h"
-#include "base/render.h"
 #include "base/source.h"
 #include "base/text.h"
 #include "base/utf8.h"
@@ -57,7 +56,7 @@ std::optional<std::string> format_text(Context& context, const Source& source,
   auto checked = compiler::check(source.text(), {});
   if (!checked.image_bytes) { // no program at all: empty, binary or far too large
     for (const auto& diagnostic : checked.diagnostics)
-      print_err(render_text(source, diagnostic, context.err_style()));
+      print_finding(context, source, diagnostic);
     context.exit = ExitCode::BadInput;
     return std::nullopt;
   }
@@ -77,7 +76,7 @@ std::optional<std::string> format_text(Context& context, const Source& source,
 /// The same for a structured program, which has no numbers.
 std::optional<std::string> format_structured(Context& context, const Source& source) {
   if (const auto refused = compiler::refuse_text(source.text())) {
-    print_err(render_text(source, *refused, context.err_style()));
+    print_finding(context, source, *refused);
     context.exit = ExitCode::BadInput;
     return std::nullopt;
   }
@@ -90,7 +89,7 @@ std::optional<std::string> format_macro(Context& context, const Source& source) 
   for (const auto& diagnostic : assembler::check(source))
     for (const auto* rule : {&rules::EmptyFile, &rules::BinaryFile, &rules::SourceTooLarge})
       if (diagnostic.rule == rule) {
-        print_err(render_text(source, diagnostic, context.err_style()));
+        print_finding(context, source, diagnostic);
         context.exit = ExitCode::BadInput;
         return std::nullopt;
       }

@@ -17,6 +17,7 @@ struct Context {
   bool quiet = false;
   int verbosity = 0; ///< 1 for -v, 2 for -vv (wire trace)
   std::string color = "auto";
+  std::string ui_language; ///< of findings; empty for that of the environment
   Config config;
   ExitCode exit = ExitCode::Done;
 

@@ -1,6 +1,7 @@
 #include "cli/input/inputs.h"
 
 #include "base/render.h"
+#include "cli/context/language.h"
 #include "cli/model/command.h"
 #include "disk/disk.h"
 
@@ -127,6 +128,10 @@ tl::expected<report::Course, Failure> read_course(const Context& context, const 
   return std::move(reading.course);
 }
 
+void print_finding(const Context& context, const Source& source, const Diagnostic& diagnostic) {
+  print_err(render_text(source, diagnostic, context.err_style(), say_in(context.ui_language)));
+}
+
 bool print_findings(const Context& context, const Source& source,
                     const std::vector<Diagnostic>& findings) {
   bool errors = false;
@@ -135,7 +140,7 @@ bool print_findings(const Context& context, const Source& source,
     errors = errors || error;
     if (error || (!context.quiet && diagnostic.severity == Severity::Warning) ||
         context.verbosity > 0)
-      print_err(render_text(source, diagnostic, context.err_style()));
+      print_finding(context, source, diagnostic);
   }
   return errors;
 }

@@ -59,6 +59,12 @@ void add_course_option(const Command& command, std::string& path);
 /// Reads that drawing. What is said about it goes to stderr.
 tl::expected<report::Course, Failure> read_course(const Context& context, const std::string& path);
 
+/// Prints a finding to stderr.
+void print_finding(const Context& context, const Source& source, const Diagnostic& diagnostic);
+
+/// Prints a finding to stderr.
+void print_finding(const Context& context, const Source& source, const Diagnostic& diagnostic);
+
 /// Prints findings to stderr: errors always, warnings unless -q, the rest with -v. True when there
 /// is an error among them.
 bool print_findings(const Context& context, const Source& source,

@@ -248,4 +248,16 @@ Lines said_of(Language language, const Lines& program) {
   return said;
 }
 
+Lines sentences_of(Language language, const Lines& program) {
+  Lines sentences;
+  for (const auto& one : findings(language, join(program))) {
+    sentences.push_back(one.message);
+    if (!one.help.empty())
+      sentences.push_back(one.help);
+    for (const auto& note : one.notes)
+      sentences.push_back(note.message);
+  }
+  return sentences;
+}
+
 } // namespace slips

@@ -45,6 +45,9 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
 /// What is said of a program, a line for each finding.
 Lines said_of(Language language, const Lines& program);
 
+/// The same in its sentences: what was seen, what helps.
+Lines sentences_of(Language language, const Lines& program);
+
 /// What a program does, as text that can be compared; empty where it has errors.
 std::string meaning(Language language, const Lines& program);
 

@@ -3,6 +3,7 @@
 // something else, or when too few are answered with the line to write, or too many wrongly.
 
 #include "slips/judge.h"
+#include "slips/translated.h"
 
 #include <algorithm>
 #include <array>
@@ -113,6 +114,13 @@ std::string written(Language language, const std::string& line) {
   return language == Language::Macro || language == Language::Test ? "  " + line : line;
 }
 
+slips::Heard heard;
+
+void hear(Language language, const Lines& program) {
+  for (const auto& sentence : slips::sentences_of(language, program))
+    ++heard[sentence];
+}
+
 slips::Judged judge(const Mistake& one) {
   const auto with = [&](const std::string& line) {
     auto frame = frame_of(one.language, one.right.empty() ? one.wrong : one.right[0]);
@@ -126,6 +134,7 @@ slips::Judged judge(const Mistake& one) {
   for (const auto& right : one.right)
     meant.push_back(with(right));
   const auto at = frame_of(one.language, one.right.empty() ? one.wrong : one.right[0]).above.size();
+  hear(one.language, with(one.wrong));
   return slips::judge(one.language, with(one.wrong), at, meant);
 }
 
@@ -356,6 +365,7 @@ void mistype_all(const fs::path& root, bool show, Table& table) {
       if (changed[at].empty() ||
           slips::meaning(language, changed) == slips::meaning(language, lines))
         continue;
+      hear(language, changed);
       const auto judged = slips::judge(language, changed, at, {lines});
       table.add(language, judged);
       if (show && judged.verdict != Verdict::Good)
@@ -410,6 +420,7 @@ Split judge_programs(const fs::path& root, const Show& show, std::size_t& troubl
       std::cerr << wrong;
       ++troubles;
     }
+    hear(one.language, one.lines);
     const auto judged = judge(one);
     const bool held = number++ % 2 == 1;
     (held ? split.held_out : split.seen).add(one.language, judged);
@@ -464,6 +475,13 @@ int main(int argc, char** argv) {
     of_parser += one->of_parser;
     alone += one->of_parser_alone;
   }
+  slips::hear_frame(heard);
+  slips::Heard elsewhere;
+  slips::hear_transcripts(root / "tests/golden/check", elsewhere);
+  const auto coverage = slips::translate_all(heard, elsewhere, root / "translations");
+  std::cerr << coverage.troubles;
+  if (show.option == "--untranslated")
+    std::cerr << coverage.missing;
   const auto text = fmt::format(
       R"(# Slips
 
@@ -511,11 +529,15 @@ of all examples and lessons.
 
 *Unexpected X after the complete Y* and *expected X, found Y* are what is said when nothing else fits: to {:.1f} %
 of all mistakes above, to {:.1f} % without the line to write.
+
+## In other languages
+
+{:.1f} % of the sentences in all these answers are said in German, Spanish and French, too (`--lang-ui`, `translations/`).
 )",
       printed(programs.held_out), printed(programs.seen), clean,
       false_alarms == 0 ? std::string("no") : std::to_string(false_alarms),
       printed(habits.held_out), printed(habits.seen), printed(typed), percent(of_parser, all),
-      percent(alone, all));
+      percent(alone, all), percent(coverage.translated, coverage.said));
   std::cout << text;
   const auto target = root / "docs" / "slips.md";
   if (show.option == "--update")
@@ -530,8 +552,9 @@ of all mistakes above, to {:.1f} % without the line to write.
     return of(Verdict::Good) >= least_good * total(sum) &&
            of(Verdict::Wrong) <= most_wrong * total(sum);
   };
-  return troubles == 0 && current && false_alarms == 0 && enough(habits.held_out, 85, 4) &&
-                 enough(programs.held_out, 80, 8)
+  return troubles == 0 && coverage.troubles.empty() && current && false_alarms == 0 &&
+                 enough(habits.held_out, 85, 4) && enough(programs.held_out, 80, 8) &&
+                 coverage.translated * 100 >= coverage.said * 97
              ? 0
              : 1;
 }

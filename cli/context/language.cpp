@@ -1,0 +1,50 @@
+#include "cli/context/language.h"
+
+#include "base/catalogue.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace orb::cli {
+namespace {
+
+/// `de` of `de_DE.UTF-8`; what POSIX calls `C` is in no language that a translation has.
+std::string language_of_environment() {
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
+    if (const char* value = std::getenv(name); value != nullptr && *value != '\0') {
+      const std::string_view locale(value);
+      return std::string(locale.substr(0, locale.find_first_of("_.@-")));
+    }
+  return {};
+}
+
+} // namespace
+
+std::vector<std::string> ui_languages() {
+  std::vector<std::string> codes = {"en"};
+  for (const auto& one : translations())
+    codes.emplace_back(one.code);
+  return codes;
+}
+
+Say say_in(std::string_view language) {
+  const auto code = language.empty() ? language_of_environment() : std::string(language);
+  const auto all = translations();
+  const auto translation =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.code == code; });
+  if (translation == all.end())
+    return in_english;
+  static std::map<std::string, Catalogue> read;
+  static std::mutex reading;
+  const std::lock_guard lock(reading);
+  auto known = read.find(code);
+  if (known == read.end())
+    known = read.emplace(code, Catalogue::read(translation->findings).value_or(Catalogue())).first;
+  return [&catalogue = known->second](std::string_view text) { return catalogue.say(text); };
+}
+
+} // namespace orb::cli
