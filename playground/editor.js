@@ -8,7 +8,7 @@ import { EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
 import { setDiagnostics, lintGutter, nextDiagnostic } from "@codemirror/lint";
 import { LSPClient, LSPPlugin, serverCompletion, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
   renameKeymap, jumpToDefinitionKeymap } from "@codemirror/lsp-client";
-import { harmless } from "./page/dom.js";
+import { harmless, t } from "./page/dom.js";
 import { limit_words, limits } from "./page/workspace.js";
 
 const uri_of = name => "file:///" + encodeURIComponent(name);
@@ -140,7 +140,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
       const map = position => plugin.unsyncedChanges.mapPos(place(doc, position));
       findings = diagnostics.map(one => ({
         from: map(one.range.start), to: map(one.range.end), line: one.range.start.line + 1, severity: severities[one.severity ?? 1],
-        message: one.message, source: String(one.code ?? ""), actions: actions.filter(action => belongs(action, one)).map(action => fix(action, uri)),
+        message: one.message.split("\n").map(line => t(line)).join("\n"), source: String(one.code ?? ""), actions: actions.filter(action => belongs(action, one)).map(action => fix(action, uri)),
       }));
       view.dispatch(setDiagnostics(view.state, findings));
       on_findings(shown, findings);
@@ -154,7 +154,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
   const belongs = (action, finding) => action.diagnostics?.some(one => one.code === finding.code && one.message === finding.message &&
     one.range.start.line === finding.range.start.line && one.range.start.character === finding.range.start.character);
   const fix = ({ title, edit }, uri) => ({
-    name: title[0].toUpperCase() + title.slice(1),
+    name: t(title).replace(/^./u, first => first.toUpperCase()),
     apply(editor) {
       const { doc } = editor.state;
       const changes = (edit?.changes?.[uri] ?? []).map(({ range, newText }) => ({ from: place(doc, range.start), to: place(doc, range.end), insert: newText }));

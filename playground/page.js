@@ -9,6 +9,7 @@ import { set_up_blocks } from "./page/blocks/toggle.js";
 import { Verdicts } from "./page/verdicts.js";
 import { $, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
 import { watch_engines } from "./page/engines.js";
+import { speak } from "./page/language.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
 import { set_up_mine } from "./page/mine.js";
 import { address_of, set_up_share } from "./page/share.js";
@@ -423,7 +424,7 @@ $("task-fold").addEventListener("click", () => {
 // ---- the menu: what is chosen in it, or pressed beside it, closes it ----
 $("print").addEventListener("click", () => window.print());
 document.addEventListener("click", ({ target }) => {
-  if (!$("menu").contains(target) || target.closest(".more-list") && target.id !== "theme") $("menu").open = false;
+  if (!$("menu").contains(target) || target.closest(".more-list") && !target.closest("#theme, .language")) $("menu").open = false;
 });
 $("menu").addEventListener("keydown", event => {
   if (event.key !== "Escape" || !$("menu").open) return;
@@ -450,6 +451,7 @@ document.addEventListener("keydown", event => {
 
 // ---- begin ----
 async function begin() {
+  await speak();
   const found = kept();
   if (found) workspace = { ...found, document: found.document || new_id() };
   if (!await open_address()) {

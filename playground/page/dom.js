@@ -2,6 +2,11 @@
 
 export const $ = id => document.getElementById(id);
 
+/** Says an English text in the language of the page. Whatever is shown is said so by itself (translate.js): this is for what
+ *  is taken to pieces before. */
+export let t = text => text;
+export const speak_with = say => { t = say; };
+
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes))
@@ -13,7 +18,7 @@ export function element(name, attributes = {}, ...children) {
 export const button = (words, on_click, attributes = {}) => element("button", { type: "button", onclick: on_click, ...attributes }, words);
 
 /** What stands between backticks becomes code; all of it stays text. */
-export const with_code = text => text.split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part);
+export const with_code = text => t(text).split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part);
 
 /** Says it in the line at the foot of the program, and to screen readers. */
 export function say(words, look = "") {

@@ -1,6 +1,6 @@
 // The examples and lessons that the build put beside the page.
 
-import { $, element, button, harmless } from "./dom.js";
+import { $, element, button, harmless, t } from "./dom.js";
 import { markdown } from "./markdown.js";
 
 let groups = null;
@@ -77,7 +77,10 @@ function picture({ path = [], color = "" }) {
   const ball = lines.length ? [] : [svg("circle", { class: "mark-ball", cx: 60, cy: 36, r: 20 }), svg("circle", { cx: 60, cy: 36, r: 20, fill: color || "none", "fill-opacity": .75 })];
   return svg("svg", { viewBox: "0 0 120 72", class: "drawn", "aria-hidden": "true" }, ...lines, ...ball);
 }
-const first_words = text => /\*\*Your job:\*\*\s*([^]+?)(?:\n\n|$)/.exec(text ?? "")?.[1].replace(/[*`]/g, "");
+/** Each paragraph of a task in the language of the page. */
+const said = text => text.trim().split("\n\n").map(block => t(block)).join("\n\n");
+/** The job: the first paragraph that says something behind a bold word. */
+const first_words = text => /^\*\*[^*]+:\*\*\s+([^]+?)$/m.exec(said(text ?? ""))?.[1].replace(/[*`]/g, "");
 
 // ---- lessons ----
 const done_key = "orb-lessons-done";
@@ -97,7 +100,7 @@ export async function show_task(id, { on_pick, on_solution }, stays = false) {
   const all = lessons(), at = all.findIndex(lesson => lesson.id === id), lesson = all[at];
   $("task").hidden = !lesson;
   if (!lesson) return;
-  const [, title, rest] = /^#\s*([^\n]*)\n([^]*)$/.exec(lesson.readme) ?? [, lesson.title, lesson.readme];
+  const [, title, rest] = /^#\s*([^\n]*)\n([^]*)$/.exec(said(lesson.readme)) ?? [, lesson.title, lesson.readme];
   $("task-title").textContent = `Lesson ${title}`;
   const done = kept_done();
   $("dots").replaceChildren(...all.map((one, i) => button("", () => on_pick(one), {

@@ -4,7 +4,8 @@ import { $, element, button } from "./dom.js";
 import { new_id } from "./store.js";
 import { checked } from "./workspace.js";
 
-const when = new Intl.DateTimeFormat(undefined, { dateStyle: "medium", timeStyle: "short" });
+/** As the browser writes dates in the language of the page. */
+const when = { format: date => new Intl.DateTimeFormat(navigator.languages.filter(tag => tag.startsWith(document.documentElement.lang)), { dateStyle: "medium", timeStyle: "short" }).format(date) };
 
 /** `on_open(workspace, words)`; `begin()` makes a new one. */
 export function set_up_mine({ store, workspace, on_open, begin }) {

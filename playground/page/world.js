@@ -1,13 +1,13 @@
 // What is around the ball in a run: a course, what happens, numbers for `input`, luck.
 
-import { $, element } from "./dom.js";
+import { $, element, t } from "./dom.js";
 import { ending_of } from "./workspace.js";
 
 export function set_up_world({ workspace, keep }) {
   const of_kind = kind => Object.keys(workspace().files).filter(name => ending_of(name) === kind);
   function show() {
     const { run } = workspace();
-    $("course").replaceChildren(element("option", { value: "" }, "none"), ...of_kind("svg").map(name => element("option", { value: name }, name)));
+    $("course").replaceChildren(element("option", { value: "" }, "none"), ...of_kind("svg").map(name => element("option", { value: name, translate: "no" }, name)));
     $("course").value = run.course = of_kind("svg").includes(run.course) ? run.course : "";
     // Besides files an example may bring lines of its own: `wall y=80`.
     run.stimuli = run.stimuli.filter(one => ending_of(one) !== "stimulus" || /\s/.test(one) || of_kind("stimulus").includes(one));
@@ -16,7 +16,7 @@ export function set_up_world({ workspace, keep }) {
     $("scripts").replaceChildren($("scripts").firstElementChild, ...choices.map(name => {
       const box = element("input", { type: "checkbox", onchange: change, value: name });
       box.checked = run.stimuli.includes(name);
-      return element("label", {}, box, ` ${name}`);
+      return element("label", { translate: "no" }, box, ` ${name}`);
     }));
     $("input").value = run.input;
     $("seed").value = run.seed;
@@ -24,8 +24,8 @@ export function set_up_world({ workspace, keep }) {
   }
   function show_button() {
     const { run } = workspace();
-    const around = [run.course, ...run.stimuli, run.input && "numbers"].filter(Boolean);
-    $("world-button").textContent = around.length ? `More: ${around[0]}${around.length > 1 ? ", …" : ""}` : "More";
+    const around = [run.course, ...run.stimuli, run.input && t("numbers")].filter(Boolean);
+    $("world-button").replaceChildren("More", ...around.length ? [element("span", { translate: "no" }, `: ${around[0]}${around.length > 1 ? ", …" : ""}`)] : []);
   }
   function change() {
     const { run } = workspace();

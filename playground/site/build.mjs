@@ -44,6 +44,12 @@ const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => !at_o
 const styled = (...paths) => esbuild.transformSync(paths.map(read).join("\n"), { loader: "css", minify: true }).code;
 writeFileSync(join(out, "page.css"), styled("report/page.css", "playground/page.css", "playground/page/blocks/toggle.css"));
 writeFileSync(join(out, "blocks.css"), styled("playground/page/blocks/blocks.css"));
+// The page in each language: the texts of all its parts in one file.
+mkdirSync(join(out, "languages"), { recursive: true });
+for (const name of readdirSync(join(root, "translations")).filter(name => name.endsWith(".json"))) {
+  const { language, ...parts } = JSON.parse(read(`translations/${name}`));
+  writeFileSync(join(out, "languages", name), JSON.stringify(Object.assign({}, ...Object.values(parts))));
+}
 // The pointers and marks of Blockly; it makes no sounds here.
 mkdirSync(join(out, "blocks"), { recursive: true });
 const media = join(root, "playground/node_modules/blockly/media");
@@ -87,7 +93,7 @@ files.sort();
 const hash = createHash("sha256");
 for (const path of files) hash.update(relative(out, path)).update("\0").update(readFileSync(path));
 const names = files.map(path => relative(out, path));
-const comes_later = name => on_demand.has(name) || /^blocks[./]/.test(name);
+const comes_later = name => on_demand.has(name) || /^(blocks[./]|languages\/)/.test(name);
 const json = list => JSON.stringify(list);
 writeFileSync(join(out, "sw.js"), read("playground/sw.js").replace("/*{hash}*/", hash.digest("hex").slice(0, 16))
   .replace("/*{core}*/[]", json(names.filter(name => !comes_later(name)))).replace("/*{on_demand}*/[]", json(names.filter(comes_later))));

@@ -1,5 +1,7 @@
 // The fields of blocks. A field holds what stands in the text, so that nothing is lost of a text that is shown.
 
+import { t } from "../dom.js";
+
 /** What `read_numeral` takes, and a minus sign before it. */
 const numeral = /^-?(?:0x[0-9a-f]+|\d+|\d+(?:\.\d{1,9})?(?:ms|s|min))$/i;
 const milliseconds = { ms: 1, s: 1000, min: 60_000 };
@@ -77,11 +79,11 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
   const another = "\n";
   class NameField extends ChoiceField {
     constructor(value, of) {
-      super(value, ({ workspace }) => names_in(workspace.targetWorkspace ?? workspace, of), { more: [another], look: one => one === another ? "another name…" : one });
+      super(value, ({ workspace }) => names_in(workspace.targetWorkspace ?? workspace, of), { more: [another], look: one => one === another ? t("another name…") : one });
     }
     doClassValidation_(value) {
       if (value !== another) return value;
-      dialog.prompt("Name", this.getValue(), text => {
+      dialog.prompt(t("Name"), this.getValue(), text => {
         if (text !== null && is_name(text.trim())) this.setValue(text.trim());
       });
       return null;

@@ -4,6 +4,7 @@
 // `memory` of a block is what it does not show: how its line was laid out, that it follows a blank line. Where a
 // statement is unchanged, its line is written as it was.
 
+import { t } from "../dom.js";
 import { make_fields } from "./fields.js";
 
 /** Where a statement of the robot belongs; the others are in their own drawer. */
@@ -46,12 +47,14 @@ export function define_blocks(Blockly, words) {
 
   // ---- pieces that blocks are made of ----
   const condition = ["Boolean", "Any"], anything = ["Any", "Boolean"], item = ["Any", "Boolean", "String"];
+  /** A word of the program; every other label is said in the language of the page. */
+  const as_is = word => new FieldLabel(word);
   const row = (block, name, ...fields) => {
     const input = block.appendDummyInput(name);
     for (const field of fields) add_field(input, field);
     return input;
   };
-  const add_field = (input, field) => Array.isArray(field) ? input.appendField(field[1], field[0]) : input.appendField(typeof field === "string" ? new FieldLabel(field) : field);
+  const add_field = (input, field) => Array.isArray(field) ? input.appendField(field[1], field[0]) : input.appendField(typeof field === "string" ? new FieldLabel(t(field)) : field);
   const value = (block, name, check, ...fields) => {
     const input = block.appendValueInput(name).setCheck(check);
     for (const field of fields) add_field(input, field);
@@ -68,8 +71,8 @@ export function define_blocks(Blockly, words) {
   const steps = (block, { more, less, what }) => {
     if (block.isInFlyout) return;
     const input = row(block, "STEPS");
-    if (less) input.appendField(step_button(block, "-", `fewer ${what}`, less));
-    if (more) input.appendField(step_button(block, "+", `more ${what}`, more));
+    if (less) input.appendField(step_button(block, "-", t(`fewer ${what}`), less));
+    if (more) input.appendField(step_button(block, "+", t(`more ${what}`), more));
   };
   const numbers = n => Array.from({ length: n }, (_, i) => i);
 
@@ -129,7 +132,7 @@ export function define_blocks(Blockly, words) {
     build: block => value(block, "A0", condition, "not"),
     print: (block, part) => `not ${part("A0")}` };
   kinds.logic = { style: "decide", ...output(condition), tip: block => word_row[text_of(block, "TEXT")]?.summary,
-    build: block => between(block, new ChoiceField("and", () => ["and", "or"]), condition),
+    build: block => between(block, new ChoiceField("and", () => ["and", "or"], { look: one => t(one) }), condition),
     print: (block, part) => `${part("A0")} ${text_of(block, "TEXT")} ${part("A1")}` };
 
   // ---- statements of the robot ----
@@ -139,7 +142,7 @@ export function define_blocks(Blockly, words) {
     const type = `robot ${word}`;
     if (form === "arguments") kinds[type] = { style, tip, statement: true,
       build(block, { n = required }) {
-        row(block, "ROW", word);
+        row(block, "ROW", as_is(word));
         parameters.slice(0, n).forEach((parameter, i) => {
           value(block, `A${i}`, anything, ...parameters.length > 1 || !["milliseconds", "brightness"].includes(parameter.name) ? [parameter.name] : []);
           block.ranges[`A${i}`] = parameter;
@@ -148,7 +151,7 @@ export function define_blocks(Blockly, words) {
       print: (block, part, { n = required }) => [word, numbers(n).map(i => part(`A${i}`)).join(", ")].filter(Boolean).join(" ") };
     else if (form === "entry") kinds[type] = { style, tip, statement: true,
       build(block, { n = 1 }) {
-        value(block, "A0", ["Place"], word);
+        value(block, "A0", ["Place"], as_is(word));
         if (n < 3) return;
         value(block, "A1", anything, "wait");
         block.ranges.A1 = parameters[0];
@@ -158,7 +161,7 @@ export function define_blocks(Blockly, words) {
       print: (block, part, { n = 1 }) => `${word} ${numbers(n).map(i => part(`A${i}`)).join(", ")}` };
     else kinds[type] = { style, tip, statement: true,
       build(block, { n = 1 }) {
-        row(block, "ROW", word);
+        row(block, "ROW", as_is(word));
         for (const i of numbers(n)) value(block, `A${i}`, form === "places" ? ["Place"] : anything, ...i > 0 ? [","] : []);
         steps(block, { what: "values", more: memory => { memory.n = n + 1; }, less: n > 1 && (memory => { memory.n = n - 1; }) });
       },
@@ -394,7 +397,7 @@ export function define_blocks(Blockly, words) {
     block.kind.build(block, block.memory);
     if (!block.kind.opens) note(block, block.memory.note);
   };
-  const tip_of = ({ tip = "" }, block) => typeof tip === "function" ? tip(block) ?? "" : tip;
+  const tip_of = ({ tip = "" }, block) => t(typeof tip === "function" ? tip(block) ?? "" : tip);
   for (const [type, kind] of Object.entries(kinds))
     Blockly.Blocks[type] = {
       init() {

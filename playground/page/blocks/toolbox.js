@@ -1,11 +1,13 @@
 // What can be taken: the drawers beside the blocks, from the tables.
 
+import { t } from "../dom.js";
+
 const number = text => ({ shadow: { type: "number", fields: { TEXT: text } } });
 const string = text => ({ shadow: { type: "string", fields: { TEXT: text } } });
 const block = (type, { fields = {}, inputs = {}, memory, next } = {}) => ({ kind: "block", type, fields, inputs, ...memory ? { extraState: memory } : {}, ...next ? { next: { block: next } } : {} });
 const value = (type, more) => { const { kind, ...state } = block(type, more); return { block: state, ...number("0") }; };
 const inside = ({ kind, ...state }) => ({ block: state });
-const label = text => ({ kind: "label", text });
+const label = text => ({ kind: "label", text: t(text) });
 const sensor = word => block("sensor", { fields: { TEXT: word } });
 const robot = (word, ...texts) => block(`robot ${word}`, { inputs: Object.fromEntries(texts.map((text, i) => [`A${i}`, number(text)])), memory: texts.length ? { n: texts.length } : undefined });
 const shaken = value("sensor", { fields: { TEXT: "dshake" } });
@@ -89,6 +91,6 @@ function fresh(name, taken) {
 
 /** The drawers as Blockly takes them; those that depend on the program are asked for when they open. */
 export function toolbox_of(list) {
-  return { kind: "categoryToolbox", contents: list.map(([name, style, contents]) => ({ kind: "category", name, categorystyle: `${style}_category`,
+  return { kind: "categoryToolbox", contents: list.map(([name, style, contents]) => ({ kind: "category", name: t(name), categorystyle: `${style}_category`,
     ...typeof contents === "function" ? { custom: name } : { contents } })) };
 }

@@ -2,7 +2,6 @@
 // is changed here is written there at once, and what is changed there is shown here.
 
 import * as Blockly from "blockly/core";
-import * as messages from "blockly/msg/en";
 import { define_blocks } from "./kinds.js";
 import { names_in } from "./fields.js";
 import { load_rows } from "./rows.js";
@@ -12,7 +11,8 @@ import { drawers, toolbox_of } from "./toolbox.js";
 
 export { most_rows } from "./rows.js";
 
-Blockly.setLocale(messages);
+const messages = { de: () => import("blockly/msg/de"), es: () => import("blockly/msg/es"), fr: () => import("blockly/msg/fr") };
+Blockly.setLocale(await (messages[document.documentElement.lang] ?? (() => import("blockly/msg/en")))());
 // The page's own history is that of the text.
 for (const name of ["undo", "redo"]) Blockly.ShortcutRegistry.registry.unregister(name);
 
