@@ -199,10 +199,13 @@ export function define_blocks(Blockly, words) {
     makes: block => [["array", text_of(block, "NAME")]],
     print: (block, part) => `array ${text_of(block, "NAME")}[${part("VALUE")}]` };
   const names_of = block => text_of(block, "NAMES").split(",").map(one => one.trim()).filter(Boolean);
+  // Names, each with the value that it begins with or none: `a, b = 5`.
+  const begun_names = block => [...text_of(block, "NAMES").matchAll(/(?:^|,)\s*(\w+)\s*(?=[,=]|$)/g)].map(([, name]) => name);
+  const declares = text => text.trim() !== "" && (text.includes("=") ? !/['\n\r]/.test(text) : list_of_names(text));
   kinds.local = { style: "names", statement: true, tip: word_row.local.summary,
-    build: block => row(block, "ROW", "local", ["NAMES", new CheckedField("n", text => list_of_names(text) && text.trim() !== "")]),
-    makes: block => names_of(block).map(name => ["variable", name]),
-    print: block => `local ${names_of(block).join(", ")}` };
+    build: block => row(block, "ROW", "local", ["NAMES", new CheckedField("n", declares)]),
+    makes: block => begun_names(block).map(name => ["variable", name]),
+    print: block => `local ${text_of(block, "NAMES").includes("=") ? text_of(block, "NAMES").trim() : names_of(block).join(", ")}` };
   for (const word of ["use", "include"]) kinds[word] = { style: "subs", statement: true, tip: word_row[word].summary,
     build: block => row(block, "ROW", word, "“", ["TEXT", new CheckedField("", text => !/["\n\r]/.test(text))], "”"),
     print: block => `${word} "${text_of(block, "TEXT")}"` };

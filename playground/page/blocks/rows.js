@@ -76,7 +76,7 @@ function statement_state(row) {
       put("VALUE", items[0]);
       break;
     case "local":
-      state.fields.NAMES = items.map(({ text }) => text).join(", ");
+      state.fields.NAMES = row.text.replace(/^\w+\s+/, "");
       break;
     case "use": case "include":
       state.fields.TEXT = items[0].text.slice(1, -1);
