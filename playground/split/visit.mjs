@@ -1,24 +1,12 @@
 // What somebody does on the page who does not reach for a robot, as calls of the engine: what is called here
 // becomes the part of orb.wasm that is loaded at once.
-import { readFileSync, readdirSync } from "node:fs";
-import { join } from "node:path";
+import { readFileSync } from "node:fs";
 import { welcome } from "../page/steps.js";
 
-const is_source = name => /\.(orb|test|stimulus|svg)$/.test(name);
 const attempt = deed => { try { return deed(); } catch (error) { if (error instanceof WebAssembly.RuntimeError) throw error; } };
 
-/** The sources in the transcripts of a folder. */
-function* transcripts(folder) {
-  for (const entry of readdirSync(folder, { withFileTypes: true, recursive: true }).sort((a, b) => a.name < b.name ? -1 : 1)) {
-    if (!entry.isFile() || !entry.name.endsWith(".txt")) continue;
-    const files = {};
-    for (const part of readFileSync(join(entry.parentPath ?? entry.path, entry.name), "utf8").split(/^=== /m).slice(1)) {
-      const [name, ...lines] = part.split("\n");
-      if (is_source(name) && !name.includes("/")) files[name] = lines.join("\n");
-    }
-    if (Object.keys(files).length) yield { files };
-  }
-}
+/** Mistakes of a first hour, as texts. */
+const slips = ["goroll 0, 300, 1\nprint x\nfor i = 1 to 3\n", "goroll 0, 80\n", "repeat 4\n  goroll 0, 80, 1\n"];
 
 /** What an editor asks about a text that is open. */
 function edit(engine, files) {
@@ -73,10 +61,10 @@ function test(engine, files, name) {
   if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
 }
 
-/** `root`: the checkout; `examples`: the file that the page loads. Lessons and examples in the structured language, with the
- *  mistakes that transcripts show. Who edits numbered programs, macros or tests, or drives through a course, loads the rest, as
- *  for a robot. */
-export function visit(engine, root, examples) {
+/** `examples`: the file that the page loads. Lessons and examples in the structured language, with the
+ *  mistakes of a first hour. Who makes others, edits numbered programs, macros or tests, or drives through a course, loads the
+ *  rest, as for a robot. */
+export function visit(engine, examples) {
   engine.call("version");
   const items = JSON.parse(readFileSync(examples, "utf8")).groups.flatMap(group => group.items)
     .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")));
@@ -91,7 +79,7 @@ export function visit(engine, root, examples) {
     edit(engine, files);
     run_all(files, main, run);
   }
-  for (const { files } of transcripts(join(root, "tests/golden/check/structured"))) edit(engine, files);
+  for (const text of slips) edit(engine, { "robot.orb": text });
   for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
     run_all({ "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
 }
