@@ -5,6 +5,7 @@ import { Client } from "./client.js";
 import { make_editor } from "./editor.js";
 import { Ball } from "./page/ball.js";
 import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from "./page/task.js";
+import { set_up_bubble } from "./page/bubble.js";
 import { set_up_blocks } from "./page/blocks/toggle.js";
 import { Verdicts } from "./page/verdicts.js";
 import { $, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
@@ -28,13 +29,14 @@ window.addEventListener("beforeprint", () => fill_sheet(workspace));
 const nonce = "orb-editor"; // of the policy in page.html: the editor makes its style sheet itself
 
 const player = orb_player({
-  keys: $("player"),
+  keys: $("player"), ball_px: 19,
   on_moment(places) {
     const line = places.find(({ name }) => name === workspace.active)?.line ?? 0;
     editor?.run_line(line);
     blocks?.run_line(line);
   },
 });
+set_up_bubble({ greeting: "Hi! Press Run." });
 let editor = null, blocks = null;
 editor = make_editor({
   parent: $("editor"), nonce, language, say,

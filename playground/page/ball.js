@@ -61,8 +61,8 @@ export class Ball {
       this.machine.restart();
     }
     this.player.settle();
-    this.player.load(structuredClone(at_rest));
     $("played").classList.add("idle");
+    this.player.load(structuredClone(at_rest));
     this.say("");
   }
   show(report, goes_on) {

@@ -6,12 +6,16 @@ export const welcome = `' The ball drives a figure. How many corners shall it ha
 const corners = 4
 
 for side = 1 to corners
-  LEDC side % 5 + 1
-  goroll (side - 1) * 360 / corners, 80, 1
+  direction = (side - 1) * 360 / corners
+  LEDC side % 3 + 1
+  goroll direction, 0, 1 ' turn
+  delay 300ms
+  goroll direction, 100, 1 ' drive
   delay 1s
+  goroll direction, 0, 0 ' brake
+  delay 400ms
 next side
 
-goroll 0, 0, 0
 print corners, "corners"
 `;
 

@@ -73,8 +73,9 @@ function composed() {
   return read("playground/page.html").replace(/<!--\{(\w+)\}-->/g, (_, name) => parts[name])
     .replace(/.*"modulepreload".*\n/, [...at_once].map(name => `<link rel="modulepreload" href="${name}">\n`).join(""));
 }
+const icons = ["icon-192.png", "icon-512.png", "icon-maskable.png"]; // of the installed page (tests/playground/pictures.py draws them)
 writeFileSync(join(out, "index.html"), composed());
-for (const name of ["icon.svg", "manifest.webmanifest"]) copyFileSync(join(root, "playground", name), join(out, name));
+for (const name of ["icon.svg", ...icons, "manifest.webmanifest"]) copyFileSync(join(root, "playground", name), join(out, name));
 writeFileSync(join(out, "LICENSES.txt"), licences(root, { ...page.metafile.inputs, ...worker.metafile.inputs }));
 build_docs(root, join(out, "docs"));
 
@@ -93,7 +94,7 @@ files.sort();
 const hash = createHash("sha256");
 for (const path of files) hash.update(relative(out, path)).update("\0").update(readFileSync(path));
 const names = files.map(path => relative(out, path));
-const comes_later = name => on_demand.has(name) || /^(blocks[./]|languages\/)/.test(name);
+const comes_later = name => on_demand.has(name) || icons.includes(name) || /^(blocks[./]|languages\/)/.test(name);
 const json = list => JSON.stringify(list);
 writeFileSync(join(out, "sw.js"), read("playground/sw.js").replace("/*{hash}*/", hash.digest("hex").slice(0, 16))
   .replace("/*{core}*/[]", json(names.filter(name => !comes_later(name)))).replace("/*{on_demand}*/[]", json(names.filter(comes_later))));

@@ -17,8 +17,8 @@ export const mark_art = {
 
 /** Where a word beside a point meets the fewest of path, walls, marks and words. */
 function free_place(chart, x, y, words, { taken, borders }) {
-  const wide = 6.4 * words.length, tall = 12;
-  const places = [[18, 4], [-18 - wide, 4], [16, -12], [16, 20], [-16 - wide, -12], [-16 - wide, 20], [-wide / 2, -24], [-wide / 2, 34]];
+  const wide = 6.4 * words.length, tall = 12, beside = playback.ball_px + 5;
+  const places = [[beside, 4], [-beside - wide, 4], [16, -12], [16, 20], [-16 - wide, -12], [-16 - wide, 20], [-wide / 2, -24], [-wide / 2, 34]];
   const { pose } = chart.one;
   const cost = ([dx, dy]) => {
     const place = { left: x + dx - 3, right: x + dx + wide + 3, high: y + dy - tall, low: y + dy + 4 };

@@ -90,8 +90,8 @@ export function draw_ball(chart, parent, tag = "") {
   shape("stop", { offset: 1, "stop-color": "#000", "stop-opacity": .28 }, shine);
   const ball = shape("g", { class: "ball", ...chart.one === playback.main ? { id: "ball" } : {} }, parent);
   const small = playback.room.length > 1;
-  const halo = shape("circle", { r: small ? 28 : area.mapped ? 40 : 90, fill: `url(#${id}-glow)` }, ball);
-  const r = small ? ball_radius(chart) : area.mapped ? 13 : 34;
+  const halo = shape("circle", { r: small ? 28 : area.mapped ? playback.ball_px * 3 : 90, fill: `url(#${id}-glow)` }, ball);
+  const r = small ? ball_radius(chart) : area.mapped ? playback.ball_px : 34;
   shape("ellipse", { cx: 2, cy: 4, rx: r, ry: r, class: "ball-shadow" }, ball);
   shape("circle", { r, class: "ball-body" }, ball);
   const lamp = shape("circle", { ...chart.one === playback.main ? { id: "ball-lamp" } : {}, r: r - .7 }, ball);

@@ -8,6 +8,7 @@ export const playback = {
   room: [], // all balls of a room, each with its name; empty for a run alone. `main` is the one that is looked at
   now: 0, playing: false,
   live: false, // it still runs: what is shown next continues what is shown
+  ball_px: 13, // radius of the ball on a map with a scale
   shown: null, file: 0, // the run whose program, variables and events are listed, and the file of it
 };
 

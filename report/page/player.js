@@ -117,8 +117,9 @@ new ResizeObserver(() => {
 
 /** What plays runs back: `load()` takes the data of a run, of the report's own or of one
  *  that still goes on, and `grow()` more of that. `keys`: within what its keys work; `on_moment`: is told the lines that ran last,
- *  file by file, when the moment changes. */
-export function orb_player({ keys = document, on_moment = null } = {}) {
+ *  file by file, when the moment changes. `ball_px`: how large the ball is on a map with a scale, as its radius. */
+export function orb_player({ keys = document, on_moment = null, ball_px = playback.ball_px } = {}) {
+  playback.ball_px = ball_px;
   take_keys(keys);
   if (on_moment) watch(() => on_moment(lines_now()));
   return {

@@ -81,6 +81,22 @@ for (const { id, files, main, test, run } of [...items, ...solved, mistakes]) {
   same("verdicts", id, engine.call("test", { files, names: [test] }).results, verdicts);
 }
 
+// ---- what is seen first drives the figure that it speaks of, and every number in it has an effect ----
+{
+  const { welcome } = await import(pathToFileURL(join(root, "playground/page/steps.js")));
+  const trace = text => refusal_of(() => engine.call("run", { files: { "a.orb": text }, trace: "json" })).answer?.trace ?? "";
+  same("figure", "as it is formatted", engine.call("format", { files: { "a.orb": welcome } }).text, welcome);
+  const usual = trace(welcome);
+  for (const corners of [3, 4, 5, 6]) {
+    const { ending, prints } = engine.call("run", { files: { "a.orb": welcome.replace("corners = 4", `corners = ${corners}`) } });
+    same("figure", `${corners} corners`, [ending.story.startsWith("stopped at 0,0 cm"), prints], [true, `${corners} corners\n`]);
+  }
+  for (const { 0: number, index } of welcome.matchAll(/\d+/g)) {
+    const changed = `${welcome.slice(0, index)}${2 * number + 1}${welcome.slice(index + number.length)}`;
+    same("number", `${number} at ${index} of the welcome program`, trace(changed) === usual, false);
+  }
+}
+
 // ---- the page's own Markdown against a library for all of it ----
 const Markdown = (await import(pathToFileURL(join(root, "playground/node_modules/markdown-it/dist/markdown-it.mjs")))).default;
 const { markdown } = await import(pathToFileURL(join(root, "playground/page/markdown.js")));

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Takes the pictures of docs/playground/ anew. usage: pictures.py FOLDER [NAME...]
 
-FOLDER is what `./dev playground` built. Wants a Chromium, and pngquant, which gives each a palette."""
+FOLDER is what `./dev playground` built. NAME `icons` draws those of the installed page, of icon.svg. Wants a Chromium,
+and pngquant, which gives each a palette."""
 
+import json
 import os
 import subprocess
 import sys
@@ -92,6 +94,30 @@ pictures = {
 }
 
 
+def squeeze(path):
+    subprocess.run(["pngquant", "--nofs", "--strip", "--force", "--ext", ".png", "64", path], check=True)
+    print(f"{os.path.basename(path)}: {os.path.getsize(path)} bytes")
+
+
+# name: size in pixels, how much of it the ball fills, what is around it
+icons = {"icon-192": (192, 1, "transparent"), "icon-512": (512, 1, "transparent"), "icon-maskable": (512, .7, "#efedf9")}
+
+
+def draw_icons(browser):
+    with open(os.path.join(here, "../../playground/icon.svg"), encoding="utf-8") as file:
+        drawing = file.read()
+    for name, (size, share, ground) in icons.items():
+        page = browser.page(fresh=True)
+        page.resize(size, size)
+        page.call("Emulation.setDefaultBackgroundColorOverride", color={"r": 0, "g": 0, "b": 0, "a": 0})
+        page.evaluate(f"document.body.style = 'margin: 0; height: {size}px; display: grid; place-items: center; background: {ground}'")
+        page.evaluate(f"document.body.innerHTML = {json.dumps(drawing)}; document.body.firstChild.style.width = '{share * size}px'")
+        path = os.path.join(here, f"../../playground/{name}.png")
+        page.picture(path)
+        page.close()
+        squeeze(path)
+
+
 def take(browser, url, name):
     where, width, height, colours, deed = pictures[name]
     page = browser.page(fresh=True)
@@ -104,8 +130,7 @@ def take(browser, url, name):
     path = os.path.join(out, f"{name}.png")
     page.picture(path)
     page.close()
-    subprocess.run(["pngquant", "--nofs", "--strip", "--force", "--ext", ".png", "64", path], check=True)
-    print(f"{name}: {os.path.getsize(path)} bytes")
+    squeeze(path)
 
 
 def main():
@@ -113,7 +138,7 @@ def main():
     os.makedirs(out, exist_ok=True)
     try:
         for name in sys.argv[2:] or pictures:
-            take(browser, server.url, name)
+            draw_icons(browser) if name == "icons" else take(browser, server.url, name)
     finally:
         browser.close()
         server.close()
