@@ -1,6 +1,7 @@
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/input/inputs.h"
+#include "cli/input/links.h"
 #include "cli/input/programs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"
@@ -33,6 +34,7 @@ const std::vector<std::string> test_paths{"."};
 struct TestOptions {
   std::vector<std::string> paths;
   std::vector<std::string> programs;
+  std::string class_folder; ///< empty: no class
   unsigned jobs = 0;
   std::string seeds;
   std::string only;
@@ -65,6 +67,24 @@ tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& fo
   return found;
 }
 
+/// The tests in a file with an address of the playground.
+tl::expected<std::vector<testing::GivenFile>, Failure> tests_in_link(const std::string& path) {
+  const auto folders = read_link_file(path);
+  if (!folders)
+    return tl::unexpected(folders.error());
+  std::vector<testing::GivenFile> tests;
+  for (const auto& [folder, shared] : *folders) {
+    if (!shared.trouble.empty())
+      return tl::unexpected(Failure{ExitCode::BadInput, shared.trouble});
+    for (const auto& [name, text] : shared.files)
+      if (testing::is_test(name))
+        tests.push_back({folder + "/" + name, text});
+  }
+  if (tests.empty())
+    return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there is no test in {}", path)});
+  return tests;
+}
+
 /// Reads the files that were given, and those of the folders.
 tl::expected<std::vector<testing::GivenFile>, Failure>
 read_tests(const std::vector<std::string>& paths) {
@@ -82,6 +102,13 @@ read_tests(const std::vector<std::string>& paths) {
   };
   for (const auto& path : paths) {
     std::error_code absent;
+    if (is_link_file(path) && !fs::is_directory(disk::as_path(path), absent)) {
+      auto tests = tests_in_link(path);
+      if (!tests)
+        return tl::unexpected(tests.error());
+      files.insert(files.end(), tests->begin(), tests->end());
+      continue;
+    }
     if (!fs::is_directory(disk::as_path(path), absent)) {
       if (auto added = add(path); !added)
         return tl::unexpected(added.error());
@@ -115,6 +142,13 @@ tl::expected<testing::Shard, Failure> read_shard(const std::string& text) {
                 fmt::format("`--shard {}` is not a share; write it like 3/16, the third of sixteen",
                             text)});
   return testing::Shard{*index, *count};
+}
+
+/// The tests of the command line; of a class without one, those that came with its programs.
+tl::expected<std::vector<testing::GivenFile>, Failure> given_tests(const TestOptions& options) {
+  const bool none_named = options.paths == test_paths;
+  return none_named && !options.class_folder.empty() ? read_class_tests(options.class_folder)
+                                                     : read_tests(options.paths);
 }
 
 /// Shows how many runs are done.
@@ -256,8 +290,9 @@ tl::expected<void, Failure> tell_results(Context& context, const TestOptions& op
 
 /// Joins the results of shards.
 tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
-  if (!options.report.empty() || !options.programs.empty() || !options.seeds.empty() ||
-      !options.shard.empty() || !options.only.empty() || !options.ball.empty())
+  if (!options.report.empty() || !options.programs.empty() || !options.class_folder.empty() ||
+      !options.seeds.empty() || !options.shard.empty() || !options.only.empty() ||
+      !options.ball.empty())
     return tl::unexpected(Failure{
         ExitCode::Usage, "`--merge` runs nothing: it takes only `--format` and `--output`"});
   if (options.paths == test_paths)
@@ -281,6 +316,14 @@ tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
 
 /// That a test file stands among the programs, where everything after `--program` belongs.
 tl::expected<void, Failure> check_programs(const TestOptions& options) {
+  if (!options.class_folder.empty() && !options.programs.empty())
+    return tl::unexpected(
+        Failure{ExitCode::Usage, "`--class` names the programs; leave `--program` out"});
+  std::error_code absent;
+  if (!options.class_folder.empty() &&
+      !fs::is_directory(disk::as_path(options.class_folder), absent))
+    return tl::unexpected(
+        Failure{ExitCode::File, fmt::format("`--class {}` is not a folder", options.class_folder)});
   for (const auto& path : options.programs)
     if (testing::is_test(path))
       return tl::unexpected(Failure{
@@ -295,7 +338,8 @@ tl::expected<void, Failure> add_programs(const TestOptions& options,
   std::set<std::string> stems;
   for (const auto& file : tests)
     stems.insert(std::string(stem(file.name)));
-  auto found = read_programs(options.programs, stems);
+  auto found = read_programs(
+      options.class_folder.empty() ? options.programs : std::vector{options.class_folder}, stems);
   if (!found)
     return tl::unexpected(found.error());
   wanted.programs = std::move(found->programs);
@@ -363,7 +407,7 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
   const auto shard = read_shard(options.shard);
   if (!shard)
     return tl::unexpected(shard.error());
-  auto files = read_tests(options.paths);
+  auto files = given_tests(options);
   if (!files)
     return tl::unexpected(files.error());
   if (auto programs = add_programs(options, *files, *wanted); !programs)
@@ -398,6 +442,7 @@ void add_test(const Command& orb, Context& context) {
       orb.add_command("test", "run the tests of programs and judge them",
                       "orb test\norb test corner.test\norb test task.test --program *.bas\n"
                       "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
+                      "orb test --class results --report results/page\n"
                       "orb test corner.test --port ble://SB-1A2B\n"
                       "orb test --shard 1/2 --format json > a.json\n"
                       "orb test --merge a.json b.json --format markdown");
@@ -411,6 +456,11 @@ void add_test(const Command& orb, Context& context) {
       "--program", options->programs,
       "programs to test, each with every test, in place of those the tests name; of a "
       "folder those in it, and one of each folder in it");
+  command
+      .add_option("--class", options->class_folder,
+                  "a folder of what pupils handed in: files with addresses of the playground, "
+                  "programs, a folder each; without FILE their tests are those in the addresses")
+      .type_name("FOLDER");
   command.add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
       .check(whole_number(0, most_jobs))
       .show_default();

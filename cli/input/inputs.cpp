@@ -17,6 +17,8 @@ void add_language_option(const Command& command, std::string& lang) {
 }
 
 tl::expected<std::string, Failure> read_text(const std::string& path) {
+  if (leads_through_link(path))
+    return Links().read(path);
   auto text = disk::read(path);
   if (!text)
     return tl::unexpected(Failure{ExitCode::File, text.error().message});
@@ -24,6 +26,10 @@ tl::expected<std::string, Failure> read_text(const std::string& path) {
 }
 
 std::optional<std::string> DiskFiles::read(const std::string& path) {
+  if (leads_through_link(path)) {
+    auto text = links_.read(path);
+    return text ? std::optional(*std::move(text)) : std::nullopt;
+  }
   // Reading from anything but a file can wait for ever.
   if (!disk::what_else(path).empty())
     return std::nullopt;
@@ -36,6 +42,10 @@ std::string DiskFiles::obstacle(const std::string& path) {
 }
 
 std::string DiskFiles::trouble(const std::string& path) {
+  if (leads_through_link(path)) {
+    const auto text = links_.read(path);
+    return text ? std::string() : text.error().message;
+  }
   if (const auto other = disk::what_else(path); !other.empty())
     return fmt::format("cannot read {}: it is {}", path, other);
   const auto text = disk::read(path == "-" ? "./-" : path);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/context/context.h"
+#include "cli/input/links.h"
 #include "report/course.h"
 #include "run/input.h"
 #include "vm/stimulus.h"
@@ -21,7 +22,7 @@ class Command;
 /// Adds `--lang basic|structured|macro`, which overrides the ending of file names.
 void add_language_option(const Command& command, std::string& lang);
 
-/// Reads the file at `path`, or standard input for `-`.
+/// Reads the file at `path`, which may stand in a file of addresses, or standard input for `-`.
 tl::expected<std::string, Failure> read_text(const std::string& path);
 
 /// The files that a program names, on the disk.
@@ -31,6 +32,9 @@ public:
   std::string obstacle(const std::string& path) override;
   std::string trouble(const std::string& path) override;
   std::string identity(const std::string& path) override;
+
+private:
+  Links links_;
 };
 
 /// Reads a program or macro source.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/exit_code.h"
+#include "testing/suite.h"
 
 #include <map>
 #include <set>
@@ -17,10 +18,15 @@ struct HandedIn {
   std::set<std::string> missing;               ///< folders without a program
 };
 
-/// What `--program` names, files and folders. A folder holds the program that is called like one of
-/// `stems`, else programs, and folders with one program each. What is wrong with one of several is
+/// What `--program` and `--class` name: files, files of addresses, and folders. A folder holds the
+/// program that is called like one of `stems`, else programs, files of addresses, and folders with
+/// one program each. What is wrong with one of several is
 /// its own trouble; fails where a name is wrong, and where a folder holds none at all.
 tl::expected<HandedIn, Failure> read_programs(const std::vector<std::string>& paths,
                                               const std::set<std::string>& stems);
+
+/// The tests that came with what a class hands in as addresses. Fails where they are not all the
+/// same, as a pupil can change his own, and where there is none.
+tl::expected<std::vector<testing::GivenFile>, Failure> read_class_tests(const std::string& folder);
 
 } // namespace orb::cli
