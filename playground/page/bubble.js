@@ -19,8 +19,9 @@ export function set_up_bubble({ greeting }) {
   $("map").parentElement.append(bubble);
   let shown = "";
   watch(() => {
-    const text = $("played").classList.contains("idle") ? greeting : said(playback.main.run.events, playback.now);
+    const idle = $("played").classList.contains("idle"), text = idle ? greeting : said(playback.main.run.events, playback.now);
     if (text !== shown) {
+      words.translate = idle; // what a program prints is its own
       shown = text;
       bubble.hidden = !text;
       words.textContent = text.length > longest ? `${text.slice(0, longest)}…` : text;
