@@ -3,20 +3,33 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <utility>
 
 namespace orb {
 
-// Optimal string alignment distance, without regard to case.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1);
-  std::vector<std::size_t> above(b.size() + 1);
-  std::vector<std::size_t> row(b.size() + 1);
+namespace {
+
+constexpr std::size_t longest_word =
+    64; // longer ones are not misspellings, and the table is square
+
+/// Optimal string alignment distance, without regard to case; no more is said of those over
+/// `most` than that they are.
+std::size_t distance(std::string_view a, std::string_view b, std::size_t most) {
+  if (a.size() > b.size() + most || b.size() > a.size() + most)
+    return most + 1;
+  std::array<std::size_t, 3 * (longest_word + 1)> few;
+  std::vector<std::size_t> many(b.size() > longest_word ? 3 * (b.size() + 1) : 0);
+  auto* before = many.empty() ? few.data() : many.data();
+  auto* above = before + b.size() + 1;
+  auto* row = above + b.size() + 1;
   for (std::size_t j = 0; j <= b.size(); ++j)
     above[j] = j;
+  auto least_above = std::size_t{0};
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
+    auto least = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = to_lower(a[i - 1]) == to_lower(b[j - 1]);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0U : 1U)});
@@ -24,19 +37,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
                            to_lower(a[i - 2]) == to_lower(b[j - 1]);
       if (swapped)
         row[j] = std::min(row[j], before[j - 2] + 1);
+      least = std::min(least, row[j]);
     }
+    if (least > most && least_above > most)
+      return most + 1;
+    least_above = least;
     std::swap(before, above);
     std::swap(above, row);
   }
   return above[b.size()];
 }
 
-namespace {
-
-constexpr std::size_t longest_word =
-    64; // longer ones are not misspellings, and the table is square
-
 } // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  return distance(a, b, a.size() + b.size());
+}
 
 std::optional<std::string> closest(std::string_view word,
                                    std::span<const std::string_view> candidates) {
@@ -49,7 +65,7 @@ std::optional<std::string> closest(std::string_view word,
   // A word of which nothing would be left is not misspelt: `x` never becomes `y`.
   auto limit = std::min(std::max<std::size_t>(1, word.size() / 3) + 1, word.size());
   for (const auto candidate : candidates) {
-    const auto d = edit_distance(word, candidate);
+    const auto d = distance(word, candidate, limit - 1);
     if (d < limit) {
       limit = d;
       best = std::string(candidate);
@@ -77,7 +93,7 @@ std::vector<std::string> nearest(std::string_view word,
   const std::size_t limit = std::max<std::size_t>(1, word.size() / 2);
   std::vector<std::pair<std::size_t, std::string_view>> near;
   for (const auto candidate : candidates)
-    if (const auto d = edit_distance(word, candidate); d <= limit)
+    if (const auto d = distance(word, candidate, limit); d <= limit)
       near.emplace_back(d, candidate);
   std::stable_sort(near.begin(), near.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

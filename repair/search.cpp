@@ -4,6 +4,8 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace orb::repair {
 namespace {
@@ -44,14 +46,24 @@ private:
            std::any_of(names_.begin(), names_.end(), same);
   }
 
+  /// Which letters are in a word, a bit for each.
+  static std::uint32_t letters_of(std::string_view word) {
+    std::uint32_t all = 0;
+    for (const char c : word)
+      all |= 1U << (static_cast<unsigned char>(to_lower(c)) & 31U);
+    return all;
+  }
+
   void near_words(std::size_t i) {
     const auto& word = line_[i];
     if (!word.is_word() || word.text.size() < 2 || word.text.size() > 31 || is_known(word.text))
       return;
+    const auto letters = letters_of(word.text);
     for (const auto& list : {words_, names_})
       for (const auto other : list) {
         if (other.size() < 2 || other.size() > word.text.size() + 2 ||
-            word.text.size() > other.size() + 2)
+            word.text.size() > other.size() + 2 ||
+            std::popcount(letters ^ letters_of(other)) > 4) // each change brings two at most
           continue;
         const auto distance = edit_distance(word.text, other);
         const auto size = std::max(word.text.size(), other.size());
