@@ -6,6 +6,7 @@
 #include "assembler/rules.h"
 #include "assembler/timing.h"
 #include "base/silence.h"
+#include "base/text.h"
 #include "repair/repair.h"
 
 #include <algorithm>
@@ -38,8 +39,9 @@ Ids ids_of(const Assembly& assembly) {
 
 class Linter {
 public:
-  Linter(const Assembly& assembly, const LintOptions& options, const Ids& known)
-      : assembly_(assembly), options_(options), known_(known) {}
+  Linter(const Source& source, const Assembly& assembly, const LintOptions& options,
+         const Ids& known)
+      : source_(source), assembly_(assembly), options_(options), known_(known) {}
 
   std::vector<Diagnostic> run() {
     for (const auto& macro : assembly_.macros) {
@@ -175,6 +177,25 @@ private:
     if (kind == MacroCommand::LoopStart && command.value[0] == 0)
       report(rules::LoopZero, command.operand, "a loop count of 0 runs once",
              "write 1, or remove it");
+    check_time(command);
+  }
+
+  /// A time without a unit that is too short for anything: seconds were meant.
+  void check_time(const PlacedCommand& command) {
+    constexpr std::int32_t shortest_ms = 10;
+    if (command.info->operand_count == 0)
+      return;
+    const auto last = command.info->operand_count - 1U;
+    const auto& operand = command.info->operand[last];
+    const auto ms = command.value[last];
+    const auto written = source_.text(command.span);
+    if (operand.unit != spec::MacroUnit::Milliseconds || operand.maximum <= UINT8_MAX || ms <= 0 ||
+        ms >= shortest_ms || !is_digit(written.back()))
+      return;
+    const Span span{command.span.end - 1, command.span.end};
+    auto& d = report(rules::ShortTime, span, fmt::format("`{}` without a unit is {} ms", ms, ms),
+                     fmt::format("write `{}s`", written));
+    d.fix = Fix{d.help, {{{span.end, span.end}, "s"}}, Safety::Unsafe};
   }
 
   void check_target(const PlacedCommand& command) {
@@ -230,8 +251,31 @@ private:
         return;
       }
     }
-    if (open != nullptr)
-      report(rules::LoopOpen, open->span, "unterminated loop", "write `loop_end` below");
+    if (open == nullptr)
+      return;
+    auto& d = report(rules::LoopOpen, open->span, "unterminated loop", "write `loop_end` below");
+    const auto last = std::find_if(
+        macro.commands.rbegin(), macro.commands.rend(),
+        [](const PlacedCommand& command) { return command.origin != Origin::Supplied; });
+    d.fix = Fix{d.help, {{end_of_line(last->span), below(*open) + "loop_end"}}, Safety::Unsafe};
+  }
+
+  Span end_of_line(Span span) const {
+    const auto line = source_.position(span.begin).line;
+    const auto end =
+        source_.line_start(line) + static_cast<std::uint32_t>(source_.line(line).size());
+    return {end, end};
+  }
+
+  /// The end of a line and the blanks that a command has in front.
+  std::string below(const PlacedCommand& command) const {
+    const auto line = source_.line(source_.position(command.span.begin).line);
+    const auto text = source_.text();
+    const auto end = text.find_first_of("\r\n");
+    const auto size =
+        end == std::string_view::npos || !text.substr(end).starts_with("\r\n") ? 1 : 2;
+    return std::string(end == std::string_view::npos ? "\n" : text.substr(end, size)) +
+           std::string(line.substr(0, line.find_first_not_of(" \t")));
   }
 
   /// The user macros of a file share the heap and the index of a ball.
@@ -279,6 +323,7 @@ private:
         }
   }
 
+  const Source& source_;
   const Assembly& assembly_;
   const LintOptions& options_;
   const Ids& known_;
@@ -312,7 +357,7 @@ void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
 
 std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
                              const LintOptions& options) {
-  auto found = Linter(assembly, options, ids_of(assembly)).run();
+  auto found = Linter(source, assembly, options, ids_of(assembly)).run();
   silence(source, found);
   return found;
 }
@@ -338,7 +383,7 @@ void offer_lines(const Source& source, const Ids& known, const LintOptions& opti
     const Source changed(source.name(), std::string(text));
     const auto assembly = assemble(changed);
     auto found = assembly.diagnostics;
-    auto more = Linter(assembly, options, known | ids_of(assembly)).run();
+    auto more = Linter(changed, assembly, options, known | ids_of(assembly)).run();
     silence(changed, more);
     found.insert(found.end(), more.begin(), more.end());
     return found;
@@ -361,7 +406,7 @@ std::vector<FileFindings> check(std::span<const Source* const> sources,
     auto& file = files.emplace_back();
     file.source = sources[i];
     file.diagnostics = assemblies[i].diagnostics;
-    auto found = Linter(assemblies[i], options, known).run();
+    auto found = Linter(*sources[i], assemblies[i], options, known).run();
     silence(*sources[i], found);
     file.diagnostics.insert(file.diagnostics.end(), std::make_move_iterator(found.begin()),
                             std::make_move_iterator(found.end()));

@@ -85,6 +85,8 @@ private:
   struct Ongoing {
     Background fade;
     Background rotation;
+    Background roll;   ///< the last one that drives, with the time when it was told
+    Background colour; ///< the last one that was set
     const PlacedCommand* unstabilized = nullptr; ///< what switched stabilization off
   };
 
@@ -98,6 +100,7 @@ private:
       if (command.info == nullptr || command.origin == Origin::Broken)
         return;
       check_roll(command, visit.latest_ms, ongoing);
+      check_time(command, visit, ongoing);
       stabilize(command, ongoing);
       begin_background(command, visit, ongoing);
       if (command.info->command == MacroCommand::Gosub && !defines(command.value[0]))
@@ -106,7 +109,42 @@ private:
     if (result.end != WalkEnd::Ended && result.end != WalkEnd::Sleeps)
       return;
     cut(ongoing.fade, result.latest_ms, {}, {});
+    if (stops_at_end(assembly_.macros[start]))
+      replaced(ongoing.roll, result.latest_ms, {}, "roll");
     cut(ongoing.rotation, result.latest_ms, {}, {});
+  }
+
+  static bool stops_at_end(const AssembledMacro& macro) {
+    return spec::has_flag(macro.flags.value_or(spec::macro_default_flags),
+                          spec::MacroFlag::MotorControl);
+  }
+
+  /// A roll or a colour that lasts for no time.
+  void replaced(const Background& first, std::int64_t now_ms, Span by, std::string_view what) {
+    if (first.command == nullptr || now_ms > first.begin_ms ||
+        !first_time(rules::NoTime, first.command->span))
+      return;
+    auto& diagnostic = report(rules::NoTime, first.command->span,
+                              fmt::format("this {} has no time: {}", what,
+                                          by.size() > 0 ? "the next one replaces it at once"
+                                                        : "the macro ends, and stops the motors"),
+                              "write `delay 1s` below");
+    if (by.size() > 0)
+      diagnostic.notes.push_back({by, "replaced here"});
+  }
+
+  void check_time(const PlacedCommand& command, const Visit& visit, Ongoing& ongoing) {
+    const auto kind = command.info->command;
+    const auto now = visit.latest_ms;
+    const bool has_speed = kind != MacroCommand::SetSpeed && command.value[0] > 0;
+    if (rolls(kind) || kind == MacroCommand::SetSpeed) {
+      replaced(ongoing.roll, now, command.span, "roll");
+      ongoing.roll = has_speed ? Background{&command, now, now} : Background{};
+    }
+    if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
+      replaced(ongoing.colour, now, command.span, "colour");
+      ongoing.colour = {&command, now, now};
+    }
   }
 
   void check_roll(const PlacedCommand& command, std::int64_t now, const Ongoing& ongoing) {

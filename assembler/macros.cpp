@@ -67,8 +67,16 @@ std::optional<std::uint8_t> Assembler::header_byte(const Value& value, int minim
 
 void Assembler::read_id(AssembledMacro& defined, const Value& value) {
   const auto id = header_byte(value, spec::macro_id_none, "an id is");
-  if (!id)
+  if (!id) {
+    auto free = spec::macro_id_user_first;
+    while (std::any_of(assembly_.macros.begin(), assembly_.macros.end(),
+                       [&](const AssembledMacro& macro) { return macro.id == free; }))
+      ++free;
+    auto& d = assembly_.diagnostics.back();
+    d.help = fmt::format("write `id={}`", free);
+    d.fix = Fix{d.help, {{value.span, std::to_string(free)}}, Safety::Unsafe};
     return;
+  }
   const auto kind = spec::macro_id_kind(*id);
   if (kind == spec::MacroIdKind::None)
     report(rules::Header, value.span, "id 0 means that no macro is running",

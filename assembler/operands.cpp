@@ -279,10 +279,18 @@ void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
   else if (operand.word_count > 0)
     for (std::size_t i = 0; i < operand.word_count; ++i)
       help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
-  report(rules::OutOfRange, span,
-         fmt::format("`{}` of `{}` is {}, found {}", operand.name, command, range_of(operand),
-                     is_exact ? std::to_string(value) : fmt::format("`{}`", text(span))),
-         help);
+  auto& d =
+      report(rules::OutOfRange, span,
+             fmt::format("`{}` of `{}` is {}, found {}", operand.name, command, range_of(operand),
+                         is_exact ? std::to_string(value) : fmt::format("`{}`", text(span))),
+             help);
+  if (!is_exact || operand.word_count > 0 || operand.unit == MacroUnit::Milliseconds ||
+      number.span != span)
+    return; // nobody knows which word, or how to wait so long
+  const auto near = operand.unit == MacroUnit::Degrees && !operand.is_signed
+                        ? same_way(value, operand.maximum + 1)
+                        : std::clamp<std::int64_t>(value, operand.minimum, operand.maximum);
+  d.fix = Fix{fmt::format("write `{}`", near), {{span, std::to_string(near)}}, Safety::Unsafe};
 }
 
 std::string Assembler::read_text(const Value& value) {
