@@ -215,7 +215,56 @@ private:
       check_inverted(statement, code);
     if (statement.kind == Statement::Goto)
       check_endless_read(jump.to, code);
+    if (statement.kind == Statement::If)
+      check_restart(statement, jump, code);
     check_stale(jump.to, code);
+  }
+
+  /// `if A < 5 then goto 10` where line 10 is `A = 0`: each round sets the counter back.
+  void check_restart(const StatementNode& statement, const Flow::Jump& jump, std::uint32_t code) {
+    const auto& begin = statement_of(jump.to);
+    const auto condition = program_.as<IfView>(statement);
+    const auto letter = letter_in(program_, condition.first.left);
+    const auto limit = number(condition.first.right);
+    if (begin.error || begin.kind != Statement::Let || statement.else_branch != none ||
+        condition.second || !letter || !limit || settings_[*letter].count != 2)
+      return;
+    const auto let = program_.as<LetView>(begin);
+    const auto first = number(let.expression);
+    const auto set = settings_[*letter].code; // the other line that sets it, below
+    if (let.variable.kind != ItemKind::Letter || let.variable.value != *letter || !first ||
+        set <= jump.to || set >= code || !is_plain(set))
+      return;
+    const auto step = step_in(statement_of(set), *letter);
+    const SensorTest test{{}, static_cast<Relation>(condition.first.relation.value), *limit, {}};
+    if (!step || !holds(test, *first) || !holds(test, *first + *step))
+      return;
+    const auto number_of = [&](std::uint32_t line) {
+      return program_.lines[flow_.code[line].line].number;
+    };
+    const auto& target = program_.items[jump.item].span;
+    const Span line{statement.span.begin, target.begin};
+    auto& d =
+        findings_.add(rules::LoopVariableSet, target,
+                      fmt::format("the loop never ends: line {} sets `{}` back to {}",
+                                  number_of(jump.to), spec::letter_name(*letter), *first),
+                      fmt::format("write `{}{}`", program_.text_of(line), number_of(jump.to + 1)));
+    d.fix = single_fix(d.help, target, std::to_string(number_of(jump.to + 1)), Safety::Unsafe);
+    add_note(d, begin.span, "set here");
+  }
+
+  /// What a line adds to a letter: `A = A + 1`.
+  std::optional<std::int32_t> step_in(const StatementNode& statement, std::uint8_t letter) const {
+    if (statement.kind != Statement::Let)
+      return std::nullopt;
+    const auto nodes = nodes_of(program_, program_.as<LetView>(statement).expression);
+    if (nodes.size() != 3 || nodes[0].kind != NodeKind::Letter || nodes[0].what != letter ||
+        nodes[1].kind != NodeKind::Number || nodes[2].kind != NodeKind::Binary)
+      return std::nullopt;
+    const auto sign = static_cast<spec::Operator>(nodes[2].what);
+    return sign == spec::Operator::Add        ? std::optional(nodes[1].value)
+           : sign == spec::Operator::Subtract ? std::optional(-nodes[1].value)
+                                              : std::nullopt;
   }
 
   /// A line that jumps to itself while something holds that is over at once.

@@ -129,6 +129,11 @@ void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
   if (const auto meant = nearest_allowed(parameter, range_of(value).lo); written && meant)
     d.fix = single_fix(fmt::format("write {}", *meant), value.span, std::to_string(*meant),
                        Safety::Unsafe);
+  constexpr std::int64_t most_lines = 9;
+  const auto parts = range_of(value).lo / parameter.greatest + 1;
+  if (!d.fix && written && word == spec::info(spec::Statement::Delay).word && parts > 1 &&
+      parts <= most_lines)
+    d.help = fmt::format("write `{} {}` on {} lines", word, range_of(value).lo / parts, parts);
 }
 
 bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
