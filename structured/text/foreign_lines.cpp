@@ -35,7 +35,10 @@ bool Lines::skip_foreign_comment(Input& in) {
   if (in.empty())
     return false;
   const char* const p = in.current();
-  const bool slashes = *p == '/' && p + 1 != end_ && p[1] == '/';
+  const std::string_view rest(p, static_cast<std::size_t>(end_ - p));
+  if (rest.starts_with("#define "))
+    return false; // a constant
+  const bool slashes = rest.starts_with("//");
   const bool remark = equal_words(peek_name(in), "rem");
   if (!slashes && *p != '#' && !remark)
     return false;

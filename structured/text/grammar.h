@@ -55,7 +55,8 @@ ORB_BY_HAND(named_factor) // a name, an element, a call, a system variable or a 
 struct positive       : sor<numeral, named_factor, group> {};
 struct negation       : seq<one<'-'>, gap, must<positive>> {};
 struct factor         : seq<sor<positive, negation>, gap> {};
-struct product_sign   : seq<not_at<two<'/'>>, one<'*', '/', '%', '{', '}'>> {};
+struct last_brace     : seq<one<'{', '}'>, star<blank>, sor<eolf, one<'\'', '\r'>>> {}; // of another language
+struct product_sign   : seq<not_at<sor<two<'/'>, last_brace>>, one<'*', '/', '%', '{', '}'>> {};
 struct product_tail   : seq<product_sign, join, must<factor>> {};
 struct product        : seq<factor, star<product_tail>> {};
 struct sum_sign       : seq<not_at<sor<and_signs, or_signs>>, one<'+', '-', '&', '|'>> {};

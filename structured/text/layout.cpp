@@ -177,7 +177,7 @@ private:
     const auto word = find_word(last->text);
     const bool joins =
         last->kind == TokenKind::Word && (word.is(Keyword::And) || word.is(Keyword::Or));
-    const bool sign = last->kind == TokenKind::Sign && !is_sign(*last, ")];:?$");
+    const bool sign = last->kind == TokenKind::Sign && !is_sign(*last, ")];:?${}");
     const bool on = brackets_ > 0 || joins || sign;
     if (!on)
       brackets_ = 0;

@@ -49,16 +49,6 @@ bool begins_line(std::string_view text, std::uint32_t at) {
   return at == 0 || is_line_end(text[at - 1]);
 }
 
-/// The `{` that the line above ends with.
-std::optional<std::uint32_t> brace_above(std::string_view text, std::uint32_t at) {
-  while (at > 0 && !is_line_end(text[at - 1]))
-    --at;
-  const auto begin = at;
-  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
-    --at;
-  return at < begin && at > 0 && text[at - 1] == '{' ? std::optional(at - 1) : std::nullopt;
-}
-
 using repair::Where;
 
 /// A word of another language, in small letters, and what helps.
@@ -331,12 +321,6 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   const auto text = std::string(program.text_of(found));
   if (!text.empty() && is_foreign(text.front()))
     return foreign_character(program, found);
-  if (reason == Reason::ExpectedExpression && sign_before(program.text, found.begin) == '{')
-    return finding(rules::MalformedLine, found, "`{` shifts left, and no value follows it",
-                   no_braces);
-  if (const auto brace = brace_above(program.text, found.begin))
-    return finding(rules::MalformedLine, {*brace, *brace + 1},
-                   "`{` shifts left, so that its line goes on in the next one", no_braces);
   if (reason == Reason::ExpectedExpression && text == "#")
     return malformed(program, found, "a colour is not a value",
                      "use it alone after `RGB`: `RGB #FF8000`");
