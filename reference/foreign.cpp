@@ -55,13 +55,21 @@ std::string advise(std::string_view line, Language language) {
   return repair::advise(repair::tokens_of(line, language), around);
 }
 
+/// Several lines beside each other.
+std::string beside(std::string_view lines) {
+  std::string all;
+  for (const char c : lines)
+    all += c == '\n' ? "; " : std::string(1, c);
+  return all;
+}
+
 std::optional<Entry> explain_line(std::string_view line) {
   Entry entry;
   entry.name = line;
   entry.summary = "is written differently here";
   for (const auto& way : ways)
     if (const auto found = here(line, way.language)) {
-      entry.facts.emplace_back(way.name, found->text);
+      entry.facts.emplace_back(way.name, beside(found->text));
       if (!found->note.empty())
         entry.summary = found->note;
     } else if (auto advice = advise(line, way.language); !advice.empty()) {

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "repair/fill.h"
+#include "repair/line_repair.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t greatest_number = 65535;
 constexpr std::size_t most_foreign = 64; // lines that do not parse; nobody mends more at once
-constexpr std::size_t block_states = 40;  // of one line
+constexpr std::size_t block_states = 40; // of one line
 
 /// What a line is to a block, by the words that structured programs have for it.
 enum class Role : std::uint8_t {
@@ -128,8 +129,10 @@ public:
     if (!open_.empty() && !open_.back().by_indent && lines_.back().role == Role::Stop &&
         open_.back().begin + 1 < lines_.size())
       close(lines_.size() - 1, true);
-    while (!open_.empty() && open_.back().by_indent)
+    while (!open_.empty() && (open_.back().by_indent || goes_to_the_end(open_.back()))) {
+      sure_ = open_.back().by_indent;
       close(lines_.size(), false);
+    }
     return std::move(found_);
   }
 
@@ -200,6 +203,17 @@ private:
   }
 
   // ---- which lines belong to each other
+
+  /// A loop for ever without an end: the rest of the program, where nothing there leaves it.
+  bool goes_to_the_end(const Open& block) const {
+    const auto leaves = [&](const BlockLine& line) {
+      const auto tokens = split(source_.line(line.line), Language::Basic).tokens;
+      return begins(tokens, "return") || begins(tokens, "end") || begins(tokens, "goto");
+    };
+    return block.role == Role::Loop && block.begin + 1 < lines_.size() &&
+           std::none_of(lines_.begin() + static_cast<std::ptrdiff_t>(block.begin) + 1, lines_.end(),
+                        leaves);
+  }
 
   static bool fits(const Open& block, const BlockLine& end) {
     if (block.by_indent)
@@ -453,6 +467,7 @@ private:
       lines_[i].below = *below;
     }
     BlockRewrite made;
+    made.sure = sure_;
     for (const auto i : changed) {
       const auto& line = lines_[i];
       const auto begin = source_.line_start(line.line);
@@ -465,18 +480,10 @@ private:
             {both.empty() ? Span{begin, source_.line_start(line.line + 1)} : span, both});
       }
       if (!line.below.empty())
-        made.edits.push_back({{span.end, span.end}, line_end() + line.below});
+        made.edits.push_back(
+            {{span.end, span.end}, std::string(line_end_of(source_.text())) + line.below});
     }
     return made;
-  }
-
-  /// How the lines of the text end.
-  std::string line_end() const {
-    const auto text = source_.text();
-    const auto at = text.find_first_of("\r\n");
-    if (at == std::string_view::npos || text[at] == '\n')
-      return "\n";
-    return text.substr(at).starts_with("\r\n") ? "\r\n" : "\r";
   }
 
   const Source& source_;
@@ -487,6 +494,7 @@ private:
   std::vector<BlockRewrite> found_;
   std::set<std::string> taken_;      ///< letters of loops
   std::optional<std::uint32_t> end_; ///< the number of a line that only ends the program
+  bool sure_ = true;
 };
 
 } // namespace

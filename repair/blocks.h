@@ -19,10 +19,12 @@ namespace orb::repair {
 struct BlockRewrite {
   std::map<std::uint32_t, std::string> lines; ///< what becomes of each line; empty: it is left out
   std::vector<Edit> edits;                    ///< all of it, lines that are added included
+  bool sure = true;                           ///< its end was written
 };
 
 /// The outermost blocks of a program, each with all that is in it. `parses` says of a line whether
-/// the language knows it as it is. Blocks without an end are not among them.
+/// the language knows it as it is. Of blocks without an end only loops for ever are among them,
+/// where the program ends with their lines.
 std::vector<BlockRewrite> blocks_as_jumps(const Source& source, const Scenery& scenery,
                                           const std::function<bool(std::string_view)>& parses);
 

@@ -140,7 +140,10 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
 Text clock(const Tokens& tokens) {
   if (tokens.size() == 1 && tokens[0].is("end"))
     return "end";
-  const auto time = time_of(tokens, Assume::Either);
+  constexpr std::int64_t most_plain = 200; // of a number without a unit, in seconds
+  const auto plain = whole(tokens);
+  const auto time =
+      time_of(tokens, plain && *plain <= most_plain ? Assume::Seconds : Assume::Either);
   if (!time)
     return std::nullopt;
   return time->ms % second_ms == 0 ? fmt::format("{}s", time->ms / second_ms)
@@ -160,6 +163,28 @@ Text length(const Tokens& tokens) {
   return std::nullopt;
 }
 
+/// A length, more or less, as a first and a last one: in centimetres.
+Text around_length(const Tokens& middle, const Tokens& tolerance) {
+  constexpr std::int64_t metre_cm = 100;
+  const auto centimetres = [](const Tokens& tokens) -> std::optional<std::int64_t> {
+    const auto value = tokens.empty() ? std::nullopt : thousandths(tokens[0]);
+    const bool metres = tokens.size() == 2 && tokens[1].is("m");
+    if (!value || tokens.size() > 2 || (tokens.size() == 2 && !metres && !tokens[1].is("cm")))
+      return std::nullopt;
+    return *value * (metres ? metre_cm : 1) / second_ms;
+  };
+  const auto cm = centimetres(middle);
+  const auto off = centimetres(tolerance);
+  return cm && off && *off <= *cm ? Text(fmt::format("{}cm..{}cm", *cm - *off, *cm + *off))
+                                  : std::nullopt;
+}
+
+/// A value as a condition: sensors that only know yes and no are compared with yes.
+Text as_comparison(const Tokens& tokens) {
+  const auto text = join(tokens);
+  return text + (holds("dshake isconn cmdroll cmdrgb ctrl", text) ? " = 1" : " ! 0");
+}
+
 /// `a` to `b` by the robot's `rnd`, which gives 1 to its value.
 Text dice(const Tokens& from, const Tokens& to, Language language) {
   const auto a = whole(from);
@@ -173,7 +198,7 @@ Text dice(const Tokens& from, const Tokens& to, Language language) {
   // An operand of `rnd` goes to the end of the expression on the robot.
   if (language == Language::Basic)
     return *a > 1 ? fmt::format("{} + rnd {}", *a - 1, *b - *a + 1)
-                  : fmt::format("rnd {} - 1", *b - *a + 1);
+                  : fmt::format("(rnd {}) - {}", *b - *a + 1, 1 - *a);
   return *a > 1 ? fmt::format("{} + {}", call, *a - 1) : fmt::format("{} - {}", call, 1 - *a);
 }
 
@@ -211,8 +236,8 @@ bool holds_name(const Tokens& tokens, const Surroundings& around) {
 Text call(std::string_view function, const Tokens& a, const Tokens& b, const Holes& holes,
           const Surroundings& around) {
   const auto language = around.language;
-  if (function == "sec")
-    return written_time(a, Assume::Seconds, language);
+  if (function == "sec") // no time at all is another habit
+    return whole(a) == 0 ? std::nullopt : written_time(a, Assume::Seconds, language);
   if (function == "wait")
     return written_time(a, Assume::Either, language);
   if (function == "ms")
@@ -233,6 +258,8 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return as_factor(a);
   if (function == "not")
     return opposite(a, language);
+  if (function == "true")
+    return as_comparison(a);
   if (function == "items")
     return print_items(a);
   if (function == "quoted") // not what a program sets
@@ -248,6 +275,10 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
                : std::nullopt;
   if (function == "dice")
     return dice(a, b, language);
+  if (function == "below") // the second value is not one of them
+    return dice(a, tokens_of(plus(b, -1).value_or(""), language), language);
+  if (function == "around")
+    return around_length(a, b);
   if (function == "zero")
     return a.empty() ? Text("0") : Text(join(a));
   if (function == "channels")
@@ -305,6 +336,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return known(around.line_number);
   if (name == "free")
     return known(around.free_letter);
+  if (name == "nought" || name == "second") // what was left out
+    return name == "second" ? "1s" : "0";
   if (name == "loop")
     return known(around.loop);
   if (name == "closer")

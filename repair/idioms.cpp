@@ -33,6 +33,7 @@ constexpr auto hints = std::to_array<Hint>({
 struct Part {
   char hole = '\0';
   std::vector<std::string> literals; ///< one of these, where it is no hole
+  bool may_lack = false;             ///< a comma of a macro
 };
 
 struct Pattern {
@@ -76,7 +77,7 @@ Part part_of(std::string_view text) {
 }
 
 void add_patterns(std::vector<Pattern>& all, std::string_view patterns, const Idiom* idiom,
-                  std::string_view meaning) {
+                  std::string_view meaning, Language language) {
   for (const auto text : pieces(patterns, " ;; ")) {
     Pattern pattern;
     pattern.idiom = idiom;
@@ -85,10 +86,12 @@ void add_patterns(std::vector<Pattern>& all, std::string_view patterns, const Id
       if (!one.empty())
         pattern.parts.push_back(part_of(one));
     for (std::size_t i = 0; i < pattern.parts.size(); ++i) {
+      auto& part = pattern.parts[i];
+      part.may_lack = language == Language::Macro && part.literals == std::vector<std::string>{","};
       std::uint64_t bits = 0;
-      for (const auto& literal : pattern.parts[i].literals)
+      for (const auto& literal : part.literals)
         bits |= bit_of(literal);
-      if (bits != 0)
+      if (bits != 0 && !part.may_lack)
         pattern.needs.push_back(bits);
       if (i == 0)
         pattern.first = bits;
@@ -111,10 +114,10 @@ const std::vector<Pattern>& patterns_of(Language language) {
     std::array<std::vector<Pattern>, 4> each;
     for (std::size_t i = 0; i < each.size(); ++i) {
       for (const auto& word : words)
-        add_patterns(each[i], word.patterns, nullptr, word.meaning);
+        add_patterns(each[i], word.patterns, nullptr, word.meaning, static_cast<Language>(i));
       for (const auto& idiom : idioms)
         if (!form_of(idiom, static_cast<Language>(i)).empty())
-          add_patterns(each[i], idiom.patterns, &idiom, {});
+          add_patterns(each[i], idiom.patterns, &idiom, {}, static_cast<Language>(i));
     }
     return each;
   }();
@@ -127,9 +130,9 @@ const std::vector<Pattern>& hints_of(Language language) {
     std::array<std::vector<Pattern>, 2> each;
     for (const auto& hint : hints) {
       if (!hint.basic.empty())
-        add_patterns(each[0], hint.patterns, nullptr, hint.basic);
+        add_patterns(each[0], hint.patterns, nullptr, hint.basic, Language::Basic);
       if (!hint.structured.empty())
-        add_patterns(each[1], hint.patterns, nullptr, hint.structured);
+        add_patterns(each[1], hint.patterns, nullptr, hint.structured, Language::Structured);
     }
     return each;
   }();
@@ -197,7 +200,9 @@ private:
       return !whole_ || at == end_ ? at : 0;
     const auto& here = pattern.parts[part];
     if (here.hole == '\0')
-      return literal(pattern, part, at);
+      return here.may_lack && at > 0 && at < end_ && tokens_[at].kind != Token::Kind::Sign
+                 ? from(pattern, part + 1, at)
+                 : literal(pattern, part, at);
     const auto most = extent(here.hole, at);
     const std::size_t least = here.hole == 'r' ? at : at + 1;
     const bool last = part + 1 == pattern.parts.size();
@@ -310,6 +315,9 @@ private:
           return false;
       return true;
     case 'l': return true;
+    case 'j': // one word is a label
+      return end > begin + 1 && !parts_line(first) && !first.is("for") && !first.is("while") &&
+             !first.is("}");
     default: return is_value(begin, end);
     }
   }
@@ -364,7 +372,7 @@ bool is_sure(std::string_view form, const Holes& holes) {
   const auto& time = holes['q'];
   if (form.find("{wait:") != std::string_view::npos && time.size() == 1 && time[0].text.size() < 3)
     return false;
-  for (const auto* guess : {"{known:", "{still}", "{free}", "yaw", "100"})
+  for (const auto* guess : {"{known:", "{still}", "{nought}", "{second}", "{free}", "yaw", "100"})
     if (form.find(guess) != std::string_view::npos)
       return false;
   return true;
@@ -393,6 +401,9 @@ void rewrite(const Tokens& line, const Surroundings& around,
       const auto filled = form == "-" ? std::optional(std::string()) : fill(form, holes, around);
       if (!filled)
         return false;
+      const bool whole = begin == 0 && end == line.size();
+      if (!whole && filled->find('\n') != std::string::npos)
+        return false; // several lines stand by themselves
       auto text = replaced(line, begin, end, *filled);
       return text != here &&
              take({std::move(text),
@@ -435,13 +446,30 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
         return false;
       if (take(one))
         return done = true;
-      if (depth + 1 < bounds.deepest)
+      if (depth + 1 < bounds.deepest && one.text.find('\n') == std::string::npos)
         open.emplace_back(one.text, depth + 1);
       return seen.size() >= bounds.states;
     });
     if (done || seen.size() >= bounds.states)
       return;
   }
+}
+
+std::string word_at(const Tokens& line, std::size_t at) {
+  Matcher matcher(line, line.size(), false);
+  std::size_t farthest = at;
+  std::string_view meaning = line[at].text;
+  for (const auto& pattern : patterns_of(Language::Structured)) {
+    if (pattern.idiom != nullptr)
+      break; // the words come first
+    if ((pattern.first & bit_of(line[at].text)) == 0)
+      continue;
+    if (const auto end = matcher.match(pattern, at); end > farthest) {
+      farthest = end;
+      meaning = pattern.meaning;
+    }
+  }
+  return lower(meaning);
 }
 
 bool is_known_word(std::string_view word, Where where) {

@@ -78,6 +78,9 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
              std::unordered_set<std::string>& seen,
              const std::function<bool(const Rewritten&)>& take);
 
+/// The word that a line has at a place, as structured programs have it: `wenn` is `if`.
+std::string word_at(const Tokens& line, std::size_t at);
+
 /// Whether patterns of that kind begin with the word, in any case: people write it elsewhere.
 bool is_known_word(std::string_view word, Where where);
 

@@ -3,9 +3,7 @@
 #include "base/fixes.h"
 #include "base/text.h"
 #include "repair/blocks.h"
-#include "repair/idioms.h"
-#include "repair/scenery.h"
-#include "repair/search.h"
+#include "repair/line_repair.h"
 
 #include <algorithm>
 #include <array>
@@ -14,283 +12,14 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <unordered_set>
 
 namespace orb::repair {
 namespace {
 
 constexpr std::size_t most_bytes = 65536; // more than any area of the robot holds
 constexpr std::size_t most_lines = 12;    // with errors; nobody reads more at once
-constexpr std::size_t most_states = 150;  // of one line, by habits
-constexpr int most_candidates = 1000;     // of one line, by search
 constexpr int most_checks = 16;           // of the whole text, for one line
-constexpr int deepest = 6;                // habits in one line
-constexpr int surely = 6;                 // one letter of a word
-constexpr int clearly = 4;                // by so much the best change is cheaper than the next
-
-std::size_t errors_in(const std::vector<Diagnostic>& findings) {
-  return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
-}
-
-/// Errors that no fix mends by itself.
-std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
-  return static_cast<std::size_t>(
-      std::count_if(findings.begin(), findings.end(), [](const Diagnostic& one) {
-        return is_error(one) && !(one.fix && one.fix->safety == Safety::Safe);
-      }));
-}
-
-/// A line that was tried in its place.
-struct Accepted {
-  std::string text; ///< of the whole line
-  std::string_view note;
-  bool fewer = false; ///< the text has fewer errors with it
-  bool quiet = false; ///< nothing else is said about the line
-  bool sure = true;   ///< nothing else can have been meant
-  bool open = false;  ///< a block still lacks its end, or an end its block
-  std::size_t errors = 0;
-
-  /// Whether no other line can do more.
-  bool settles() const { return quiet && !open; }
-};
-
-/// The text around a line, as far as it has been mended already.
-struct Context {
-  std::string above;
-  std::string below;
-};
-
-/// The search for one line.
-class Repair {
-public:
-  Repair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
-         const Context& context, const std::vector<Diagnostic>& before)
-      : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
-        errors_(errors_in(before)), lasting_(lasting_errors(before)),
-        parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
-        names_(scenery.names_without(parts_.tokens)),
-        is_target_(judge.language == Language::Basic &&
-                   !scenery.jumps_to(scenery.number(line)).empty()) {
-    if (judge.language == Language::Basic)
-      around_.names = scenery.set_without(parts_.tokens);
-    for (const auto name : names_)
-      if (std::none_of(judge.words.begin(), judge.words.end(),
-                       [&](std::string_view word) { return equal_words(word, name); }))
-        around_.names.push_back(name);
-    canonical();
-    if (judge.language == Language::Basic)
-      resolve_labels(scenery);
-  }
-
-  /// The lines to write, the best first: one where it is clear, two where it is not.
-  std::vector<Accepted> find(const Diagnostic& finding) {
-    if (parts_.tokens.size() > most_tokens)
-      return {};
-    const auto start = join(parts_.tokens);
-    if (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word")
-      by_fix(finding); // it knows the names and the blocks
-    if (!best_ && whole(start) != line_)
-      attempt(start, {}, true);
-    if (!best_)
-      by_changes(surely);
-    if (!best_ || !best_->settles())
-      habits(start, {deepest, most_states});
-    if (!best_ || !best_->quiet)
-      by_fix(finding);
-    if (!best_)
-      by_changes(1000);
-    std::vector<Accepted> all;
-    if (best_)
-      all.push_back(*best_);
-    if (other_)
-      all.push_back(*other_);
-    return all;
-  }
-
-  /// What to do where there is no line to write.
-  std::string advice() const { return advise(parts_.tokens, around_); }
-
-  std::uint32_t begin() const { return begin_; }
-  std::string_view line() const { return line_; }
-  /// The line as it is shown: with its comment only where that changes.
-  std::string shown(const std::string& text) const {
-    auto parts = split(text, judge_.language);
-    if (!parts.comment.empty() && !parts.tokens.empty() &&
-        line_.find(parts.comment) != std::string_view::npos)
-      parts.comment.clear();
-    return std::string(trimmed(join(parts)));
-  }
-
-private:
-  static std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_blank(text.front()))
-      text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back()))
-      text.remove_suffix(1);
-    return text;
-  }
-
-  /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
-  void canonical() {
-    for (auto& token : parts_.tokens) {
-      if (token.is_word() && judge_.language != Language::Structured &&
-          std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
-        const auto same =
-            std::find_if(judge_.words.begin(), judge_.words.end(), [&](std::string_view one) {
-              return one.size() > 1 && equal_words(one, token.text);
-            });
-        if (same != judge_.words.end())
-          token.text = *same;
-      }
-      if (token.is_number() && judge_.language == Language::Basic && token.text.size() > 2 &&
-          to_lower(token.text[1]) == 'x')
-        if (const auto value =
-                parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
-          token.text = std::to_string(*value);
-    }
-  }
-
-  /// Jumps to labels, as other languages have them, become jumps to their lines.
-  void resolve_labels(const Scenery& scenery) {
-    auto& tokens = parts_.tokens;
-    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
-      const bool jumps =
-          equal_words(tokens[i].text, "goto") || equal_words(tokens[i].text, "gosub");
-      if (!jumps || !tokens[i + 1].is_word())
-        continue;
-      if (const auto number = scenery.number_of(tokens[i + 1].text); !number.empty())
-        tokens[i + 1].text = number;
-    }
-  }
-
-  std::string whole(const std::string& statement) const {
-    if (statement.empty() && parts_.comment.empty())
-      return {};
-    auto text = parts_.head + statement;
-    if (!parts_.comment.empty())
-      text += (statement.empty() ? "" : " ") + parts_.comment;
-    return text;
-  }
-
-  /// Tries a line in its place; true when it cannot be better.
-  bool attempt(const std::string& statement, std::string_view note, bool sure) {
-    return attempt_line(whole(statement), note, sure).has_value() && best_ && best_->settles();
-  }
-
-  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
-                                       bool keep = true) {
-    if (text == line_ || checks_ >= most_checks || !judge_.parses(text))
-      return std::nullopt;
-    ++checks_;
-    auto changed = context_.above;
-    const auto begin = changed.size();
-    // What jumps to a line that is left out goes on below it, as it would after one that does
-    // nothing.
-    changed += text.empty() && is_target_ ? parts_.head + "A = A" : text;
-    changed += context_.below;
-    const auto found = judge_.check(changed);
-    bool quiet = true;
-    bool open = false;
-    for (const auto& one : found) {
-      open = open || one.rule->id == "unclosed-block" || one.rule->id == "block-end";
-      if (one.span.begin < begin || one.span.begin > begin + text.size())
-        continue;
-      if (is_error(one) && one.rule->id != "unclosed-block")
-        return std::nullopt;
-      quiet = quiet && one.severity == Severity::Info;
-    }
-    const auto errors = errors_in(found);
-    if (errors > errors_ || (!keep && errors == errors_))
-      return std::nullopt;
-    Accepted accepted{text,  note, errors < errors_ || lasting_errors(found) < lasting_,
-                      quiet, sure, open,
-                      errors};
-    if (keep &&
-        (!best_ || errors < best_->errors || (errors == best_->errors && quiet && !best_->quiet)))
-      best_ = accepted;
-    return accepted;
-  }
-
-  /// Applies habits until the line is one.
-  void habits(const std::string& statement, Bounds bounds) {
-    explore(statement, around_, bounds, seen_,
-            [&](const Rewritten& one) { return attempt(one.text, one.note, one.sure); });
-  }
-
-  /// What the language itself offers.
-  void by_fix(const Diagnostic& finding) {
-    if (!finding.fix || finding.fix->edits.empty())
-      return;
-    std::string text(line_);
-    for (auto edit = finding.fix->edits.rbegin(); edit != finding.fix->edits.rend(); ++edit) {
-      if (edit->span.begin < begin_ || edit->span.end > begin_ + line_.size())
-        return;
-      text.replace(edit->span.begin - begin_, edit->span.size(), edit->text);
-    }
-    if (text.find('\n') == std::string::npos)
-      attempt_line(text, {}, finding.fix->safety == Safety::Safe);
-  }
-
-  /// The nearest line; two where it is not clear which.
-  void by_changes(int most) {
-    auto first = changes(parts_.tokens, judge_.language, judge_.words, names_);
-    std::erase_if(first, [&](const Candidate& one) { return one.cost > most; });
-    std::vector<std::pair<Candidate, Accepted>> good;
-    int tried = 0;
-    const auto consider = [&](const Candidate& one) {
-      if (!good.empty() && one.cost > good.front().first.cost + clearly)
-        return;
-      if (++tried > most_candidates || good.size() > 1 || !changed_.insert(one.text).second)
-        return;
-      if (auto accepted = attempt_line(whole(one.text), {}, one.cost <= 9, false)) {
-        good.emplace_back(one, *std::move(accepted));
-        return;
-      }
-      if (one.cost >= 10 || !good.empty() || most == surely)
-        return;
-      // a misspelt habit
-      best_.reset();
-      habits(one.text, {3, seen_.size() + 20});
-      if (best_)
-        good.emplace_back(one, *best_);
-      best_.reset();
-    };
-    for (const auto& one : first)
-      consider(one);
-    if (good.empty() && most > surely)
-      for (const auto& one : first) {
-        if (one.cost > 9 || tried > most_candidates)
-          break;
-        for (auto next :
-             changes(tokens_of(one.text, judge_.language), judge_.language, judge_.words, names_)) {
-          next.cost += one.cost;
-          if (next.cost > 18)
-            break;
-          consider(next);
-        }
-      }
-    if (!good.empty())
-      best_ = good[0].second;
-    if (good.size() > 1)
-      other_ = good[1].second;
-  }
-
-  const Judge& judge_;
-  std::string_view line_;
-  std::uint32_t begin_;
-  const Context& context_;
-  std::size_t errors_;
-  std::size_t lasting_;
-  SplitLine parts_;
-  Surroundings around_;
-  std::vector<std::string_view> names_;
-  bool is_target_; ///< something jumps here
-  std::unordered_set<std::string> seen_;
-  std::unordered_set<std::string> changed_;
-  std::optional<Accepted> best_;
-  std::optional<Accepted> other_;
-  int checks_ = 0;
-};
+constexpr int most_checks_together = 96;  // for all lines
 
 /// The change from one line to another, as small as it is.
 Edit difference(std::string_view from, std::string_view to, std::uint32_t begin) {
@@ -355,6 +84,15 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
   return std::find(unknown.begin(), unknown.end(), finding.rule->id) != unknown.end();
 }
 
+std::string without_blanks(std::string text) {
+  std::erase_if(text, is_blank);
+  return text;
+}
+
+bool is_safe(const Diagnostic& finding) {
+  return finding.fix && finding.fix->safety == Safety::Safe;
+}
+
 /// Whether a finding only says that the line does not parse.
 bool says_little(const Diagnostic& finding) {
   constexpr auto rules = std::to_array<std::string_view>(
@@ -368,13 +106,9 @@ bool goes_on(std::string_view line) {
   const auto tokens = split(line.substr(0, longest_line), Language::Structured).tokens;
   for (const auto& token : tokens)
     depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-  return depth > 0 ||
-         (!tokens.empty() && tokens.back().kind == Token::Kind::Sign && !tokens.back().is(")"));
+  return depth > 0 || (!tokens.empty() && tokens.back().kind == Token::Kind::Sign &&
+                       !tokens.back().is(")") && !tokens.back().is("{"));
 }
-
-} // namespace
-
-namespace {
 
 /// Offers lines for the findings of one text.
 class Offers {
@@ -411,12 +145,15 @@ private:
     return source_.position(finding.span.begin).line;
   }
 
+  int checks_left() const { return std::min(most_checks, most_checks_together - checks_); }
+
   /// Blocks of several lines, each with one fix at all of its findings.
   void blocks() {
     for (const auto& block : blocks_as_jumps(source_, scenery_, judge_.parses)) {
-      const Fix fix{"write jumps for the block", block.edits, Safety::Safe};
+      Fix fix{"write jumps for the block", block.edits, Safety::Safe};
       Diagnostic all;
       all.fix = fix;
+      fix.safety = block.sure ? Safety::Safe : Safety::Unsafe;
       if (errors_in(judge_.check(apply_fixes(source_.text(), {all}).text)) >= errors_in(before_))
         continue;
       for (auto& finding : findings_) {
@@ -454,11 +191,13 @@ private:
     auto at = line_of(finding);
     const bool here = is_about_writing(finding, source_, judge_, at);
     Context context;
-    std::optional<Repair> repair;
+    std::optional<LineRepair> repair;
     const auto found_at = [&] {
       context = around(at);
-      repair.emplace(source_, judge_, scenery_, at, context, before(at, context));
-      return repair->find(finding);
+      repair.emplace(source_, judge_, scenery_, at, context, before(at, context), checks_left());
+      auto all = repair->find(finding);
+      checks_ += repair->checks();
+      return all;
     };
     auto found = here ? found_at() : std::vector<Accepted>();
     if (found.empty() && continues(at) && lines_.insert(at - 1).second) {
@@ -491,8 +230,9 @@ private:
       const auto context = around(at);
       const auto before =
           findings_about(context.above + std::string(source_.line(at)) + context.below);
-      Repair repair(source_, judge_, scenery_, at, context, before);
+      LineRepair repair(source_, judge_, scenery_, at, context, before, checks_left());
       const auto found = repair.find(first);
+      checks_ += repair.checks();
       if (found.size() != 1 || !(found[0].fewer || found[0].open) ||
           (texts_.contains(at) && texts_[at] == found[0].text))
         continue;
@@ -564,7 +304,19 @@ private:
     std::erase_if(findings_, [&](const Diagnostic& one) { return gone.contains(&one); });
   }
 
-  void write(Diagnostic& finding, const Repair& repair, std::uint32_t at,
+  /// One line after the other: "write `print "hi"`, then `delay 2s`".
+  static std::string in_turn(const LineRepair& repair, std::string_view lines) {
+    std::string all;
+    for (std::size_t at = 0; at < lines.size();) {
+      const auto end = std::min(lines.find_first_of("\r\n", at), lines.size());
+      all += fmt::format("{} `{}`", at == 0 ? "write" : ", then",
+                         repair.shown(lines.substr(at, end - at)));
+      at = std::min(lines.find_first_not_of("\r\n", end), lines.size());
+    }
+    return all;
+  }
+
+  void write(Diagnostic& finding, const LineRepair& repair, std::uint32_t at,
              const std::vector<Accepted>& found) const {
     const auto shown = repair.shown(found[0].text);
     if (found.size() > 1) {
@@ -572,19 +324,21 @@ private:
       finding.fix.reset();
       return;
     }
-    finding.help = shown.empty() ? "leave the line out" : fmt::format("write `{}`", shown);
+    finding.help = shown.empty() ? "leave the line out" : in_turn(repair, found[0].text);
     if (!found[0].note.empty())
       finding.help += fmt::format("; {}", found[0].note);
-    if (finding.fix && finding.fix->safety == Safety::Safe)
+    if (const auto own = repair.fixed(finding);
+        is_safe(finding) && (!own || without_blanks(*own) == without_blanks(found[0].text)))
       return; // its own fix goes as far as it must
-    const auto safety = found[0].fewer && found[0].sure ? Safety::Safe : Safety::Unsafe;
+    const bool safe = found[0].sure && (found[0].fewer || is_safe(finding));
+    const auto safety = safe ? Safety::Safe : Safety::Unsafe;
     if (shown.empty() && repair.line().find_first_not_of(" \t") != std::string_view::npos) {
       finding.fix = remove(at, safety);
       if (finding.fix && finding.fix->edits[0].text.ends_with("end"))
         finding.help = fmt::format("write `{}`", finding.fix->edits[0].text);
       return;
     }
-    finding.fix = Fix{shown.empty() ? "empty the line" : fmt::format("write `{}`", shown),
+    finding.fix = Fix{shown.empty() ? "empty the line" : in_turn(repair, found[0].text),
                       {difference(repair.line(), found[0].text, repair.begin())},
                       safety};
   }
@@ -617,6 +371,7 @@ private:
   std::set<std::uint32_t> lines_;              ///< looked at
   std::set<const Diagnostic*> mended_;         ///< of `findings_`: with what is offered here
   std::map<std::uint32_t, std::string> texts_; ///< of lines, as they are mended
+  int checks_ = 0;
 };
 
 } // namespace

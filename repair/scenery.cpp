@@ -20,10 +20,13 @@ std::string digits_of(std::string_view head) {
 
 Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
+    closers_.push_back(open_.empty() ? "" : open_.back());
     const auto line = source.line(n);
     if (line.size() > longest_line)
       continue;
     const auto tokens = split(line, language).tokens;
+    if (!tokens.empty() && (language == Language::Structured || language == Language::Macro))
+      open_or_close(tokens);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;
@@ -123,8 +126,8 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     const auto free = free_letters();
     all.free_letter = free.empty() ? "" : free.front();
     all.loop = loop_above(line);
-  } else if (language_ == Language::Structured) {
-    all.closer = closer_above(line);
+  } else if (language_ == Language::Structured || language_ == Language::Macro) {
+    all.closer = closers_[line - 1];
   }
   return all;
 }
@@ -163,30 +166,30 @@ std::string Scenery::loop_above(std::uint32_t line) const {
   return open.empty() ? "" : open.back();
 }
 
-std::string Scenery::closer_above(std::uint32_t line) const {
-  std::vector<std::string> open;
-  for (std::uint32_t n = 1; n < line; ++n) {
-    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
-    if (tokens.empty())
-      continue;
-    const auto& first = tokens[0].text;
-    const auto is = [&](std::string_view word) { return equal_words(first, word); };
-    if (is("while") || is("loop") || is("repeat") || is("select") || is("sub") || is("function") ||
-        is("for"))
-      open.push_back(is("for") ? "next" : "end " + first);
-    else if (is("def") || is("void"))
-      open.emplace_back("end sub");
-    else if (is("forever") || is("do"))
-      open.emplace_back("end loop");
-    else if (is("if") && (equal_words(tokens.back().text, "then") || tokens.back().is("{") ||
-                          tokens.back().is(":")))
-      open.emplace_back("end if");
-    else if (((is("end") && tokens.size() > 1) || is("next") || is("until") || is("}") ||
-              is("wend") || is("endif")) &&
-             !open.empty() && !(tokens.size() > 1 && tokens[1].is("else")))
-      open.pop_back();
-  }
-  return open.empty() ? "" : open.back();
+void Scenery::open_or_close(const Tokens& line) {
+  const auto first = word_at(line, 0);
+  const auto is = [&](std::string_view word) { return first == word; };
+  if (language_ == Language::Macro && (is("loop_start") || is("loop_end"))) {
+    open_.clear(); // they do not nest
+    if (is("loop_start"))
+      open_.emplace_back("loop_end");
+  } else if (language_ == Language::Macro) {
+    if (is("loop") || is("repeat") || is("for"))
+      open_.emplace_back("loop_end");
+  } else if (is("while") || is("loop") || is("repeat") || is("select") || is("sub") ||
+             is("function") || is("for"))
+    open_.push_back(is("for") ? "next" : "end " + first);
+  else if (is("def") || is("void"))
+    open_.emplace_back("end sub");
+  else if (is("forever") || is("do"))
+    open_.emplace_back("end loop");
+  else if (is("if") &&
+           (word_at(line, line.size() - 1) == "then" || line.back().is("{") || line.back().is(":")))
+    open_.emplace_back("end if");
+  else if (((is("end") && line.size() > 1) || first.starts_with("end ") || is("next") ||
+            is("until") || is("}") || is("wend") || is("endif")) &&
+           !open_.empty() && !(line.size() > 1 && line[1].is("else")))
+    open_.pop_back();
 }
 
 } // namespace orb::repair

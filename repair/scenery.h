@@ -52,10 +52,13 @@ public:
 private:
   std::string loop_above(std::uint32_t line) const;
 
-  std::string closer_above(std::uint32_t line) const;
+  /// What a line begins or ends, to structured programs and macros.
+  void open_or_close(const Tokens& line);
 
   const Source& source_;
   Language language_;
+  std::vector<std::string> open_;    ///< what ends the blocks that are open, the innermost last
+  std::vector<std::string> closers_; ///< of each line: what ends the block that it is in
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };

@@ -99,7 +99,8 @@ private:
       sign = 2;
     else if (sees("--") && tokens.empty() && at_ + 2 < text_.size() && is_blank(text_[at_ + 2]))
       sign = 2;
-    else if (sees("#") && !colour_here() && !(tokens.empty() && sees("#include")))
+    else if (sees("#") && !colour_here() &&
+             !(tokens.empty() && (sees("#include") || sees("#define"))))
       sign = 1;
     else if (sees(";") && language_ == Language::Macro && (tokens.empty() || gap_))
       sign = 1;
@@ -185,6 +186,11 @@ private:
     return true;
   }
 
+  void digits() {
+    while (at_ < text_.size() && is_digit(text_[at_]))
+      ++at_;
+  }
+
   bool number(Tokens& tokens) {
     if (!is_digit(text_[at_]) &&
         !(text_[at_] == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]) &&
@@ -196,12 +202,14 @@ private:
       while (at_ < text_.size() && is_part(text_[at_]))
         ++at_;
     } else {
-      bool point = false;
-      while (at_ < text_.size() &&
-             (is_digit(text_[at_]) || (!point && text_[at_] == '.' && at_ + 1 < text_.size() &&
-                                       is_digit(text_[at_ + 1]) && !sees("..")))) {
-        point |= text_[at_] == '.';
+      digits();
+      const auto point = at_;
+      const bool after_point = !gap_ && !tokens.empty() && tokens.back().is(".");
+      if (sees(".") && !after_point && at_ + 1 < text_.size() && is_digit(text_[at_ + 1])) {
         ++at_;
+        digits();
+        if (sees(".") && !sees("..") && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))
+          at_ = point; // `255.0.0`: points for commas
       }
     }
     add(tokens, Token::Kind::Number, std::string(text_.substr(begin, at_ - begin)));

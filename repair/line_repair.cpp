@@ -1,0 +1,344 @@
+#include "repair/line_repair.h"
+
+#include "base/text.h"
+#include "repair/idioms.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace orb::repair {
+namespace {
+
+constexpr std::size_t most_states = 150; // of one line, by habits
+constexpr std::size_t few_states = 40;   // of one line, by habits that take several
+constexpr int most_candidates = 1000;    // of one line, by search
+constexpr int deepest = 6;               // habits in one line
+constexpr int surely = 6;                // one letter of a word
+constexpr int clearly = 4;               // by so much the best change is cheaper than the next
+constexpr std::uint32_t greatest_number = 65535;
+constexpr std::uint32_t usual_step = 10; // of line numbers
+
+/// Errors that no fix mends by itself.
+std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), [](const Diagnostic& one) {
+        return is_error(one) && !(one.fix && one.fix->safety == Safety::Safe);
+      }));
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back()))
+    text.remove_suffix(1);
+  return text;
+}
+
+} // namespace
+
+std::size_t errors_in(const std::vector<Diagnostic>& findings) {
+  return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
+}
+
+std::string_view line_end_of(std::string_view text) {
+  const auto at = text.find_first_of("\r\n");
+  if (at == std::string_view::npos || text[at] == '\n')
+    return "\n";
+  return text.substr(at).starts_with("\r\n") ? "\r\n" : "\r";
+}
+
+LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& scenery,
+                       std::uint32_t line, const Context& context,
+                       const std::vector<Diagnostic>& before, int most_checks)
+    : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
+      errors_(errors_in(before)), lasting_(lasting_errors(before)),
+      parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
+      names_(scenery.names_without(parts_.tokens)), is_target_(false), most_checks_(most_checks) {
+  if (judge.language == Language::Basic) {
+    is_target_ = !scenery.jumps_to(scenery.number(line)).empty();
+    number_below_ = scenery.number_below(line);
+    around_.names = scenery.set_without(parts_.tokens);
+  }
+  for (const auto name : names_)
+    if (std::none_of(judge.words.begin(), judge.words.end(),
+                     [&](std::string_view word) { return equal_words(word, name); }))
+      around_.names.push_back(name);
+  canonical();
+  if (judge.language == Language::Basic)
+    resolve_labels(scenery);
+}
+
+std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
+  if (parts_.tokens.size() > most_tokens)
+    return {};
+  const auto start = join(parts_.tokens);
+  // What another language needs and this one does not is not all that the line says there.
+  const auto own = fixed(finding);
+  const auto* edit = own ? &finding.fix->edits.front() : nullptr;
+  const bool leaves_out = edit != nullptr && edit->text.empty() && edit->span.size() > 0 &&
+                          is_letter(line_[edit->span.begin - begin_]) &&
+                          own->find_first_not_of(" \t;", parts_.head.size()) != std::string::npos;
+  if (!own || leaves_out || finding.fix->safety != Safety::Safe)
+    several_lines(start);
+  if (!best_ && !leaves_out &&
+      (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
+    by_fix(finding); // it knows the names and the blocks
+  if (!best_ && whole(start) != line_)
+    attempt(start, {}, true);
+  if (!best_ && !is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line))
+    by_changes(surely);
+  if (!best_ || !best_->settles())
+    habits(start, {deepest, most_states});
+  if (!best_ || !best_->quiet)
+    by_fix(finding);
+  if (!best_)
+    by_changes(1000);
+  std::vector<Accepted> all;
+  if (best_)
+    all.push_back(*best_);
+  if (other_)
+    all.push_back(*other_);
+  return all;
+}
+
+std::string LineRepair::advice() const {
+  return advise(parts_.tokens, around_);
+}
+
+std::string LineRepair::shown(std::string_view text) const {
+  auto parts = split(text, judge_.language);
+  const auto tail = text.substr(text.size() - std::min(text.size(), parts.comment.size()));
+  if (!parts.comment.empty() && !parts.tokens.empty() && line_.ends_with(tail))
+    parts.comment.clear();
+  return std::string(trimmed(join(parts)));
+}
+
+/// Words in their documented spelling where the robot looks at case, numbers without `0x`.
+void LineRepair::canonical() {
+  for (auto& token : parts_.tokens) {
+    if (token.is_word() && judge_.language != Language::Structured &&
+        std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
+      const auto same =
+          std::find_if(judge_.words.begin(), judge_.words.end(), [&](std::string_view one) {
+            return one.size() > 1 && equal_words(one, token.text);
+          });
+      if (same != judge_.words.end())
+        token.text = *same;
+    }
+    if (token.is_number() && judge_.language == Language::Basic && token.text.size() > 2 &&
+        to_lower(token.text[1]) == 'x')
+      if (const auto value = parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
+        token.text = std::to_string(*value);
+  }
+}
+
+/// Jumps to labels, as other languages have them, become jumps to their lines.
+void LineRepair::resolve_labels(const Scenery& scenery) {
+  auto& tokens = parts_.tokens;
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    const bool jumps = equal_words(tokens[i].text, "goto") || equal_words(tokens[i].text, "gosub");
+    if (!jumps || !tokens[i + 1].is_word())
+      continue;
+    if (const auto number = scenery.number_of(tokens[i + 1].text); !number.empty())
+      tokens[i + 1].text = number;
+  }
+}
+
+std::string LineRepair::whole(std::string_view statement) const {
+  if (statement.empty() && parts_.comment.empty())
+    return {};
+  auto text = parts_.head;
+  text += statement;
+  if (!parts_.comment.empty())
+    text += (statement.empty() ? "" : " ") + parts_.comment;
+  return text;
+}
+
+/// Statements, each in the words of the language; nothing where one has none.
+std::string LineRepair::spelled(const std::string& statements, int depth) const {
+  const auto end = statements.find('\n');
+  if (end != std::string::npos) {
+    const auto first = spelled(statements.substr(0, end), depth);
+    const auto rest = first.empty() ? first : spelled(statements.substr(end + 1), depth);
+    return rest.empty() ? rest : first + '\n' + rest;
+  }
+  if (judge_.parses(parts_.head + statements))
+    return statements;
+  std::string found;
+  std::unordered_set<std::string> seen;
+  if (depth < 2)
+    explore(statements, around_, {3, few_states}, seen, [&](const Rewritten& one) {
+      if (one.text.find('\n') != std::string::npos)
+        found = spelled(one.text, depth + 1);
+      else if (judge_.parses(parts_.head + one.text))
+        found = one.text;
+      return !found.empty();
+    });
+  return found;
+}
+
+/// Statements, each on a line; nothing where there are no numbers for them.
+std::string LineRepair::several(std::string_view statements) const {
+  if (statements.empty())
+    return {};
+  const auto lines =
+      static_cast<std::uint32_t>(std::count(statements.begin(), statements.end(), '\n') + 1);
+  const auto number = parse_number<std::uint32_t>(around_.line_number).value_or(0);
+  const auto below = parse_number<std::uint32_t>(number_below_).value_or(greatest_number);
+  const bool numbered = judge_.language == Language::Basic;
+  const auto step = below > number ? std::min((below - number) / lines, usual_step) : 0;
+  if (numbered && step == 0)
+    return {};
+  const auto end = statements.find('\n');
+  auto text = whole(statements.substr(0, end));
+  for (std::uint32_t n = 1; n < lines; ++n) {
+    statements.remove_prefix(statements.find('\n') + 1);
+    text += line_end_of(context_.below);
+    text += numbered ? std::to_string(number + n * step) + " " : parts_.head;
+    text += statements.substr(0, statements.find('\n'));
+  }
+  return text;
+}
+
+/// Tries a line in its place; true when it cannot be better.
+bool LineRepair::attempt(const std::string& statement, std::string_view note, bool sure) {
+  const bool one = statement.find('\n') == std::string::npos;
+  const auto text = one ? whole(statement) : several(spelled(statement, 0));
+  return (one || !text.empty()) && attempt_line(text, note, sure) && best_ && best_->settles();
+}
+
+bool LineRepair::parses(std::string_view lines) const {
+  while (!lines.empty()) {
+    const auto end = lines.find_first_of("\r\n");
+    if (!judge_.parses(lines.substr(0, end)))
+      return false;
+    lines.remove_prefix(std::min(lines.find_first_not_of("\r\n", end), lines.size()));
+  }
+  return true;
+}
+
+/// Whether what was quoted is still there: nobody writes a text for nothing.
+bool LineRepair::keeps_texts(std::string_view lines) const {
+  return lines.empty() ||
+         std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
+           const bool filled = token.text.find_first_of("{%\\") != std::string::npos;
+           return !token.is_text() || filled || find_colour(token) ||
+                  lines.find(token.text) != std::string_view::npos;
+         });
+}
+
+std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::string_view note,
+                                                 bool sure, bool keep) {
+  if (text == line_ || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
+    return std::nullopt;
+  ++checks_;
+  auto changed = context_.above;
+  const auto begin = changed.size();
+  // What jumps to a line that is left out goes on below it, as it would after one that does
+  // nothing.
+  changed += text.empty() && is_target_ ? parts_.head + "A = A" : text;
+  changed += context_.below;
+  const auto found = judge_.check(changed);
+  bool quiet = true;
+  bool open = false;
+  for (const auto& one : found) {
+    open = open || one.rule->id == "unclosed-block" || one.rule->id == "block-end";
+    if (one.span.begin < begin || one.span.begin > begin + text.size())
+      continue;
+    if (is_error(one) && one.rule->id != "unclosed-block")
+      return std::nullopt;
+    quiet = quiet && one.severity == Severity::Info;
+  }
+  const auto errors = errors_in(found);
+  if (errors > errors_ || (!keep && errors == errors_))
+    return std::nullopt;
+  Accepted accepted{text, note,  errors < errors_ || lasting_errors(found) < lasting_, quiet, sure,
+                    open, errors};
+  if (keep &&
+      (!best_ || errors < best_->errors || (errors == best_->errors && quiet && !best_->quiet)))
+    best_ = accepted;
+  return accepted;
+}
+
+/// Applies habits until the line is one.
+void LineRepair::habits(const std::string& statement, Bounds bounds) {
+  explore(statement, around_, bounds, seen_,
+          [&](const Rewritten& one) { return attempt(one.text, one.note, one.sure); });
+}
+
+/// Habits that are several lines here: they say more than any one line.
+void LineRepair::several_lines(const std::string& statement) {
+  std::unordered_set<std::string> seen;
+  explore(statement, around_, {3, few_states}, seen, [&](const Rewritten& one) {
+    return one.text.find('\n') != std::string::npos && attempt(one.text, one.note, one.sure);
+  });
+}
+
+std::optional<std::string> LineRepair::fixed(const Diagnostic& finding) const {
+  if (!finding.fix || finding.fix->edits.empty())
+    return std::nullopt;
+  std::string text(line_);
+  for (auto edit = finding.fix->edits.rbegin(); edit != finding.fix->edits.rend(); ++edit) {
+    if (edit->span.begin < begin_ || edit->span.end > begin_ + line_.size() ||
+        edit->text.find('\n') != std::string::npos)
+      return std::nullopt;
+    text.replace(edit->span.begin - begin_, edit->span.size(), edit->text);
+  }
+  return text;
+}
+
+/// What the language itself offers.
+void LineRepair::by_fix(const Diagnostic& finding) {
+  if (const auto text = fixed(finding))
+    attempt_line(*text, {}, finding.fix->safety == Safety::Safe);
+}
+
+/// The nearest line; two where it is not clear which.
+void LineRepair::by_changes(int most) {
+  if (near_.empty())
+    near_ = changes(parts_.tokens, judge_.language, judge_.words, names_);
+  const std::span<const Candidate> first(
+      near_.begin(), std::find_if(near_.begin(), near_.end(),
+                                  [&](const Candidate& one) { return one.cost > most; }));
+  std::vector<std::pair<Candidate, Accepted>> good;
+  int tried = 0;
+  const auto consider = [&](const Candidate& one) {
+    if (!good.empty() && one.cost > good.front().first.cost + clearly)
+      return;
+    if (++tried > most_candidates || good.size() > 1 || !changed_.insert(one.text).second)
+      return;
+    if (auto accepted = attempt_line(whole(one.text), {}, one.cost <= 9, false)) {
+      good.emplace_back(one, *std::move(accepted));
+      return;
+    }
+    if (one.cost >= 10 || !good.empty() || most == surely)
+      return;
+    // a misspelt habit
+    best_.reset();
+    habits(one.text, {3, seen_.size() + 20});
+    if (best_)
+      good.emplace_back(one, *best_);
+    best_.reset();
+  };
+  for (const auto& one : first)
+    consider(one);
+  if (good.empty() && most > surely)
+    for (const auto& one : first) {
+      if (one.cost > 9 || tried > most_candidates)
+        break;
+      for (auto next :
+           changes(tokens_of(one.text, judge_.language), judge_.language, judge_.words, names_)) {
+        next.cost += one.cost;
+        if (next.cost > 18)
+          break;
+        consider(next);
+      }
+    }
+  if (!good.empty())
+    best_ = good[0].second;
+  if (good.size() > 1)
+    other_ = good[1].second;
+}
+
+} // namespace orb::repair

@@ -1,0 +1,101 @@
+#pragma once
+
+// Private to repair/.
+
+#include "repair/repair.h"
+#include "repair/scenery.h"
+#include "repair/search.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+namespace orb::repair {
+
+std::size_t errors_in(const std::vector<Diagnostic>& findings);
+
+/// How the lines of a text end.
+std::string_view line_end_of(std::string_view text);
+
+/// Lines that were tried in the place of one.
+struct Accepted {
+  std::string text; ///< the whole line; several, each with its end but the last
+  std::string_view note;
+  bool fewer = false; ///< the text has fewer errors with it
+  bool quiet = false; ///< nothing else is said about the line
+  bool sure = true;   ///< nothing else can have been meant
+  bool open = false;  ///< a block still lacks its end, or an end its block
+  std::size_t errors = 0;
+
+  /// Whether no other line can do more.
+  bool settles() const { return quiet && !open; }
+};
+
+/// The text around a line, as far as it has been mended already.
+struct Context {
+  std::string above;
+  std::string below; ///< from the end of the line on
+};
+
+/// The search for what one line was meant to be.
+class LineRepair {
+public:
+  LineRepair(const Source& source, const Judge& judge, const Scenery& scenery, std::uint32_t line,
+             const Context& context, const std::vector<Diagnostic>& before, int most_checks);
+
+  /// The lines to write, the best first: one where it is clear, two where it is not.
+  std::vector<Accepted> find(const Diagnostic& finding);
+
+  /// What to do where there is no line to write.
+  std::string advice() const;
+
+  /// The line as the fix of a finding leaves it; nothing where the fix goes beyond the line.
+  std::optional<std::string> fixed(const Diagnostic& finding) const;
+
+  int checks() const { return checks_; } ///< of the whole text, so far
+  std::uint32_t begin() const { return begin_; }
+  std::string_view line() const { return line_; }
+  /// A line as it is shown: with its comment only where that changes.
+  std::string shown(std::string_view text) const;
+
+private:
+  void canonical();
+  void resolve_labels(const Scenery& scenery);
+  std::string whole(std::string_view statement) const;
+  std::string several(std::string_view statements) const;
+  std::string spelled(const std::string& statements, int depth) const;
+  bool attempt(const std::string& statement, std::string_view note, bool sure);
+  bool parses(std::string_view lines) const;
+  bool keeps_texts(std::string_view lines) const;
+  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
+                                       bool keep = true);
+  void habits(const std::string& statement, Bounds bounds);
+  void several_lines(const std::string& statement);
+  void by_fix(const Diagnostic& finding);
+  void by_changes(int most);
+
+  const Judge& judge_;
+  std::string_view line_;
+  std::uint32_t begin_;
+  const Context& context_;
+  std::size_t errors_;
+  std::size_t lasting_; ///< errors that no fix mends by itself
+  SplitLine parts_;
+  Surroundings around_;
+  std::vector<std::string_view> names_;
+  std::string number_below_;
+  bool is_target_;              ///< something jumps here
+  std::vector<Candidate> near_; ///< by one change, the cheapest first
+  std::unordered_set<std::string> seen_;
+  std::unordered_set<std::string> changed_;
+  std::optional<Accepted> best_;
+  std::optional<Accepted> other_;
+  int most_checks_;
+  int checks_ = 0;
+};
+
+} // namespace orb::repair
