@@ -1,6 +1,7 @@
 #include "slips/judge.h"
 
 #include "assembler/lint.h"
+#include "base/fixes.h"
 #include "compiler/check.h"
 #include "compiler/renumber.h"
 #include "compiler/text/image.h"
@@ -206,6 +207,17 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
   std::vector<std::string> meanings;
   for (const auto& one : meant)
     meanings.push_back(meaning(language, one));
+  const auto is_one = [&](const Lines& now) {
+    const auto means = meaning(language, now);
+    return !means.empty() && std::find(meanings.begin(), meanings.end(), means) != meanings.end();
+  };
+  // All that is offered at once, as it stands on the screen.
+  auto at_once = findings(language, join(program));
+  std::erase_if(at_once, [](const Diagnostic& one) { return !one.fix; });
+  for (auto& one : at_once)
+    one.fix->safety = orb::Safety::Safe; // as all are taken
+  if (is_one(split(orb::apply_fixes(join(program), at_once).text)))
+    return {Verdict::Good, first.said};
   auto lines = program;
   bool moved = true;
   for (std::size_t round = 0; moved && round < 2 * at.size() + 2; ++round) {
@@ -216,7 +228,7 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
       const auto line = source.position(one.span.begin).line - 1;
       const bool marked =
           line < lines.size() && std::find(wrong.begin(), wrong.end(), lines[line]) != wrong.end();
-      if (!marked && !is_error(one))
+      if (!marked && one.severity == orb::Severity::Info)
         continue;
       auto next = lines;
       if (const auto written = offered(one); one.fix)
@@ -228,8 +240,7 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
       if (moved)
         break;
     }
-    if (const auto now = meaning(language, lines);
-        !now.empty() && std::find(meanings.begin(), meanings.end(), now) != meanings.end())
+    if (is_one(lines))
       return {Verdict::Good, first.said};
   }
   if (lines != program && !meaning(language, lines).empty())

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -24,6 +26,9 @@ namespace fs = std::filesystem;
 using slips::Language;
 using slips::Lines;
 using slips::Verdict;
+
+/// Tosses the coin that holds programs out: as long as it stays, so do they.
+constexpr std::uint32_t coin_seed = 31;
 
 using Counts = std::array<std::size_t, slips::verdicts>;
 
@@ -108,10 +113,17 @@ std::vector<Mistake> read_mistakes(const fs::path& path) {
   return all;
 }
 
-std::string written(Language language, const std::string& line) {
-  if (language == Language::Basic)
-    return line.rfind("' ", 0) == 0 ? line : "50 " + line;
-  return language == Language::Macro || language == Language::Test ? "  " + line : line;
+/// The lines of one place; ` ;; ` parts them.
+Lines written(Language language, const std::string& text) {
+  auto lines = pieces(text, " ;; ");
+  int number = 50;
+  for (auto& line : lines) {
+    if (language == Language::Basic && line.rfind("' ", 0) != 0)
+      line.insert(0, std::to_string(number++) + " ");
+    else if (language == Language::Macro || language == Language::Test)
+      line.insert(0, "  ");
+  }
+  return lines;
 }
 
 slips::Heard heard;
@@ -125,7 +137,8 @@ slips::Judged judge(const Mistake& one) {
   const auto with = [&](const std::string& line) {
     auto frame = frame_of(one.language, one.right.empty() ? one.wrong : one.right[0]);
     auto lines = frame.above;
-    lines.push_back(written(one.language, line));
+    const auto here = written(one.language, line);
+    lines.insert(lines.end(), here.begin(), here.end());
     lines.insert(lines.end(), one.after.begin(), one.after.end());
     lines.insert(lines.end(), frame.below.begin(), frame.below.end());
     return lines;
@@ -412,28 +425,31 @@ Split judge_habits(const fs::path& root, const Show& show) {
   return split;
 }
 
-Split judge_programs(const fs::path& root, const Show& show, std::size_t& troubles) {
+void say(const Whole& one, const slips::Judged& judged) {
+  std::cerr << fmt::format("---- {} {} {}\n{}", "GNSW"[static_cast<int>(judged.verdict)],
+                           slips::endings[static_cast<std::size_t>(one.language)], one.writer,
+                           slips::join(one.lines));
+  for (const auto& said : slips::said_of(one.language, one.lines))
+    std::cerr << "  " << said << '\n';
+}
+
+/// Judges a batch; `held_out` says for each program in turn whether nobody may look at it.
+Split judge_batch(const fs::path& path, const Show& show, std::size_t& troubles,
+                  const std::function<bool()>& held_out) {
   Split split;
-  std::size_t number = 0;
-  for (const auto& one : read_programs(root / "tests/slips/programs.txt")) {
+  for (const auto& one : read_programs(path)) {
     if (const auto wrong = trouble(one); !wrong.empty()) {
       std::cerr << wrong;
       ++troubles;
     }
     hear(one.language, one.lines);
     const auto judged = judge(one);
-    const bool held = number++ % 2 == 1;
+    const bool held = held_out();
     (held ? split.held_out : split.seen).add(one.language, judged);
-    const auto meant = one.meant.empty() ? "?" : slips::join(one.meant[0]);
-    if (show.option == "--show-programs" && !held)
-      show(one.language, judged, slips::join(one.lines), meant);
-    if (show.option == (held ? "--say-held-out" : "--say")) {
-      std::cerr << fmt::format("---- {} {} {}\n{}", "GNSW"[static_cast<int>(judged.verdict)],
-                               slips::endings[static_cast<std::size_t>(one.language)], one.writer,
-                               slips::join(one.lines));
-      for (const auto& said : slips::said_of(one.language, one.lines))
-        std::cerr << "  " << said << '\n';
-    }
+    if (show.option == (held ? "--say-held-out" : "--say") &&
+        (show.only.empty() ||
+         show.only.find("GNSW"[static_cast<int>(judged.verdict)]) != std::string_view::npos))
+      say(one, judged);
   }
   return split;
 }
@@ -460,7 +476,11 @@ int main(int argc, char** argv) {
   const Show show{argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : ""};
   const auto habits = judge_habits(root, show);
   std::size_t troubles = 0;
-  const auto programs = judge_programs(root, show, troubles);
+  const auto first =
+      judge_batch(root / "tests/slips/programs.txt", show, troubles, [] { return false; }).seen;
+  std::mt19937 coin(coin_seed);
+  const auto programs =
+      judge_batch(root / "tests/slips/fresh.txt", show, troubles, [&] { return coin() % 2 == 1; });
   std::size_t clean = 0;
   const auto false_alarms = judge_clean(root, clean);
   Table all_typed;
@@ -470,7 +490,7 @@ int main(int argc, char** argv) {
   std::size_t of_parser = 0;
   std::size_t alone = 0;
   for (const Table* one :
-       {&habits.seen, &habits.held_out, &programs.seen, &programs.held_out, &typed}) {
+       {&habits.seen, &habits.held_out, &programs.seen, &programs.held_out, &first, &typed}) {
     all += total(one->sum());
     of_parser += one->of_parser;
     alone += one->of_parser_alone;
@@ -494,14 +514,18 @@ means something else. The page is printed by a test (`build/dev/bin/slips . --up
 
 Small programs with one mistake each, as strangers write them: pupils who come from Scratch, Python, Arduino,
 MakeCode, Small Basic, QBasic or Sphero Edu, teachers, people who think in German, French, Spanish, Italian or
-Portuguese (`tests/slips/programs.txt`). They were written before anybody looked at the tables, and every other one
-is held out. Where the mistake spans several lines, as a loop in braces does, the findings are followed one after
-the other.
+Portuguese (`tests/slips/fresh.txt`). They were written before anybody looked at the tables, and a seeded coin holds
+half of them out. That half was read once, when everything else was done; before it was read, 86.8 % were fully
+good, 7.4 % named, 1.5 % silent and 4.4 % wrong. Where the mistake spans several lines, as a loop in braces does, the findings are followed one
+after the other.
 
 Held out:
 
 {}
 The others:
+
+{}
+An older batch that has been read through (`tests/slips/programs.txt`):
 
 {}
 {} programs without a mistake (`tests/slips/clean.txt`) have {} findings.
@@ -534,7 +558,7 @@ of all mistakes above, to {:.1f} % without the line to write.
 
 {:.1f} % of the sentences in all these answers are said in German, Spanish and French, too (`--lang-ui`, `translations/`).
 )",
-      printed(programs.held_out), printed(programs.seen), clean,
+      printed(programs.held_out), printed(programs.seen), printed(first), clean,
       false_alarms == 0 ? std::string("no") : std::to_string(false_alarms),
       printed(habits.held_out), printed(habits.seen), printed(typed), percent(of_parser, all),
       percent(alone, all), percent(coverage.translated, coverage.said));
@@ -546,14 +570,17 @@ of all mistakes above, to {:.1f} % without the line to write.
   if (!current)
     std::cerr
         << "docs/slips.md is not what this prints; run with --update and read the difference\n";
-  const auto enough = [](const Table& table, std::size_t least_good, std::size_t most_wrong) {
+  const auto enough = [](const Table& table, std::size_t least_good, std::size_t most_silent,
+                         std::size_t most_wrong) {
     const auto sum = table.sum();
     const auto of = [&](Verdict v) { return sum[static_cast<std::size_t>(v)] * 100; };
     return of(Verdict::Good) >= least_good * total(sum) &&
+           of(Verdict::Silent) <= most_silent * total(sum) &&
            of(Verdict::Wrong) <= most_wrong * total(sum);
   };
   return troubles == 0 && coverage.troubles.empty() && current && false_alarms == 0 &&
-                 enough(habits.held_out, 85, 4) && enough(programs.held_out, 80, 8) &&
+                 enough(habits.held_out, 93, 1, 3) && enough(programs.held_out, 91, 2, 3) &&
+                 enough(programs.seen, 98, 1, 1) && enough(first, 97, 1, 1) &&
                  coverage.translated * 100 >= coverage.said * 97
              ? 0
              : 1;
