@@ -16,7 +16,7 @@ constexpr int most_candidates = 1000;    // of one line, by search
 constexpr int deepest = 6;               // habits in one line
 constexpr int surely = 6;                // one letter of a word
 constexpr int clearly = 4;               // by so much the best change is cheaper than the next
-constexpr std::uint32_t greatest_number = 65535;
+constexpr std::uint32_t most_number = 65535;
 constexpr std::uint32_t usual_step = 10; // of line numbers
 
 /// Errors that no fix mends by itself.
@@ -185,7 +185,7 @@ std::string LineRepair::several(std::string_view statements) const {
   const auto lines =
       static_cast<std::uint32_t>(std::count(statements.begin(), statements.end(), '\n') + 1);
   const auto number = parse_number<std::uint32_t>(around_.line_number).value_or(0);
-  const auto below = parse_number<std::uint32_t>(number_below_).value_or(greatest_number);
+  const auto below = parse_number<std::uint32_t>(number_below_).value_or(most_number);
   const bool numbered = judge_.language == Language::Basic;
   const auto step = below > number ? std::min((below - number) / lines, usual_step) : 0;
   if (numbered && step == 0)
