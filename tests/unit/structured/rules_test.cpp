@@ -71,7 +71,7 @@ TEST(Habits, OfOtherLanguagesAreRewritten) {
        "3\nend if\n"},
       {"while yaw > 9\n  delay 9\n  if speed then break\nwend\n",
        "while yaw > 9\n  delay 9\n  if speed then exit\nend while\n"},
-      {"sub a\n  print 1\nend sub\ncall a\n", "sub a\n  print 1\nend sub\na\n"},
+      {"sub a\n  print 1\nend sub\ncall a\n", "sub a\n  print 1\nend sub\na()\n"},
       {"dim a[3]\na[1] = 2\nprint a[1]\n", "array a[3]\na[1] = 2\nprint a[1]\n"},
       {"rem hello\nprint 1\n", "' hello\nprint 1\n"},
   };
