@@ -257,25 +257,16 @@ private:
     const auto last = std::find_if(
         macro.commands.rbegin(), macro.commands.rend(),
         [](const PlacedCommand& command) { return command.origin != Origin::Supplied; });
-    d.fix = Fix{d.help, {{end_of_line(last->span), below(*open) + "loop_end"}}, Safety::Unsafe};
+    const auto end = source_.line_span(line_of(*last)).end;
+    const auto line = source_.line(line_of(*open));
+    const auto indent = line.substr(0, line.find_first_not_of(" \t"));
+    d.fix = Fix{d.help,
+                {{{end, end}, fmt::format("{}{}loop_end", line_end_of(source_.text()), indent)}},
+                Safety::Unsafe};
   }
 
-  Span end_of_line(Span span) const {
-    const auto line = source_.position(span.begin).line;
-    const auto end =
-        source_.line_start(line) + static_cast<std::uint32_t>(source_.line(line).size());
-    return {end, end};
-  }
-
-  /// The end of a line and the blanks that a command has in front.
-  std::string below(const PlacedCommand& command) const {
-    const auto line = source_.line(source_.position(command.span.begin).line);
-    const auto text = source_.text();
-    const auto end = text.find_first_of("\r\n");
-    const auto size =
-        end == std::string_view::npos || !text.substr(end).starts_with("\r\n") ? 1 : 2;
-    return std::string(end == std::string_view::npos ? "\n" : text.substr(end, size)) +
-           std::string(line.substr(0, line.find_first_not_of(" \t")));
+  std::uint32_t line_of(const PlacedCommand& command) const {
+    return source_.position(command.span.begin).line;
   }
 
   /// The user macros of a file share the heap and the index of a ball.
@@ -344,8 +335,7 @@ void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
     const auto end = start + static_cast<std::uint32_t>(line.size());
     const bool alone = line.substr(0, remark).find_first_not_of(" \t") == std::string_view::npos;
     const auto about = alone ? number + 1 : number;
-    const auto about_end =
-        source.line_start(about) + static_cast<std::uint32_t>(source.line(about).size()) + 1;
+    const auto about_end = source.line_span(about).end + 1;
     comments.push_back(
         {{static_cast<std::uint32_t>(found), end}, {source.line_start(about), about_end}});
   }

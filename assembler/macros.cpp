@@ -68,10 +68,15 @@ std::optional<std::uint8_t> Assembler::header_byte(const Value& value, int minim
 void Assembler::read_id(AssembledMacro& defined, const Value& value) {
   const auto id = header_byte(value, spec::macro_id_none, "an id is");
   if (!id) {
+    const auto is_taken = [&](std::uint8_t free) {
+      return std::any_of(assembly_.macros.begin(), assembly_.macros.end(),
+                         [&](const AssembledMacro& macro) { return macro.id == free; });
+    };
     auto free = spec::macro_id_user_first;
-    while (std::any_of(assembly_.macros.begin(), assembly_.macros.end(),
-                       [&](const AssembledMacro& macro) { return macro.id == free; }))
+    while (free < spec::macro_id_user_last && is_taken(free))
       ++free;
+    if (is_taken(free))
+      return;
     auto& d = assembly_.diagnostics.back();
     d.help = fmt::format("write `id={}`", free);
     d.fix = Fix{d.help, {{value.span, std::to_string(free)}}, Safety::Unsafe};

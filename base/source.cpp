@@ -54,4 +54,9 @@ std::uint32_t Source::line_start(std::uint32_t line) const {
   return starts_[line - 1];
 }
 
+Span Source::line_span(std::uint32_t line) const {
+  const auto begin = line_start(line);
+  return {begin, begin + static_cast<std::uint32_t>(this->line(line).size())};
+}
+
 } // namespace orb

@@ -45,6 +45,8 @@ public:
   std::string_view line(std::uint32_t line) const;
   /// The byte where line `line` (from 1) begins; the size of the text beyond the last line.
   std::uint32_t line_start(std::uint32_t line) const;
+  /// Where line `line` stands, without its line end.
+  Span line_span(std::uint32_t line) const;
 
 private:
   std::string name_;

@@ -39,6 +39,14 @@ constexpr bool equal_words(std::string_view a, std::string_view b) {
                     [](char x, char y) { return to_lower(x) == to_lower(y); });
 }
 
+/// How the lines of a text end: as its first one does, else with LF.
+constexpr std::string_view line_end_of(std::string_view text) {
+  const auto at = text.find_first_of("\r\n");
+  if (at == std::string_view::npos)
+    return "\n";
+  return text.substr(at, text.substr(at).starts_with("\r\n") ? 2 : 1);
+}
+
 /// `text` without the blanks at its ends.
 constexpr std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front()))

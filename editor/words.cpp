@@ -153,8 +153,7 @@ Span with_closing(const Source& source, Span span) {
 }
 
 std::uint32_t end_of_line(const Source& source, std::uint32_t offset) {
-  const auto line = source.position(offset).line;
-  return source.line_start(line) + static_cast<std::uint32_t>(source.line(line).size());
+  return source.line_span(source.position(offset).line).end;
 }
 
 } // namespace orb::editor

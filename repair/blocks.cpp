@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "repair/fill.h"
-#include "repair/line_repair.h"
+#include "repair/repair.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,6 @@
 namespace orb::repair {
 namespace {
 
-constexpr std::uint32_t greatest_number = 65535;
 constexpr std::size_t most_foreign = 64; // lines that do not parse; nobody mends more at once
 constexpr std::size_t block_states = 40; // of one line
 
@@ -163,7 +162,7 @@ private:
               ? std::string_view()
               : std::string_view(parts.head)
                     .substr(digits, parts.head.find_first_not_of("0123456789", digits) - digits));
-      if (!number || *number > greatest_number)
+      if (!number || *number > greatest_line_number)
         continue; // it takes a number first
       line.number = *number;
       line.indent = parts.head.size() - parts.head.find_last_of("0123456789");
@@ -289,7 +288,7 @@ private:
   std::optional<std::uint32_t> between(std::size_t above) const {
     const auto from = lines_[above].number;
     const auto to = above + 1 < lines_.size() ? lines_[above + 1].number : from + 20;
-    if (to <= from + 1 || to > greatest_number)
+    if (to <= from + 1 || to > greatest_line_number)
       return std::nullopt;
     return to > from + 5 ? from + 5 : from + 1;
   }
@@ -470,14 +469,13 @@ private:
     made.sure = sure_;
     for (const auto i : changed) {
       const auto& line = lines_[i];
-      const auto begin = source_.line_start(line.line);
-      const Span span{begin, begin + static_cast<std::uint32_t>(source_.line(line.line).size())};
+      const auto span = source_.line_span(line.line);
       const auto text = line.gone() ? "" : fmt::format("{} {}", line.number, line.text);
       if (line.changed) {
         made.lines.emplace(line.line, text);
         const auto both = text + (text.empty() || line.comment.empty() ? "" : " ") + line.comment;
         made.edits.push_back(
-            {both.empty() ? Span{begin, source_.line_start(line.line + 1)} : span, both});
+            {both.empty() ? Span{span.begin, source_.line_start(line.line + 1)} : span, both});
       }
       if (!line.below.empty())
         made.edits.push_back(

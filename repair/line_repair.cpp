@@ -16,7 +16,6 @@ constexpr int most_candidates = 1000;    // of one line, by search
 constexpr int deepest = 6;               // habits in one line
 constexpr int surely = 6;                // one letter of a word
 constexpr int clearly = 4;               // by so much the best change is cheaper than the next
-constexpr std::uint32_t most_number = 65535;
 constexpr std::uint32_t usual_step = 10; // of line numbers
 
 /// Errors that no fix mends by itself.
@@ -27,25 +26,10 @@ std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
       }));
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
-
 } // namespace
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
-}
-
-std::string_view line_end_of(std::string_view text) {
-  const auto at = text.find_first_of("\r\n");
-  if (at == std::string_view::npos || text[at] == '\n')
-    return "\n";
-  return text.substr(at).starts_with("\r\n") ? "\r\n" : "\r";
 }
 
 LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& scenery,
@@ -111,7 +95,7 @@ std::string LineRepair::shown(std::string_view text) const {
   const auto tail = text.substr(text.size() - std::min(text.size(), parts.comment.size()));
   if (!parts.comment.empty() && !parts.tokens.empty() && line_.ends_with(tail))
     parts.comment.clear();
-  return std::string(trimmed(join(parts)));
+  return std::string(trim(join(parts)));
 }
 
 /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
@@ -185,7 +169,7 @@ std::string LineRepair::several(std::string_view statements) const {
   const auto lines =
       static_cast<std::uint32_t>(std::count(statements.begin(), statements.end(), '\n') + 1);
   const auto number = parse_number<std::uint32_t>(around_.line_number).value_or(0);
-  const auto below = parse_number<std::uint32_t>(number_below_).value_or(most_number);
+  const auto below = parse_number<std::uint32_t>(number_below_).value_or(greatest_line_number);
   const bool numbered = judge_.language == Language::Basic;
   const auto step = below > number ? std::min((below - number) / lines, usual_step) : 0;
   if (numbered && step == 0)

@@ -18,9 +18,6 @@ namespace orb::repair {
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings);
 
-/// How the lines of a text end.
-std::string_view line_end_of(std::string_view text);
-
 /// Lines that were tried in the place of one.
 struct Accepted {
   std::string text; ///< the whole line; several, each with its end but the last

@@ -68,8 +68,7 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
 bool is_about_writing(const Diagnostic& finding, const Source& source, const Judge& judge,
                       std::uint32_t line) {
   const auto text = source.line(line);
-  const Span span{source.line_start(line),
-                  source.line_start(line) + static_cast<std::uint32_t>(text.size())};
+  const auto span = source.line_span(line);
   if (finding.fix && finding.fix->safety == Safety::Safe)
     for (const auto& edit : finding.fix->edits)
       if (edit.span.begin < span.begin || edit.span.end > span.end ||
@@ -137,10 +136,6 @@ public:
   }
 
 private:
-  Span span_of(std::uint32_t line) const {
-    const auto begin = source_.line_start(line);
-    return {begin, begin + static_cast<std::uint32_t>(source_.line(line).size())};
-  }
   std::uint32_t line_of(const Diagnostic& finding) const {
     return source_.position(finding.span.begin).line;
   }
@@ -204,7 +199,7 @@ private:
       --at;
       found = found_at();
       if (!found.empty())
-        finding.span = span_of(at);
+        finding.span = source_.line_span(at);
     }
     if (!found.empty()) {
       write(finding, *repair, at, found);
@@ -248,7 +243,7 @@ private:
     std::string text;
     for (auto n = from; n < to; ++n) {
       const auto mended = texts_.find(n);
-      const auto end = span_of(n).end;
+      const auto end = source_.line_span(n).end;
       text += mended != texts_.end() ? std::string_view(mended->second) : source_.line(n);
       text += source_.text().substr(end, source_.line_start(n + 1) - end);
     }
@@ -257,7 +252,7 @@ private:
   std::string whole_text() const { return lines(1, source_.line_count() + 1); }
 
   Context around(std::uint32_t line) const {
-    const auto end = span_of(line).end;
+    const auto end = source_.line_span(line).end;
     return {lines(1, line),
             std::string(source_.text().substr(end, source_.line_start(line + 1) - end)) +
                 lines(line + 1, source_.line_count() + 1)};
@@ -351,7 +346,7 @@ private:
     const auto next = jumps.empty() ? std::string() : scenery_.number_below(line);
     if (!jumps.empty() && next.empty()) {
       fix.title = "end here";
-      fix.edits.push_back({span_of(line), number + " end"});
+      fix.edits.push_back({source_.line_span(line), number + " end"});
       return fix;
     }
     for (const auto& jump : jumps)

@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "repair/tokens.h"
 
+#include <cstdint>
 #include <functional>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,9 @@
 // was tried: the whole text was checked with it.
 
 namespace orb::repair {
+
+/// Of orbBasic, which stands below this room: compiler/check.cpp holds it against spec/.
+inline constexpr std::uint32_t greatest_line_number = 65535;
 
 /// What a language answers about texts.
 struct Judge {

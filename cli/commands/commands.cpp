@@ -79,7 +79,7 @@ std::unique_ptr<CommandLine> frame(Context& context) {
       .check(one_of({"auto", "always", "never"}))
       .show_default();
   orb.add_option("--lang-ui", context.ui_language,
-                 "the language of findings, else that of LC_ALL, LC_MESSAGES or LANG")
+                 "language of findings; by default that of LC_ALL, LC_MESSAGES or LANG")
       .check(one_of(ui_languages()));
   return line;
 }

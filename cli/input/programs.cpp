@@ -234,12 +234,12 @@ tl::expected<std::vector<testing::GivenFile>, Failure> read_class_tests(const st
         tests = std::move(own);
       } else if (own != tests) {
         return refuse(
-            fmt::format("the tests in {} are not those in {}", address.path, first->path));
+            fmt::format("the tests in {} differ from those in {}", address.path, first->path));
       }
     }
   }
   if (tests.empty())
-    return refuse(fmt::format("no test came with what is in {}", folder));
+    return refuse(fmt::format("there is no test in {}", folder));
   std::vector<testing::GivenFile> given;
   for (auto& [name, text] : tests)
     given.push_back({first->path + "/" + name, std::move(text)});

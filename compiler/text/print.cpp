@@ -310,14 +310,6 @@ private:
   std::vector<std::uint32_t> dropped_; ///< places of parentheses that are left out, ascending
 };
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.back()))
-    text.remove_suffix(1);
-  while (!text.empty() && is_blank(text.front()))
-    text.remove_prefix(1);
-  return text;
-}
-
 } // namespace
 
 std::string print(const Program& program, const StatementNode& statement, Layout layout) {
@@ -340,7 +332,7 @@ std::string format(const Program& program) {
     if (line.comment.size() > 0) {
       if (!text.empty())
         text += ' ';
-      text += trimmed(program.text_of(line.comment));
+      text += trim(program.text_of(line.comment));
     }
     if (text.empty()) {
       blank_pending = !out.empty();

@@ -1,7 +1,7 @@
 // What a teacher and a class need: a lesson is written, a result handed in. Both are addresses, and nothing is stored
 // anywhere.
 
-import { $, element, button, download } from "./dom.js";
+import { $, button, copy, download, element } from "./dom.js";
 import { is_mine, parts_of } from "./task.js";
 import { ending_of, kinds, program_of, tests_of } from "./workspace.js";
 
@@ -82,8 +82,7 @@ export function set_up_class({ machine, workspace, on_change, share, address_of 
     show_address();
   });
   $("hand-in-copy").addEventListener("click", async () => {
-    $("hand-in-link").select();
-    try { await navigator.clipboard.writeText(address); } catch { document.execCommand("copy"); }
+    await copy($("hand-in-link"), address);
     $("hand-in-said").textContent = "Copied: paste it where your teacher wants it.";
   });
   $("hand-in-save").addEventListener("click", () => {

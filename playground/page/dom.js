@@ -26,6 +26,12 @@ export function say(words, look = "") {
   $("status").className = look;
 }
 
+/** Copies what a field shows, which is selected from then on. */
+export async function copy(field, text = field.value) {
+  field.select();
+  try { await navigator.clipboard.writeText(text); } catch { document.execCommand("copy"); }
+}
+
 /** What few visits need is loaded when somebody asks for it, once. */
 export function on_demand(load) {
   let loaded = null;

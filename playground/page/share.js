@@ -1,6 +1,6 @@
 // The address that holds a program, to be copied, or taken by a telephone's camera.
 
-import { $, on_demand, say } from "./dom.js";
+import { $, copy, on_demand, say } from "./dom.js";
 import { AddressError, to_fragment } from "./workspace.js";
 
 export const address_of = async what => `${location.origin === "null" ? "file://" : location.origin}${location.pathname}#${await to_fragment(what)}`;
@@ -29,8 +29,7 @@ export function set_up_share({ workspace }) {
   }
   $("share").addEventListener("click", share);
   $("share-copy").addEventListener("click", async () => {
-    $("share-link").select();
-    try { await navigator.clipboard.writeText($("share-link").value); } catch { document.execCommand("copy"); }
+    await copy($("share-link"));
     $("share-copy").textContent = "Copied";
     setTimeout(() => { $("share-copy").textContent = "Copy"; }, 1500);
   });
