@@ -282,9 +282,10 @@ void LineRepair::by_fix(const Diagnostic& finding) {
 void LineRepair::by_changes(int most) {
   if (near_.empty())
     near_ = changes(parts_.tokens, judge_.language, judge_.words, names_);
-  const std::span<const Candidate> first(
-      near_.begin(), std::find_if(near_.begin(), near_.end(),
-                                  [&](const Candidate& one) { return one.cost > most; }));
+  const auto end = std::find_if(near_.begin(), near_.end(),
+                                [&](const Candidate& one) { return one.cost > most; });
+  const auto first =
+      std::span<const Candidate>(near_).first(static_cast<std::size_t>(end - near_.begin()));
   std::vector<std::pair<Candidate, Accepted>> good;
   int tried = 0;
   const auto consider = [&](const Candidate& one) {
