@@ -275,7 +275,7 @@ void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
   if (operand.kind == MacroOperandKind::Delay)
     help = waits_for(value);
   else if (is_exact && operand.unit == MacroUnit::Degrees && !operand.is_signed)
-    help = fmt::format("{} deg is the same way", same_way(value, operand.maximum + 1));
+    help = fmt::format("{} deg is the same direction", same_way(value, operand.maximum + 1));
   else if (operand.word_count > 0)
     for (std::size_t i = 0; i < operand.word_count; ++i)
       help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);

@@ -159,8 +159,9 @@ Stop Debugger::stop_of(Halt halt) {
 
 tl::expected<void, std::string> Debugger::restart() {
   if (timeline_->drives())
-    return tl::unexpected(std::string("a robot does not come back to its beginning by itself: end, "
-                                      "put it on its mark, and begin again"));
+    return tl::unexpected(
+        std::string("a robot cannot return to its start by itself: quit, put it on "
+                    "its mark, and start again"));
   timeline_->begin_again();
   fault_.reset();
   is_helped_ = false;

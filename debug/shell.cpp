@@ -77,7 +77,7 @@ std::span<const Shell::Row> Shell::rows() {
       {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::go<Move::Over, Direction::Forward>, Repeats::Yes},
       {"finish",       "fin", "fin",             "continues until this sub has returned", &Shell::go<Move::Out, Direction::Forward>, Repeats::Yes},
       {"until",        "u",   "until TIME",      "continues to a time of the run: `until 3.5s`", &Shell::until},
-      {"reverse-continue", "rc", "rc",           "goes back to the breakpoint before", &Shell::go<Move::Continue, Direction::Back>, Repeats::Yes},
+      {"reverse-continue", "rc", "rc",           "goes back to the previous breakpoint", &Shell::go<Move::Continue, Direction::Back>, Repeats::Yes},
       {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::go<Move::In, Direction::Back>, Repeats::Yes},
       {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::go<Move::Over, Direction::Back>, Repeats::Yes},
       {"goto",         "g",   "goto LINE",       "continues at another line", &Shell::jump},
@@ -89,7 +89,7 @@ std::span<const Shell::Row> Shell::rows() {
       {"bt",           "",    "bt",              "prints where it is and who called", &Shell::trace},
       {"list",         "l",   "l [LINE]",        "prints the source around this line", &Shell::list},
       {"info",         "i",   "i [WHAT]",        "prints variables; `i ball`, `i sensors`, `i limits`, `i arrays`, `i breaks`", &Shell::info},
-      {"path",         "",    "path [FILE.svg]", "draws the way so far", &Shell::path},
+      {"path",         "",    "path [FILE.svg]", "draws the path so far", &Shell::path},
       {"help",         "h",   "help [COMMAND]",  "prints this", &Shell::help},
       {"quit",         "q",   "q",               "ends", &Shell::quit},
   };
@@ -227,7 +227,7 @@ std::string Shell::no_place(std::string_view text) const {
   const auto line = trim(text.substr(colon == std::string_view::npos ? 0 : colon + 1));
   if (parse_number<std::uint32_t>(line))
     return fmt::format("nothing runs from line {} on", line);
-  return fmt::format("no sub that is called is named `{}`", text);
+  return fmt::format("no sub `{}` is called", text);
 }
 
 void Shell::add_break(std::string_view rest, const GiveUp&) {

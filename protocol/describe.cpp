@@ -170,7 +170,7 @@ std::string Describer::describe(const Item& item) {
   case Item::Kind::Noise: return fmt::format("noise {}", to_hex(item.raw));
   case Item::Kind::BadChecksum:
     return fmt::format(
-        "bad checksum {}, {:02X} would be right", to_hex(item.raw),
+        "bad checksum {}, expected {:02X}", to_hex(item.raw),
         checksum(item.raw.subspan(spec::sop_size, item.raw.size() - spec::sop_size - 1)));
   case Item::Kind::Fragment: return fmt::format("incomplete {}", to_hex(item.raw));
   }

@@ -153,8 +153,7 @@ std::string describe(const ItemV2& item) {
   case ItemV2::Kind::Noise: return fmt::format("noise {}", to_hex(item.raw));
   case ItemV2::Kind::Incomplete: return fmt::format("incomplete {}", to_hex(item.raw));
   case ItemV2::Kind::BadChecksum:
-    return fmt::format("bad checksum {}, {:02X} would be right", to_hex(item.raw),
-                       item.right_checksum);
+    return fmt::format("bad checksum {}, expected {:02X}", to_hex(item.raw), item.right_checksum);
   case ItemV2::Kind::Packet: break;
   }
   const auto is_response = spec::has(packet.flags, spec::V2Flag::Response);

@@ -19,13 +19,15 @@ std::string structured_words() {
 }
 
 std::string statements() {
-  std::string out = "| write | it | values |\n|---|---|---|\n";
+  std::string out = "| write | it |\n|---|---|\n";
   for (const auto& row : spec::statements) {
     std::string values;
     for (const auto& one : row.parameters())
       values +=
           fmt::format("{}{} {}…{}", values.empty() ? "" : ", ", one.name, one.least, one.greatest);
-    out += fmt::format("| `{}` | {} | {} |\n", table_cell(row.usage), row.summary, values);
+    if (!values.empty())
+      values = fmt::format(" ({})", values);
+    out += fmt::format("| `{}` | {}{} |\n", table_cell(row.usage), row.summary, values);
   }
   return out;
 }
@@ -107,16 +109,14 @@ std::string print_cheatsheet() {
   std::string out = "<!-- Printed by `orb spec --cheatsheet`; a test compares them. -->\n"
                     "# orbBasic on one page\n\n"
                     "## Structured programs (`.orb`)\n\n"
-                    "A statement a line, names of your own, blocks; `'` begins a comment, `1.5s` "
-                    "and `200ms` are times. "
-                    "`goto`, `gosub`, `on` and line numbers are not needed; all other statements "
-                    "of the second table "
-                    "are the same.\n\n";
+                    "One statement per line, names of your own, blocks; `'` begins a comment, "
+                    "`1.5s` and `200ms` are times. `goto`, `gosub`, `on` and line numbers are not "
+                    "needed; all other statements of the second table are the same.\n\n";
   out += structured_words();
   out += "\n## Numbered programs (`.bas`), and what both have\n\n"
          "A line is a number, a space and a statement; lines run in the order of the "
          "text. `'` begins a comment. Variables are `A` to `Y`, all 0 at the start, and "
-         "`Z`, the element of the list that `Y` names. Capitals count: `RGB`, `goto`.\n\n";
+         "`Z`, the element of the list that `Y` selects. Case counts: `RGB`, `goto`.\n\n";
   out += statements();
   out += fmt::format("\n**In expressions:** {}\n**Between expressions after `if`:** {}\n"
                      "**To read:** {}\n**`LEDC`:** {}\n**`basflg`:** {}\n"

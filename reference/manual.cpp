@@ -313,14 +313,15 @@ std::string section_text(const Section& section) {
 
 constexpr std::string_view basic_intro =
     "orbBasic is the programming language inside Sphero robots of the first generation. "
-    "A program is a list of lines, and each line is a number from {} to {}, at least one blank, "
+    "A program is a list of lines, and each line is a number from {} to {}, at least one space, "
     "and one statement. The lines run in the order of the text, about 3000 in a second. Keywords "
-    "and system variables are written exactly as on this page: `RGB` is a statement, `rgb` is "
-    "none. A single quote begins a comment, which never reaches the robot.";
+    "and system variables are written exactly as on this page: `RGB` is a statement, `rgb` is not. "
+    "A single quote begins a comment, which never reaches the robot.";
 constexpr std::string_view basic_values =
-    "Values are whole numbers of 32 bits. The variables are `A` to `Y`, the same as `a` to `y`; "
+    "Values are 32-bit integers. The variables are `A` to `Y`, the same as `a` to `y`; "
     "`Z` is the element of a set of 25 that `Y` names. All are 0 when a program begins. "
-    "Parentheses bind strongest, then `* / % { }`, then `+ - & |`; equals are taken from the left. "
+    "Parentheses bind strongest, then `* / % { }`, then `+ - & |`; operators of one level "
+    "associate to the left. "
     "Conditions are two expressions with one of `= ! < >` between them, and at most two of them "
     "joined by `and` or `or`.";
 constexpr std::string_view basic_example = "10 for H = 0 to 270 step 90\n"

@@ -324,7 +324,7 @@ double Reader::number(const pugi::xml_node& node, const char* attribute) {
   const auto value = parse_number<double>(text.front() == '+' ? text.substr(1) : text);
   if (!value || !std::isfinite(*value)) {
     say(rules::CourseValue, place(node, attribute),
-        fmt::format("`{}` is a number without a unit, found `{}`", attribute, text),
+        fmt::format("`{}` must be a number without a unit, found `{}`", attribute, text),
         "`width`, `height` and `viewBox` of the drawing say how long 1 is");
     return 0;
   }

@@ -145,7 +145,7 @@ void Reader::zone(const Element& element) {
   std::erase_if(zone.rings, [](const auto& ring) { return ring.size() < 3; });
   if (zone.rings.empty()) {
     if (out_.findings.size() == said)
-      say(rules::CourseShape, place(element.node), "this zone has no inside");
+      say(rules::CourseShape, place(element.node), "this zone encloses no area");
     return;
   }
   zone.fill =
@@ -257,7 +257,7 @@ void Reader::move_to(const Arrow& start, Point ahead) {
   }
   if (narrow)
     say(rules::CourseNarrow, start.span,
-        fmt::format("a wall is nearer to the start than {} cm, the radius of the ball",
+        fmt::format("a wall is closer to the start than {} cm, the radius of the ball",
                     spec::ball::radius),
         "move the start or the wall");
   for (auto& zone : out_.course.zones) {

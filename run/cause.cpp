@@ -298,7 +298,7 @@ public:
     if (frames.loop == frames.loops.data())
       return {.seen = "no loop is open", .help = "a `goto` into a loop misses its `for`"};
     const auto name = name_of(*frames.loop);
-    return {.seen = fmt::format("the loop that is open counts `{}`", name),
+    return {.seen = fmt::format("the open loop counts `{}`", name),
             .help = fmt::format("write `{} next {}`", line_.number, name)};
   }
 

@@ -42,10 +42,11 @@ public:
   tl::expected<void, Failure> begin() {
     const auto load = load_of(ball_.inputs);
     if (!objection(load) && streams(load))
-      return refuse({ExitCode::BadInput, fmt::format("macro `{}` is so long that it plays while it "
-                                                     "arrives, which a ball of a room cannot; make "
-                                                     "it shorter",
-                                                     load.macros.front()->name)});
+      return refuse(
+          {ExitCode::BadInput, fmt::format("macro `{}` is too long to store and would have "
+                                           "to be streamed, which a ball in a room cannot "
+                                           "do; make it shorter",
+                                           load.macros.front()->name)});
     auto live = Live::start(ball_.inputs, options_, ear_, ball_.journey);
     if (!live)
       return refuse(live.error());

@@ -129,10 +129,11 @@ std::optional<Failure> objection(const Load& load) {
   for (const auto* macro : load.macros)
     if (const auto size = encode(macro->image).size();
         job_of(*macro).kind == uploader::MacroKind::User && size > spec::macro_max_packet)
-      return Failure{ExitCode::BadInput,
-                     fmt::format("macro `{}` has an id and {} bytes; a ball keeps at most {} under "
-                                 "an id. Without `id=` it runs as a temporary or streamed macro",
-                                 macro->name, size, spec::macro_max_packet)};
+      return Failure{
+          ExitCode::BadInput,
+          fmt::format("macro `{}` has an id and is {} bytes long; a ball stores at most "
+                      "{} under an id. Without `id=` it runs as a temporary or streamed macro",
+                      macro->name, size, spec::macro_max_packet)};
   return std::nullopt;
 }
 

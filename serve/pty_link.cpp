@@ -99,7 +99,7 @@ tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
     ::unlink(path.c_str());
   if (const auto target = target_of(path); !target.empty())
     return tl::unexpected(
-        IoError{fmt::format("`{}` leads to {} already; remove it or give another name", path,
+        IoError{fmt::format("`{}` already leads to {}; remove it or give another name", path,
                             fs::path(target).lexically_normal().string())});
   if (::symlink(our_target(slave_).c_str(), path.c_str()) != 0) {
     if (errno == EEXIST)

@@ -105,10 +105,10 @@ Diagnostic wrong_index(const Compiled& compiled, const WrongIndex& wrong) {
                    "this always accesses an array out of bounds");
   const auto& array = compiled.names.symbols[compiled.names.of_node[elements.front()]];
   const auto found = wrong.index.constant() ? fmt::format("found {}", wrong.index.lo - array.base)
-                                            : std::string("and the index is none of them");
-  return finding(rules::ArrayIndex, program.nodes[elements.front() - 1].span,
-                 fmt::format("`{}` has the elements 1 to {}, {}", program.name(array.name),
-                             array.value, found));
+                                            : std::string("and the index is never one of them");
+  return finding(
+      rules::ArrayIndex, program.nodes[elements.front() - 1].span,
+      fmt::format("`{}` has elements 1 to {}, {}", program.name(array.name), array.value, found));
 }
 
 /// Says what can only stop the program, wherever the statement runs.

@@ -299,7 +299,7 @@ private:
     return one_.word == Word::Print       ? "nothing was printed"
            : one_.word == Word::Marker    ? "no marker was emitted"
            : one_.word == Word::Collision ? "there was no collision"
-                                          : "no error happened";
+                                          : "no error occurred";
   }
 
   struct Kept {

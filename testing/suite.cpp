@@ -271,7 +271,7 @@ void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
     return;
   found.rule = &rules::Zone;
   if (!file.course) {
-    found.meaning.problem = fmt::format("`{}` is a zone, and the file names no course", name);
+    found.meaning.problem = fmt::format("`{}` is a zone, but the file names no course", name);
     found.help = "add `course hall.svg` at its top";
     return;
   }
@@ -329,10 +329,11 @@ void tell_of_kept(SuiteFile& file, const Test& test, const Prepared& program) {
                                   [](const auto& one) { return one.word == Word::Variable; });
   if (first == test.expectations.end() || program.tested_bytes == program.packed_bytes)
     return;
-  file.file.diagnostics.push_back(
-      finding(rules::KeptVariable, first->name.span,
-              fmt::format("this test runs {} with its variables kept: {} bytes, {} are flashed",
-                          program.name, program.tested_bytes, program.packed_bytes)));
+  file.file.diagnostics.push_back(finding(
+      rules::KeptVariable, first->name.span,
+      fmt::format(
+          "this test runs {} with its variables kept: {} bytes instead of the {} that are flashed",
+          program.name, program.tested_bytes, program.packed_bytes)));
 }
 
 /// Tells what is wrong with the names of a file, taken in the program that it names itself.

@@ -21,7 +21,7 @@ struct FailureInfo {
 constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::NotBuilt,     "install `libsdbus-c++-dev` and build orb again; `orb --version -v` says whether it has it", false},
     {BleFailure::NoSystem,     "the playground reaches these robots, in Chrome or Edge", false},
-    {BleFailure::NotLoaded,    "install orb again, with all of its files, and `libsdbus-c++1`", false},
+    {BleFailure::NotLoaded,    "reinstall orb with all its files, and `libsdbus-c++1`", false},
     {BleFailure::NoBus,        "`sudo systemctl start dbus`; in a container, let /run/dbus/system_bus_socket in", false},
     {BleFailure::NoDaemon,     "`sudo systemctl start bluetooth`; it is in the package `bluez`", false},
     {BleFailure::NotAllowed,   "`sudo usermod -aG bluetooth $USER`, then log in again", false},
@@ -31,10 +31,10 @@ constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::NotFound,     "take it off the charger, shake it awake, hold it near, and end the app that may hold it", false},
     {BleFailure::Ambiguous,    "name one by its address; `orb ports` lists them", false},
     {BleFailure::NotConnected, "shake the robot awake, hold it near, and end the app or the phone that may hold it", true},
-    {BleFailure::NotResolved,  "hold the robot near and try again; `bluetoothctl remove ADDRESS` lets the computer ask afresh", true},
+    {BleFailure::NotResolved,  "bring the robot closer and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
     {BleFailure::Newer,        "drive it from here: `orb run PROGRAM --port ble://ADDRESS`", false},
     {BleFailure::NoRobot,      "`orb ports` lists robots", false},
-    {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` lets the computer ask afresh", true},
+    {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
     {BleFailure::Held,         "end that program; `bluetoothctl disconnect ADDRESS` lets go of the robot", false},
     {BleFailure::Lost,         "hold the robot near, charge it, and try again", true},
     {BleFailure::Interrupted,  "", false},
@@ -195,7 +195,7 @@ private:
           !gatt_.has(row.characteristic))
         return tl::unexpected(BleError{
             BleFailure::NoRobot,
-            fmt::format("it is no robot that orb knows: it lacks characteristic {}", row.uuid)});
+            fmt::format("it is not a robot that orb knows: it lacks characteristic {}", row.uuid)});
     return {};
   }
 

@@ -197,7 +197,7 @@ tl::expected<std::string, BleError> find_adapter(const Bus& bus) {
 
 std::optional<BleError> trouble(const Bus& bus, const std::string& adapter) {
   if (!bus.alive())
-    return BleError{BleFailure::NoDaemon, "bluetoothd has ended"};
+    return BleError{BleFailure::NoDaemon, "bluetoothd has exited"};
   const auto name = adapter.substr(adapter.rfind('/') + 1);
   if (bus.find(adapter, adapter_interface) == nullptr)
     return BleError{BleFailure::AdapterGone, fmt::format("the adapter {} is gone", name)};

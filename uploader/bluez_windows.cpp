@@ -6,7 +6,7 @@
 namespace orb::uploader {
 namespace {
 
-const BleError elsewhere{BleFailure::NoSystem, "orb for Windows has no Bluetooth LE"};
+const BleError elsewhere{BleFailure::NoSystem, "orb for Windows does not support Bluetooth LE"};
 
 } // namespace
 

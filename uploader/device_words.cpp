@@ -45,7 +45,7 @@ std::string open_help(const Endpoint& endpoint, int error) {
     return "this system has no Bluetooth sockets; use a serial port (`rfcomm bind`) or a relay "
            "(`socat FILE:/dev/rfcomm0,raw TCP-LISTEN:4242`)";
   if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
-    return fmt::format("nothing listens there; a virtual ball does after `orb ball --tcp {}:{}`",
+    return fmt::format("nothing is listening there; `orb ball --tcp {}:{}` starts a virtual ball",
                        endpoint.host, endpoint.port);
   if (endpoint.scheme == Scheme::Rfcomm)
     return "shake the ball awake, keep it near, and end other connections to it";

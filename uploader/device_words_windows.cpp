@@ -64,7 +64,7 @@ std::string open_help(const Endpoint& endpoint, int error) {
     return "pair the ball in the Bluetooth settings of Windows, which gives it a COM port, and "
            "write that one; `orb ports` lists them";
   if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
-    return fmt::format("nothing listens there; a virtual ball does after `orb ball --tcp {}:{}`",
+    return fmt::format("nothing is listening there; `orb ball --tcp {}:{}` starts a virtual ball",
                        endpoint.host, endpoint.port);
   if (endpoint.scheme == Scheme::Serial && (error == EACCES || error == EBUSY))
     return "another program has it open; end it first";

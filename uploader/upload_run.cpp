@@ -41,7 +41,7 @@ std::string describe(Content content, Route route) {
   case Content::Uncommitted: return "the program is in RAM, the one in flash is unchanged";
   case Content::Unconfirmed:
     return committed ? "the program in flash is the old one or the new one"
-                     : fmt::format("whether the program in {} is complete is not known", place);
+                     : fmt::format("the program in {} may be incomplete", place);
   case Content::Stored:
     return fmt::format("the program is stored in {}", committed ? "flash" : place);
   }
@@ -123,11 +123,11 @@ Upload::Ended Upload::carry_out(const Step& step) {
 std::optional<Report> Upload::begin_again() {
   const auto& budgets = session_.budgets();
   if (status_.attempt == plan_.attempts)
-    return Report{Report::Kind::LinkLost, content_,
-                  fmt::format("gave up after {} attempts: the link loses or doubles too many "
-                              "packets{}",
-                              plan_.attempts, state()),
-                  0};
+    return Report{
+        Report::Kind::LinkLost, content_,
+        fmt::format("gave up after {} attempts: the link loses or duplicates too many packets{}",
+                    plan_.attempts, state()),
+        0};
   if (const auto waited = session_.listen(session_.now() + budgets.backoff(status_.attempt));
       !waited)
     return lose(ApiCommand::AppendOrbbasicFragment, waited.error());
@@ -150,7 +150,7 @@ Report Upload::refuse(ApiCommand command, const Response& response) const {
 
 Report Upload::lose(ApiCommand command, const NoAnswer& failure) const {
   const auto advice = content_ == Content::Unconfirmed ? std::string()
-                      : content_ == Content::Stored    ? "; whether it runs is not known"
+                      : content_ == Content::Stored    ? "; it is unknown whether it runs"
                                                        : fmt::format("; {}", plan_.again);
   return lost(session_, command, failure, content_, state() + advice);
 }

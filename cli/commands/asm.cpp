@@ -217,13 +217,13 @@ void add_asm(const Command& orb, Context& context) {
     names.emplace_back(format.name);
   command
       .add_option("--format", options->format,
-                  "what to write; by default what the ending of OUT says, else sphero")
+                  "what to write; by default from the extension of OUT, otherwise sphero")
       .check(one_of(names));
   command.add_option("--macro", options->macro, "the one macro of the file to write");
   command.add_flag("--listing", options->listing,
                    "print offset, bytes, times and source instead of the bytes");
   command.add_flag("--fold-delays", options->fold_delays,
-                   "turn `delay` into the delay of the command before it where that is exact");
+                   "fold `delay` into the command before it where all times stay the same");
   command.callback([&context, options] { context.exit = run_asm(context, *options); });
 }
 

@@ -137,8 +137,8 @@ void add_ball(const Command& orb, Context& context) {
       .type_name("LINK");
   command
       .add_flag("--bluez", arguments->bluez,
-                "serve behind a Bluetooth LE of its own, on a private D-Bus; with =PLAN, a faulty "
-                "one: pieces=1..20,late=2s,drop@services,lose=1%")
+                "serve over a simulated Bluetooth LE adapter, on a private D-Bus; =PLAN injects "
+                "faults: pieces=1..20,late=2s,drop@services,lose=1%")
       .type_name("PLAN");
   command.add_option("--tcp", arguments->tcp, "serve on HOST:PORT; port 0 picks a free one")
       .type_name("HOST:PORT");
@@ -173,7 +173,8 @@ void add_ball(const Command& orb, Context& context) {
   add_course_option(command, arguments->course);
   command.add_option("--state", arguments->state, "keeps flash and settings across runs")
       .type_name("FILE");
-  command.add_option("--log", arguments->log, "records every byte, as `replay://` reads it")
+  command
+      .add_option("--log", arguments->log, "record every byte, in the form that `replay://` reads")
       .type_name("FILE");
   command.callback([&context, arguments] { run_ball(context, *arguments); });
 }

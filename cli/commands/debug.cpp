@@ -162,7 +162,7 @@ void add_debug(const Command& orb, Context& context) {
   add_course_option(command, launch.course);
   command.add_option("--test", launch.test, "a test file: its world in place of one given here")
       .type_name("FILE.test");
-  command.add_option("--only", launch.test_name, "the one test of that file, by its name")
+  command.add_option("--only", launch.test_name, "the name of the test of that file")
       .type_name("NAME");
   command.add_option("--seed", options->seed, "where random numbers begin")
       .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
@@ -179,7 +179,7 @@ void add_debug(const Command& orb, Context& context) {
   add_ball_option(command, options->ball,
                   "the virtual ball drives like the robot that `orb calibrate` measured");
   add_robot_port_options(command, options->port, options->robot);
-  command.add_option("--do", options->commands, "a command to begin with; may be given again")
+  command.add_option("--do", options->commands, "a command to run first; can be repeated")
       .one_value_each()
       .type_name("COMMAND");
   command.callback([&context, options] { debug_it(context, *options); });

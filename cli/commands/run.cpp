@@ -347,7 +347,7 @@ void add_program_options(const Command& command, RunOptions& options) {
   add_language_option(command, options.language);
   command.add_option("--for", options.time, "robot time after which the run is stopped; 0: never")
       .show_default();
-  command.add_option("--line", options.run.line, "the line to start at; else the first of the file")
+  command.add_option("--line", options.run.line, "the line to start at; by default the first")
       .check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
                           spec::value_of(spec::Limit::GreatestLineNumber)));
   command.add_option("--seed", options.run.seed, "seeds all random choices")
@@ -410,7 +410,7 @@ void add_tether_options(const Command& command, RunOptions& options) {
 }
 
 void add_output_options(const Command& command, RunOptions& options) {
-  command.add_option("--trace", options.trace, "every event as a line, in place of the output")
+  command.add_option("--trace", options.trace, "one event per line, instead of the output")
       .check(one_of({"json", "csv"}));
   command.add_flag("--trace-lines", options.run.trace_lines,
                    "the trace has every executed line, too");

@@ -242,9 +242,9 @@ tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& op
     return wanted;
   wanted.seeds = testing::parse_seeds(options.seeds);
   if (wanted.seeds && wanted.seeds->count() > testing::most_seeds)
-    return tl::unexpected(
-        Failure{ExitCode::Usage, fmt::format("`--seeds {}` are too many; a test takes up to {}",
-                                             options.seeds, testing::most_seeds)});
+    return tl::unexpected(Failure{
+        ExitCode::Usage, fmt::format("`--seeds {}` asks for too many; a test takes at most {}",
+                                     options.seeds, testing::most_seeds)});
   if (!wanted.seeds)
     return tl::unexpected(
         Failure{ExitCode::Usage,

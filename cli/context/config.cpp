@@ -123,7 +123,7 @@ tl::expected<Config, ConfigError> read_roster(const std::string& file) {
     return tl::unexpected(problem(
         config.settings.front().section.place.empty() ? config.settings.front().place
                                                       : config.settings.front().section.place,
-        "a file of robots has the sections `[balls]` and `[groups]`; settings stand in orb.toml"));
+        "a file of robots has the sections `[balls]` and `[groups]`; settings belong in orb.toml"));
   if (config.balls.empty())
     return tl::unexpected(problem(file, "there are no robots in it; write `[balls]` and under it a "
                                         "line such as `red = \"ble://SK-1A2B\"`"));

@@ -47,7 +47,7 @@ values_of(const std::string& file, std::string_view name, const toml::node& node
   const auto wrong = [&](const toml::node& value) {
     return tl::unexpected(
         problem(place_in(file, value),
-                fmt::format("`{}` takes texts, numbers, true or false, or a list of them", name)));
+                fmt::format("`{}` takes strings, numbers, booleans, or a list of them", name)));
   };
   if (const auto* list = node.as_array()) {
     for (const auto& value : *list) {
@@ -128,7 +128,7 @@ tl::expected<void, ConfigError> take_groups(Config& config, const std::string& f
     const auto example = fmt::format("`{} = [\"red\", \"blue\"]`", name.str());
     if (list == nullptr)
       return refuse(file, node,
-                    fmt::format("the group `{}` is a list of balls: {}", name.str(), example));
+                    fmt::format("the group `{}` must be a list of balls: {}", name.str(), example));
     if (list->empty())
       return refuse(file, node,
                     fmt::format("the group `{}` is empty; write {}", name.str(), example));
@@ -150,10 +150,11 @@ tl::expected<void, ConfigError> take_setting(Config& config, const std::string& 
                                              const Section& section, const toml::key& name,
                                              const toml::node& node) {
   if (node.is_table() || node.is_array_of_tables())
-    return tl::unexpected(problem(
-        place_in(file, node), fmt::format("`[{}.{}]` is nested too deep; sections are `[balls]` or "
-                                          "a command such as `[check]`",
-                                          section.name, name.str())));
+    return tl::unexpected(
+        problem(place_in(file, node),
+                fmt::format("`[{}.{}]` is nested too deeply; sections are `[balls]` or "
+                            "a command such as `[check]`",
+                            section.name, name.str())));
   auto values = values_of(file, name.str(), node);
   if (!values)
     return tl::unexpected(values.error());
@@ -202,10 +203,11 @@ tl::expected<void, ConfigError> read_text_into(Config& config, const std::string
     if (const auto at = error.description().find(twice); at != std::string_view::npos) {
       auto name = error.description().substr(at + twice.size());
       name = name.substr(0, name.find('\''));
-      return tl::unexpected(problem(place_in(file, error.source().begin),
-                                    fmt::format("`{}` is given twice; give one of them another name, "
-                                                "or delete it",
-                                                name)));
+      return tl::unexpected(
+          problem(place_in(file, error.source().begin),
+                  fmt::format("`{}` is given twice; give one of them another name, "
+                              "or delete it",
+                              name)));
     }
     return tl::unexpected(problem(place_in(file, error.source().begin),
                                   fmt::format("not TOML: {}{}", toml_words(error.description()),

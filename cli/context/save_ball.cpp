@@ -150,11 +150,9 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   Config after; // what will be read of it
   if (!read_text_into(after, file, edited) || !same_balls(after, before) ||
       !std::ranges::equal(after.settings, before.settings, same_but_for_place))
-    return unsaved(
-        ExitCode::Usage,
-        fmt::format("{0}: the balls in it are written in a way that is not edited; write "
-                    "`{1} = \"{2}\"` there",
-                    file, name, url));
+    return unsaved(ExitCode::Usage, fmt::format("{0}: cannot edit its `[balls]`; write "
+                                                "`{1} = \"{2}\"` there",
+                                                file, name, url));
   if (const auto written = disk::write(file, as_bytes(edited)); !written)
     return unsaved(ExitCode::File, written.error().message);
   return file;

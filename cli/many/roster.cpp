@@ -102,8 +102,8 @@ private:
       return refuse(
           ExitCode::Usage,
           other->second == member.name
-              ? fmt::format("{}`{}` is named twice; name it once", member.place, member.port)
-              : fmt::format("{}`{}` and `{}` are one robot, {}; leave one of them out",
+              ? fmt::format("{}duplicate `{}`; name it once", member.place, member.port)
+              : fmt::format("{}`{}` and `{}` are the same robot, {}; leave one of them out",
                             member.place, other->second, member.name, endpoint->text));
     roster_.members.push_back(std::move(member));
     return {};
@@ -117,7 +117,7 @@ private:
     };
     if (member.port.starts_with("@") && taken(member.name))
       return refuse(ExitCode::Usage,
-                    fmt::format("{}`{}` is named twice; name it once", member.place, member.port));
+                    fmt::format("{}duplicate `{}`; name it once", member.place, member.port));
     const auto name = member.name;
     for (int i = 2; taken(member.name); ++i)
       member.name = fmt::format("{} {}", name, i);

@@ -48,7 +48,7 @@ public:
   std::string text(std::string_view key, const toml::node& node) {
     if (const auto* text = node.as_string(); text != nullptr && !text->get().empty())
       return text->get();
-    refuse(node, fmt::format("`{}` takes a text in quotes", key));
+    refuse(node, fmt::format("`{}` takes a string in quotes", key));
     return {};
   }
   /// A text or a list of them.
@@ -60,7 +60,7 @@ public:
     for (const auto& one : *list)
       all.push_back(text(key, one));
     if (all.empty())
-      refuse(node, fmt::format("`{}` takes a text in quotes, or a list of them", key));
+      refuse(node, fmt::format("`{}` takes a string in quotes, or a list of them", key));
     return all;
   }
   /// A number of centimetres or degrees.
@@ -89,8 +89,8 @@ public:
   std::string robot(const toml::node& node) {
     const auto name = text("robot", node);
     if (problem_.empty() && !spec::find_robot(name))
-      refuse(node,
-             fmt::format("`{}` is no robot{}", name, meant_instead(name, names_of(spec::robots))));
+      refuse(node, fmt::format("`{}` is not a robot{}", name,
+                               meant_instead(name, names_of(spec::robots))));
     return name;
   }
 
@@ -161,9 +161,9 @@ std::string same_name(const std::vector<PlannedBall>& balls) {
                  ? fmt::format("{} and {} would both be ball `{}`; give them names in a room file, "
                                "see docs/rooms.md",
                                at->second->files.front(), ball.files.front(), ball.name)
-                 : fmt::format("{}: the ball of {} is called `{}` as well; give one of them "
-                               "another `name`",
-                               ball.place, at->second->place, ball.name);
+                 : fmt::format(
+                       "{}: the ball of {} is also called `{}`; give one of them another `name`",
+                       ball.place, at->second->place, ball.name);
   return {};
 }
 

@@ -32,8 +32,8 @@ tl::expected<void, Failure> check_options(const RunOptions& given) {
     std::string_view instead;
   };
   const auto refused = std::to_array<Given>({
-      {!given.port.port.empty(), "--port", "a robot is driven by itself"},
-      {!given.replay.empty(), "--replay", "a robot is driven by itself"},
+      {!given.port.port.empty(), "--port", "a robot cannot join a room"},
+      {!given.replay.empty(), "--replay", "a robot cannot join a room"},
       {given.run.line.has_value(), "--line", "each program begins at its first line"},
       {!given.input.empty(), "--input",
        "give a ball its numbers with `stimulus = \"at 2s input 42\"` in a room file"},
@@ -60,7 +60,7 @@ tl::expected<RoomPlan, Failure> plan_of(const RunOptions& given) {
     return side_by_side(given.files);
   if (given.files.size() > 1)
     return refuse(ExitCode::Usage,
-                  fmt::format("{} is a room, whose programs stand in it; leave {} out",
+                  fmt::format("{} is a room, which names its own programs; leave {} out",
                               disk::display_name(given.files[0]),
                               disk::display_name(given.files[1])));
   auto plan = read_room(given.files.front());

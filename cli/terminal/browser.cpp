@@ -95,7 +95,7 @@ tl::expected<void, std::string> show_in_browser(const std::string& path) {
     if (start(command))
       return {};
   return tl::unexpected(fmt::format("no browser could be started: install xdg-utils, or name one "
-                                    "in `BROWSER`; the report is {}",
+                                    "in `BROWSER`; the report is in {}",
                                     path));
 }
 

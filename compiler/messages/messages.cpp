@@ -42,7 +42,7 @@ public:
     switch (fault_.reason) {
     case Reason::BadNumber:
       return make(rules::LineNumberRange,
-                  fmt::format("line number {} is not 1 to {}", token(),
+                  fmt::format("line number {} is outside 1 to {}", token(),
                               spec::value_of(spec::Limit::GreatestLineNumber)));
     case Reason::UnknownWord: return unknown_word();
     case Reason::NotAStatement:

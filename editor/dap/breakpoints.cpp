@@ -83,8 +83,7 @@ Answer Session::set_function_breakpoints(const Json& arguments) {
     const auto wrong = read_conditions(*debugger, wanted[i], one);
     if (one.spots.empty() || wrong || !debugs) {
       list.push_back(unverified(
-          wrong ? *wrong
-                : fmt::format("no sub that is called is named `{}`", to_valid_utf8(one.text))));
+          wrong ? *wrong : fmt::format("no sub `{}` is called", to_valid_utf8(one.text))));
       continue;
     }
     const auto spot = one.spots.front();
@@ -121,7 +120,8 @@ Answer Session::set_data_breakpoints(const Json& arguments) {
       wrong = fmt::format("reads are not watched, only changes; ask for `write`, not `{}`",
                           to_valid_utf8(access));
     if (!expression || wrong || !debugs) {
-      list.push_back(unverified(!expression ? expression.error() : wrong.value_or("it only runs")));
+      list.push_back(unverified(!expression ? expression.error()
+                                            : wrong.value_or("this run has no debugger")));
       continue;
     }
     one.kind = expression->is_condition() ? Breakpoint::Kind::Condition : Breakpoint::Kind::Change;

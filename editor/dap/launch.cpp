@@ -12,7 +12,7 @@ namespace orb::editor::dap {
 
 Answer Session::initialize(const Json& arguments) {
   if (initialized)
-    return refuse("`initialize` comes once");
+    return refuse("`initialize` was already sent");
   initialized = true;
   first_line = flag_of(member(arguments, "linesStartAt1"), true) ? 1 : 0;
   first_column = flag_of(member(arguments, "columnsStartAt1"), true) ? 1 : 0;
@@ -172,14 +172,14 @@ Answer Session::begin() {
 
 Answer Session::configuration_done(const Json&) {
   if (configured)
-    return refuse("`configurationDone` comes once");
+    return refuse("`configurationDone` was already sent");
   configured = true;
   return begin();
 }
 
 Answer Session::restart(const Json&) {
   if (!configured)
-    return refuse("`configurationDone` comes before `restart`");
+    return refuse("send `configurationDone` before `restart`");
   if (auto again = debugger->restart(); !again)
     return refuse(again.error());
   over = false;

@@ -82,7 +82,7 @@ void Session::receive(std::string_view text) {
     return;
   const auto command = text_of(member(message, "command"));
   if (type != "request" || command.empty()) {
-    respond(message, refuse("the message is not a request that names a command"));
+    respond(message, refuse("the message is not a request with a command"));
     return;
   }
   afterwards = nullptr;
@@ -155,9 +155,9 @@ std::optional<std::string> obstacle(const Session& session, const std::string& c
   if (when == When::Launched)
     return std::nullopt;
   if (session.going)
-    return fmt::format("the program runs; `pause` comes before `{}`", shown);
+    return fmt::format("the program is running; send `pause` before `{}`", shown);
   if (!session.configured)
-    return fmt::format("`configurationDone` comes before `{}`", shown);
+    return fmt::format("send `configurationDone` before `{}`", shown);
   return std::nullopt;
 }
 
@@ -170,7 +170,7 @@ Answer Session::request(const std::string& command, const Json& arguments) {
   if (auto why = obstacle(*this, command, when))
     return refuse(*std::move(why));
   if (row == rows.end())
-    return refuse(fmt::format("`{}` is not known here", to_valid_utf8(command)));
+    return refuse(fmt::format("unknown request `{}`", to_valid_utf8(command)));
   return (this->*row->answer)(arguments);
 }
 

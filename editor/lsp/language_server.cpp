@@ -214,7 +214,7 @@ Answer LanguageServer::State::ask_document(const std::string& method, const Json
   const auto* const known = find_method(method);
   if (known == nullptr)
     return refuse(RpcError::MethodNotFound,
-                  fmt::format("`{}` is not known here", to_valid_utf8(method)));
+                  fmt::format("unknown method `{}`", to_valid_utf8(method)));
   const auto uri = text_of(member(member(params, "textDocument"), "uri"));
   const auto* const document = space.find(uri);
   if (document == nullptr)
@@ -309,7 +309,7 @@ void LanguageServer::State::did_change(const Json& params) {
   if (version.is_number_integer()) {
     const auto number = version.get<std::int64_t>();
     if (document->version && number < *document->version) {
-      log(fmt::format("version {} of a document came after version {} and is left out", number,
+      log(fmt::format("ignored version {} of a document, which came after version {}", number,
                       *document->version));
       return;
     }
@@ -328,7 +328,7 @@ void LanguageServer::State::did_change(const Json& params) {
 
 void LanguageServer::State::apply(const Json& change, Document& document) {
   if (!member(change, "text").is_string()) {
-    log("a change without a text is left out");
+    log("ignored a change without text");
     return;
   }
   auto text = text_of(member(change, "text"));

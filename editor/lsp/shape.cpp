@@ -25,7 +25,7 @@ Answer selections(const Workspace& space, const Asked& asked) {
   const auto& source = asked.document.source;
   const auto& positions = member(asked.params, "positions");
   if (!positions.is_array())
-    return refuse(RpcError::InvalidParams, "`positions` is a list of places");
+    return refuse(RpcError::InvalidParams, "`positions` must be a list of positions");
   auto list = Json::array();
   for (const auto& one : positions) {
     const auto at = space.offset(source, one);

@@ -198,9 +198,11 @@ tl::expected<void, Failure> believable(const Calibration& result, const Found& f
   }
   if (result.error_after_cm > misfit_cm &&
       result.error_after_cm > misfit_share * result.error_before_cm)
-    return refuse(ExitCode::Refused, fmt::format("no numbers of the model tell where this robot "
-                                                 "went: {:.1f} cm off before, {:.1f} cm after",
-                                                 result.error_before_cm, result.error_after_cm));
+    return refuse(
+        ExitCode::Refused,
+        fmt::format(
+            "the model does not fit this robot: position error {:.1f} cm before, {:.1f} cm after",
+            result.error_before_cm, result.error_after_cm));
   return {};
 }
 
@@ -214,9 +216,8 @@ tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot ro
       used.push_back(&leg);
   const auto enough = [&] { return 4 * used.size() >= 3 * legs.size() && !used.empty(); };
   const auto too_few = [&] {
-    return refuse(ExitCode::Refused, fmt::format("only {} of {} legs of the drive can be used, the "
-                                                 "link lost the others; go nearer to the "
-                                                 "robot and begin again",
+    return refuse(ExitCode::Refused, fmt::format("only {} of {} legs are usable, the link lost the "
+                                                 "others; move closer to the robot and try again",
                                                  used.size(), legs.size()));
   };
   if (!enough())

@@ -107,9 +107,10 @@ tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Du
   std::string names;
   for (const auto* row : left)
     names += fmt::format("{}`--robot {}`", names.empty() ? "" : " or ", row->name);
-  return tl::unexpected(Failure{
-      ExitCode::Usage,
-      fmt::format("the robot speaks packets v2 and does not say which it is; add {}", names)});
+  return tl::unexpected(
+      Failure{ExitCode::Usage,
+              fmt::format("the robot speaks packets v2 but does not say which model it is; add {}",
+                          names)});
 }
 
 } // namespace orb::run

@@ -171,7 +171,8 @@ tl::expected<DriveRecording, std::string> parse_drive_recording(std::string_view
     if (at && *at >= 0 && read_what(words.next(), words, entry)) {
       entry.at = Duration(*at);
       if (!recording.lines.empty() && entry.at < recording.lines.back().at)
-        return tl::unexpected(fmt::format("line {} is earlier than the one before", row));
+        return tl::unexpected(
+            fmt::format("line {} has an earlier time than the line before it", row));
       recording.lines.push_back(std::move(entry));
     } else if (at || !read_whole(first, words, recording))
       return tl::unexpected(fmt::format("line {} is damaged: `{}`", row, line.substr(0, 60)));

@@ -149,8 +149,8 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
                           : static_cast<std::uint32_t>(running->ball().machine().asking_line());
     const auto where =
         first == nullptr || line == 0 ? std::string("the start") : first->program->where(line);
-    left = fmt::format("the program leaves the recording at {}: it asks for {}, and the "
-                       "recording has {}",
+    left = fmt::format("the program departs from the recording at {}: it asks for {}, but "
+                       "the recording has {}",
                        where, asked, recorded);
     if (running != nullptr)
       running->stop();

@@ -35,7 +35,7 @@ tl::expected<protocol::PacketV2, Failure> TalkV2::ask(spec::V2Command command, B
   }
   return tl::unexpected(
       Failure{ExitCode::LinkLost, fmt::format("the robot does not answer {}; wake it, bring it "
-                                              "nearer, and see `orb doctor`",
+                                              "closer, or run `orb doctor`",
                                               spec::info(command).name)});
 }
 

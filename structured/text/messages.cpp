@@ -110,7 +110,7 @@ Diagnostic trailing(const Program& program, Span found) {
   const char before = sign_before(program.text, found.begin);
   if (before == ',' && begins_line(program.text, found.begin))
     return malformed(program, found, "the comma above continues its line",
-                     "to print a blank at the end write `, ;`");
+                     "to print a trailing space write `, ;`");
   if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name)
     return malformed(program, found, "an array index is written in brackets",
                      fmt::format("write `{}[1] = 2`", statement));

@@ -265,7 +265,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
     const auto wrong = first == 0 && !first_unit.empty() ? first_unit : unit;
     fail_at(span, rules::Value,
             wrong.empty() ? fmt::format("the {} needs a unit", what)
-                          : fmt::format("`{}` is not a unit of a {}", wrong, what),
+                          : fmt::format("`{}` is not a unit for a {}", wrong, what),
             help);
     return {};
   }
@@ -303,7 +303,7 @@ double Cursor::length() {
   if (row == length_words.end()) {
     fail_at(span_from(from), rules::Value,
             unit.empty() ? std::string("the length needs a unit")
-                         : fmt::format("`{}` is not a unit of a length", unit),
+                         : fmt::format("`{}` is not a unit for a length", unit),
             fmt::format("write `{}cm`",
                         text_.substr(from - begin_, at_ - unit.size() - (from - begin_))));
     return 0;

@@ -19,7 +19,8 @@ std::string seconds(Duration t) {
 /// What a case failed at, a line for each expectation.
 std::string story(const GroupResult& group, const CaseResult& one) {
   if (one.omitted)
-    return fmt::format("not kept: the first {} failures of a test are\n", most_told);
+    return fmt::format("details omitted: only the first {} failures of a test are kept\n",
+                       most_told);
   if (one.verdict == Verdict::Error)
     return one.problem;
   std::string out;

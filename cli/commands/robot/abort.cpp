@@ -31,10 +31,9 @@ ExitCode abort_all(Context& context, uploader::Session& session,
                    const uploader::Greeting& greeting) {
   session.inbox().clear();
   if (greeting.firmware.has_basic)
-    if (const auto done =
-            request(session, ApiCommand::AbortOrbbasicProgram, {},
-                    {"whether the program was stopped is not known, and the macro was "
-                     "not; abort again"});
+    if (const auto done = request(
+            session, ApiCommand::AbortOrbbasicProgram, {},
+            {"the program may still be running, and the macro was not stopped; abort again"});
         !done) {
       print_error(context, done.error().message);
       return exit_code(done.error().kind);
@@ -42,7 +41,7 @@ ExitCode abort_all(Context& context, uploader::Session& session,
   const auto program = std::string(greeting.firmware.has_basic ? "the program was stopped, " : "");
   const auto macro = request(
       session, ApiCommand::AbortMacro, {},
-      {program + "whether the macro was is not known; abort again", program + "the macro was not"});
+      {program + "the macro may still be running; abort again", program + "the macro was not"});
   if (!macro) {
     print_error(context, macro.error().message);
     return exit_code(macro.error().kind);

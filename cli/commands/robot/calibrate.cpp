@@ -43,10 +43,9 @@ void print_result(const run::Calibration& found, const run::Speeds& speeds) {
                           run::value_of(found.before, info), run::value_of(found.after, info),
                           info.unit.empty() ? spread : fmt::format("{:<7} {}", spread, info.unit)));
   }
-  print_out(
-      fmt::format("its places were {:.1f} cm off by the model, and are {:.1f} cm off by these "
-                  "numbers, over {} of {} legs\n",
-                  found.error_before_cm, found.error_after_cm, found.used, found.legs));
+  print_out(fmt::format(
+      "position error {:.1f} cm with the model, {:.1f} cm with these numbers, over {} of {} legs\n",
+      found.error_before_cm, found.error_after_cm, found.used, found.legs));
   print_out(fmt::format("not measured: speeds below {} and above {}; they stay the model's guess\n",
                         speeds.slowest, speeds.fastest));
 }
@@ -142,7 +141,7 @@ void add_calibrate(const Command& orb, Context& context) {
   command.find("--port")->required();
   command
       .add_option("-o,--output", options->output,
-                  "saves what was found under this name, or in a file such as ./red.toml")
+                  "save the measured numbers under this name, or in a file such as ./red.toml")
       .type_name("NAME");
   command.add_flag("--yes", options->yes, "drives at once: the floor is clear");
   add_ball_option(command, options->ball,

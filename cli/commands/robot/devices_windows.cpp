@@ -93,7 +93,7 @@ std::string describe_bluetooth(const Device& port) {
   const auto begin = port.id.rfind('&', end) + 1;
   const auto address = port.id.substr(begin, end - begin);
   if (address.find_first_not_of('0') == std::string::npos)
-    return "Bluetooth serial port for devices that call this computer";
+    return "Bluetooth serial port for incoming connections";
   for (const auto& device : devices_of(nullptr, L"BTHENUM"))
     if (device.id.starts_with("BTHENUM\\DEV_" + address) && !device.name.empty())
       return fmt::format("Bluetooth serial port of {}", device.name);

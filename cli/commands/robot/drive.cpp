@@ -174,7 +174,7 @@ public:
         pilot_.press(row->means);
       else if (pressed.key == Key::None && pressed.character > ' ')
         print_note(context_,
-                   fmt::format("`{}` is not a key here; {}", pressed.character, key_help()));
+                   fmt::format("`{}` does nothing here; {}", pressed.character, key_help()));
       const auto wait = row != nullptr && !keys.from_terminal() ? key_time : glance;
       if (auto lived = live(wait); !lived)
         return lived;
@@ -273,8 +273,7 @@ void add_drive(const Command& orb, Context& context) {
   auto options = std::make_shared<DriveOptions>();
   add_robot_port_options(command, options->port, options->robot);
   command.find("--port")->required();
-  command.add_flag("--no-aim", options->keep_aim,
-                   "heading and place of the robot stay what they are");
+  command.add_flag("--no-aim", options->keep_aim, "keep the robot's heading and position");
   command.add_flag("--page", options->page,
                    "serves a page with a joystick and live curves, on this computer only");
   command.add_flag("--open", options->open, "the same, and opens it");

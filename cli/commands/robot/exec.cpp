@@ -220,7 +220,7 @@ void add_exec(const Command& orb, Context& context) {
   add_link_options(command, options->port);
   add_newer_robot_option(command, options->robot);
   add_format_option(command, options->format);
-  command.add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command.add_flag("--monitor", options->monitor, "then print what the ball sends, until Ctrl-C");
   command.callback([&context, options] {
     ManyOptions many;
     many.command = "exec";

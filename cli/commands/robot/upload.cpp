@@ -134,13 +134,13 @@ Lookup lookup_of(const std::vector<run::Input>& inputs) {
 
 /// What a success leaves open where the ball does not count packets.
 std::string uncounted_note(std::size_t pieces) {
-  constexpr double assumed = 0.01; // of packets doubled, and of packets lost
-  return fmt::format("note: this ball does not count packets, so a piece that came twice is not "
-                     "seen when one of its answers is lost: at most {1:.2f} % of uploads of {2} "
-                     "piece{3} where the link doubles {0:.0f} % of packets and loses {0:.0f} %; "
-                     "Bluetooth doubles none",
-                     assumed * 100, uploader::unseen_bound(pieces, assumed, assumed) * 100, pieces,
-                     pieces == 1 ? "" : "s");
+  constexpr double assumed = 0.01; // of packets duplicated, and of packets lost
+  return fmt::format(
+      "note: this ball does not count packets, so a duplicate of a piece stays unseen "
+      "if an answer is lost, too: in at most {1:.2f} % of uploads of {2} piece{3} on "
+      "a link that duplicates {0:.0f} % and loses {0:.0f} %; Bluetooth duplicates none",
+      assumed * 100, uploader::unseen_bound(pieces, assumed, assumed) * 100, pieces,
+      pieces == 1 ? "" : "s");
 }
 
 /// Tells how it ended, and watches what runs where that was asked for.
@@ -286,7 +286,7 @@ void add_upload(const Command& orb, Context& context) {
   command.add_flag("--clear-macros", options->clear_macros,
                    "make the ball forget all its user macros first");
   command.add_flag("--force", options->force, "write to flash even if the battery is low");
-  command.add_flag("--monitor", options->monitor, "then print what the ball says, until Ctrl-C");
+  command.add_flag("--monitor", options->monitor, "then print what the ball sends, until Ctrl-C");
   command.add_flag("--dry-run", options->dry_run,
                    "print the packets and send nothing; with -v also when it would give up");
   command.add_flag("--no-check", options->no_check, "send it even if it has errors");

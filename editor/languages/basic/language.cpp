@@ -262,7 +262,7 @@ rename_letter(const std::vector<LetterName>& names, std::uint8_t letter, std::st
   std::vector<Edit> edits;
   for (const auto& one : names) {
     if (one.letter == wanted && wanted != letter)
-      return tl::unexpected(fmt::format("`{}` is in use already", name));
+      return tl::unexpected(fmt::format("`{}` is already in use", name));
     if (one.letter == letter)
       edits.push_back({one.span, std::string(name)});
   }

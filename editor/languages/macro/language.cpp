@@ -103,7 +103,7 @@ tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t o
   for (const auto& one : names) {
     const auto text = source.text(one.span);
     if (text == name && text != old)
-      return tl::unexpected(fmt::format("`{}` is in use already", name));
+      return tl::unexpected(fmt::format("`{}` is already in use", name));
     if (text != old)
       continue;
     defined = defined || one.is_definition;

@@ -86,7 +86,7 @@ std::vector<Hint> structured_hints(const Source& source, const LanguageOptions& 
     found.push_back(
         {end_of_line(source, header.span.begin),
          own == bytes.end() ? "no bytes of its own" : fmt::format("{} bytes", own->second),
-         own == bytes.end() ? "it is written into its callers, or never called"
+         own == bytes.end() ? "it is inlined into its callers, or never called"
                             : "of the packed image"});
   }
   std::stable_sort(found.begin(), found.end(),

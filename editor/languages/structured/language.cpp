@@ -164,7 +164,7 @@ std::string variable_markdown(const Source& source, const Part& part,
   const auto begins = symbol.kind == SymbolKind::Local       ? "0 at each call"
                       : symbol.kind == SymbolKind::Parameter ? "a copy of what the caller gives"
                                                              : "0 when the program begins";
-  auto text = fmt::format("**`{}`** ({}): a whole number of 32 bits, {}\n\n- set: {}\n- read: {}\n",
+  auto text = fmt::format("**`{}`** ({}): a 32-bit integer, {}\n\n- set: {}\n- read: {}\n",
                           part.reading.program.name(symbol.name), kind, begins,
                           lines_where(part, true), lines_where(part, false));
   if (part.file != 0)
@@ -325,7 +325,7 @@ std::optional<std::string> why_no_renaming(const Part& part, std::string_view na
     if (use.meaning == part.here->meaning)
       is_declared = is_declared || use.is_set;
     else if (equal_words(part.reading.program.text_of(use.span), name))
-      return fmt::format("`{}` is in use already", name);
+      return fmt::format("`{}` is already in use", name);
   }
   if (!is_declared)
     return fmt::format("`{}` is declared in another file", old);

@@ -10,6 +10,8 @@ const value_of = text => {
   return unit ? Math.round(parseFloat(text) * milliseconds[unit.toLowerCase()]) : Number(text);
 };
 const name = /^[a-z_]\w*$/i;
+/** Characters of a comment or of a line that has no block. */
+const longest_shown = 70;
 
 export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
   const taken = new Set([...words.statements, ...words.sensors, ...words.functions, ...words.keywords].map(({ word }) => word.toLowerCase()));
@@ -30,6 +32,16 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
     range() {
       const input = this.getSourceBlock()?.outputConnection?.targetConnection?.getParentInput();
       return input?.getSourceBlock().ranges?.[input.name];
+    }
+  }
+
+  /** A text that may be long: shown up to a word's end, so that what is seen is part of what is read aloud. */
+  class LongField extends FieldTextInput {
+    getDisplayText_() {
+      const text = this.getText();
+      const end = text.length <= longest_shown ? text.length : text.lastIndexOf(" ", longest_shown - 1);
+      const shown = text.slice(0, end > 0 ? end : longest_shown - 1).replace(/\s/g, "\u00a0");
+      return shown.length < text.length ? shown + "…" : shown;
     }
   }
 
@@ -90,7 +102,7 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
     }
   }
 
-  return { NumeralField, CheckedField, ChoiceField, NameField, is_name, list_of_names };
+  return { NumeralField, LongField, CheckedField, ChoiceField, NameField, is_name, list_of_names };
 }
 
 /** The names that the blocks of a program make, of the kinds in `of`, each once. */

@@ -39,8 +39,8 @@ export const type_of = ({ kind, word, items }) => kind === "robot" ? is_one_colo
 const is_one_colour = (word, items) => word === "RGB" && items?.length === 1 && (items[0].kind === "colour" || items[0].value?.kind === "name");
 
 export function define_blocks(Blockly, words) {
-  const { NumeralField, CheckedField, ChoiceField, NameField, is_name, list_of_names } = make_fields(Blockly, words);
-  const { FieldLabel, FieldTextInput, FieldImage, Events, inputs: { inputTypes } } = Blockly;
+  const { NumeralField, LongField, CheckedField, ChoiceField, NameField, is_name, list_of_names } = make_fields(Blockly, words);
+  const { FieldLabel, FieldImage, Events, inputs: { inputTypes } } = Blockly;
   const word_row = Object.fromEntries([...words.keywords, ...words.functions, ...words.sensors, ...words.statements].map(row => [row.word, row]));
   const kinds = {};
   const text_of = (block, field) => block.getFieldValue(field);
@@ -63,7 +63,7 @@ export function define_blocks(Blockly, words) {
   const body = (block, name) => block.appendStatementInput(name);
   /** A comment behind the statement, where the text has one. */
   const note = (block, has, key = "") => {
-    if (has) row(block, `NOTES${key}`, [`NOTE${key}`, new FieldTextInput("' ")]);
+    if (has) row(block, `NOTES${key}`, [`NOTE${key}`, new LongField("' ")]);
   };
   /** What can be had more or less often has buttons for that. */
   const sign_image = sign => `data:image/svg+xml,${encodeURIComponent(`<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 18 18"><circle cx="9" cy="9" r="8" fill="#fff" fill-opacity=".25"/><path d="${sign === "+" ? "M4 9h10M9 4v10" : "M4 9h10"}" stroke="#fff" stroke-width="2"/></svg>`)}`;
@@ -320,7 +320,7 @@ export function define_blocks(Blockly, words) {
   // ---- subs ----
   for (const word of ["sub", "function"]) kinds[word] = { style: "subs", tip: word_row[word].summary, opens: 1, routine: true,
     build(block, { note: has, end, docs = 0 }) {
-      for (const i of numbers(docs)) row(block, `DOCS${i}`, [`DOC${i}`, new FieldTextInput("")]);
+      for (const i of numbers(docs)) row(block, `DOCS${i}`, [`DOC${i}`, new LongField("")]);
       row(block, "ROW", word, ["NAME", new CheckedField(word === "sub" ? "leg" : "half", is_name)], "(", ["NAMES", new CheckedField("", list_of_names)], ")");
       note(block, has);
       body(block, "DO");
@@ -345,15 +345,14 @@ export function define_blocks(Blockly, words) {
     print: block => `goto ${text_of(block, "NAME")}` };
 
   // ---- what is no statement ----
-  const long = field => Object.assign(field, { maxDisplayLength: 70 });
   kinds.program = { style: "start", hat: true, tip: "What hangs below runs from top to bottom when the program starts.",
     build: block => row(block, "ROW", "when the program starts"), print: () => "" };
   kinds.comment = { style: "note", statement: true, tip: "a comment: for people, the robot does not see it",
-    build: block => row(block, "ROW", ["TEXT", long(new FieldTextInput("what this is for"))]),
+    build: block => row(block, "ROW", ["TEXT", new LongField("what this is for")]),
     print: (block, part, { sign = "' " }) => `${sign}${text_of(block, "TEXT")}`.trimEnd() };
   kinds.text = { style: "grey", statement: true, tip: "There is no block for this, so it stands here as it is written.",
     build(block, { lines = [""] }) {
-      lines.forEach((line, i) => row(block, `ROW${i}`, [`TEXT${i}`, long(new FieldTextInput(line.trim()))]));
+      lines.forEach((line, i) => row(block, `ROW${i}`, [`TEXT${i}`, new LongField(line.trim())]));
       block.setInputsInline(false);
     },
     lines: (block, { lines = [""] }) => lines.map((line, i) => text_of(block, `TEXT${i}`) === line.trim() ? { whole: line } : { text: text_of(block, `TEXT${i}`) }) };

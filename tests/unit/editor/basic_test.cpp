@@ -129,7 +129,7 @@ TEST(LspBasicNames, RenameChangesAVariable) {
   EXPECT_EQ(session.renamed(0, 3, "B"), "0:3-4 2:6-7 5:8-9 6:4-5 6:8-9 7:7-8");
   EXPECT_EQ(session.renamed(0, 3, "Z"), "a variable is one letter from `A` to `Y`");
   Session two("10 A = 1\n20 B = A\n");
-  EXPECT_EQ(two.renamed(0, 3, "b"), "`b` is in use already");
+  EXPECT_EQ(two.renamed(0, 3, "b"), "`b` is already in use");
 }
 
 TEST(LspBasicNames, RenameKnowsTheLineThatSleepWakesAt) {

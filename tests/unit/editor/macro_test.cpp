@@ -80,7 +80,7 @@ TEST(LspMacro, NamesLeadToTheirDefinitions) {
 TEST(LspMacro, RenameChangesANameEverywhere) {
   MacroSession session;
   EXPECT_EQ(session.renamed(4, 9, "spin"), "4:8-12 6:7-11");
-  EXPECT_EQ(session.renamed(4, 9, "fast"), "`fast` is in use already");
+  EXPECT_EQ(session.renamed(4, 9, "fast"), "`fast` is already in use");
   EXPECT_EQ(session.renamed(4, 9, "4th"),
             "a name is letters, digits and `_`, and does not begin with a digit");
   EXPECT_EQ(session.renamed(5, 8, "spin"), "there is no name of a macro or constant here");

@@ -91,7 +91,7 @@ TEST(Structured, RenameKeepsToOneMeaning) {
   EXPECT_EQ(session.renamed(3, 8, "which"), "3:8-9 4:9-10 6:9-10");
   EXPECT_EQ(session.renamed(14, 7, "doubled"), "8:9-14 14:6-11");
   EXPECT_EQ(session.renamed(12, 4, "delay"), "`delay` is a word of the language");
-  EXPECT_EQ(session.renamed(12, 4, "Turns"), "`Turns` is in use already");
+  EXPECT_EQ(session.renamed(12, 4, "Turns"), "`Turns` is already in use");
   EXPECT_EQ(session.renamed(12, 4, "2nd"),
             "a name is a letter or `_`, then letters, digits and `_`, at most 31 of them");
   EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the program");
@@ -205,7 +205,7 @@ TEST_F(TwoFiles, ANameGetsAnotherInBoth) {
     EXPECT_EQ(LspClient::places(changes[main]), "1:0-5 2:4-9") << changes;
     EXPECT_EQ(LspClient::places(changes[lib]), "2:2-7") << changes;
   }
-  EXPECT_EQ(rename(main, 1, 1, "way")["error"]["message"], "`way` is in use already");
+  EXPECT_EQ(rename(main, 1, 1, "way")["error"]["message"], "`way` is already in use");
 }
 
 TEST_F(TwoFiles, HoverSaysWhatTheOtherFileSays) {

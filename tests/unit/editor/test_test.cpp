@@ -24,8 +24,8 @@ TEST(Tests, AreCheckedBesideTheirPrograms) {
 
 TEST(Tests, HoverSaysWhatAWordExpects) {
   TestSession session("at 1s shake\nexpect near 60,0 by 12cm at end\n");
-  EXPECT_NE(session.hover(1, 9).find("no farther than that"), std::string::npos);
-  EXPECT_NE(session.hover(1, 2).find("what shall happen"), std::string::npos);
+  EXPECT_NE(session.hover(1, 9).find("within that distance"), std::string::npos);
+  EXPECT_NE(session.hover(1, 2).find("what must happen"), std::string::npos);
   EXPECT_NE(session.hover(0, 8).find("somebody shakes the ball"), std::string::npos);
 }
 

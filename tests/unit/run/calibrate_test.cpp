@@ -148,9 +148,10 @@ TEST(Calibrate, RefusesWhatADriveDoesNotTell) {
     return found ? std::string("found") : found.error().message;
   };
   Hidden silent(spec::driving(spec::Robot::Sphero), 30ms, 0.95);
-  EXPECT_EQ(refusal(silent, spec::Robot::Sphero),
-            "only 0 of 24 legs of the drive can be used, the link lost the others; go nearer to "
-            "the robot and begin again");
+  EXPECT_EQ(
+      refusal(silent, spec::Robot::Sphero),
+      "only 0 of 24 legs are usable, the link lost the others; move closer to the robot and try "
+      "again");
   Hidden still(spec::driving(spec::Robot::Sphero));
   still.held_fast = true;
   EXPECT_NE(refusal(still, spec::Robot::Sphero).find("nothing holds it"), std::string::npos);

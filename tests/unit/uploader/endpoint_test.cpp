@@ -128,7 +128,7 @@ TEST(Open, NamesWhatIsNoDevice) {
   EXPECT_NE(open_error("/tmp").find("is a directory; give the path of a device"),
             std::string::npos);
   EXPECT_NE(open_error("/dev/null").find("not a serial device"), std::string::npos);
-  EXPECT_NE(open_error("tcp://127.0.0.1:1").find("nothing listens there"), std::string::npos);
+  EXPECT_NE(open_error("tcp://127.0.0.1:1").find("nothing is listening there"), std::string::npos);
 }
 
 TEST_F(PtyTest, CarriesBytesThroughAPtyUnchanged) {
