@@ -44,8 +44,8 @@ tl::expected<void, Failure> Timeline::start() {
     return tl::unexpected(*std::move(why));
   if (run::streams(load))
     return tl::unexpected(Failure{ExitCode::Usage,
-                                  "a streamed macro plays while it arrives and cannot stand still; "
-                                  "give it another id than 254"});
+                                  "a streamed macro plays while it arrives and cannot be paused; "
+                                  "give it an id other than 254"});
   auto made = run::ball_options(options_);
   made.native_programs = &native_;
   made.observer = this;

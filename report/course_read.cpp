@@ -111,7 +111,7 @@ Span Reader::place(const pugi::xml_node& node, std::string_view attribute, Span 
 bool Reader::is_text() {
   if (text_.size() > most_bytes) {
     say(rules::CourseTooLarge, {0, 0}, fmt::format("the file has {} bytes", text_.size()),
-        "4 MB is the most; delete what is neither wall, nor zone, nor start");
+        "4 MB is the most; delete everything that is not a wall, zone or start");
     return false;
   }
   if (text_.starts_with("\x1f\x8b")) {
@@ -234,7 +234,7 @@ void Reader::walk(const Element& parent, int depth) {
     if (++elements_ > most_elements) {
       say(rules::CourseTooLarge, place(node),
           fmt::format("the drawing has more than {} elements", most_elements),
-          "delete what is neither wall, nor zone, nor start");
+          "delete everything that is not a wall, zone or start");
       stop_ = true;
       return;
     }
@@ -325,7 +325,7 @@ double Reader::number(const pugi::xml_node& node, const char* attribute) {
   if (!value || !std::isfinite(*value)) {
     say(rules::CourseValue, place(node, attribute),
         fmt::format("`{}` must be a number without a unit, found `{}`", attribute, text),
-        "`width`, `height` and `viewBox` of the drawing say how long 1 is");
+        "`width`, `height` and `viewBox` of the drawing set the length of 1 unit");
     return 0;
   }
   return *value;

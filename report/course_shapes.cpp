@@ -76,7 +76,7 @@ std::vector<Point> Reader::placed(const Element& element, const std::vector<Poin
     if (!(std::abs(place_cm.x) <= farthest_cm && std::abs(place_cm.y) <= farthest_cm)) {
       say(rules::CourseTooLarge, place(element.node),
           fmt::format("this {} reaches farther than 1 km", name_of(element.role)),
-          "`width`, `height` and `viewBox` of the drawing say how long 1 is");
+          "`width`, `height` and `viewBox` of the drawing set the length of 1 unit");
       return {};
     }
     out.push_back(place_cm);
@@ -234,7 +234,7 @@ bool Reader::find_start() {
   const double length = std::hypot(way.x, way.y);
   if (!(length > 0) || !std::isfinite(length)) {
     say(rules::CourseStart, start.span, "this start gives no direction for the ball",
-        "its first and its last point are in the same place");
+        "its first and last points coincide");
     return false;
   }
   move_to(start, {way.x / length, way.y / length});

@@ -110,8 +110,8 @@ public:
     end = std::max(end, std::min(at_ + 1, text_.size()));
     const auto seen = text_.substr(at_, end - at_);
     return {{at(), static_cast<std::uint32_t>(end)},
-            seen.empty() ? fmt::format("{} is missing at the end", wanted)
-                         : fmt::format("{} was expected, found `{}`", wanted, seen),
+            seen.empty() ? fmt::format("missing {} at the end", wanted)
+                         : fmt::format("expected {}, found `{}`", wanted, seen),
             std::move(help)};
   }
 

@@ -226,7 +226,7 @@ bool is_transient(std::uint8_t code) {
 
 std::string describe_code(std::uint8_t code) {
   const auto* row = spec::find_response(code);
-  return row == nullptr ? fmt::format("{:02X}h, a code that no document names", code)
+  return row == nullptr ? fmt::format("{:02X}h, an undocumented code", code)
                         : fmt::format("{:02X}h, {}", code, row->meaning);
 }
 

@@ -102,7 +102,7 @@ private:
 /// Whether the state that an answer "later" speaks of passes by itself.
 bool is_transient(std::uint8_t code);
 
-/// `0Ah generic RAM access needed but it is busy`, or `2Ch, a code that no document names`.
+/// `0Ah generic RAM access needed but it is busy`, or `2Ch, an undocumented code`.
 std::string describe_code(std::uint8_t code);
 
 } // namespace orb::uploader

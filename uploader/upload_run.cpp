@@ -38,7 +38,7 @@ std::string describe(Content content, Route route) {
     return fmt::format("the program in {} is erased or unchanged{}", place, tail);
   case Content::Erased: return fmt::format("the program in {} is erased{}", place, tail);
   case Content::Incomplete: return fmt::format("the program in {} is incomplete{}", place, tail);
-  case Content::Uncommitted: return "the program is in RAM, the one in flash is unchanged";
+  case Content::Uncommitted: return "the program is in RAM; the one in flash is unchanged";
   case Content::Unconfirmed:
     return committed ? "the program in flash is the old one or the new one"
                      : fmt::format("the program in {} may be incomplete", place);

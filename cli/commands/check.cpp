@@ -166,7 +166,7 @@ void add_check(const Command& orb, Context& context) {
   command.add_option("FILE", options->files, "sources; `-` is standard input").required();
   add_language_option(command, options->lang);
   add_target_options(command, options->target);
-  command.add_option("--robot", options->robot, "the robot model; what it lacks is a finding")
+  command.add_option("--robot", options->robot, "the robot model; anything it lacks is a finding")
       .check(one_of(names_of(spec::robots)));
   command
       .add_option("--executive", options->macro.executive,

@@ -97,7 +97,7 @@ tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
   if (!launch.test_name.empty() && launch.test.empty())
     return refuse("`--only` names a test of the file that `--test` names");
   if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
-    return refuse("`--test` brings its course and what happens: leave `--course` and `--stimulus` "
+    return refuse("`--test` brings its own course and stimuli; leave `--course` and `--stimulus` "
                   "out");
   if (!options.ball.empty() && !options.port.port.empty())
     return refuse("`--ball` says how a virtual ball drives; leave it out, or leave `--port` out");
@@ -160,11 +160,11 @@ void add_debug(const Command& orb, Context& context) {
   add_language_option(command, launch.language);
   add_stimulus_option(command, launch.stimuli);
   add_course_option(command, launch.course);
-  command.add_option("--test", launch.test, "a test file: its world in place of one given here")
+  command.add_option("--test", launch.test, "a test file, whose course and stimuli are used")
       .type_name("FILE.test");
-  command.add_option("--only", launch.test_name, "the name of the test of that file")
+  command.add_option("--only", launch.test_name, "the name of the test in that file")
       .type_name("NAME");
-  command.add_option("--seed", options->seed, "where random numbers begin")
+  command.add_option("--seed", options->seed, "the seed of the random numbers")
       .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       .show_default();
   command.add_option("--input", launch.numbers, "numbers for `input`").separated_by(',');

@@ -157,8 +157,8 @@ void add_fmt(const Command& orb, Context& context) {
   command.add_option("FILE", options->files, "sources; `-` is standard input").required();
   add_language_option(command, options->lang);
   const auto write = command.add_flag("-w,--write", options->write, "write the files back");
-  const auto check = command.add_flag("--check", options->check,
-                                      "write nothing; exit 1 where a file would change");
+  const auto check =
+      command.add_flag("--check", options->check, "write nothing; exit 1 if a file would change");
   const auto diff = command.add_flag("--diff", options->diff, "print the change as a unified diff");
   write.excludes(check);
   write.excludes(diff);

@@ -401,12 +401,11 @@ void add_tether_options(const Command& command, RunOptions& options) {
   add_robot_options(command, options.port, options.robot);
   add_ball_option(command, options.ball,
                   "the virtual ball drives like the robot that `orb calibrate` measured");
-  command.add_option("--record", options.record,
-                     "writes what the robot says and is told to this file");
+  command.add_option("--record", options.record, "records all traffic with the robot in this file");
   command.add_option("--replay", options.replay,
-                     "runs with such a recording in place of a robot: the same run again");
+                     "repeats the run of such a recording, without a robot");
   command.add_flag("--no-aim", options.keep_aim,
-                   "leaves heading and place of the robot as they are; else both begin at 0");
+                   "keeps the robot's heading and position; otherwise both start at 0");
 }
 
 void add_output_options(const Command& command, RunOptions& options) {

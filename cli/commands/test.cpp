@@ -472,7 +472,7 @@ void add_test(const Command& orb, Context& context) {
   command.add_option("--format", options->format, "how results are printed")
       .check(one_of(std::move(formats)))
       .show_default();
-  command.add_option("--output", options->output, "the file for the results; else stdout");
+  command.add_option("--output", options->output, "the file for the results; by default stdout");
   command
       .add_option("--report", options->report,
                   "a folder for a page with a picture of each run and a replay of each failure")

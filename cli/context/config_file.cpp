@@ -188,8 +188,7 @@ std::string quotes_help(const std::string& text, std::uint32_t number) {
       equals == line.npos ? std::string_view() : trim(std::string_view(line).substr(equals + 1));
   if (value.empty() || value.find_first_of("\"'[]{}#\\\r") != value.npos)
     return {};
-  return fmt::format("; a text stands in quotes: `{} = \"{}\"`", trim(line.substr(0, equals)),
-                     value);
+  return fmt::format("; text goes in quotes: `{} = \"{}\"`", trim(line.substr(0, equals)), value);
 }
 
 } // namespace

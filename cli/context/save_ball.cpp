@@ -120,7 +120,8 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
     return unsaved(ExitCode::Usage,
                    fmt::format("`{}` is not a name for a ball: letters, digits, - and _", name));
   if (url.find_first_of("\"\\\n\r") != url.npos)
-    return unsaved(ExitCode::Usage, fmt::format("`{}` cannot stand in a configuration file", url));
+    return unsaved(ExitCode::Usage,
+                   fmt::format("`{}` is not allowed in a configuration file", url));
   const auto folder = settings_folder();
   if (!folder)
     return tl::unexpected(folder.error());

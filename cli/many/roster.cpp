@@ -23,16 +23,13 @@ constexpr int most_tries = 1000;
 void add_rest(const Command& command, RosterOptions& options, const std::string& jobs) {
   command
       .add_option("--ports", options.file,
-                  "a file of robots, `[balls]` and `[groups]`: all of them, or those that --port "
-                  "names")
+                  "a file of robots (`[balls]`, `[groups]`): all of them, or those named by --port")
       .type_name("FILE");
-  command.add_option("--jobs", options.jobs, "of several robots, how many at a time")
+  command.add_option("--jobs", options.jobs, "how many robots at a time")
       .check(whole_number(1, most_jobs))
       .type_name("N")
       .show_default(jobs);
-  command
-      .add_option("--tries", options.tries,
-                  "of several robots, how often one is tried that cannot be reached")
+  command.add_option("--tries", options.tries, "how often to try a robot that cannot be reached")
       .check(whole_number(1, most_tries))
       .type_name("N")
       .show_default();

@@ -50,7 +50,7 @@ std::string describe(CLI::App& app, const std::string& word) {
                        meant_instead(name, option_names(app)));
   }
   if (command != nullptr)
-    return fmt::format("`{}` is one word too many for {}", word, whom);
+    return fmt::format("unexpected argument `{}` for {}", word, whom);
   if (run::content_of(word, ""))
     return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
   return fmt::format("`{}` is not a command of orb{}", word,

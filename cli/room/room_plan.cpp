@@ -158,9 +158,10 @@ std::string same_name(const std::vector<PlannedBall>& balls) {
   for (const auto& ball : balls)
     if (const auto [at, fresh] = known.emplace(ball.name, &ball); !fresh)
       return ball.place.empty()
-                 ? fmt::format("{} and {} would both be ball `{}`; give them names in a room file, "
-                               "see docs/rooms.md",
-                               at->second->files.front(), ball.files.front(), ball.name)
+                 ? fmt::format(
+                       "{} and {} would both be named `{}`; give them names in a room file, "
+                       "see docs/rooms.md",
+                       at->second->files.front(), ball.files.front(), ball.name)
                  : fmt::format(
                        "{}: the ball of {} is also called `{}`; give one of them another `name`",
                        ball.place, at->second->place, ball.name);
@@ -200,7 +201,7 @@ tl::expected<RoomPlan, Failure> read_room(const std::string& path) {
   if (!reading.problem().empty())
     return refuse(ExitCode::Usage, reading.problem());
   if (plan.balls.empty())
-    return refuse(ExitCode::Usage, fmt::format("{}: nobody is in the room; each ball begins with "
+    return refuse(ExitCode::Usage, fmt::format("{}: the room is empty; each ball begins with "
                                                "`[[ball]]`",
                                                file));
   if (auto twice = same_name(plan.balls); !twice.empty())

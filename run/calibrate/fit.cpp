@@ -187,14 +187,15 @@ tl::expected<void, Failure> believable(const Calibration& result, const Found& f
     if (found.at[at] > 0.99 * furthest || found.at[at] * furthest < 1 / 0.99)
       return refuse(
           ExitCode::Refused,
-          fmt::format("`{}` would be more than {} times as far as the {} of the model: see that "
+          fmt::format("`{}` is off by a factor of more than {} from the model's {}: check that "
                       "`--robot` names this robot, and that nothing holds it",
                       info.name, furthest, value_of(result.before, info)));
     if (found.spread[at] > open_share * found.at[at])
       return refuse(
           ExitCode::Refused,
-          fmt::format("this drive leaves `{}` open: {:.3g} ± {:.2g}; begin again on a level floor",
-                      info.name, value_of(result.after, info), result.spread[row]));
+          fmt::format(
+              "this drive does not determine `{}`: {:.3g} ± {:.2g}; begin again on a level floor",
+              info.name, value_of(result.after, info), result.spread[row]));
   }
   if (result.error_after_cm > misfit_cm &&
       result.error_after_cm > misfit_share * result.error_before_cm)

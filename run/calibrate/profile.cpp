@@ -34,7 +34,7 @@ tl::expected<std::vector<Line>, std::string> lines_of(std::string_view text) {
       continue;
     const auto equals = line.find('=');
     if (equals == line.npos)
-      return tl::unexpected(fmt::format("line {}: `{}` is no `name = number`", number, line));
+      return tl::unexpected(fmt::format("line {}: `{}` is not `name = number`", number, line));
     lines.push_back({number, trim(line.substr(0, equals)), trim(line.substr(equals + 1))});
   }
   return lines;
@@ -54,7 +54,7 @@ tl::expected<void, std::string> take_robot(const Line& line, Profile& profile) {
       quoted ? spec::find_robot(line.value.substr(1, line.value.size() - 2)) : nullptr;
   if (found == nullptr)
     return tl::unexpected(
-        wrong(line, fmt::format("{} is no robot; write one such as \"sphero\"", line.value)));
+        wrong(line, fmt::format("{} is not a robot; write one such as \"sphero\"", line.value)));
   profile.robot = found->robot;
   profile.driving = spec::driving(found->robot);
   return {};
@@ -87,7 +87,7 @@ tl::expected<void, std::string> take_number(const Line& line, Profile& profile) 
   for (const auto& row : driving_rows)
     names.push_back(row.name);
   return tl::unexpected(
-      wrong(line, fmt::format("`{}` is no number of a profile; {}", line.key,
+      wrong(line, fmt::format("`{}` is not a number of a profile; {}", line.key,
                               did_you_mean(line.key, names, "the first line names the robot"))));
 }
 

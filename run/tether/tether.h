@@ -18,11 +18,11 @@ namespace orb::run {
 // What is said of a robot, whoever drives it.
 inline constexpr std::string_view stop_done = "the robot has been stopped";
 inline constexpr std::string_view stop_lost =
-    "the robot has not acknowledged the stop; by itself it stops 2 s after the last command: see "
-    "that it does";
+    "the robot has not acknowledged the stop; it stops by itself 2 s after the last command: make "
+    "sure that it does";
 inline constexpr std::string_view samples_gone =
     "no sensor data: the robot was told to stop, and the program waits";
-inline constexpr std::string_view samples_back = "sensor data again: the program goes on";
+inline constexpr std::string_view samples_back = "sensor data is back: the program continues";
 
 /// Waits and repetitions of a run on a robot that is elsewhere.
 struct TetherBudgets {

@@ -147,8 +147,7 @@ public:
   Duration interval() const override { return robot_.interval; }
   std::string describe(std::uint8_t error) const override {
     const auto* row = spec::find_v2_error(error);
-    return fmt::format("{:02X}h {}", error,
-                       row == nullptr ? "that no document names" : row->meaning);
+    return fmt::format("{:02X}h {}", error, row == nullptr ? "(undocumented)" : row->meaning);
   }
   bool means_later(std::uint8_t error) const override {
     return error == static_cast<std::uint8_t>(spec::V2Error::Busy);

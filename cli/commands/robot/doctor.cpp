@@ -34,7 +34,7 @@ void check_ble(Checkup& checkup) {
 /// What this computer needs for any robot, and what could be one.
 void check_computer(const Context& context, Checkup& checkup) {
   for (const auto& port : find_ports(context.config))
-    checkup.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` looks closer", port.url,
+    checkup.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` checks it", port.url,
                              port.what, port.url));
   check_bluetooth(checkup);
   check_ble(checkup);
@@ -72,7 +72,7 @@ bool is_newer(Checkup& checkup, Link& link) {
     return true;
   }
   if (!found && found.error().code == ExitCode::Usage) { // it answers, and several are like it
-    checkup.bad("a newer robot answers and does not say which it is", found.error().message);
+    checkup.bad("a newer robot answers but does not say which it is", found.error().message);
     return true;
   }
   return false;

@@ -265,7 +265,7 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
 } // namespace
 
 void add_drive(const Command& orb, Context& context) {
-  const auto command = orb.add_command("drive", "drive a robot by hand, and see what it feels",
+  const auto command = orb.add_command("drive", "drive a robot by hand and see what it senses",
                                        "orb drive --port ble://SB-1A2B\n"
                                        "orb drive --port ble://SB-1A2B --open\n"
                                        "orb drive --port sim: --robot bolt --open\n"

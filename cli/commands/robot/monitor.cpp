@@ -326,10 +326,11 @@ void add_monitor(const Command& orb, Context& context) {
       .add_option("--map", options->map,
                   "a map written by `orb build --map`: errors then point into the source")
       .type_name("FILE");
-  command.add_option("--report", options->report, "a page with the way of the ball and its sensors")
+  command.add_option("--report", options->report, "a page with the ball's path and its sensors")
       .type_name("OUT.html");
-  command.add_option("--svg", options->svg, "a drawing of the way").type_name("OUT.svg");
-  command.add_option("--for", options->time, "how long; else until Ctrl-C").type_name("TIME");
+  command.add_option("--svg", options->svg, "a drawing of the path").type_name("OUT.svg");
+  command.add_option("--for", options->time, "for how long; by default until Ctrl-C")
+      .type_name("TIME");
   command.callback([&context, options] { listen(context, *options); });
 }
 

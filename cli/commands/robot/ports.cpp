@@ -95,7 +95,7 @@ void add_robots(const Context& context, const std::vector<uploader::SeenDevice>&
       ++others;
   if (others == devices.size())
     print_note(context, fmt::format("no robot was heard within {}; take it off the charger, shake "
-                                    "it awake, hold it near, and end the app that may hold it",
+                                    "it awake, hold it near, and close any app that may hold it",
                                     listened));
   if (others == 0)
     return;
