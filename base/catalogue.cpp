@@ -29,11 +29,22 @@ std::string_view end_of_quotes(std::string_view before) {
 } // namespace
 
 std::optional<Catalogue> Catalogue::read(std::string_view json) {
-  const auto document = nlohmann::json::parse(json, nullptr, false);
-  if (!document.is_object())
+  return of(nlohmann::json::parse(json, nullptr, false));
+}
+
+std::optional<Catalogue> Catalogue::marked(std::string_view json) {
+  auto document = nlohmann::json::parse(json, nullptr, false);
+  if (document.is_object())
+    for (const auto& [english, translation] : document.items())
+      translation = "⟦" + english + "⟧";
+  return of(document);
+}
+
+std::optional<Catalogue> Catalogue::of(const nlohmann::json& texts) {
+  if (!texts.is_object())
     return std::nullopt;
   Catalogue catalogue;
-  for (const auto& [english, translation] : document.items()) {
+  for (const auto& [english, translation] : texts.items()) {
     if (!translation.is_string())
       return std::nullopt;
     catalogue.add(english, translation.get<std::string>());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ class Catalogue {
 public:
   /// From JSON: objects with English keys and their translations. Nothing where it is not such.
   static std::optional<Catalogue> read(std::string_view json);
+  /// The pseudo-locale of such a file: each text in English, between `⟦` and `⟧`.
+  static std::optional<Catalogue> marked(std::string_view json);
 
   /// The text in that language; where the catalogue does not have it, in English.
   std::string say(std::string_view english) const;
@@ -40,6 +43,7 @@ private:
   };
   using Fillers = std::unordered_map<std::string, std::string>;
 
+  static std::optional<Catalogue> of(const nlohmann::json& texts);
   void add(const std::string& english, std::string translation);
   bool fill(const Template& row, std::size_t hole, std::string_view rest, Fillers& fillers) const;
   std::optional<std::string> filler(const Hole& hole, std::string_view text) const;

@@ -22,6 +22,16 @@ std::string language_of_environment() {
   return {};
 }
 
+/// What is in the catalogue of that language, if the program has it.
+std::optional<Catalogue> catalogue_of(std::string_view code) {
+  const auto all = translations();
+  if (code == pseudo_language && !all.empty())
+    return Catalogue::marked(all.front().findings);
+  const auto translation =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.code == code; });
+  return translation == all.end() ? std::nullopt : Catalogue::read(translation->findings);
+}
+
 } // namespace
 
 std::vector<std::string> ui_languages() {
@@ -33,18 +43,15 @@ std::vector<std::string> ui_languages() {
 
 Say say_in(std::string_view language) {
   const auto code = language.empty() ? language_of_environment() : std::string(language);
-  const auto all = translations();
-  const auto translation =
-      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.code == code; });
-  if (translation == all.end())
-    return in_english;
-  static std::map<std::string, Catalogue> read;
+  static std::map<std::string, std::optional<Catalogue>> read;
   static std::mutex reading;
   const std::lock_guard lock(reading);
   auto known = read.find(code);
   if (known == read.end())
-    known = read.emplace(code, Catalogue::read(translation->findings).value_or(Catalogue())).first;
-  return [&catalogue = known->second](std::string_view text) { return catalogue.say(text); };
+    known = read.emplace(code, catalogue_of(code)).first;
+  if (!known->second)
+    return in_english;
+  return [&catalogue = *known->second](std::string_view text) { return catalogue.say(text); };
 }
 
 } // namespace orb::cli

@@ -21,6 +21,10 @@ std::span<const Translation> translations();
 /// What `--lang-ui` takes: English, and each that there is a translation for.
 std::vector<std::string> ui_languages();
 
+/// The language of tests and translators: findings in English, what is translated between `⟦` and
+/// `⟧`. Private to its users in ISO 639-2.
+inline constexpr std::string_view pseudo_language = "qps";
+
 /// How findings are said in that language; for none, in that of the environment: LC_ALL,
 /// LC_MESSAGES or LANG, where the program has it. Lasts as long as the process.
 Say say_in(std::string_view language);
