@@ -136,8 +136,8 @@ private:
     add("rfcomm://", "rfcomm://AA:BB:CC:DD:EE:FF, a ball by its Bluetooth address");
     add("ble://", "ble://NAME or ble://ADDRESS, a robot over Bluetooth LE");
     add("serial://", "serial:///dev/NAME, a serial device");
-    add("tcp://", "tcp://HOST:PORT, a served ball");
-    add("pty://", "pty:///PATH, a served ball");
+    add("tcp://", "tcp://HOST:PORT, a ball that is served there");
+    add("pty://", "pty:///PATH, a ball that is served there");
     add("replay://", "replay://FILE, a recording");
     found.files = true; // a bare path is a port too
   }

@@ -227,7 +227,7 @@ bool Reader::find_start() {
                          circle.place.y + arrow.toward->y - arrow.place.y};
   } else if (starts_.size() > 1) {
     say(rules::CourseStart, starts_[1].span,
-        fmt::format("the course has {} starts", starts_.size()), "a ball starts in one place");
+        fmt::format("the course has {} starts", starts_.size()), "a ball has one start");
     return false;
   }
   const Point way{start.toward->x - start.place.x, start.toward->y - start.place.y};

@@ -469,7 +469,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
     for (const auto& path : wanted) {
       if (!file.file.balls.empty())
         return tl::unexpected(
-            Failure{ExitCode::Usage, fmt::format("{} tests a room, whose programs stand in it; "
+            Failure{ExitCode::Usage, fmt::format("{} tests a room, which names its own programs; "
                                                  "leave `--program` out",
                                                  file.source->name())});
       own.push_back(reader.program(path, file));

@@ -35,7 +35,7 @@ constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::Newer,        "drive it from here: `orb run PROGRAM --port ble://ADDRESS`", false},
     {BleFailure::NoRobot,      "`orb ports` lists robots", false},
     {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
-    {BleFailure::Held,         "end that program; `bluetoothctl disconnect ADDRESS` lets go of the robot", false},
+    {BleFailure::Held,         "end that program; `bluetoothctl disconnect ADDRESS` disconnects it", false},
     {BleFailure::Lost,         "hold the robot near, charge it, and try again", true},
     {BleFailure::Interrupted,  "", false},
 });

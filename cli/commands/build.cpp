@@ -171,7 +171,7 @@ void add_build(const Command& orb, Context& context) {
                        "the virtual ball makes of it; of a structured program the "
                        "robot's lines and their bytes");
   listing.excludes(readable);
-  command.add_flag("--native", options->native, "list their machine code, too").needs(listing);
+  command.add_flag("--native", options->native, "also list their machine code").needs(listing);
   command.callback([&context, options] { build(context, *options); });
 }
 

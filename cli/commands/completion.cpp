@@ -113,7 +113,9 @@ void add_completion(const Command& orb, Context&) {
   for (const auto& shell : shells)
     names.emplace_back(shell.name);
   auto name = std::make_shared<std::string>();
-  command.add_option("SHELL", *name, "whose script to print").required().check(one_of(names));
+  command.add_option("SHELL", *name, "the shell to print a script for")
+      .required()
+      .check(one_of(names));
   command.callback([name] {
     for (const auto& shell : shells)
       if (shell.name == *name)

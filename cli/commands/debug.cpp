@@ -95,7 +95,7 @@ tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
   if (launch.files.empty() && launch.test.empty())
     return refuse("name a program, or a test file with `--test`");
   if (!launch.test_name.empty() && launch.test.empty())
-    return refuse("`--only` names a test of the file that `--test` names");
+    return refuse("`--only` needs `--test`: it names a test of that file");
   if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
     return refuse("`--test` brings its own course and stimuli; leave `--course` and `--stimulus` "
                   "out");

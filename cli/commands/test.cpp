@@ -421,7 +421,7 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
   if (const auto runs = suite->cases / shard->count; runs > most_runs)
     return tl::unexpected(Failure{
         ExitCode::Usage,
-        fmt::format("these are {} runs, and one command does up to {}; `--shard` divides them",
+        fmt::format("these are {} runs, and one command does at most {}; `--shard` divides them",
                     runs, most_runs)});
   testing::RunOptions run;
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());

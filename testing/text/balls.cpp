@@ -65,7 +65,7 @@ bool FileReader::read_whose(Cursor& cursor, Expectation& one) {
   std::vector<std::string_view> names;
   for (const auto& ball : file_.balls)
     names.push_back(ball.name.text);
-  cursor.fail(rules::Word, fmt::format("`{}` is no ball of this room", cursor.peek()),
+  cursor.fail(rules::Word, fmt::format("`{}` is not a ball of this room", cursor.peek()),
               did_you_mean(cursor.peek(), names,
                            fmt::format("say of which ball: {}", fmt::join(names, ", "))));
   return false;

@@ -142,7 +142,7 @@ TEST(Ble, ARemedyNamesTheRobotByItsAddress) {
   const Robot robot(plan);
   ASSERT_TRUE(robot.error);
   EXPECT_EQ(remedy(*robot.error), "end that program; `bluetoothctl disconnect 68:86:E7:00:00:01` "
-                                  "lets go of the robot");
+                                  "disconnects it");
 }
 
 TEST(Ble, BudgetsCountPieces) {
