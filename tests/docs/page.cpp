@@ -1,6 +1,7 @@
 #include "tests/docs/page.h"
 
 #include "tests/golden/files.h"
+#include "tests/golden/shell.h"
 
 #include <algorithm>
 #include <array>
@@ -165,7 +166,7 @@ std::vector<Command> run(const Page& page, const std::string& folder, const std:
           fmt::format("for i in {{1..1000}}; do [ -s '{}' ] && break; sleep 0.01; done\n", out);
   }
   files::write(logs + "/script", script);
-  [[maybe_unused]] const int ignored = std::system(fmt::format("bash '{}/script'", logs).c_str());
+  shell::run(fmt::format("exec bash '{}/script'", logs));
   auto ran = page.commands;
   for (std::size_t i = 0; i < ran.size(); ++i) {
     const auto exit = files::read(step_file(logs, i, "exit"));

@@ -23,6 +23,7 @@
 #include "base/bytes.h"
 #include "tests/docs/page.h"
 #include "tests/golden/files.h"
+#include "tests/golden/shell.h"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +155,7 @@ Step run(const std::string& command, const fs::path& folder, const fs::path& log
   const auto err = logs / "stderr";
   const auto line = fmt::format("cd '{}' && exec </dev/null >'{}' 2>'{}'; {}", folder.string(),
                                 out.string(), err.string(), command);
-  const int status = std::system(line.c_str());
+  const int status = shell::run(line);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   Step step{command, files::read(out), files::read(err), code};
   for (auto* text : {&step.out, &step.err})
@@ -186,6 +187,8 @@ bool compare(const fs::path& path, const std::string& before, const std::string&
              const Options& options) {
   if (before == after)
     return true;
+  if (shell::was_interrupted()) // and so is what came back
+    return false;
   if (options.update) {
     files::write(path, after);
     fmt::print("updated {}\n", path.string());
@@ -197,7 +200,7 @@ bool compare(const fs::path& path, const std::string& before, const std::string&
   fmt::print("FAILED {}\n", path.string());
   std::fflush(stdout);
   const auto diff = fmt::format("cd '{}' && diff -u expected actual", folder.path().string());
-  [[maybe_unused]] const int ignored = std::system(diff.c_str());
+  shell::run(diff);
   return false;
 }
 
@@ -246,7 +249,10 @@ bool check_page(const fs::path& path, const Options& options) {
 }
 
 bool check(const fs::path& path, const Options& options) {
-  return path.extension() == ".md" ? check_page(path, options) : check_transcript(path, options);
+  const bool good =
+      path.extension() == ".md" ? check_page(path, options) : check_transcript(path, options);
+  shell::end_all();
+  return good;
 }
 
 /// The transcripts and pages among `paths` and in the folders among them.
@@ -304,11 +310,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   set_environment(options);
+  shell::watch_signals();
   const auto files = transcripts(options.paths);
   std::size_t failed = 0;
   for (const auto& file : files)
-    if (!check(file, options))
+    if (!shell::was_interrupted() && !check(file, options))
       ++failed;
+  if (shell::was_interrupted())
+    return 130;
   fmt::print("{} transcripts, {} failed\n", files.size(), failed);
   if (options.pseudo)
     fmt::print("{} texts were said in the pseudo-locale\n", marks_seen);
