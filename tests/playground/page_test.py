@@ -882,6 +882,7 @@ class Playground(unittest.TestCase):
     def test_a_robot_that_does_not_answer_is_given_up_by_hand(self):
         page = self.open(fragment({"a.macro": "rgb 0, 255, 0\n"}), before=mock_bluetooth.replace("this.connected = true;", "await new Promise(() => {});"))
         page.evaluate(click("flash"))
+        page.wait(f"{by_id('flash-dialog')}.open")
         page.evaluate(click("flash-bluetooth"))
         page.wait(f"!{by_id('flash-cancel')}.hidden")
         page.evaluate("new Promise(done => setTimeout(done, 300))")
