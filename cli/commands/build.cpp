@@ -108,13 +108,21 @@ void build_structured(Context& context, const BuildOptions& options, const Sourc
                                   options.target.area));
   if (!options.readable)
     return;
-  // Numbers by tens are longer than those that count by one, and its packed image with them.
-  const auto packed =
-      compiler::build_image(compiler::parse(text), compiler::Packing::Packed).bytes.size();
-  if (packed > room)
+  // Numbers by tens are longer than those that count by one.
+  const auto bytes_as = [&](compiler::Packing packing) {
+    return compiler::build_image(compiler::parse(text), packing).bytes.size();
+  };
+  const auto plain = bytes_as(compiler::Packing::Plain);
+  const auto packed = bytes_as(compiler::Packing::Packed);
+  const auto note = [&](std::size_t bytes, const std::string& way_out) {
     print_note(context, fmt::format("the readable text takes {} bytes, {} more than the {} area "
-                                    "has; upload {} itself",
-                                    packed, packed - room, options.target.area, source.name()));
+                                    "has; {}",
+                                    bytes, bytes - room, options.target.area, way_out));
+  };
+  if (packed > room)
+    note(packed, fmt::format("upload {} itself", source.name()));
+  else if (plain > room)
+    note(plain, fmt::format("`orb build --pack` makes it {}", packed));
 }
 
 void build(Context& context, const BuildOptions& options) {
