@@ -1,4 +1,4 @@
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "structured/optimise/line_facts.h"
+#include "structured/analyse/line_facts.h"
 
 #include "bytecode/arithmetic.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 
 #include <cstdint>
 

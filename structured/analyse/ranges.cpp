@@ -1,4 +1,4 @@
-#include "structured/optimise/ranges.h"
+#include "structured/analyse/ranges.h"
 
 #include <algorithm>
 #include <bit>
@@ -404,6 +404,15 @@ void Ranges::leave_on(const CodeLine& line, State& state) {
   }
   if (variable != none)
     state[variable] = before;
+}
+
+std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,
+                           const State& state) {
+  const auto chosen = ranges.range_of(on.term, state);
+  const auto count = static_cast<std::int32_t>(on.parts_end - on.parts_begin);
+  if (!chosen.constant() || chosen.lo < 1 || chosen.lo > count)
+    return none;
+  return code.parts[on.parts_begin + static_cast<std::uint32_t>(chosen.lo) - 1].value;
 }
 
 } // namespace orb::structured

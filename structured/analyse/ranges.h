@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/lint/range.h"
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 
 #include <optional>
 #include <vector>
@@ -108,5 +108,9 @@ private:
   std::vector<std::uint32_t> element_readers_;          ///< blocks
   std::uint32_t growths_ = 0;                           ///< of `elements_`
 };
+
+/// The label that an `on` certainly leads to, or none.
+std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,
+                           const State& state);
 
 } // namespace orb::structured

@@ -1,6 +1,6 @@
 #include "structured/emit/choices.h"
 
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/tails.h"
 #include "structured/text/words.h"
@@ -86,13 +86,12 @@ private:
   /// Whether the second test may be safe only because the first one narrows a variable that both
   /// read.
   bool leans_on(const Relation& first, const Relation& second) const {
-    bool shared = false;
+    bool leans = false;
     for (const auto compared : {first.left, first.right})
-      if (code_.terms[compared].kind == TermKind::Variable)
-        for (const auto term : {second.left, second.right})
-          each_read(code_, term,
-                    [&](std::uint32_t v) { shared = shared || v == code_.terms[compared].left; });
-    return shared && (can_fault(code_, second.left) || can_fault(code_, second.right));
+      for (const auto term : {second.left, second.right})
+        leans = leans || (code_.terms[compared].kind == TermKind::Variable &&
+                          can_fault(code_, term, code_.terms[compared].left));
+    return leans;
   }
 
   /// Two relations that are one: of the same terms, or `x < 5 and x > -5`, which is `abs x < 5`.

@@ -150,8 +150,12 @@ std::uint32_t Code::copy(std::uint32_t term) {
   return add(node);
 }
 
-bool can_fault(const Code& code, std::uint32_t term) {
+bool can_fault(const Code& code, std::uint32_t term, std::uint32_t variable) {
   const auto& node = code.terms[term];
+  bool reads = false;
+  each_read(code, term, [&](std::uint32_t v) { reads = reads || v == variable; });
+  if (!reads)
+    return false;
   switch (node.kind) {
   case TermKind::Number:
   case TermKind::Variable:
@@ -159,10 +163,10 @@ bool can_fault(const Code& code, std::uint32_t term) {
   case TermKind::Element: return true;
   case TermKind::Binary:
     return may_fault(static_cast<Operator>(node.what), code.terms[node.right]) ||
-           can_fault(code, node.left) || can_fault(code, node.right);
+           can_fault(code, node.left, variable) || can_fault(code, node.right, variable);
   case TermKind::Call:
     return may_fault(static_cast<spec::Function>(node.what), code.terms[node.left]) ||
-           can_fault(code, node.left);
+           can_fault(code, node.left, variable);
   }
   return false;
 }

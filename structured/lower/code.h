@@ -111,10 +111,11 @@ struct Case {
 struct CodeLine {
   LineKind kind = LineKind::Nothing;
   spec::Statement robot = spec::Statement::End;
-  bool guard = false; ///< of the test of an index: may only be removed where the index is proven
+  bool guard = false;  ///< of the test of an index: may only be removed where the index is proven
+  bool proven = false; ///< SetElement: the index is certainly one of the robot's
   std::uint16_t routine = 0;
   std::uint32_t expansion = 0; ///< of a sub that is written into its caller; 0: none
-  std::uint32_t origin = 0; ///< the statement that it is for
+  std::uint32_t origin = 0;    ///< the statement that it is for
   std::uint32_t variable = none;
   std::uint32_t label = none;
   std::uint32_t term = none;
@@ -128,6 +129,7 @@ struct CodeLine {
 struct CodeVariable {
   std::uint32_t symbol = none; ///< none: a temporary
   bool kept = false;           ///< somebody may look at it at any time
+  std::uint32_t holder = none; ///< the variable that it has become, a copy of it
 };
 
 /// A statement whose index is outside of its array wherever it runs.
@@ -138,9 +140,9 @@ struct WrongIndex {
 
 /// A call in whose place the sub itself is written.
 struct Expansion {
-  std::uint32_t within = 0;    ///< the expansion that the call stands in; 0: none
-  std::uint32_t call = none;   ///< the statement that calls
-  std::uint32_t routine = 0;   ///< what it calls
+  std::uint32_t within = 0;  ///< the expansion that the call stands in; 0: none
+  std::uint32_t call = none; ///< the statement that calls
+  std::uint32_t routine = 0; ///< what it calls
 };
 
 struct Code {
@@ -184,8 +186,9 @@ constexpr bool ordered(std::uint8_t first, std::uint8_t second) {
   return (first & second & (effect::faults | effect::clears)) != 0;
 }
 
-/// Whether a term stops the program for some values of what it reads, whatever is known of them.
-bool can_fault(const Code& code, std::uint32_t term);
+/// Whether a term stops the program for some values of a variable that it reads, whatever is known
+/// of it.
+bool can_fault(const Code& code, std::uint32_t term, std::uint32_t variable);
 
 /// What two variables are compared by: themselves, or the letters that hold them.
 using Identity = std::function<std::uint32_t(std::uint32_t variable)>;

@@ -1,8 +1,8 @@
 #include "structured/optimise/forward.h"
 
 #include "spec/limits.h"
-#include "structured/optimise/flow.h"
-#include "structured/optimise/line_facts.h"
+#include "structured/analyse/flow.h"
+#include "structured/analyse/line_facts.h"
 
 #include <algorithm>
 #include <optional>
@@ -248,7 +248,7 @@ private:
   /// reads an element again.
   void repeat(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
-    const auto term = code_.lines[i].term;
+    const auto term = index_at(i);
     constexpr std::uint32_t most_reads = 2;
     const auto& node = code_.terms[term];
     const bool element = node.kind == TermKind::Element && node.effects == effect::elements;
@@ -264,7 +264,8 @@ private:
       if (line.kind == LineKind::Label || line.kind == LineKind::For)
         return;
       // What a statement is given keeps the name that a fault speaks of.
-      bool deep = code_.variables[variable].symbol != none && line.kind != LineKind::Let;
+      bool deep = false;
+      const auto before_line = found;
       each_root(code_, line, [&](std::uint32_t& root) {
         each_read(code_, root, [&](std::uint32_t v) { found += v == variable ? 1 : 0; });
         std::uint8_t before = 0;
@@ -274,6 +275,8 @@ private:
           better.push_back({&root, *result});
       });
       last = j;
+      if (line.kind == LineKind::Do && found > before_line)
+        deep = deep || code_.variables[variable].symbol != none;
       if (deep ||
           (found < reads_[variable] && (facts_.writes(line, variable) ||
                                         facts_.disturbs(line, term) || facts_.ends_text(line))))
@@ -290,6 +293,24 @@ private:
     });
     reads_[variable] = 0;
     drop(code_.lines[i]);
+  }
+
+  /// What line `i` sets its variable to; if that is the index, what this was set to above.
+  std::uint32_t index_at(std::uint32_t i) const {
+    const auto term = code_.lines[i].term;
+    if (code_.terms[term].kind != TermKind::Variable || code_.terms[term].left != index_variable)
+      return term;
+    for (auto n = i; n-- > 0 && !LineFacts::ends_text(code_.lines[n]);) {
+      const auto& line = code_.lines[n];
+      if (!facts_.writes(line, index_variable))
+        continue;
+      for (auto k = n + 1; line.kind == LineKind::Let && k < i; ++k)
+        if (facts_.disturbs(code_.lines[k], line.term))
+          return term;
+      return line.kind == LineKind::Let && !facts_.reads(line.term, index_variable) ? line.term
+                                                                                    : term;
+    }
+    return term;
   }
 
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {

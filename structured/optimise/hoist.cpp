@@ -1,6 +1,6 @@
 #include "structured/optimise/hoist.h"
 
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 #include "structured/optimise/jumps.h"
 
 #include <algorithm>

@@ -1,17 +1,13 @@
 #include "structured/optimise/inline.h"
 
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
+#include "structured/analyse/sizes.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace orb::structured {
 namespace {
-
-// Rough sizes in bytes: they only choose between two right programs.
-constexpr std::uint32_t line_bytes = 5;   // its number, the blank and the line end
-constexpr std::uint32_t call_bytes = 10;  // `12 gosub 34`
-constexpr std::uint32_t return_bytes = 9; // `12 return`
 
 class Inliner {
 public:
@@ -31,7 +27,7 @@ public:
         listed_[routine] = listed_[routine] || line.kind == LineKind::OnGosub;
       });
       if (line.kind != LineKind::Return)
-        bytes_[line.routine] += bytes_of(line);
+        bytes_[line.routine] += bytes_of(code_, line);
     }
     bool any = false;
     for (std::uint32_t routine = 1; routine < code_.routines.size(); ++routine)
@@ -62,35 +58,6 @@ private:
     });
   }
 
-  std::uint32_t bytes_of(const CodeLine& line) const {
-    std::uint32_t bytes = line_bytes;
-    each_root(code_, line,
-              [&](std::uint32_t root) { bytes += 3 * std::uint32_t{code_.terms[root].size} / 2; });
-    switch (line.kind) {
-    case LineKind::Nothing:
-    case LineKind::Label: return 0;
-    case LineKind::If: return bytes + 12;
-    case LineKind::Print:
-    case LineKind::Do:
-      for (auto i = line.parts_begin; i < line.parts_end; ++i)
-        bytes += code_.parts[i].text.size() + 1;
-      return bytes + 5;
-    case LineKind::Let:
-    case LineKind::SetElement:
-    case LineKind::SetSystem: return bytes + 2;
-    case LineKind::Goto:
-    case LineKind::For:
-    case LineKind::Next:
-    case LineKind::Gosub:
-    case LineKind::Return:
-    case LineKind::Switch:
-    case LineKind::On:
-    case LineKind::OnGosub:
-    case LineKind::Choice: return bytes + 7;
-    }
-    return bytes;
-  }
-
   void put(std::uint32_t routine) {
     std::vector<CodeLine> body;
     std::vector<CodeLine> lines;
@@ -112,7 +79,8 @@ private:
     code_.lines.push_back(call);
     code_.lines.back().kind = LineKind::Goto; // the body need not begin with its entry
     code_.lines.back().label = renamed(call.label);
-    for (auto line : body) {
+    for (const auto& one : body) {
+      auto line = copy_line(code_, one);
       line.routine = call.routine;
       if (line.kind == LineKind::Return) {
         line.kind = LineKind::Goto;
@@ -120,7 +88,9 @@ private:
       } else {
         if (line.label != none && line.kind != LineKind::Gosub)
           line.label = renamed(line.label);
-        copy_terms(line);
+        if (line.kind == LineKind::On)
+          for (auto i = line.parts_begin; i < line.parts_end; ++i)
+            code_.parts[i].value = renamed(code_.parts[i].value);
       }
       code_.lines.push_back(line);
     }
@@ -135,25 +105,6 @@ private:
     if (labels_[label] == none)
       labels_[label] = code_.labels++;
     return labels_[label];
-  }
-
-  /// What is found out about a copy must not be believed of the others.
-  void copy_terms(CodeLine& line) {
-    if (line.kind == LineKind::If) {
-      code_.conditions.push_back(Condition{code_.conditions[line.condition]});
-      line.condition = static_cast<std::uint32_t>(code_.conditions.size()) - 1;
-    }
-    if (line.parts_end > line.parts_begin && line.kind != LineKind::Switch) {
-      const auto begin = static_cast<std::uint32_t>(code_.parts.size());
-      for (auto i = line.parts_begin; i < line.parts_end; ++i)
-        code_.parts.push_back(Part{code_.parts[i]});
-      line.parts_begin = begin;
-      line.parts_end = static_cast<std::uint32_t>(code_.parts.size());
-      if (line.kind == LineKind::On)
-        for (auto i = line.parts_begin; i < line.parts_end; ++i)
-          code_.parts[i].value = renamed(code_.parts[i].value);
-    }
-    each_root(code_, line, [&](std::uint32_t& root) { root = code_.copy(root); });
   }
 
   Code& code_;

@@ -1,6 +1,6 @@
 #include "structured/optimise/jumps.h"
 
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 
 #include <algorithm>
 

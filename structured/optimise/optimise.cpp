@@ -1,10 +1,13 @@
 #include "structured/optimise/optimise.h"
 
+#include "structured/optimise/copies.h"
+#include "structured/optimise/elements.h"
 #include "structured/optimise/forward.h"
 #include "structured/optimise/hoist.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
+#include "structured/optimise/sink.h"
 #include "structured/optimise/switches.h"
 #include "structured/optimise/tails.h"
 #include "structured/optimise/values.h"
@@ -36,6 +39,7 @@ void optimise(Code& code, Shape shape) {
   write_switches(code);
   constexpr int most_rounds = 12;
   bool changed = shape == Shape::Shortest; // the passes below move and join lines
+  bool joined = false;
   for (int round = 0; round < most_rounds && changed; ++round) {
     clean_jumps(code);
     changed = split_variables(code);
@@ -43,11 +47,18 @@ void optimise(Code& code, Shape shape) {
     changed = merge_tails(code, itself) || changed;
     changed = inline_calls(code) || changed;
     changed = straighten(code) || changed;
-    changed = use_values(code) || changed;
+    changed = use_values(code, joined ? Ways::Split : Ways::Keep) || changed;
+    if (!changed && !joined) {
+      joined = true; // once nothing is left that reads the original instead
+      changed = use_elements(code);
+      changed = join_copies(code) || changed || use_values(code, Ways::Split);
+    }
   }
   clean_jumps(code);
-  if (shape == Shape::Shortest)
+  if (shape == Shape::Shortest) {
     hoist_arms(code);
+    sink_into_arms(code);
+  }
   code.wrong_indices = wrong_indices;
   cut_prints(code);
 }

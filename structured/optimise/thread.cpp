@@ -51,7 +51,7 @@ private:
   bool leads_on(std::uint32_t b) const {
     for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
       const auto kind = code_.lines[i].kind;
-      if (kind == LineKind::Goto || kind == LineKind::If)
+      if (kind == LineKind::Goto || kind == LineKind::If || kind == LineKind::On)
         return true;
       if (kind != LineKind::Label && kind != LineKind::Nothing && kind != LineKind::Let)
         return false;
@@ -123,6 +123,13 @@ private:
         set.push_back(line.variable);
         continue;
       }
+      if (line.kind == LineKind::On) {
+        const auto chosen = chosen_of(line, state);
+        if (chosen == none)
+          return best;
+        i = flow_.blocks[chosen].begin - 1;
+        continue;
+      }
       if (line.kind != LineKind::If || block_of(line.label) == none)
         return best;
       const auto& relation = code_.conditions[line.condition].first;
@@ -144,6 +151,12 @@ private:
       }
     }
     return best;
+  }
+
+  /// The block that an `on` leads to, or none.
+  std::uint32_t chosen_of(const CodeLine& line, const State& state) const {
+    const auto label = is_pure(line.term) ? chosen_label(code_, ranges_, line, state) : none;
+    return label == none ? none : block_of(label);
   }
 
   bool is_pure(std::uint32_t term) const {

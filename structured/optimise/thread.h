@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structured/optimise/ranges.h"
+#include "structured/analyse/ranges.h"
 
 #include <cstdint>
 #include <utility>

@@ -1,7 +1,8 @@
 #include "structured/optimise/values.h"
 
 #include "spec/limits.h"
-#include "structured/optimise/ranges.h"
+#include "structured/analyse/ranges.h"
+#include "structured/optimise/split.h"
 #include "structured/optimise/thread.h"
 
 #include <algorithm>
@@ -29,12 +30,14 @@ class Rewriter {
 public:
   explicit Rewriter(Code& code) : code_(code), ranges_(code) {}
 
-  bool run() {
+  bool run(Ways ways) {
     if (!ranges_.follow())
       return false;
     count_reads();
     rewrite();
     changed_ = thread_tests(code_, ranges_, added_) || changed_;
+    if (!changed_ && added_.empty() && ways == Ways::Split)
+      return split_ways(code_, ranges_);
     add_lines();
     return changed_;
   }
@@ -102,9 +105,7 @@ private:
         return code_.number(state[node.left].lo);
       return term;
     case TermKind::Element: {
-      const auto most = spec::value_of(spec::Limit::IndexedVariables);
-      const auto index = state[index_variable];
-      if (index.lo >= 1 && index.hi <= most)
+      if (is_element(state[index_variable]))
         code_.terms[term].effects = effect::elements;
       return term;
     }
@@ -142,6 +143,10 @@ private:
     }
     }
     return term;
+  }
+
+  static bool is_element(Range index) {
+    return index.lo >= 1 && index.hi <= spec::value_of(spec::Limit::IndexedVariables);
   }
 
   bool is_too_deep(std::uint32_t term) const {
@@ -204,18 +209,35 @@ private:
       });
       if (line.kind == LineKind::If)
         decide(line, state);
+      line.proven = is_element(state[index_variable]);
       if (line.kind == LineKind::Print || line.kind == LineKind::Do)
         for (auto n = line.parts_begin; n < line.parts_end; ++n)
           if (code_.parts[n].kind == PartKind::Term)
             code_.parts[n].range = ranges_.range_of(code_.parts[n].value, state);
       if (line.kind == LineKind::Switch)
         choose(i, state[line.variable]);
+      if (line.kind == LineKind::On)
+        shorten(line, state);
     });
     code_.wrong_indices.clear();
     for (const auto& [statement, index] : wrong_indices_)
       if (index)
         code_.wrong_indices.push_back({statement, *index});
     cut_unreached(reached);
+  }
+
+  /// An `on` without the targets at its end that no value leads to.
+  void shorten(CodeLine& line, const State& state) {
+    const auto label = chosen_label(code_, ranges_, line, state);
+    const auto last = std::max(1, ranges_.range_of(line.term, state).hi);
+    if (label != none && (code_.terms[line.term].effects & effect::clears) == 0) {
+      line.kind = LineKind::Goto;
+      line.label = label;
+      changed_ = true;
+    } else if (static_cast<std::uint32_t>(last) < line.parts_end - line.parts_begin) {
+      line.parts_end = line.parts_begin + static_cast<std::uint32_t>(last);
+      changed_ = true;
+    }
   }
 
   /// Whether a variable is set to the number that it holds already. Only of variables that are set
@@ -374,8 +396,8 @@ private:
 
 } // namespace
 
-bool use_values(Code& code) {
-  return Rewriter(code).run();
+bool use_values(Code& code, Ways ways) {
+  return Rewriter(code).run(ways);
 }
 
 } // namespace orb::structured

@@ -1,6 +1,6 @@
 #include "structured/optimise/webs.h"
 
-#include "structured/optimise/flow.h"
+#include "structured/analyse/flow.h"
 
 #include <utility>
 

@@ -157,6 +157,58 @@ TEST(Lines, AWrongIndexIsMadeOneThatTheRobotRefuses) {
             "1 Y = rnd 9\n2 if Y > 4 then Y = 0\n3 Z = 3\n4 Y = 1\n5 print Z\n");
 }
 
+TEST(Lines, CopiesThatNeverDifferAreOneVariable) {
+  // What the function counts in is what it returns, and what is tested afterwards.
+  EXPECT_EQ(lines("function throws()\n  local n\n  repeat\n    n += 1\n"
+                  "    if dshake then return 0\n  until rnd(6) = 6\n  return n\nend function\n"
+                  "loop\n  print throws()\nend loop\n"),
+            "1 A = 0\n2 A = A + 1\n3 if dshake = 0 then goto 6\n4 A = 0\n5 goto 7\n6 if rnd 6 ! 6 "
+            "then goto 2\n7 print A\n8 goto 1\n");
+}
+
+TEST(Lines, ATestThatEachWayDecidesIsGone) {
+  EXPECT_EQ(
+      lines("s = 1\nwhile s <> 3\n  input x\n  if x = 0 then s = 3 else s = 1\n  delay 50\n"
+            "end while\nLEDC s\n"),
+      "1 input X\n2 if X ! 0 then goto 6\n3 delay 50\n4 LEDC 3\n5 end\n6 delay 50\n7 goto 1\n");
+}
+
+TEST(Lines, ACallWithAKnownValueThatDoesLittleIsNone) {
+  EXPECT_EQ(lines("sub show(s)\n  select s\n    case 0\n      LEDC 1\n    case 1\n      LEDC 2\n"
+                  "    else\n      LEDC 3\n  end select\nend sub\n"
+                  "for i = 0 to 9\n  show(rnd(3) - 1)\nnext i\nshow(1)\n"),
+            "1 for I = 0 to 9\n2 S = (rnd 3) - 1\n3 if S ! 0 then goto 6\n4 LEDC 1\n5 goto 7\n6 if "
+            "S ! 1 then LEDC 3 else LEDC 2\n7 next I\n8 LEDC 2\n");
+}
+
+TEST(Lines, DataIsReadIntoElements) {
+  EXPECT_EQ(lines("array a[3]\narray b[3]\ndata 1, 2, 3, 4, 5, 6\nfor i = 1 to 3\n  read x, y\n"
+                  "  a[i] = x\n  b[i] = y\nnext i\nprint a[1] + b[1]\n"),
+            "1 data 1,2,3,4,5,6\n2 for I = 1 to 3\n3 Y = I\n4 read Z\n5 Y = I + 3\n6 read Z\n7 "
+            "next I\n8 Y = 1\n9 A = Z\n10 Y = 4\n11 print A + Z\n");
+}
+
+TEST(Lines, AnElementThatStaysIsReadWhereItIsNeeded) {
+  EXPECT_EQ(lines("array a[3]\nfor i = 1 to 3\n  a[i] = rnd(60)\n  n = 0\n  most = a[i]\n"
+                  "  repeat\n    n += rnd(6)\n  until n > most\n  print n\nnext i\n"),
+            "1 for Y = 1 to 3\n2 Z = rnd 60\n3 N = 0\n4 N = N + rnd 6\n5 if N < Z + 1 then goto "
+            "4\n6 print N\n7 next Y\n");
+}
+
+TEST(Lines, AnIndexIsComputedAgainRatherThanKept) {
+  EXPECT_EQ(
+      lines("array a[9]\ninput i, 0, 1\nif i > 8 or i < 1 then end\n"
+            "a[i] = rnd(9)\nt = a[i]\na[i] = a[i + 1]\na[i + 1] = t\nprint a[3]\n"),
+      "1 input I,0,1\n2 if I < 9 and I > 0 then goto 4\n3 end\n4 Y = I\n5 Z = rnd 9\n6 B = Z\n7 Y "
+      "= I + 1\n8 A = Z\n9 Y = I\n10 Z = A\n11 Y = I + 1\n12 Z = B\n13 Y = 3\n14 print Z\n");
+}
+
+TEST(Lines, AShortLineStandsInBothArms) {
+  EXPECT_EQ(lines("sub go(h)\n  goroll h, 70, 1\n  delay 700ms\nend sub\n"
+                  "loop\n  if yaw > 180 then go(90) else go(225)\nend loop\n"),
+            "1 if yaw > 180 then goroll 90,70,1 else goroll 225,70,1\n2 delay 700\n3 goto 1\n");
+}
+
 // ---- variables that somebody looks at
 
 std::string lines_keeping(std::string_view text, const std::vector<std::string>& kept) {
