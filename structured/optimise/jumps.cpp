@@ -11,11 +11,13 @@ class Cleaner {
 public:
   explicit Cleaner(Code& code) : code_(code) {}
 
-  void run() {
+  bool run() {
     constexpr int most_rounds = 8;
     std::erase_if(code_.lines, [](const CodeLine& line) { return line.kind == LineKind::Nothing; });
-    for (int round = 0; round < most_rounds && once(); ++round) {
-    }
+    int round = 0;
+    while (round < most_rounds && once())
+      ++round;
+    return round > 0;
   }
 
 private:
@@ -225,8 +227,8 @@ std::vector<std::uint32_t> tidy(Code& code) {
   return named;
 }
 
-void clean_jumps(Code& code) {
-  Cleaner(code).run();
+bool clean_jumps(Code& code) {
+  return Cleaner(code).run();
 }
 
 } // namespace orb::structured

@@ -8,8 +8,8 @@
 namespace orb::structured {
 
 /// Leads jumps to jumps where they end, takes out lines that nothing reaches, jumps to the next
-/// line and labels that nothing names. Keeps what the program does.
-void clean_jumps(Code& code);
+/// line and labels that nothing names. Keeps what the program does. True where something changed.
+bool clean_jumps(Code& code);
 
 /// Puts lines that only jumps lead to where one of those jumps stands. True where there were any.
 bool straighten(Code& code);

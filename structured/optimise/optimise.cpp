@@ -13,6 +13,8 @@
 #include "structured/optimise/values.h"
 #include "structured/optimise/webs.h"
 
+#include <span>
+
 namespace orb::structured {
 namespace {
 
@@ -23,6 +25,46 @@ constexpr std::size_t most_bits = std::size_t{1} << 27; ///< of sets of variable
 bool is_huge(const Code& code) {
   return code.lines.size() > most_lines ||
          (code.lines.size() + code.routines.size()) * code.variables.size() > most_bits;
+}
+
+struct Pass {
+  bool (*run)(Code&);
+  std::uint32_t seen = none; ///< how much had been changed when it last ran
+};
+
+/// Runs passes in turn until none of them, seeing what all others have done, changes anything.
+void settle(Code& code, std::span<Pass> passes, std::uint32_t& changes) {
+  constexpr int most_rounds = 12;
+  auto before = none;
+  for (int round = 0; round < most_rounds && changes != before; ++round) {
+    before = changes;
+    for (auto& pass : passes)
+      if (pass.seen != changes) {
+        pass.seen = changes;
+        changes += pass.run(code) ? 1 : 0;
+      }
+  }
+}
+
+void shorten(Code& code) {
+  Pass passes[] = {
+      {clean_jumps},
+      {split_variables},
+      {forward_values},
+      {[](Code& one) { return merge_tails(one, itself); }},
+      {inline_calls},
+      {straighten},
+      {[](Code& one) { return use_values(one, Ways::Split); }},
+  };
+  std::uint32_t changes = 0;
+  settle(code, passes, changes);
+  // Nothing is left that reads the original instead.
+  changes += use_elements(code) ? 1 : 0;
+  changes += join_copies(code) ? 1 : 0;
+  settle(code, passes, changes);
+  clean_jumps(code);
+  hoist_arms(code);
+  sink_into_arms(code);
 }
 
 } // namespace
@@ -37,28 +79,10 @@ void optimise(Code& code, Shape shape) {
   use_values(code);
   const auto wrong_indices = code.wrong_indices; // later not every place of a statement is left
   write_switches(code);
-  constexpr int most_rounds = 12;
-  bool changed = shape == Shape::Shortest; // the passes below move and join lines
-  bool joined = false;
-  for (int round = 0; round < most_rounds && changed; ++round) {
+  if (shape == Shape::Shortest) // these move and join lines
+    shorten(code);
+  else
     clean_jumps(code);
-    changed = split_variables(code);
-    changed = forward_values(code) || changed;
-    changed = merge_tails(code, itself) || changed;
-    changed = inline_calls(code) || changed;
-    changed = straighten(code) || changed;
-    changed = use_values(code, joined ? Ways::Split : Ways::Keep) || changed;
-    if (!changed && !joined) {
-      joined = true; // once nothing is left that reads the original instead
-      changed = use_elements(code);
-      changed = join_copies(code) || changed || use_values(code, Ways::Split);
-    }
-  }
-  clean_jumps(code);
-  if (shape == Shape::Shortest) {
-    hoist_arms(code);
-    sink_into_arms(code);
-  }
   code.wrong_indices = wrong_indices;
   cut_prints(code);
 }
