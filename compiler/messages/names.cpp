@@ -55,7 +55,7 @@ private:
     auto d = finding(rules::UnknownStatement, {begin(), colon + 1},
                      fmt::format("`{}:` is a label; orbBasic has no labels", token()),
                      fmt::format("jump to the line by its number: `goto {}`", line_.number));
-    if (edits_of_name({}).size() > 1)
+    if (edits_of_name(token(), {}).size() > 1)
       return d; // the jumps to it come first
     if (skip_blanks(colon + 1) == code_end())
       offer(d, "make it a comment", {{{begin(), begin()}, "' "}});
@@ -66,35 +66,107 @@ private:
 
   /// A variable with a name of more than one letter: the first of a program gets a free letter.
   std::optional<Diagnostic> long_name() const {
-    const bool set = is(Reason::UnknownWord) && after(end()) == '=';
-    const bool counts = is(Reason::ExpectedUserVariable) && wordy();
-    if ((!set && !counts) || find_word(token()).kind != WordKind::Unknown)
+    const auto span = set_name();
+    if (!span)
       return std::nullopt;
-    for (const auto& row : spec::variables)
-      if (row.access == spec::Access::ReadWrite && equal_words(row.word, token()))
-        return std::nullopt;
-    auto d = finding(set ? rules::UnknownStatement : rules::SyntaxError, fault_.span,
-                     fmt::format("`{}` is not a variable", token()), "variables are named A to Z");
+    const auto name = program_.text_of(*span);
+    const bool sensor = is(Reason::ReadOnly) && name == token();
+    auto d =
+        sensor
+            ? finding(rules::AssignToSensor, *span, fmt::format("`{}` can only be read", name), {})
+            : finding(
+                  is(Reason::ExpectedUserVariable) ? rules::SyntaxError : rules::UnknownStatement,
+                  *span, fmt::format("`{}` is not a variable", name), "variables are named A to Z");
     const auto named = letters_of_names();
-    const auto letter = letter_of(named, token());
+    const auto letter = letter_of(named, name);
     if (!letter)
       return d;
-    d.help = fmt::format("write `{}`; variables are named A to Z", with_letters(named));
-    if (&fault_ == &first_name())
-      d.fix = Fix{fmt::format("call it `{}` everywhere", *letter), edits_of_name({&*letter, 1}),
-                  Safety::Safe};
+    auto line = with_letters(named);
+    const bool declared = span->begin != begin() && is(Reason::UnknownWord);
+    if (declared)
+      line.erase(begin() - line_.span.begin, span->begin - begin());
+    if (declared && !parse(line).faults.empty())
+      return std::nullopt; // it takes more than a name
+    d.help = fmt::format("write `{}`; variables are named A to Z", line);
+    if (&fault_ != &first_name())
+      return d;
+    auto edits = edits_of_name(name, {&*letter, 1});
+    if (sensor)
+      d.help = fmt::format("write `{}`, and `{}` in the other lines; variables are named A to Z",
+                           line, *letter);
+    if (declared)
+      edits.insert(std::find_if(edits.begin(), edits.end(),
+                                [&](const Edit& one) { return one.span.begin >= begin(); }),
+                   {{begin(), span->begin}, ""});
+    d.fix = Fix{fmt::format("call it `{}` everywhere", *letter), std::move(edits),
+                sensor ? Safety::Unsafe : Safety::Safe};
     return d;
+  }
+
+  static bool is_name_part(char c) { return is_letter(c) || is_digit(c) || c == '_'; }
+
+  /// Letters, digits and `_` that stand together around a place.
+  Span name_around(std::uint32_t at) const {
+    auto first = at;
+    while (first > line_.span.begin && is_name_part(text_[first - 1]))
+      --first;
+    auto last = at;
+    while (last < line_.span.end && is_name_part(text_[last]))
+      ++last;
+    while (first < last && !is_letter(text_[first]))
+      ++first;
+    return {first, last};
+  }
+
+  /// The name that the line sets and that is no variable: `count = 0`, `int led_2 = 5`, `for lap
+  /// =`.
+  std::optional<Span> set_name() const {
+    constexpr std::string_view declare = " int var long byte float double integer number auto "
+                                         "static global const final dim set ";
+    auto span = name_around(begin());
+    const bool declared = is(Reason::UnknownWord) && wordy() &&
+                          declare.find(fmt::format(" {} ", token())) != std::string_view::npos &&
+                          is_letter(after(span.end));
+    if (declared)
+      span = name_around(skip_blanks(span.end));
+    const bool sets = (is(Reason::UnknownWord) || is(Reason::ReadOnly)) && after(span.end) == '=';
+    if ((!sets && !(is(Reason::ExpectedUserVariable) && wordy())) || span.size() < 2)
+      return std::nullopt;
+    const auto name = program_.text_of(span);
+    const auto word = find_word(name);
+    if (word.kind == WordKind::Unknown) {
+      for (const auto& row : spec::variables)
+        if (row.access == spec::Access::ReadWrite && equal_words(row.word, name))
+          return std::nullopt;
+      return span;
+    }
+    // A sensor that other lines read, and nothing else sets it, was meant as a variable.
+    const auto sensor = spec::find_variable(name);
+    const bool plain = sensor && spec::info(*sensor).access == spec::Access::Read &&
+                       *sensor != spec::Variable::Yaw && *sensor != spec::Variable::Xpos &&
+                       *sensor != spec::Variable::Ypos;
+    return plain && stands_elsewhere(name) ? std::optional(span) : std::nullopt;
+  }
+
+  bool stands_elsewhere(std::string_view name) const {
+    return std::any_of(program_.lines.begin(), program_.lines.end(), [&](const Line& line) {
+      std::vector<Edit> edits;
+      if (&line != &line_)
+        add_edits(edits, line, name, {});
+      return !edits.empty();
+    });
   }
 
   /// A name that is set on another line, where its value is wanted.
   std::optional<Diagnostic> used_name() const {
-    if ((!is(Reason::ExpectedExpression) && !is(Reason::Trailing)) || !wordy() ||
-        find_word(token()).kind != WordKind::Unknown)
+    const auto span = name_around(begin());
+    const auto name = program_.text_of(span);
+    if (name.empty() || find_word(name).kind != WordKind::Unknown)
       return std::nullopt;
     const auto named = letters_of_names();
-    if (!letter_of(named, token()))
+    if (!letter_of(named, name))
       return std::nullopt;
-    return finding(rules::SyntaxError, fault_.span, fmt::format("`{}` is not a variable", token()),
+    return finding(rules::SyntaxError, span, fmt::format("`{}` is not a variable", name),
                    fmt::format("write `{}`; variables are named A to Z", with_letters(named)));
   }
 
@@ -116,14 +188,14 @@ private:
       if (++looked_at > most)
         break;
       const Names other(program_, fault);
-      if (!other.long_name_here() || find_word(other.token()).kind != WordKind::Unknown ||
-          letter_of(named, other.token()))
+      const auto span = other.set_name();
+      if (!span || letter_of(named, program_.text_of(*span)))
         continue;
-      const auto letter = free_letter(used, other.token());
+      const auto letter = free_letter(used, program_.text_of(*span));
       if (!letter)
         break;
       used |= std::uint32_t{1} << (*letter - 'A');
-      named.emplace_back(other.token(), *letter);
+      named.emplace_back(program_.text_of(*span), *letter);
     }
     return named;
   }
@@ -166,21 +238,16 @@ private:
   /// The first fault that is such a name: two fixes of one round would take the same letter.
   const Fault& first_name() const {
     for (const auto& fault : program_.faults)
-      if (fault.reason == Reason::UnknownWord || fault.reason == Reason::ExpectedUserVariable)
-        if (&fault == &fault_ || Names(program_, fault).long_name_here())
-          return fault;
+      if (&fault == &fault_ || Names(program_, fault).set_name())
+        return fault;
     return fault_;
   }
-  bool long_name_here() const {
-    return (is(Reason::UnknownWord) && after(end()) == '=') ||
-           (is(Reason::ExpectedUserVariable) && wordy());
-  }
 
-  /// Every occurrence of the token as a word outside of strings and comments.
-  std::vector<Edit> edits_of_name(std::string_view letter) const {
+  /// Every occurrence of a name as a word outside of strings and comments.
+  std::vector<Edit> edits_of_name(std::string_view name, std::string_view letter) const {
     std::vector<Edit> edits;
     for (const auto& line : program_.lines)
-      add_edits(edits, line, token(), letter);
+      add_edits(edits, line, name, letter);
     return edits;
   }
   void add_edits(std::vector<Edit>& edits, const Line& line, std::string_view name,
@@ -189,13 +256,15 @@ private:
     bool quoted = false;
     for (auto i = line.span.begin; i < stop; ++i) {
       quoted = quoted != (text_[i] == '"');
-      if (quoted || !is_letter(text_[i]) || (i > 0 && is_letter(text_[i - 1])))
+      if (quoted || !is_letter(text_[i]) ||
+          (i > 0 && (is_letter(text_[i - 1]) || text_[i - 1] == '_')))
         continue;
       auto word_end = i;
-      while (word_end < stop && is_letter(text_[word_end]))
+      while (word_end < stop && is_name_part(text_[word_end]))
         ++word_end;
       if (equal_words(text_.substr(i, word_end - i), name))
         edits.push_back({{i, word_end}, std::string(letter)});
+      i = word_end - 1;
     }
   }
 
