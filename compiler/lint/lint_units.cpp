@@ -34,6 +34,7 @@ public:
       for (const auto& statement : program_.whole(statement_of(i)))
         if (!statement.error)
           check(statement, i);
+    check_exchanged();
   }
 
 private:
@@ -68,6 +69,37 @@ private:
       check_input(statement, code);
     else if (kind == Statement::Sleep)
       check_sleep(statement);
+  }
+
+  /// The only roll has speed 0, and then the ball is stopped: heading and speed are exchanged.
+  void check_exchanged() {
+    const StatementNode* roll = nullptr;
+    bool stops = false;
+    for (const auto& statement : program_.statements) {
+      if (statement.error || statement.kind == Statement::Raw ||
+          statement.kind == Statement::Macrun)
+        return;
+      if (statement.kind != Statement::Goroll)
+        continue;
+      const auto items = program_.items_of(statement);
+      const auto go = items.size() == 3 ? number(items[2]) : std::nullopt;
+      if (number(items[1]) != 0 || (go != 0 && (roll != nullptr || go != 1)))
+        return;
+      stops = stops || (roll != nullptr && go == 0);
+      roll = go == 1 ? &statement : roll;
+    }
+    if (roll == nullptr || !stops)
+      return;
+    const auto items = program_.items_of(*roll);
+    const auto speed = number(items[0]).value_or(0);
+    if (speed <= 0 || speed > spec::info(Statement::Goroll).parameters()[1].greatest)
+      return;
+    auto& d = findings_.add(rules::NeverRolls, items[1].span,
+                            "the ball never rolls: its speed is 0 here, and nowhere else more",
+                            fmt::format("write `goroll 0,{},1`; the heading stands first", speed));
+    d.fix = Fix{"exchange heading and speed",
+                {{items[0].span, "0"}, {items[1].span, std::to_string(speed)}},
+                Safety::Unsafe};
   }
 
   // ---- time

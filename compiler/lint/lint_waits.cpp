@@ -333,6 +333,7 @@ private:
   /// A loop whose only way out asks a letter that nothing in it sets.
   void check_stale(std::uint32_t first, std::uint32_t last) {
     const StatementNode* test = nullptr;
+    std::uint32_t test_code = none;
     for (auto i = first; i <= last; ++i) {
       const auto& statement = statement_of(i);
       const auto& code = flow_.code[i];
@@ -347,6 +348,7 @@ private:
       if (test != nullptr)
         return;
       test = &statement;
+      test_code = i;
     }
     if (test == nullptr || test->else_branch != none)
       return;
@@ -358,12 +360,14 @@ private:
     if (setting.count != 1 || (first <= setting.code && setting.code <= last))
       return;
     const auto& copy = statement_of(setting.code);
-    if (copy.kind != Statement::Let)
+    const auto jumps = flow_.jumps_of(flow_.code[test_code]);
+    if (copy.kind != Statement::Let || jumps.empty())
       return;
+    const auto to = jumps.front().to;
     const auto& value = program_.as<LetView>(copy).expression;
     const auto sensor = sensor_in(program_, value);
-    if (!sensor || flow_.code[first].target == false)
-      return;
+    if (!sensor)
+      return check_unchanged(*test, first <= to && to <= last, number(value));
     auto& d = findings_.add(
         rules::StaleSensor, copy.span,
         fmt::format("`{}` is read once, before the loop that waits for it",
@@ -372,6 +376,20 @@ private:
                     program_.text_of({condition.first.left.span.end,
                                       program_.statements[test->then_branch].span.end})));
     add_note(d, test->span, "the loop tests the copy here");
+  }
+
+  /// A loop that asks a letter which is a number from above it, and stays that.
+  void check_unchanged(const StatementNode& test, bool back, std::optional<std::int32_t> value) {
+    const auto condition = program_.as<IfView>(test).first;
+    const auto relation = static_cast<Relation>(condition.relation.value);
+    const SensorTest asked{{}, relation, number(condition.right).value_or(0), {}};
+    if (!value || holds(asked, *value) != back)
+      return;
+    const auto name = program_.text_of(condition.left.span);
+    const bool down = back == (relation == Relation::Greater);
+    findings_.add(rules::EndlessLoop, Span{condition.left.span.begin, condition.right.span.end},
+                  fmt::format("the loop never ends: nothing in it changes `{}`", name),
+                  fmt::format("add `{0} = {0} {1} 1` to the loop", name, down ? '-' : '+'));
   }
 
   const Program& program_;

@@ -72,6 +72,7 @@ private:
 
   void add_empty_target(const Item& target, std::uint32_t index);
 
+  std::optional<std::uint32_t> number_like(const Item& target) const;
   void add_missing_target(const Item& target);
 
   void check_print(std::span<const Item> items);

@@ -1,3 +1,4 @@
+#include "base/suggest.h"
 #include "compiler/lint/text_pass.h"
 
 namespace orb::compiler {
@@ -132,9 +133,34 @@ void TextPass::add_empty_target(const Item& target, std::uint32_t index) {
   }
 }
 
+/// The only number of a line with a digit more, or one less: `goto 200` for `goto 20`.
+std::optional<std::uint32_t> TextPass::number_like(const Item& target) const {
+  constexpr std::size_t most = 256; // lines; a typing mistake is found among few
+  const auto written = program_.text_of(target.span);
+  std::optional<std::uint32_t> meant;
+  if (flow_.numbers.size() > most)
+    return meant;
+  for (const auto& row : flow_.numbers) {
+    const auto number = std::to_string(row.number);
+    const auto line = program_.lines[row.line].span;
+    const bool itself = line.begin <= target.span.begin && target.span.begin < line.end;
+    if (itself || number.size() == written.size() || edit_distance(number, written) != 1)
+      continue;
+    if (meant)
+      return std::nullopt;
+    meant = row.number;
+  }
+  return meant;
+}
+
 void TextPass::add_missing_target(const Item& target) {
   auto& d = findings_.add(rules::MissingTarget, target.span,
                           fmt::format("there is no line {}", program_.text_of(target.span)));
+  if (const auto meant = number_like(target)) {
+    d.fix = single_fix(fmt::format("jump to line {}", *meant), target.span, std::to_string(*meant),
+                       Safety::Unsafe);
+    return;
+  }
   if (!flow_.numbers.empty() && target.value < flow_.numbers.front().number) {
     const auto first = flow_.numbers.front().number;
     d.message += fmt::format("; the first one is {}", first);

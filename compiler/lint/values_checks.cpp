@@ -182,7 +182,8 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
   const auto& row = spec::info(statement.kind);
   const auto parameters = row.parameters();
   const auto arguments = program_.items_of(statement);
-  for (std::size_t i = 0; i < arguments.size(); ++i)
+  const bool swapped = statement.kind == spec::Statement::Goroll && check_swapped(arguments);
+  for (std::size_t i = swapped ? 2 : 0; i < arguments.size(); ++i)
     check_range(arguments[i], row.word, parameters[i]);
   if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
       target_.version >= spec::info(spec::BasicGrowth::GoValue).since)
@@ -193,6 +194,29 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
     check_sleep(program_.as<SleepView>(statement).line);
   if (statement.kind == spec::Statement::Rstr)
     data_.left = conditional_ ? DataSet::unknown : data_.size;
+}
+
+/// A speed that only a heading can be, and a heading that a speed can be.
+bool ValuesPass::check_swapped(std::span<const Item> arguments) {
+  const auto parameters = spec::info(spec::Statement::Goroll).parameters();
+  const auto heading = range_of(arguments[0]);
+  const auto speed = range_of(arguments[1]);
+  const auto is_number = [&](const Item& value) { return nodes_of(program_, value).size() == 1; };
+  if (!heading.constant() || !speed.constant() || !is_number(arguments[0]) ||
+      !is_number(arguments[1]) || heading.lo <= 0 || heading.lo > parameters[1].greatest ||
+      speed.lo <= parameters[1].greatest || speed.lo > parameters[0].greatest)
+    return false;
+  auto& d = findings_.add(
+      rules::ValueOutOfRange, arguments[1].span,
+      fmt::format("`goroll` takes speed {} to {}, found {}", parameters[1].least,
+                  parameters[1].greatest, speed.lo),
+      fmt::format("write `goroll {},{}{}`; the heading stands first", speed.lo, heading.lo,
+                  program_.text_of({arguments[1].span.end, arguments.back().span.end})));
+  d.fix = Fix{"exchange them",
+              {{arguments[0].span, std::string(program_.text_of(arguments[1].span))},
+               {arguments[1].span, std::string(program_.text_of(arguments[0].span))}},
+              Safety::Unsafe};
+  return true;
 }
 
 void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
@@ -309,10 +333,12 @@ void ValuesPass::check_index(Span span) {
     if (index.first_set == nullptr)
       d.help = "`Z` is the list element that `Y` names; use another letter";
   } else if (index_begins_ && (*index_begins_ < 1 || *index_begins_ > most)) {
-    findings_.add(
+    auto& d = findings_.add(
         rules::MayLeaveRange, span,
         fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", *index_begins_, most),
         *index_begins_ == 0 ? "let `Y` count from 1" : "");
+    if (*index_begins_ == 0)
+      count_from_one(span, d);
     index_begins_.reset();
   } else if (is_exact(index_letter) && (range.lo < 1 || range.hi > most)) {
     findings_.add(
@@ -325,6 +351,27 @@ void ValuesPass::check_index(Span span) {
     findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",
                   "set `Y` to 1 … 25 first");
   }
+}
+
+/// `for Y = 0 to 9` has as many rounds as `for Y = 1 to 10`.
+void ValuesPass::count_from_one(Span use, Diagnostic& d) const {
+  const StatementNode* loop = nullptr;
+  for (const auto& statement : program_.statements)
+    if (!statement.error && statement.kind == spec::Statement::For &&
+        statement.span.begin < use.begin &&
+        program_.as<ForView>(statement).variable.value == index_letter)
+      loop = &statement;
+  if (loop == nullptr)
+    return;
+  const auto view = program_.as<ForView>(*loop);
+  const auto last = nodes_of(program_, view.end);
+  if (view.step != nullptr || last.size() != 1 || last[0].kind != NodeKind::Number ||
+      last[0].value >= spec::value_of(spec::Limit::IndexedVariables))
+    return;
+  d.fix = Fix{"count from 1",
+              {{view.start.span, "1"}, {view.end.span, std::to_string(last[0].value + 1)}},
+              Safety::Unsafe};
+  d.help = fmt::format("write `for Y = 1 to {}`", last[0].value + 1);
 }
 
 void ValuesPass::check_on(const OnView& on) {

@@ -105,6 +105,7 @@ private:
   bool reads_clearing(const Item& expression) const;
 
   void check_letters();
+  std::string meant_by(std::uint32_t letter) const;
 
   /// Forgets what letters are.
   void forget_letters();
@@ -191,6 +192,7 @@ private:
 
   void check_arguments(const StatementNode& statement);
 
+  bool check_swapped(std::span<const Item> arguments);
   void add_missing_go(const StatementNode& statement, const Item& last);
 
   void check_flags(const Item& value);
@@ -210,6 +212,7 @@ private:
 
   void check_index(Span span);
 
+  void count_from_one(Span use, Diagnostic& d) const;
   void check_on(const OnView& on);
 
   void check_condition(const IfView& condition);

@@ -78,10 +78,40 @@ void ValuesPass::check_letters() {
       findings_.add(rules::UnusedVariable, letter.first_set->span,
                     fmt::format("`{}` is set but never used", spec::letter_name(i)));
     } else if (used && !set) {
-      findings_.add(rules::NeverAssigned, letter.first_used->span,
-                    fmt::format("`{}` is used but never set, so it is 0", spec::letter_name(i)));
+      auto& d = findings_.add(
+          rules::NeverAssigned, letter.first_used->span,
+          fmt::format("`{}` is used but never set, so it is 0", spec::letter_name(i)));
+      if (const auto meant = meant_by(i); !meant.empty())
+        d.fix = single_fix(fmt::format("write {}", meant), d.span, meant, Safety::Unsafe);
     }
   }
+}
+
+/// What stands for a letter that nothing sets: a digit that looks like it, or the variable of the
+/// loop around it, which nothing reads; empty where neither is so.
+std::string ValuesPass::meant_by(std::uint32_t letter) const {
+  const auto& use = letters_[letter].first_used->span;
+  const auto written = program_.text_of(use);
+  if (written == "O" || written == "o")
+    return "0";
+  if (written == "l")
+    return "1";
+  const StatementNode* loop = nullptr;
+  for (const auto& statement : program_.statements) {
+    const bool counts = !statement.error && (statement.kind == spec::Statement::For ||
+                                             statement.kind == spec::Statement::Next);
+    if (!counts || program_.items_of(statement).front().kind != ItemKind::Letter)
+      continue;
+    if (statement.span.begin > use.begin)
+      return loop != nullptr && statement.kind == spec::Statement::Next
+                 ? std::string(program_.text_of(program_.items_of(*loop).front().span))
+                 : "";
+    const auto variable = program_.items_of(statement).front().value;
+    loop = statement.kind == spec::Statement::For && letters_[variable].first_used == nullptr
+               ? &statement
+               : nullptr;
+  }
+  return {};
 }
 
 void ValuesPass::forget_letters() {
