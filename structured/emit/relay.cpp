@@ -3,6 +3,7 @@
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
+#include "repair/tokens.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ bool is_told(const Rule* rule) {
                            &robot::MayLeaveRange,    &robot::WrongUnit,       &robot::TinyValue,
                            &robot::GoZero,           &robot::WeakBrake,       &robot::StaleSensor,
                            &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
-                           &robot::AlwaysOne,        &robot::RobotLacks})
+                           &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls})
     if (rule == told)
       return true;
   return false;
@@ -129,7 +130,13 @@ private:
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
       tell_of_heading(statement, told);
     if (found.rule == &robot::StaleSensor)
-      told.help = "read it in the loop";
+      tell_of_copy(found, statement, told);
+    if (found.rule == &robot::ValueOutOfRange && found.fix && found.fix->edits.size() > 1 &&
+        !std::all_of(found.fix->edits.begin(), found.fix->edits.end(), [&](const Edit& edit) {
+          const auto* argument = argument_of(edit.span, statement);
+          return argument != nullptr && is_digit(program.text_of(argument->span)[0]);
+        }))
+      told.help.clear(); // what is exchanged there are names
     if (found.rule == &robot::InvertedWait)
       told.help = "reverse the comparison";
     if (found.fix && found.fix->edits.size() == 1 && found.rule != &robot::ValueOutOfRange)
@@ -144,6 +151,23 @@ private:
       replace(told.help, fmt::format("`{} ", letters),
               single ? fmt::format("`({}) ", names) : fmt::format("`{} ", names));
     }
+  }
+
+  /// A copy of a sensor: the loop is to read the sensor itself.
+  void tell_of_copy(const Diagnostic& found, const Statement& statement, Diagnostic& told) const {
+    const auto& program = compiled_.program;
+    told.help = "read it in the loop";
+    if (found.notes.empty() || statement.kind != Kind::Assign)
+      return;
+    const auto items = program.items_of(statement);
+    const auto name = program.text_of(items[0].span);
+    const auto test = std::string(program.text_of(statement_at(found.notes[0].span.begin).span));
+    const auto tokens = repair::tokens_of(test, repair::Language::Structured);
+    for (const auto& token : tokens)
+      if (token.is_word() && equal_words(token.text, name))
+        told.help =
+            fmt::format("write `{}{}{}` in the loop", test.substr(0, token.at),
+                        program.text_of(items[1].span), test.substr(token.at + name.size()));
   }
 
   /// The line to write is the source's own, with the one value replaced.

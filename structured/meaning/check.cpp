@@ -19,6 +19,7 @@ void Checker::run() {
                    [](const Diagnostic& one) { return one.rule == &rules::UnclosedBlock; }))
     check_recursion(); // a sub without an end holds the calls below it
   check_unused();
+  check_values();
   if (!any_error(program_.diagnostics))
     check_loops();
 }

@@ -112,6 +112,10 @@ void Checker::check_loops() {
     if (at(i).kind == Kind::Loop ||
         (at(i).kind == Kind::While && always_holds(item(at(i), 0).value)))
       check_endless(i);
+    else if (at(i).kind == Kind::While)
+      check_unchanged(i, item(at(i), 0).value);
+    else if (at(i).kind == Kind::Repeat && at(i).next != none && at(at(i).next).kind == Kind::Until)
+      check_unchanged(i, item(at(at(i).next), 0).value);
     if (at(i).kind == Kind::For)
       check_counter(i);
   }
@@ -146,6 +150,65 @@ void Checker::check_endless(std::uint32_t i) {
   report(compiler::rules::UnreachableLine, at(after).span,
          "unreachable: nothing leaves the loop above",
          "leave the loop with `exit`, as in `if speed = 0 then exit`");
+}
+
+void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
+  std::vector<std::uint32_t> symbols;
+  for (auto n = program_.nodes[condition].first; n <= condition; ++n) {
+    const auto& node = program_.nodes[n];
+    if (node.kind == NodeKind::System || node.kind == NodeKind::Call ||
+        node.kind == NodeKind::Element || node.kind == NodeKind::Builtin)
+      return;
+    if (node.kind != NodeKind::Name)
+      continue;
+    if (names_.of_node[n] == none)
+      return;
+    if (names_.symbols[names_.of_node[n]].kind != SymbolKind::Constant)
+      symbols.push_back(names_.of_node[n]);
+  }
+  if (symbols.size() != 1 || may_end(i, symbols))
+    return;
+  for (const auto& d : program_.diagnostics)
+    if (d.rule == &rules::UnusedName && at(i).span.begin < d.span.begin &&
+        d.span.begin < at(at(i).next).span.begin)
+      return; // what is set there may have been meant
+  for (const auto& one : program_.statements)
+    if (one.kind == Kind::Assign && names_.of_node[item(one, 0).value] == symbols[0] &&
+        !value_of(item(one, 1)))
+      return; // a copy, which is another mistake
+  const auto name = program_.name(names_.symbols[symbols[0]].name);
+  const auto& root = program_.nodes[condition];
+  const auto relation = static_cast<Comparison>(root.what);
+  const bool greater = relation == Comparison::Greater || relation == Comparison::GreaterEqual;
+  const bool less = relation == Comparison::Less || relation == Comparison::LessEqual;
+  const bool counts = root.kind == NodeKind::Relation && (greater || less) &&
+                      program_.nodes[root.first].kind == NodeKind::Name;
+  const bool down = greater == (at(i).kind == Kind::While);
+  report(compiler::rules::EndlessLoop, root.span,
+         fmt::format("the loop never ends: nothing in it changes `{}`", name),
+         counts ? fmt::format("add `{} {} 1` to the loop", name, down ? "-=" : "+=") : "");
+}
+
+bool Checker::may_end(std::uint32_t loop, const std::vector<std::uint32_t>& symbols) const {
+  const auto changes = [&](std::uint32_t node) {
+    return std::find(symbols.begin(), symbols.end(), names_.of_node[node]) != symbols.end();
+  };
+  for (auto n = loop + 1; n < at(loop).next; ++n) {
+    const auto& statement = at(n);
+    if (statement.kind == Kind::Exit || statement.kind == Kind::Goto ||
+        statement.kind == Kind::Return || statement.kind == Kind::Call ||
+        (statement.kind == Kind::Robot && spec::info(statement.robot).after == spec::After::Ends))
+      return true;
+    for (const auto& part : program_.items_of(statement)) {
+      if (part.kind == ItemKind::Place && changes(part.value))
+        return true;
+      if (part.kind == ItemKind::Place || part.kind == ItemKind::Expression)
+        for (auto node = program_.nodes[part.value].first; node <= part.value; ++node)
+          if (program_.nodes[node].kind == NodeKind::Call)
+            return true;
+    }
+  }
+  return false;
 }
 
 void Checker::check_counter(std::uint32_t i) {

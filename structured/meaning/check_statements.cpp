@@ -39,8 +39,8 @@ void Checker::check_return(std::uint32_t routine, const Statement& statement) {
     report(rules::ArgumentCount, statement.span, "a function must return a value",
            "write `return e`");
   else if (!function && size(statement) > 0)
-    report(rules::ArgumentCount, item(statement, 0).span, "a sub cannot return a value",
-           "make it a `function`");
+    turn(program_, names_, routine, "function",
+         report(rules::ArgumentCount, item(statement, 0).span, "a sub cannot return a value"));
 }
 
 void Checker::check_assign(const Statement& statement) {

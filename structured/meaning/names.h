@@ -62,6 +62,13 @@ Names resolve(Program& program);
 /// The value of an expression of literals and constants, or nothing. A division by zero is nothing.
 std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root);
 
+/// Whether a sub or function has a `return` with a value.
+bool gives_value(const Program& program, const Names& names, std::uint32_t routine);
+
+/// Offers to make a function of a sub, or the other way round.
+void turn(const Program& program, const Names& names, std::uint32_t routine, std::string_view word,
+          Diagnostic& finding);
+
 /// Whether a statement does something besides giving a value, and so must stay.
 bool has_effects(const Program& program, const Statement& statement);
 

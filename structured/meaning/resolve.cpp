@@ -376,11 +376,13 @@ private:
                           symbol.kind == SymbolKind::Parameter;
     if (element ? symbol.kind != SymbolKind::Array : !variable) {
       names_.of_node[n] = none;
-      report_wrong(node, symbol,
-                   element                               ? "it has no elements"
-                   : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
-                   : symbol.kind == SymbolKind::Array    ? "an element needs an index"
-                                                         : "it cannot be assigned to");
+      auto* d = report_wrong(node, symbol,
+                             element                               ? "it has no elements"
+                             : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
+                             : symbol.kind == SymbolKind::Array    ? "an element needs an index"
+                                                                   : "it cannot be assigned to");
+      if (d != nullptr && symbol.kind == SymbolKind::Constant)
+        make_variable(symbol, *d);
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, "a loop counts in a variable, not in an array element");
     }
@@ -409,6 +411,9 @@ private:
                                                   : "a sub does not return a value");
     else if (node.kind == NodeKind::Element && symbol.kind != SymbolKind::Array)
       wrong(n, symbol, "it has no elements");
+    else if (node.kind == NodeKind::Call && symbol.kind == SymbolKind::Sub &&
+             gives_value(program_, names_, symbol.routine))
+      names_.of_node[n] = none; // the `return` is told to make it a function
     else if (node.kind == NodeKind::Call && symbol.kind != SymbolKind::Function)
       wrong(n, symbol,
             symbol.kind == SymbolKind::Sub ? "a sub does not return a value; call it as a statement"
@@ -429,24 +434,41 @@ private:
     report_wrong(program_.nodes[n], symbol, why);
   }
 
-  void report_wrong(const Node& node, const Symbol& symbol, std::string_view why) {
+  /// Null where nothing is said.
+  Diagnostic* report_wrong(const Node& node, const Symbol& symbol, std::string_view why) {
     if (std::find(taken_.begin(), taken_.end(), symbol.name) != taken_.end())
-      return; // of two meanings the other may be meant
+      return nullptr; // of two meanings the other may be meant
     const auto name = program_.name(symbol.name);
     const auto article = symbol.kind == SymbolKind::Array ? "an" : "a";
     auto& d = report(rules::WrongUse, node.span,
                      fmt::format("`{}` is {} {}; {}", name, article, kind_word(symbol.kind), why));
     d.notes.push_back({symbol.span, "declared here"});
+    return &d;
   }
 
   void check_call(std::uint32_t index, std::uint32_t count, Span span) {
     auto& symbol = names_.symbols[index];
     symbol.used = true;
     const auto& routine = names_.routines[symbol.routine];
-    if (count != routine.parameters)
-      report(rules::ArgumentCount, span,
-             fmt::format("`{}` takes {}, found {}", program_.name(symbol.name),
-                         plural(routine.parameters, "value"), count));
+    if (count == routine.parameters)
+      return;
+    auto& d = report(rules::ArgumentCount, span,
+                     fmt::format("`{}` takes {}, found {}", program_.name(symbol.name),
+                                 plural(routine.parameters, "value"), count));
+    const auto& header = program_.statements[routine.statement];
+    if (count < routine.parameters)
+      d.help = fmt::format("`{}` is missing, as in `{}`",
+                           program_.name(names_.symbols[routine.first_parameter + count].name),
+                           program_.text_of({header.name_span.begin, header.span.end}));
+  }
+
+  /// A constant that is assigned to was meant as a variable.
+  void make_variable(const Symbol& symbol, Diagnostic& d) const {
+    const auto& declared = program_.statements[symbol.statement];
+    const Span word{declared.span.begin, declared.name_span.begin};
+    const auto rest = program_.text_of({word.end, declared.span.end});
+    d.help = fmt::format("what changes is a variable: write `{}` above, without `const`", rest);
+    d.fix = Fix{"make it a variable", {{word, ""}}, Safety::Unsafe};
   }
 
   void look_up_call(std::uint32_t i) {
@@ -461,7 +483,9 @@ private:
     Node node;
     node.span = statement.name_span;
     if (symbol.kind == SymbolKind::Function) {
-      report_wrong(node, symbol, "its value must be used, as in `x = name()`");
+      auto* d = report_wrong(node, symbol, "its value must be used, as in `x = name()`");
+      if (d != nullptr && !gives_value(program_, names_, symbol.routine))
+        turn(program_, names_, symbol.routine, "sub", *d);
     } else if (symbol.kind != SymbolKind::Sub) {
       report_wrong(node, symbol, "a statement starts with a keyword, a sub or `name =`");
     } else {

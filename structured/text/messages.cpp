@@ -2,6 +2,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "repair/tokens.h"
 #include "spec/limits.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"
@@ -248,6 +249,41 @@ std::string settable() {
   return fmt::format("of the robot's variables only these can be set: {}", all);
 }
 
+/// A sensor that is set. Where other lines read it, too, a variable was meant.
+Diagnostic read_only(const Program& program, Span found) {
+  const auto sensor = program.text_of(found);
+  auto d =
+      finding(rules::WrongUse, found, fmt::format("`{}` can only be read", sensor), settable());
+  for (const auto* set : {"yaw", "xpos", "ypos"})
+    if (equal_words(sensor, set))
+      return d; // by a statement
+  constexpr std::size_t most = 64;
+  if (program.diagnostics.size() > most)
+    return d; // nobody reads that far
+  const auto name = fmt::format("my_{}", sensor);
+  const auto size_of_all = static_cast<std::uint32_t>(program.text.size());
+  const auto file =
+      program.files.empty() ? File{{}, {}, 0, size_of_all, 0, 0} : program.file_at(found.begin);
+  std::vector<Edit> edits;
+  for (auto begin = file.begin; begin < file.end;) {
+    const auto rest = std::string_view(program.text).substr(begin, file.end - begin);
+    const auto size = std::min(rest.find_first_of("\r\n"), rest.size());
+    for (const auto& token :
+         repair::split(rest.substr(0, size), repair::Language::Structured).tokens)
+      if (token.is_word() && equal_words(token.text, sensor))
+        edits.push_back(
+            {{begin + token.at, begin + token.at + static_cast<std::uint32_t>(sensor.size())},
+             name});
+    begin += static_cast<std::uint32_t>(size) + 1;
+  }
+  if (edits.size() < 2)
+    return d;
+  d.help =
+      fmt::format("`{}` is what the ball measures: write `{}` in all these lines", sensor, name);
+  d.fix = Fix{fmt::format("call it `{}`", name), std::move(edits), Safety::Unsafe};
+  return d;
+}
+
 Diagnostic bad_number(Span found, std::string_view text) {
   if (text.starts_with('#'))
     return finding(rules::BadNumber, found, fmt::format("`{}` is not a colour", text),
@@ -380,8 +416,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
   case Reason::NakedArguments: return naked_arguments(program, found);
   case Reason::TooManyArguments: return finding(rules::ArgumentCount, found, "too many values");
-  case Reason::ReadOnly:
-    return finding(rules::WrongUse, found, fmt::format("`{}` can only be read", text), settable());
+  case Reason::ReadOnly: return read_only(program, found);
   case Reason::Reserved: return reserved(program, found);
   case Reason::NameTooLong:
     return finding(

@@ -1,0 +1,51 @@
+#include "structured/meaning/checker.h"
+
+// Functions that give no value, and subs that do: each was meant as the other.
+
+namespace orb::structured {
+
+bool gives_value(const Program& program, const Names& names, std::uint32_t routine) {
+  for (auto i = names.routines[routine].statement; i < program.statements.size(); ++i) {
+    const auto& statement = program.statements[i];
+    if (names.routine_of[i] != routine)
+      return false;
+    if (statement.kind == Kind::Return && statement.items_begin != statement.items_end)
+      return true;
+    if (statement.kind == Kind::Broken)
+      return true; // it may be one
+  }
+  return false;
+}
+
+void turn(const Program& program, const Names& names, std::uint32_t routine, std::string_view word,
+          Diagnostic& finding) {
+  const auto& begin = program.statements[names.routines[routine].statement];
+  finding.help = fmt::format("make it a {0}: write `{0}{1}` … `end {0}`", word,
+                             program.text_of({begin.word.end, begin.span.end}));
+  if (begin.next == none)
+    return;
+  const auto end = program.statements[begin.next].span;
+  finding.fix = Fix{fmt::format("make it a {}", word),
+                    {{begin.word, std::string(word)}, {end, fmt::format("end {}", word)}},
+                    Safety::Unsafe};
+}
+
+void Checker::check_values() {
+  if (any_error(program_.diagnostics))
+    return; // what gives the value may be what is wrong
+  for (std::uint32_t n = 1; n < names_.routines.size(); ++n) {
+    const auto& symbol = names_.symbols[names_.routines[n].symbol];
+    if (symbol.kind != SymbolKind::Function || !symbol.used || gives_value(program_, names_, n))
+      continue;
+    std::string_view value = "e"; // what it computes last
+    const auto& begin = at(names_.routines[n].statement);
+    for (auto i = names_.routines[n].statement; i < begin.next && begin.next != none; ++i)
+      if (at(i).kind == Kind::Assign)
+        value = program_.text_of(item(at(i), 0).span);
+    report(rules::NoValue, symbol.span,
+           fmt::format("`{}` never gives a value: it has no `return`", program_.name(symbol.name)),
+           fmt::format("add `return {}` before `end function`", value));
+  }
+}
+
+} // namespace orb::structured
