@@ -53,6 +53,10 @@ public:
     }
     check_heap();
     check_gosub_depth();
+    check_collisions();
+    check_rolls();
+    if (any_error(assembly_.diagnostics))
+      return std::move(diagnostics_); // a line that does not parse may take the time
     auto in_time = lint_timing(assembly_);
     diagnostics_.insert(diagnostics_.end(), std::make_move_iterator(in_time.begin()),
                         std::make_move_iterator(in_time.end()));
@@ -251,7 +255,7 @@ private:
         return;
       }
     }
-    if (open == nullptr)
+    if (open == nullptr || any_error(assembly_.diagnostics))
       return;
     auto& d = report(rules::LoopOpen, open->span, "unterminated loop", "write `loop_end` below");
     const auto last = std::find_if(
@@ -290,6 +294,49 @@ private:
           "run some of them as temporary macros");
       return;
     }
+  }
+
+  void check_collisions() {
+    const PlacedCommand* asks = nullptr;
+    for (const auto& macro : assembly_.macros)
+      for (const auto& command : macro.commands) {
+        if (is(command, MacroCommand::ConfigureCollision))
+          return;
+        if (asks == nullptr && is(command, MacroCommand::OnCollision) && command.value[0] > 0)
+          asks = &command;
+      }
+    if (asks != nullptr && !any_error(assembly_.diagnostics))
+      report(rules::CollisionsOff, asks->span,
+             "nothing here switches the detection of collisions on",
+             "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, where no client does");
+  }
+
+  /// The only roll has speed 0, and then the ball is stopped: speed and heading are exchanged.
+  void check_rolls() {
+    const PlacedCommand* roll = nullptr;
+    bool stops = false;
+    for (const auto& macro : assembly_.macros)
+      for (const auto& command : macro.commands) {
+        if (command.info == nullptr || command.origin == Origin::Broken)
+          return;
+        const auto kind = command.info->command;
+        const bool rolls = kind == MacroCommand::Roll || kind == MacroCommand::Roll2;
+        if (kind == MacroCommand::RollSd1 || kind == MacroCommand::RollSpd1Sd1 ||
+            kind == MacroCommand::RollSpd2Sd1 || kind == MacroCommand::RawMotors ||
+            kind == MacroCommand::Goto || kind == MacroCommand::Gosub)
+          return; // it may drive in another way
+        if ((rolls || kind == MacroCommand::SetSpeed) && command.value[0] > 0)
+          return;
+        stops = stops || (roll != nullptr && (rolls || kind == MacroCommand::SetSpeed));
+        if (rolls && command.value[1] > 0 && roll == nullptr)
+          roll = &command;
+      }
+    if (roll == nullptr || !stops || roll->value[1] > UINT8_MAX)
+      return;
+    report(rules::NeverRolls, roll->span,
+           "the ball never rolls: its speed is 0 here, and nowhere else more",
+           fmt::format("write `roll {}, 0{}`; the speed stands first", roll->value[1],
+                       roll->value[2] > 0 ? fmt::format(", {}ms", roll->value[2]) : ""));
   }
 
   void check_gosub_depth() {
