@@ -227,6 +227,26 @@ Text parameters(const Tokens& tokens) {
   return out.empty() ? std::nullopt : Text(out);
 }
 
+Text hex_word(const Token& token) {
+  const auto value = parse_number<std::uint32_t>(token.text, 16);
+  return value && *value <= static_cast<std::uint32_t>(largest) ? Text(std::to_string(*value))
+                                                                : std::nullopt;
+}
+
+/// A colour as one number: `FF8000`, `0xFF8000`, or what orbBasic has read of that.
+Text hex_colour(const Token& token, Language language) {
+  std::string_view digits = token.text;
+  const bool prefixed = digits.size() > 1 && digits[0] == '0' && to_lower(digits[1]) == 'x';
+  digits.remove_prefix(prefixed ? 2 : 0);
+  const bool decimal = token.is_number() && !prefixed;
+  const auto value = parse_number<std::uint32_t>(digits, decimal ? 10 : 16);
+  if (!value || *value > 0xFFFFFF || (decimal ? *value <= 0xFFFF : digits.size() != 6))
+    return std::nullopt;
+  if (language == Language::Structured)
+    return fmt::format("#{:06X}", *value);
+  return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
+}
+
 bool holds_name(const Tokens& tokens, const Surroundings& around) {
   return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
     return std::find(around.names.begin(), around.names.end(), token.text) != around.names.end();
@@ -273,6 +293,13 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
                                 around.names.end()
                ? Text(a[0].text)
                : std::nullopt;
+  if (function == "alone") // what other lines read was not meant for the ball
+    return std::find(around.elsewhere.begin(), around.elsewhere.end(), holes.choice) ==
+                   around.elsewhere.end()
+               ? Text("")
+               : std::nullopt;
+  if (function == "speed")
+    return whole(a).value_or(0) > 0 ? Text(join(a)) : std::nullopt;
   if (function == "dice")
     return dice(a, b, language);
   if (function == "below") // the second value is not one of them
@@ -287,18 +314,8 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return parameters(a);
   if (function == "hexword" || function == "hexrgb") {
     if (a.empty())
-      return function == "hexword" ? Text("") : std::nullopt;
-    const auto digits = a[0].text;
-    const auto value = parse_number<std::uint32_t>(digits, 16);
-    if (!value || *value > static_cast<std::uint32_t>(largest))
-      return std::nullopt;
-    if (function == "hexword")
-      return std::to_string(*value);
-    if (digits.size() != 6)
-      return std::nullopt;
-    return language == Language::Structured
-               ? Text("#" + digits)
-               : Text(fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF));
+      return Text("");
+    return function == "hexword" ? hex_word(a[0]) : hex_colour(a[0], language);
   }
   if (function == "bare") {
     Tokens inner = a;
@@ -346,6 +363,10 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return known(holes.choice);
   if (name == "*")
     return join(holes.rest);
+  if (name == "right" || name == "left")
+    return std::to_string((around.heading + (name == "right" ? 90 : 270)) % 360);
+  if (name == "still" && !around.pace.empty())
+    return around.pace;
   if (name == "still")
     return holes.choice == "turn" || holes.choice == "rotate" || holes.choice == "spin" ? "0"
                                                                                         : "100";

@@ -44,8 +44,11 @@ struct Surroundings {
   std::string line_number;             ///< of an orbBasic line
   std::string free_letter;             ///< a variable that nobody uses; empty without one
   std::string loop;                    ///< the variable of the innermost `for` that is open
+  int heading = 0;                     ///< of the last roll above, where it is a number
+  std::string pace;                    ///< its speed; empty where the ball rests
   std::string closer;                  ///< what ends the innermost open block
   std::vector<std::string_view> names; ///< that other lines use, too; of orbBasic: that they set
+  std::vector<std::string_view> elsewhere; ///< all words of other lines
 };
 
 /// What to do where no one line does it.

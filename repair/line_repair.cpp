@@ -38,7 +38,10 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
     : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
       errors_(errors_in(before)), lasting_(lasting_errors(before)),
       parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
-      names_(scenery.names_without(parts_.tokens)), is_target_(false), most_checks_(most_checks) {
+      is_target_(false), most_checks_(most_checks) {
+  around_.elsewhere = scenery.words_without(parts_.tokens);
+  if (judge.language != Language::Basic)
+    names_ = around_.elsewhere;
   if (judge.language == Language::Basic) {
     is_target_ = !scenery.jumps_to(scenery.number(line)).empty();
     number_below_ = scenery.number_below(line);
@@ -278,8 +281,18 @@ void LineRepair::by_fix(const Diagnostic& finding) {
     attempt_line(*text, {}, finding.fix->safety == Safety::Safe);
 }
 
+/// Whether the line has a name that another line sets: no change of this line alone mends that.
+bool LineRepair::waits_for_letter() const {
+  return std::any_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
+    return token.is_word() &&
+           std::find(around_.names.begin(), around_.names.end(), token.text) != around_.names.end();
+  });
+}
+
 /// The nearest line; two where it is not clear which.
 void LineRepair::by_changes(int most) {
+  if (judge_.language == Language::Basic && waits_for_letter())
+    return;
   if (near_.empty())
     near_ = changes(parts_.tokens, judge_.language, judge_.words, names_);
   const auto end = std::find_if(near_.begin(), near_.end(),

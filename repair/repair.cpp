@@ -69,11 +69,13 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
                       std::uint32_t line) {
   const auto text = source.line(line);
   const auto span = source.line_span(line);
-  if (finding.fix && finding.fix->safety == Safety::Safe)
+  if (finding.fix)
     for (const auto& edit : finding.fix->edits)
       if (edit.span.begin < span.begin || edit.span.end > span.end ||
           edit.text.find('\n') != std::string::npos)
         return false;
+  if (finding.rule->id == "test-pattern")
+    return false; // what is between the slashes is another language
   if ((judge.language != Language::Basic && judge.language != Language::Structured) ||
       !judge.parses(text))
     return true;
@@ -177,7 +179,38 @@ private:
     return judge_.language == Language::Structured && line > 1 && goes_on(source_.line(line - 1));
   }
 
+  /// `else` on a line of its own, below its `if`.
+  bool join_else(Diagnostic& finding) const {
+    const auto line = line_of(finding);
+    const auto tokens = split(source_.line(line), judge_.language).tokens;
+    auto above = line - 1;
+    while (above > 0 && source_.line(above).find_first_not_of(" \t") == std::string_view::npos)
+      --above;
+    if (judge_.language != Language::Basic || above == 0 || tokens.empty() ||
+        !tokens[0].is("else") || source_.line(above).size() > longest_line)
+      return false;
+    const auto first = split(source_.line(above), judge_.language);
+    const auto joined = std::string(source_.line(above)) + " " + join(tokens);
+    if (first.tokens.empty() || !first.tokens[0].is("if") || !first.comment.empty() ||
+        !judge_.parses(joined))
+      return false;
+    auto fix = remove(line, Safety::Unsafe);
+    if (!fix)
+      return false;
+    const auto end = source_.line_span(above).end;
+    fix->edits.push_back({{end, end}, " " + join(tokens)});
+    std::sort(fix->edits.begin(), fix->edits.end(),
+              [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
+    finding.help = fmt::format("write `{}`, and leave this line out", joined);
+    finding.fix = std::move(fix);
+    return true;
+  }
+
   void offer(Diagnostic& finding) {
+    if (join_else(finding)) {
+      mended_.insert(&finding);
+      return;
+    }
     if ((finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word") &&
         mend_definition(source_, judge_, scenery_, before_, finding)) {
       mended_.insert(&finding);

@@ -37,10 +37,8 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
   }
 }
 
-std::vector<std::string_view> Scenery::names_without(const Tokens& line) const {
+std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {
   std::vector<std::string_view> names;
-  if (language_ == Language::Basic)
-    return names;
   for (const auto& [word, count] : words_) {
     const auto here = std::count_if(line.begin(), line.end(), [&word = word](const Token& token) {
       return token.text == word;
@@ -122,6 +120,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   Surroundings all;
   all.language = language_;
   all.line_number = digits_of(parts.head);
+  roll_above(line, all);
   if (language_ == Language::Basic) {
     const auto free = free_letters();
     all.free_letter = free.empty() ? "" : free.front();
@@ -130,6 +129,24 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     all.closer = closers_[line - 1];
   }
   return all;
+}
+
+void Scenery::roll_above(std::uint32_t line, Surroundings& all) const {
+  const bool macro = language_ == Language::Macro;
+  for (auto n = line - 1; n > 0; --n) {
+    auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+    if (tokens.size() < 3 || !tokens[0].is(macro ? "roll" : "goroll"))
+      continue;
+    std::erase_if(tokens, [](const Token& token) { return token.is(","); });
+    const auto& heading = tokens[macro ? 2 : 1].text;
+    const auto& pace = tokens[macro ? 1 : 2].text;
+    all.heading = parse_number<int>(heading).value_or(0);
+    all.pace = pace == "0" || tokens[macro ? 1 : 2].kind == Token::Kind::Sign ||
+                       (!macro && tokens.back().is("0"))
+                   ? ""
+                   : pace;
+    return;
+  }
 }
 
 std::vector<std::string> Scenery::free_letters() const {

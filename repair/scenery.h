@@ -23,8 +23,8 @@ class Scenery {
 public:
   Scenery(const Source& source, Language language);
 
-  /// Words that stand in other lines, too, or more than once.
-  std::vector<std::string_view> names_without(const Tokens& line) const;
+  /// Words of several letters that stand in other lines, too.
+  std::vector<std::string_view> words_without(const Tokens& line) const;
 
   /// Words of several letters that other lines set: `count = 0`.
   std::vector<std::string_view> set_without(const Tokens& line) const;
@@ -51,6 +51,9 @@ public:
 
 private:
   std::string loop_above(std::uint32_t line) const;
+
+  /// The last roll above the line.
+  void roll_above(std::uint32_t line, Surroundings& all) const;
 
   /// What a line begins or ends, to structured programs and macros.
   void open_or_close(const Tokens& line);

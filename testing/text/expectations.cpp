@@ -112,7 +112,10 @@ void FileReader::read_print(Cursor& cursor, Expectation& one) {
   }
   const auto at = from + 1 + static_cast<std::uint32_t>(pattern.error().at);
   cursor.fail_at({at, at + 1}, rules::Pattern,
-                 fmt::format("invalid pattern: {}", pattern.error().message));
+                 fmt::format("invalid pattern: {}", pattern.error().message),
+                 fmt::format("a part of a line as it is: write `~\"{}\"`; in a pattern `\\` stands "
+                             "before a sign that is meant",
+                             one.text));
 }
 
 void FileReader::read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most) {
