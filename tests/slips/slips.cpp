@@ -160,10 +160,11 @@ struct Whole {
   Lines lines;
   std::vector<std::size_t> at;
   std::vector<Lines> meant; ///< one of these; none: nobody can know
+  bool held = false;        ///< nobody may look at it
 };
 
-/// `=== LANGUAGE WRITER`, then the lines; a mistaken one is `WRONG ==> RIGHT [==> ALSO RIGHT]`,
-/// where `##` parts lines, and nothing at all, or `-`, is no line.
+/// `=== LANGUAGE WRITER [held]`, then the lines; a mistaken one is `WRONG ==> RIGHT [==> ALSO
+/// RIGHT]`, where `##` parts lines, and nothing at all, or `-`, is no line.
 std::vector<Whole> read_programs(const fs::path& path) {
   std::vector<Whole> all;
   std::vector<std::vector<Lines>> ways; // by line: what may stand there
@@ -197,6 +198,7 @@ std::vector<Whole> read_programs(const fs::path& path) {
           std::find(std::begin(slips::endings), std::end(slips::endings), words[1]) -
           std::begin(slips::endings));
       one.writer = words[2];
+      one.held = words.size() > 3;
       continue;
     }
     if (all.empty() || line.empty())
@@ -433,7 +435,8 @@ void say(const Whole& one, const slips::Judged& judged) {
     std::cerr << "  " << said << '\n';
 }
 
-/// Judges a batch; `held_out` says for each program in turn whether nobody may look at it.
+/// Judges a batch; `held_out` says for each program in turn whether nobody may look at it, where
+/// the batch does not say so itself.
 Split judge_batch(const fs::path& path, const Show& show, std::size_t& troubles,
                   const std::function<bool()>& held_out) {
   Split split;
@@ -444,7 +447,7 @@ Split judge_batch(const fs::path& path, const Show& show, std::size_t& troubles,
     }
     hear(one.language, one.lines);
     const auto judged = judge(one);
-    const bool held = held_out();
+    const bool held = held_out() || one.held;
     (held ? split.held_out : split.seen).add(one.language, judged);
     if (show.option == (held ? "--say-held-out" : "--say") &&
         (show.only.empty() ||
@@ -481,6 +484,8 @@ int main(int argc, char** argv) {
   std::mt19937 coin(coin_seed);
   const auto programs =
       judge_batch(root / "tests/slips/fresh.txt", show, troubles, [&] { return coin() % 2 == 1; });
+  const auto third =
+      judge_batch(root / "tests/slips/third.txt", show, troubles, [] { return false; });
   std::size_t clean = 0;
   const auto false_alarms = judge_clean(root, clean);
   Table all_typed;
@@ -489,8 +494,8 @@ int main(int argc, char** argv) {
   std::size_t all = 0;
   std::size_t of_parser = 0;
   std::size_t alone = 0;
-  for (const Table* one :
-       {&habits.seen, &habits.held_out, &programs.seen, &programs.held_out, &first, &typed}) {
+  for (const Table* one : {&habits.seen, &habits.held_out, &programs.seen, &programs.held_out,
+                           &first, &third.seen, &third.held_out, &typed}) {
     all += total(one->sum());
     of_parser += one->of_parser;
     alone += one->of_parser_alone;
@@ -520,6 +525,14 @@ good, 7.4 % named, 1.5 % silent and 4.4 % wrong. Where the mistake spans several
 after the other.
 
 Held out:
+
+{}
+The others:
+
+{}
+A third batch (`tests/slips/third.txt`), written in the same way. Read one by one before any row was made for it, its
+held-out half was 81.3 % fully good, 9.3 % named, 2.7 % silent, 6.7 % wrong; afterwards 82.7, 9.3, 2.7 and 5.3 %.
+The machine, which asks for the same bytes, counts as follows. Held out:
 
 {}
 The others:
@@ -558,7 +571,8 @@ of all mistakes above, to {:.1f} % without the line to write.
 
 {:.1f} % of the sentences in all these answers are said in German, Spanish and French, too (`--lang-ui`, `translations/`).
 )",
-      printed(programs.held_out), printed(programs.seen), printed(first), clean,
+      printed(programs.held_out), printed(programs.seen), printed(third.held_out),
+      printed(third.seen), printed(first), clean,
       false_alarms == 0 ? std::string("no") : std::to_string(false_alarms),
       printed(habits.held_out), printed(habits.seen), printed(typed), percent(of_parser, all),
       percent(alone, all), percent(coverage.translated, coverage.said));
@@ -580,7 +594,8 @@ of all mistakes above, to {:.1f} % without the line to write.
   };
   return troubles == 0 && coverage.troubles.empty() && current && false_alarms == 0 &&
                  enough(habits.held_out, 93, 1, 3) && enough(programs.held_out, 91, 2, 3) &&
-                 enough(programs.seen, 98, 1, 1) && enough(first, 97, 1, 1) &&
+                 enough(programs.seen, 98, 1, 1) && enough(third.held_out, 78, 4, 6) &&
+                 enough(third.seen, 95, 1, 1) && enough(first, 97, 1, 1) &&
                  coverage.translated * 100 >= coverage.said * 97
              ? 0
              : 1;

@@ -77,6 +77,7 @@ void hear_frame(Heard& heard) {
 
 void hear_transcripts(const std::filesystem::path& folder, Heard& heard) {
   constexpr std::string_view help = "  help: ";
+  constexpr std::string_view note = ": note: ";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     std::ifstream in(entry.path(), std::ios::binary);
     for (std::string line; entry.is_regular_file() && std::getline(in, line);)
@@ -84,6 +85,8 @@ void hear_transcripts(const std::filesystem::path& folder, Heard& heard) {
         ++heard[line.substr(help.size())];
       else if (rule != std::string::npos)
         ++heard[line.substr(rule + 3)];
+      else if (const auto place = line.find(note); place != std::string::npos)
+        ++heard[line.substr(place + note.size())];
   }
 }
 
