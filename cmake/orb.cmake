@@ -97,3 +97,22 @@ function(orb_page_text variable path)
   file(READ ${ORB_ROOT}/${path} text)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
+
+# orb_translations(<room>): the findings of each language travel inside the program (cli/context/language.h).
+function(orb_translations room)
+  file(GLOB languages CONFIGURE_DEPENDS ${ORB_ROOT}/translations/*.json)
+  set(rows "")
+  foreach(file ${languages})
+    cmake_path(GET file STEM code)
+    orb_page_text(text translations/${code}.json)
+    string(JSON findings GET "${text}" findings)
+    string(APPEND rows "  {\"${code}\", R\"json(${findings})json\"},\n")
+  endforeach()
+  string(CONCAT translations "#include \"cli/context/language.h\"\n\nnamespace orb::cli {\nnamespace {\n"
+    "constexpr Translation rows[] = {\n${rows}};\n} // namespace\n\n"
+    "std::span<const Translation> translations() {\n  return rows;\n}\n} // namespace orb::cli\n")
+  set(made ${CMAKE_BINARY_DIR}/${room}_translations.cpp)
+  file(CONFIGURE OUTPUT ${made} CONTENT "${translations}" @ONLY)
+  set_source_files_properties(${made} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+  target_sources(orb_${room} PRIVATE ${made})
+endfunction()
