@@ -960,6 +960,7 @@ class Playground(unittest.TestCase):
     def test_where_no_ball_can_be_reached_there_is_the_file(self):
         page = self.open(before="delete Navigator.prototype.serial; delete Navigator.prototype.bluetooth;")
         page.evaluate(click("flash"))
+        page.wait(f"{by_id('flash-dialog')}.open")
         self.assertIn("can reach no robot", page.evaluate(f"{by_id('flash-lacks')}.textContent"))
         self.assertTrue(page.evaluate(f"{by_id('flash-serial')}.disabled"))
         page.evaluate(click("flash-file"))
