@@ -31,9 +31,14 @@ inline std::vector<std::string> lines(std::string_view text) {
   return lines;
 }
 
-inline void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+/// How often that was.
+inline std::size_t replace_all(std::string& text, const std::string& from, const std::string& to) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
     text.replace(at, from.size(), to);
+    ++count;
+  }
+  return count;
 }
 
 /// A folder of its own, removed at the end.

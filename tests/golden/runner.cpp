@@ -165,12 +165,9 @@ Step run(const std::string& command, const fs::path& folder, const fs::path& log
 
 /// Takes the marks of the pseudo-locale off and says how many texts had them.
 std::size_t without_marks(std::string& text) {
-  std::size_t count = 0;
-  for (auto at = text.find("⟦"); at != std::string::npos; at = text.find("⟦", at + 1))
-    ++count;
-  for (const char* mark : {"⟦", "⟧", "M-bM-^_M-&", "M-bM-^_M-'"}) // as `cat -v` shows them, too
+  for (const char* mark : {"⟧", "M-bM-^_M-&", "M-bM-^_M-'"}) // as `cat -v` shows them, too
     files::replace_all(text, mark, "");
-  return count;
+  return files::replace_all(text, "⟦", "");
 }
 std::size_t marks_seen = 0; ///< in all transcripts
 

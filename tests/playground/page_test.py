@@ -105,6 +105,12 @@ Object.defineProperty(navigator, 'bluetooth', { value: { requestDevice: async ()
 picture_folder = os.environ.get("ORB_PICTURES")
 
 
+def open_flash(page):
+    """The dialog is loaded when it is asked for."""
+    page.evaluate(click("flash"))
+    page.wait(f"{by_id('flash-dialog')}.open")
+
+
 class Playground(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -860,8 +866,7 @@ class Playground(unittest.TestCase):
         self.addCleanup(wire.close)
         files = files or {"a.bas": '10 print "on the ball"\n' + "".join(f"{n} A = A + {n}\n" for n in range(20, 500, 10))}
         page = self.open(fragment(files), before=mock)
-        page.evaluate(click("flash"))
-        page.wait(f"{by_id('flash-dialog')}.open")
+        open_flash(page)
         page.evaluate(click(f"flash-{kind}"))
         page.wait(f"{by_id('flash-cancel')}.hidden && {by_id('flash-status')}.textContent !== ''", 60)
         return page, wire
@@ -881,8 +886,7 @@ class Playground(unittest.TestCase):
 
     def test_a_robot_that_does_not_answer_is_given_up_by_hand(self):
         page = self.open(fragment({"a.macro": "rgb 0, 255, 0\n"}), before=mock_bluetooth.replace("this.connected = true;", "await new Promise(() => {});"))
-        page.evaluate(click("flash"))
-        page.wait(f"{by_id('flash-dialog')}.open")
+        open_flash(page)
         page.evaluate(click("flash-bluetooth"))
         page.wait(f"!{by_id('flash-cancel')}.hidden")
         page.evaluate("new Promise(done => setTimeout(done, 300))")
@@ -906,8 +910,7 @@ class Playground(unittest.TestCase):
         wire = site_server.Handler.wire = site_server.Wire(orb, *options, cut=cut)
         self.addCleanup(wire.close)
         page = self.open(fragment({"a.bas": program}), before=mock)
-        page.evaluate(click("flash"))
-        page.wait(f"{by_id('flash-dialog')}.open")
+        open_flash(page)
         page.evaluate(click(f"drive-{kind}"))
         return page, wire
 
@@ -959,8 +962,7 @@ class Playground(unittest.TestCase):
 
     def test_where_no_ball_can_be_reached_there_is_the_file(self):
         page = self.open(before="delete Navigator.prototype.serial; delete Navigator.prototype.bluetooth;")
-        page.evaluate(click("flash"))
-        page.wait(f"{by_id('flash-dialog')}.open")
+        open_flash(page)
         self.assertIn("can reach no robot", page.evaluate(f"{by_id('flash-lacks')}.textContent"))
         self.assertTrue(page.evaluate(f"{by_id('flash-serial')}.disabled"))
         page.evaluate(click("flash-file"))
