@@ -247,12 +247,6 @@ Text hex_colour(const Token& token, Language language) {
   return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
 }
 
-bool holds_name(const Tokens& tokens, const Surroundings& around) {
-  return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
-    return std::find(around.names.begin(), around.names.end(), token.text) != around.names.end();
-  });
-}
-
 Text call(std::string_view function, const Tokens& a, const Tokens& b, const Holes& holes,
           const Surroundings& around) {
   const auto language = around.language;
@@ -374,6 +368,12 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
 }
 
 } // namespace
+
+bool holds_name(const Tokens& tokens, const Surroundings& around) {
+  return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
+    return std::find(around.names.begin(), around.names.end(), token.text) != around.names.end();
+  });
+}
 
 namespace {
 

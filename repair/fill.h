@@ -16,6 +16,9 @@ struct Holes {
   const Tokens& operator[](char letter) const { return of[static_cast<std::size_t>(letter - 'a')]; }
 };
 
+/// Whether a name that other lines use, too, is among the tokens.
+bool holds_name(const Tokens& tokens, const Surroundings& around);
+
 /// The line that a template makes of the holes; nothing where a value has no such form.
 std::optional<std::string> fill(std::string_view form, const Holes& holes,
                                 const Surroundings& around);

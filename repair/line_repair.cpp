@@ -281,18 +281,10 @@ void LineRepair::by_fix(const Diagnostic& finding) {
     attempt_line(*text, {}, finding.fix->safety == Safety::Safe);
 }
 
-/// Whether the line has a name that another line sets: no change of this line alone mends that.
-bool LineRepair::waits_for_letter() const {
-  return std::any_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
-    return token.is_word() &&
-           std::find(around_.names.begin(), around_.names.end(), token.text) != around_.names.end();
-  });
-}
-
 /// The nearest line; two where it is not clear which.
 void LineRepair::by_changes(int most) {
-  if (judge_.language == Language::Basic && waits_for_letter())
-    return;
+  if (judge_.language == Language::Basic && holds_name(parts_.tokens, around_))
+    return; // which is to become a letter: no change of this line alone mends that
   if (near_.empty())
     near_ = changes(parts_.tokens, judge_.language, judge_.words, names_);
   const auto end = std::find_if(near_.begin(), near_.end(),

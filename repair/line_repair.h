@@ -73,7 +73,6 @@ private:
   void habits(const std::string& statement, Bounds bounds);
   void several_lines(const std::string& statement);
   void by_fix(const Diagnostic& finding);
-  bool waits_for_letter() const;
   void by_changes(int most);
 
   const Judge& judge_;

@@ -27,6 +27,7 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
     const auto tokens = split(line, language).tokens;
     if (!tokens.empty() && (language == Language::Structured || language == Language::Macro))
       open_or_close(tokens);
+    note_roll(n, tokens);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;
@@ -120,7 +121,12 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   Surroundings all;
   all.language = language_;
   all.line_number = digits_of(parts.head);
-  roll_above(line, all);
+  const auto below = std::partition_point(rolls_.begin(), rolls_.end(),
+                                          [&](const Roll& roll) { return roll.line < line; });
+  if (below != rolls_.begin()) {
+    all.heading = std::prev(below)->heading;
+    all.pace = std::prev(below)->pace;
+  }
   if (language_ == Language::Basic) {
     const auto free = free_letters();
     all.free_letter = free.empty() ? "" : free.front();
@@ -131,22 +137,16 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   return all;
 }
 
-void Scenery::roll_above(std::uint32_t line, Surroundings& all) const {
+void Scenery::note_roll(std::uint32_t line, Tokens tokens) {
   const bool macro = language_ == Language::Macro;
-  for (auto n = line - 1; n > 0; --n) {
-    auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
-    if (tokens.size() < 3 || !tokens[0].is(macro ? "roll" : "goroll"))
-      continue;
-    std::erase_if(tokens, [](const Token& token) { return token.is(","); });
-    const auto& heading = tokens[macro ? 2 : 1].text;
-    const auto& pace = tokens[macro ? 1 : 2].text;
-    all.heading = parse_number<int>(heading).value_or(0);
-    all.pace = pace == "0" || tokens[macro ? 1 : 2].kind == Token::Kind::Sign ||
-                       (!macro && tokens.back().is("0"))
-                   ? ""
-                   : pace;
+  if (tokens.size() < 3 || !tokens[0].is(macro ? "roll" : "goroll"))
     return;
-  }
+  std::erase_if(tokens, [](const Token& token) { return token.is(","); });
+  const auto& heading = tokens[macro ? 2 : 1];
+  const auto& pace = tokens[macro ? 1 : 2];
+  const bool rests =
+      pace.text == "0" || pace.kind == Token::Kind::Sign || (!macro && tokens.back().is("0"));
+  rolls_.push_back({line, parse_number<int>(heading.text).value_or(0), rests ? "" : pace.text});
 }
 
 std::vector<std::string> Scenery::free_letters() const {

@@ -52,8 +52,13 @@ public:
 private:
   std::string loop_above(std::uint32_t line) const;
 
-  /// The last roll above the line.
-  void roll_above(std::uint32_t line, Surroundings& all) const;
+  struct Roll {
+    std::uint32_t line = 0;
+    int heading = 0;  ///< 0 where it is no number
+    std::string pace; ///< empty where the ball rests
+  };
+  /// Keeps what a line that drives sets.
+  void note_roll(std::uint32_t line, Tokens tokens);
 
   /// What a line begins or ends, to structured programs and macros.
   void open_or_close(const Tokens& line);
@@ -62,6 +67,7 @@ private:
   Language language_;
   std::vector<std::string> open_;    ///< what ends the blocks that are open, the innermost last
   std::vector<std::string> closers_; ///< of each line: what ends the block that it is in
+  std::vector<Roll> rolls_;          ///< from the top
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };
