@@ -80,8 +80,8 @@ struct Flow {
 Flow read_flow(const Code& code);
 
 /// Calls `visit` with each label that a line can go to.
-template <typename Visit>
-void each_target(const Code& code, const CodeLine& line, Visit visit) {
+template <typename C, typename L, typename Visit>
+void each_target(C& code, L& line, Visit visit) {
   if (line.kind == LineKind::Goto || line.kind == LineKind::If || line.kind == LineKind::Next)
     visit(line.label);
   if (line.kind == LineKind::Switch) {

@@ -406,6 +406,14 @@ void Ranges::leave_on(const CodeLine& line, State& state) {
     state[variable] = before;
 }
 
+Outcome outcome_of(const Ranges& ranges, const Relation& relation, const State& state) {
+  const auto left = ranges.range_of(relation.left, state);
+  const auto right = ranges.range_of(relation.right, state);
+  if (!where(relation.comparison, left, right))
+    return Outcome::Never;
+  return where(opposite(relation.comparison), left, right) ? Outcome::Unknown : Outcome::Always;
+}
+
 std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,
                            const State& state) {
   const auto chosen = ranges.range_of(on.term, state);

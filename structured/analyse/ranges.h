@@ -109,6 +109,10 @@ private:
   std::uint32_t growths_ = 0;                           ///< of `elements_`
 };
 
+/// How a comparison ends.
+enum class Outcome : std::uint8_t { Unknown, Always, Never };
+Outcome outcome_of(const Ranges& ranges, const Relation& relation, const State& state);
+
 /// The label that an `on` certainly leads to, or none.
 std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,
                            const State& state);

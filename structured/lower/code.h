@@ -296,6 +296,24 @@ void each_read(const Code& code, std::uint32_t term, Visit visit) {
   }
 }
 
+/// A term with `put(v)` in place of each term `v` that reads a variable; itself where all stay.
+template <typename Put>
+std::uint32_t with_variables(Code& code, std::uint32_t root, Put put) {
+  auto node = code.terms[root];
+  if (node.kind == TermKind::Variable)
+    return put(root);
+  if (node.kind != TermKind::Binary && node.kind != TermKind::Call)
+    return root;
+  const auto before = node;
+  node.left = with_variables(code, node.left, put);
+  node.effects |= code.terms[node.left].effects;
+  if (node.kind == TermKind::Binary) {
+    node.right = with_variables(code, node.right, put);
+    node.effects |= code.terms[node.right].effects;
+  }
+  return node.left == before.left && node.right == before.right ? root : code.add(node);
+}
+
 /// Calls `visit` with each variable that a line sets.
 template <typename Visit>
 void each_write(const Code& code, const CodeLine& line, Visit visit) {

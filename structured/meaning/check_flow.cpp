@@ -166,7 +166,7 @@ void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
     if (names_.symbols[names_.of_node[n]].kind != SymbolKind::Constant)
       symbols.push_back(names_.of_node[n]);
   }
-  if (symbols.size() != 1 || may_end(i, symbols))
+  if (symbols.size() != 1 || may_end(i, symbols[0]))
     return;
   for (const auto& d : program_.diagnostics)
     if (d.rule == &rules::UnusedName && at(i).span.begin < d.span.begin &&
@@ -189,10 +189,7 @@ void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
          counts ? fmt::format("add `{} {} 1` to the loop", name, down ? "-=" : "+=") : "");
 }
 
-bool Checker::may_end(std::uint32_t loop, const std::vector<std::uint32_t>& symbols) const {
-  const auto changes = [&](std::uint32_t node) {
-    return std::find(symbols.begin(), symbols.end(), names_.of_node[node]) != symbols.end();
-  };
+bool Checker::may_end(std::uint32_t loop, std::uint32_t symbol) const {
   for (auto n = loop + 1; n < at(loop).next; ++n) {
     const auto& statement = at(n);
     if (statement.kind == Kind::Exit || statement.kind == Kind::Goto ||
@@ -200,7 +197,7 @@ bool Checker::may_end(std::uint32_t loop, const std::vector<std::uint32_t>& symb
         (statement.kind == Kind::Robot && spec::info(statement.robot).after == spec::After::Ends))
       return true;
     for (const auto& part : program_.items_of(statement)) {
-      if (part.kind == ItemKind::Place && changes(part.value))
+      if (part.kind == ItemKind::Place && names_.of_node[part.value] == symbol)
         return true;
       if (part.kind == ItemKind::Place || part.kind == ItemKind::Expression)
         for (auto node = program_.nodes[part.value].first; node <= part.value; ++node)

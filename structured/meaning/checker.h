@@ -162,11 +162,11 @@ private:
   /// What stands after a loop that nothing leaves.
   void check_endless(std::uint32_t i);
 
-  /// A loop that asks variables which nothing in it changes.
+  /// A loop that asks one variable, which nothing in it changes.
   void check_unchanged(std::uint32_t i, std::uint32_t condition);
 
-  /// Whether the lines of a loop may end it, or change one of the symbols.
-  bool may_end(std::uint32_t loop, const std::vector<std::uint32_t>& symbols) const;
+  /// Whether the lines of a loop may end it, or change the symbol.
+  bool may_end(std::uint32_t loop, std::uint32_t symbol) const;
 
   /// A loop whose counter is an index in each turn, and not always that of an element.
   void check_counter(std::uint32_t i);

@@ -142,23 +142,14 @@ private:
     return false;
   }
 
-  std::uint32_t with_element(std::uint32_t term, std::uint32_t held) {
-    const auto node = code_.terms[term];
-    if (node.kind == TermKind::Variable && node.left == held) {
+  std::uint32_t with_element(std::uint32_t root, std::uint32_t held) {
+    return with_variables(code_, root, [&](std::uint32_t term) {
+      if (code_.terms[term].left != held)
+        return term;
       const auto element = code_.element();
       code_.terms[element].effects = effect::elements;
       return element;
-    }
-    if (node.kind != TermKind::Binary && node.kind != TermKind::Call)
-      return term;
-    auto changed = node;
-    changed.left = with_element(node.left, held);
-    if (node.kind == TermKind::Binary)
-      changed.right = with_element(node.right, held);
-    if (changed.left == node.left && changed.right == node.right)
-      return term;
-    changed.effects |= effect::elements;
-    return code_.add(changed);
+    });
   }
 
   Code& code_;

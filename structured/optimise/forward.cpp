@@ -314,21 +314,9 @@ private:
   }
 
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
-    const auto node = code_.terms[root];
-    if (node.kind == TermKind::Variable)
-      return node.left == from ? code_.read(to) : root;
-    if (node.kind == TermKind::Binary) {
-      auto copy = node;
-      copy.left = renamed(node.left, from, to);
-      copy.right = renamed(node.right, from, to);
-      return code_.add(copy);
-    }
-    if (node.kind == TermKind::Call) {
-      auto copy = node;
-      copy.left = renamed(node.left, from, to);
-      return code_.add(copy);
-    }
-    return root;
+    return with_variables(code_, root, [&](std::uint32_t term) {
+      return code_.terms[term].left == from ? code_.read(to) : term;
+    });
   }
 
   // ---- what is set to the same again

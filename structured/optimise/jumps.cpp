@@ -65,18 +65,9 @@ private:
   }
 
   void thread() {
-    for (auto& line : code_.lines) {
-      if (line.kind == LineKind::Goto || line.kind == LineKind::If)
-        redirect(line.label);
-      if (line.kind == LineKind::Switch) {
-        for (auto i = line.parts_begin; i < line.parts_end; ++i)
-          redirect(code_.cases[i].label);
-        redirect(line.label);
-      }
-      if (line.kind == LineKind::On)
-        for (auto i = line.parts_begin; i < line.parts_end; ++i)
-          redirect(code_.parts[i].value);
-    }
+    for (auto& line : code_.lines)
+      if (line.kind != LineKind::Next) // its label says which loop it ends
+        each_target(code_, line, [&](std::uint32_t& label) { redirect(label); });
   }
 
   void remove_unreached() {

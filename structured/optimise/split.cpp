@@ -46,17 +46,10 @@ bool pass(const Code& code, const Ranges& ranges, const CodeLine& line, State& s
   return false;
 }
 
-/// Whether a test holds; nothing where that is not known.
-std::optional<bool> outcome_of(const Code& code, const Ranges& ranges, const CodeLine& test,
-                               const State& state) {
-  const auto& relation = code.conditions[test.condition].first;
-  const auto left = ranges.range_of(relation.left, state);
-  const auto right = ranges.range_of(relation.right, state);
-  if (!where(relation.comparison, left, right))
-    return false;
-  if (!where(opposite(relation.comparison), left, right))
-    return true;
-  return std::nullopt;
+/// How a test that is alone in its line ends.
+Outcome outcome_of(const Code& code, const Ranges& ranges, const CodeLine& test,
+                   const State& state) {
+  return structured::outcome_of(ranges, code.conditions[test.condition].first, state);
 }
 
 /// Tests whose outcome is known on each way to the few lines before them, or on all ways but one.
@@ -78,7 +71,9 @@ private:
   /// A way into a block: the line that jumps there, or none where the block above runs into it.
   struct Way {
     std::uint32_t jump;
-    std::optional<bool> holds; ///< the test at the end of the block, if that is known
+    Outcome outcome; ///< of the test at the end of the block
+    bool known() const { return outcome != Outcome::Unknown; }
+    bool holds() const { return outcome == Outcome::Always; }
   };
   struct Test {
     bool fits = false;
@@ -161,18 +156,18 @@ private:
   /// than where the lines stand.
   bool split(std::uint32_t b) {
     const auto& ways = tests_[b].ways;
-    if (std::any_of(ways.begin(), ways.end(), [](const Way& way) { return !way.holds; }))
+    if (std::any_of(ways.begin(), ways.end(), [](const Way& way) { return !way.known(); }))
       return move(b);
     const auto falling =
         std::find_if(ways.begin(), ways.end(), [](const Way& way) { return way.jump == none; });
     const auto holding =
-        std::count_if(ways.begin(), ways.end(), [](const Way& way) { return *way.holds; });
+        std::count_if(ways.begin(), ways.end(), [](const Way& way) { return way.holds(); });
     if (tests_[b].bytes == 0 || holding == 0 || std::size_t(holding) == ways.size())
       return false; // one test for all of them: it goes without a copy
     const bool stays =
-        falling != ways.end() ? *falling->holds : std::size_t(holding) * 2 > ways.size();
+        falling != ways.end() ? falling->holds() : std::size_t(holding) * 2 > ways.size();
     const auto site = std::find_if(ways.begin(), ways.end(), [&](const Way& way) {
-      return way.holds != stays && code_.lines[way.jump].kind == LineKind::Goto;
+      return way.holds() != stays && code_.lines[way.jump].kind == LineKind::Goto;
     });
     if (site == ways.end())
       return false;
@@ -186,14 +181,14 @@ private:
     const auto& ways = tests_[b].ways;
     if (tests_[b].bytes > 0 || ways.size() != 2)
       return false;
-    const auto& unknown = ways[ways[0].holds ? 1 : 0];
-    const auto& known = ways[ways[0].holds ? 0 : 1];
-    if (!known.holds || known.jump != none || code_.lines[unknown.jump].kind != LineKind::Goto)
+    const auto& unknown = ways[ways[0].known() ? 1 : 0];
+    const auto& known = ways[ways[0].known() ? 0 : 1];
+    if (!known.known() || known.jump != none || code_.lines[unknown.jump].kind != LineKind::Goto)
       return false;
     const auto place = flow_.blocks[b].end - 1;
     const auto test = code_.lines[place];
     const auto below = code_.labels++;
-    code_.lines[place].kind = *known.holds ? LineKind::Goto : LineKind::Nothing;
+    code_.lines[place].kind = known.holds() ? LineKind::Goto : LineKind::Nothing;
     code_.lines[unknown.jump].label = below;
     auto label = test;
     label.kind = LineKind::Label;
@@ -226,7 +221,7 @@ private:
         copy.push_back(copy_line(code_, code_.lines[i]));
     copy.push_back(line_of(LineKind::Goto, stays ? below : test.label));
     for (const auto& way : ways)
-      if (way.holds != stays && way.jump != site)
+      if (way.holds() != stays && way.jump != site)
         code_.lines[way.jump].label = label;
     auto& last = code_.lines[block.end - 1];
     last.kind = stays ? LineKind::Goto : LineKind::Nothing;
@@ -322,8 +317,10 @@ private:
     if (line.kind == LineKind::Goto)
       return line.label;
     if (line.kind == LineKind::If && is_pure_test(code_, line)) {
-      const auto holds = outcome_of(code_, ranges_, line, state);
-      return holds ? std::optional(*holds ? line.label : none) : std::nullopt;
+      const auto outcome = outcome_of(code_, ranges_, line, state);
+      return outcome == Outcome::Unknown
+                 ? std::nullopt
+                 : std::optional(outcome == Outcome::Always ? line.label : none);
     }
     if (line.kind != LineKind::On || !is_pure(effects_of(code_, line)))
       return std::nullopt;

@@ -15,16 +15,6 @@ namespace {
 using compiler::Range;
 using spec::Operator;
 
-enum class Outcome : std::uint8_t { Unknown, Always, Never };
-
-Outcome outcome_of(Comparison comparison, Range left, Range right) {
-  if (!where(comparison, left, right))
-    return Outcome::Never;
-  if (!where(opposite(comparison), left, right))
-    return Outcome::Always;
-  return Outcome::Unknown;
-}
-
 /// Rewrites a program by what is known of its values.
 class Rewriter {
 public:
@@ -293,8 +283,7 @@ private:
     if (condition.glue != Glue::None)
       return;
     auto& relation = condition.first;
-    const auto outcome = outcome_of(relation.comparison, ranges_.range_of(relation.left, state),
-                                    ranges_.range_of(relation.right, state));
+    const auto outcome = outcome_of(ranges_, relation, state);
     // An index that is wrong for certain stays a test, and the robot finds it.
     const bool to_good = relation.comparison == Comparison::LessEqual ||
                          relation.comparison == Comparison::GreaterEqual;

@@ -117,17 +117,12 @@ private:
     return variable;
   }
 
-  std::uint32_t renamed(std::uint32_t term) {
-    auto node = code_.terms[term];
-    const auto before = node;
-    if (node.kind == TermKind::Variable) {
-      node.left = variable_of(node.left, now_[node.left]);
-    } else if (node.kind == TermKind::Binary || node.kind == TermKind::Call) {
-      node.left = renamed(node.left);
-      if (node.kind == TermKind::Binary)
-        node.right = renamed(node.right);
-    }
-    return node.left == before.left && node.right == before.right ? term : code_.add(node);
+  std::uint32_t renamed(std::uint32_t root) {
+    return with_variables(code_, root, [&](std::uint32_t term) {
+      const auto before = code_.terms[term].left;
+      const auto variable = variable_of(before, now_[before]);
+      return variable == before ? term : code_.read(variable);
+    });
   }
 
   void rewrite(CodeLine& line) {
