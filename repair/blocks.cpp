@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t most_foreign = 64; // lines that do not parse; nobody mends more at once
 constexpr std::size_t block_states = 40; // of one line
+constexpr char place_sign = '\x1a';      // nobody types it
 
 /// What a line is to a block, by the words that structured programs have for it.
 enum class Role : std::uint8_t {
@@ -280,9 +281,9 @@ private:
     open_.push_back(std::move(block));
   }
 
-  // ---- jumps; `@7` is the number of the first line from lines_[7] on that is still there
+  // ---- jumps; a place and 7 is the number of the first line from lines_[7] on that is still there
 
-  static std::string at(std::size_t i) { return fmt::format("@{}", i); }
+  static std::string at(std::size_t i) { return fmt::format("{}{}", place_sign, i); }
 
   /// A number between a line and the one below it.
   std::optional<std::uint32_t> between(std::size_t above) const {
@@ -423,16 +424,20 @@ private:
     return known;
   }
 
-  /// The numbers for `@7`; nothing where a line would have to be added and has no number.
+  /// The numbers for places; nothing where a line would have to be added and has no number, or
+  /// where somebody has written the sign.
   std::optional<std::string> resolved(const std::string& text) {
     std::string out;
     for (std::size_t from = 0;;) {
-      const auto sign = text.find('@', from);
+      const auto sign = text.find(place_sign, from);
       out += text.substr(from, sign - from);
       if (sign == std::string::npos)
         return out;
       from = std::min(text.find_first_not_of("0123456789", sign + 1), text.size());
-      auto i = *parse_number<std::size_t>(text.substr(sign + 1, from - sign - 1));
+      const auto number = parse_number<std::size_t>(text.substr(sign + 1, from - sign - 1));
+      if (!number)
+        return std::nullopt;
+      auto i = *number;
       while (i < lines_.size() && lines_[i].gone())
         ++i;
       if (i == lines_.size() && !end_)
