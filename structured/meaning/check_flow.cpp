@@ -175,7 +175,7 @@ void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
   for (const auto& one : program_.statements)
     if (one.kind == Kind::Assign && names_.of_node[item(one, 0).value] == symbols[0] &&
         !value_of(item(one, 1)))
-      return; // a copy, which is another mistake
+      return check_copy(one, at(i).kind == Kind::While ? at(i) : at(at(i).next), symbols[0]);
   const auto name = program_.name(names_.symbols[symbols[0]].name);
   const auto& root = program_.nodes[condition];
   const auto relation = static_cast<Comparison>(root.what);
@@ -187,6 +187,29 @@ void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
   report(compiler::rules::EndlessLoop, root.span,
          fmt::format("the loop never ends: nothing in it changes `{}`", name),
          counts ? fmt::format("add `{} {} 1` to the loop", name, down ? "-=" : "+=") : "");
+}
+
+void Checker::check_copy(const Statement& copy, const Statement& test, std::uint32_t symbol) {
+  const auto& sensor = program_.nodes[item(copy, 1).value];
+  if (sensor.kind != NodeKind::System)
+    return;
+  std::uint32_t settings = 0;
+  for (const auto& one : program_.statements)
+    for (const auto& part : program_.items_of(one))
+      settings += part.kind == ItemKind::Place && names_.of_node[part.value] == symbol ? 1 : 0;
+  if (settings != 1)
+    return;
+  const auto word = program_.text_of(sensor.span);
+  const auto condition = item(test, 0).value;
+  auto line = std::string(program_.text_of(test.span));
+  for (auto n = condition + 1; n-- > program_.nodes[condition].first;)
+    if (const auto& node = program_.nodes[n];
+        node.kind == NodeKind::Name && names_.of_node[n] == symbol)
+      line.replace(node.span.begin - test.span.begin, node.span.end - node.span.begin, word);
+  auto& d = report(compiler::rules::StaleSensor, copy.span,
+                   fmt::format("`{}` is read once, before the loop that waits for it", word),
+                   fmt::format("write `{}`", line));
+  d.notes.push_back({program_.nodes[condition].span, "the loop tests the copy here"});
 }
 
 bool Checker::may_end(std::uint32_t loop, std::uint32_t symbol) const {

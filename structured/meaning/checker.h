@@ -165,6 +165,9 @@ private:
   /// A loop that asks one variable, which nothing in it changes.
   void check_unchanged(std::uint32_t i, std::uint32_t condition);
 
+  /// A loop that asks a variable which another line copied from a sensor, once.
+  void check_copy(const Statement& copy, const Statement& test, std::uint32_t symbol);
+
   /// Whether the lines of a loop may end it, or change the symbol.
   bool may_end(std::uint32_t loop, std::uint32_t symbol) const;
 
