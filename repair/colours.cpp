@@ -18,21 +18,24 @@ struct Colour {
 };
 
 constexpr auto colours = std::to_array<Colour>({
-    {"red", 0xFF0000, 1, "red rot rojo roja rouge rosso rossa vermelho vermelha"},
-    {"lime", 0x00FF00, 2, "green lime grün gruen verde vert verte"},
-    {"blue", 0x0000FF, 3, "blue blau azul bleu blu azzurro"},
-    {"orange", 0xFF8000, 4, "orange naranja arancione laranja"},
-    {"purple", 0x8000FF, 5, "purple violet lila violett morado violeta viola roxo pourpre"},
-    {"white", 0xFFFFFF, 6, "white weiß weiss blanco blanca blanc blanche bianco branco"},
-    {"yellow", 0xFFFF00, 7, "yellow gelb amarillo jaune giallo amarelo"},
-    {"black", 0x000000, 0, "black off dark schwarz aus negro noir nero preto apagado none"},
+    {"red", 0xFF0000, 1, "red rot rojo roja rouge rosso rossa vermelho vermelha rood"},
+    {"lime", 0x00FF00, 2, "green lime grün gruen verde vert verte groen"},
+    {"blue", 0x0000FF, 3, "blue blau azul bleu blu azzurro blauw"},
+    {"orange", 0xFF8000, 4, "orange naranja arancione laranja oranje"},
+    {"purple", 0x8000FF, 5, "purple violet lila violett morado violeta viola roxo pourpre paars"},
+    {"white", 0xFFFFFF, 6,
+     "white weiß weiss blanco blanca blanc blanche bianco branco branca bianca wit"},
+    {"yellow", 0xFFFF00, 7,
+     "yellow gelb amarillo jaune giallo gialla amarilla amarela amarelo geel"},
+    {"black", 0x000000, 0,
+     "black off dark schwarz aus negro noir nero nera negra preta preto apagado zwart uit none"},
     {"aqua", 0x00FFFF, -1, "cyan aqua türkis turquoise"},
     {"fuchsia", 0xFF00FF, -1, "magenta fuchsia"},
-    {"#FF69B4", 0xFF69B4, -1, "pink rosa rose"},
-    {"gray", 0x808080, -1, "gray grey grau gris grigio cinza"},
+    {"#FF69B4", 0xFF69B4, -1, "pink rosa rose roze"},
+    {"gray", 0x808080, -1, "gray grey grau gris grigio cinza grijs"},
     {"navy", 0x000080, -1, "navy"},
     {"teal", 0x008080, -1, "teal"},
-    {"#8B4513", 0x8B4513, -1, "brown braun"},
+    {"#8B4513", 0x8B4513, -1, "brown braun marrone marrom brun bruin"},
 });
 
 const Colour* named_colour(const Token& token) {
@@ -89,6 +92,9 @@ std::optional<std::string> write_colour(std::string_view function, const Tokens&
                                named->name == "white" || named->name == "yellow"
                            ? named->name
                            : std::string_view(hex));
+  // A word is translated by a word: the `green` of web pages is the darker one.
+  if (named->name == "lime" && !equal_words("lime", tokens[0].text) && function == "colour")
+    return "green";
   // Web pages' orange and purple are others; who writes the word means the word.
   const bool other = named->name == "purple" || named->name == "orange";
   return other && !equal_words(named->name, tokens[0].text) ? hex : std::string(named->name);

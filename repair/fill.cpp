@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace orb::repair {
 namespace {
@@ -80,10 +81,11 @@ struct Unit {
 };
 constexpr auto units = std::to_array<Unit>(
     {{"ms msec millis millisecond milliseconds millisekunden milisegundos millisecondes msecs", 1},
-     {"s sec secs second seconds sekunde sekunden sek segundo segundos seconde secondes secondi "
+     {"s sec secs second seconds sekunde sekunden sek segundo segundos seconden seconde secondes "
+      "secondi "
       "secondo seg",
       second_ms},
-     {"min mins minute minutes minuten minuto minutos minuti", 60 * second_ms}});
+     {"m min mins minute minutes minuten minuut minuto minutos minuti", 60 * second_ms}});
 
 enum class Assume : std::uint8_t { Milliseconds, Seconds, Either };
 
@@ -202,6 +204,17 @@ Text dice(const Tokens& from, const Tokens& to, Language language) {
   return *a > 1 ? fmt::format("{} + {}", call, *a - 1) : fmt::format("{} - {}", call, 1 - *a);
 }
 
+/// A factor with decimal places as a fraction; its inverse.
+Text fraction(const Tokens& tokens, bool inverse) {
+  const auto value = tokens.size() == 1 ? thousandths(tokens[0]) : std::nullopt;
+  if (!value || *value == 0 || *value % second_ms == 0)
+    return std::nullopt;
+  const auto divisor = std::gcd(*value, second_ms);
+  const auto above = (inverse ? second_ms : *value) / divisor;
+  const auto below = (inverse ? *value : second_ms) / divisor;
+  return fmt::format("{} / {}", above, below);
+}
+
 /// Three values, or a colour.
 Text channels(const Tokens& tokens) {
   if (tokens.size() == 1)
@@ -298,6 +311,13 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return dice(a, b, language);
   if (function == "below") // the second value is not one of them
     return dice(a, tokens_of(plus(b, -1).value_or(""), language), language);
+  if (function == "ratio" || function == "inverse")
+    return fraction(a, function == "inverse");
+  if (function == "most") { // of three brightnesses
+    const auto three = {whole(a), whole(b), whole(holes['o'])};
+    const auto most = std::max(three);
+    return most.value_or(0) > 0 ? Text(std::to_string(*most)) : std::nullopt;
+  }
   if (function == "around")
     return around_length(a, b);
   if (function == "zero")

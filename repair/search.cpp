@@ -19,6 +19,8 @@ public:
   std::vector<Candidate> all() {
     for (std::size_t i = 0; i < line_.size(); ++i) {
       near_words(i);
+      near_number(i);
+      unquoted(i);
       split(i);
       left_out(i);
       other_sign(i);
@@ -76,6 +78,41 @@ private:
       }
   }
 
+  /// `l00` and `2O0`: letters that look like digits.
+  void near_number(std::size_t i) {
+    const auto as_digits = [](std::string text) {
+      for (auto& c : text)
+        c = c == 'l' || c == 'I' ? '1' : c == 'O' || c == 'o' ? '0' : c;
+      return text;
+    };
+    const bool number = line_[i].is_number();
+    const bool goes_on = i + 1 < line_.size() && line_[i + 1].is_word() && !line_[i + 1].gap;
+    if (number ? !goes_on : !line_[i].is_word() || line_[i].text.size() < 2)
+      return;
+    const auto digits = as_digits(line_[i].text + (number ? line_[i + 1].text : ""));
+    const auto& letters = line_[i].text;
+    const bool has_digit = std::any_of(letters.begin(), letters.end(), is_digit);
+    if (!has_digit || !std::all_of(digits.begin(), digits.end(), is_digit))
+      return;
+    auto changed = line_;
+    changed[i].kind = Token::Kind::Number;
+    changed[i].text = digits;
+    if (number)
+      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    add(changed, 3);
+  }
+
+  /// `"7"` where a value stands.
+  void unquoted(std::size_t i) {
+    const auto& token = line_[i];
+    if (!token.is_text() || token.text.empty() || line_[0].is("print") ||
+        !std::all_of(token.text.begin(), token.text.end(), is_digit))
+      return;
+    auto changed = line_;
+    changed[i].kind = Token::Kind::Number;
+    add(changed, 4);
+  }
+
   void split(std::size_t i) {
     const auto& word = line_[i];
     if (!word.is_word() || is_known(word.text))
@@ -104,6 +141,14 @@ private:
     const auto& b = line_[i + 1];
     if (!a.is_word() || !(b.is_word() || b.is("_") || b.is("-")))
       return;
+    if (language_ == Language::Structured && b.is("-") && !b.gap && i + 2 < line_.size() &&
+        line_[i + 2].is_word() && !line_[i + 2].gap && !is_known(a.text)) {
+      auto changed = line_; // a name with a hyphen
+      changed[i].text = a.text + "_" + line_[i + 2].text;
+      const auto next = changed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      changed.erase(next, next + 2);
+      add(changed, 5);
+    }
     for (const auto* between : {"", "_"}) {
       auto changed = line_;
       changed[i].text = a.text + between + b.text;
@@ -124,7 +169,9 @@ private:
     constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs that compute nothing
     const bool is_idle = token.kind == Token::Kind::Sign && token.text.size() == 1 &&
                          idle.find(token.text[0]) != std::string_view::npos;
-    if (token.is_text() || (!twice && !is_idle))
+    const bool parts_numbers = !token.is("(") && !token.is(")") && i > 0 && i + 1 < line_.size() &&
+                               line_[i - 1].is_number() && line_[i + 1].is_number();
+    if (token.is_text() || parts_numbers || (!twice && !is_idle))
       return;
     auto changed = line_;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i));

@@ -21,20 +21,13 @@ struct Written {
 };
 
 /// Signs of several bytes that stand for one of a keyboard.
-constexpr auto drawn = std::to_array<Written>({{"×", "*"},
-                                               {"÷", "/"},
-                                               {"≤", "<="},
-                                               {"≥", ">="},
-                                               {"≠", "!="},
-                                               {"–", "-"},
-                                               {"−", "-"},
-                                               {"·", "*"},
-                                               {"←", "="},
-                                               {"→", "->"},
-                                               {"…", ".."},
-                                               {"°", "deg"}});
+constexpr auto drawn = std::to_array<Written>(
+    {{"×", "*"},  {"÷", "/"},  {"≤", "<="}, {"≥", ">="}, {"≠", "!="},  {"–", "-"},  {"−", "-"},
+     {"·", "*"},  {"←", "="},  {"→", "->"}, {"…", ".."}, {"°", "deg"}, {"，", ","}, {"、", ","},
+     {"．", "."}, {"：", ":"}, {"；", ";"}, {"（", "("}, {"）", ")"},  {"＝", "="}, {"＜", "<"},
+     {"＞", ">"}, {"＋", "+"}, {"－", "-"}, {"＊", "*"}, {"／", "/"}});
 constexpr auto quotes = std::to_array<std::string_view>(
-    {"“", "”", "„", "‟", "«", "»", "‘", "’", "‚", "''", "``", "´", "`", "'", "\""});
+    {"“", "”", "„", "＂", "‟", "«", "»", "‘", "’", "‚", "''", "``", "´", "`", "'", "\""});
 constexpr auto long_signs = std::to_array<std::string_view>(
     {"===", "!==", "...", "+-", "==", "!=", "<>", "<=", ">=", "=<", "=>",
      "+=",  "-=",  "*=",  "/=", "%=", "=+", "=-", "++", "--", "&&", "||",
@@ -216,15 +209,19 @@ private:
     return true;
   }
 
+  bool is_drawn() const {
+    return std::any_of(drawn.begin(), drawn.end(),
+                       [&](const Written& one) { return sees(one.text); });
+  }
+
   bool word(Tokens& tokens) {
     if (!is_part(text_[at_]) &&
         !(text_[at_] == '.' && language_ == Language::Macro && tokens.empty()))
       return false;
-    for (const auto& one : drawn)
-      if (sees(one.text))
-        return false;
+    if (is_drawn())
+      return false;
     const auto begin = at_++;
-    while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])))
+    while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])) && !is_drawn())
       ++at_;
     add(tokens, Token::Kind::Word, std::string(text_.substr(begin, at_ - begin)));
     return true;

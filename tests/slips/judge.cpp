@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <regex>
 
 namespace slips {
 namespace {
@@ -117,6 +118,13 @@ std::string meaning(Language language, const Lines& program) {
     const auto renumbered = orb::compiler::renumber(lines.program, {10, 10});
     if (const auto* plain = std::get_if<std::string>(&renumbered))
       bytes = image(*plain);
+    // `10 < D` is `D > 10`.
+    static const std::regex turned("(if|and|or) ?([0-9]+) ?([<>]) ?([A-Za-z]+) ?(?=and|or|then)");
+    for (std::smatch found; std::regex_search(bytes, found, turned);)
+      bytes.replace(static_cast<std::size_t>(found.position()),
+                    static_cast<std::size_t>(found.length()),
+                    fmt::format("{} {}{}{} ", found.str(1), found.str(4),
+                                found.str(3) == "<" ? '>' : '<', found.str(2)));
     bool quoted = false;
     for (std::size_t i = 0; i < bytes.size(); ++i) { // `a` is `A`
       quoted = bytes[i] != '\n' && quoted != (bytes[i] == '"');
