@@ -371,6 +371,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return name == "second" ? "1s" : "0";
   if (name == "loop")
     return known(around.loop);
+  if (name == "label")
+    return known(around.label);
   if (name == "closer")
     return known(around.closer);
   if (name == "fn")

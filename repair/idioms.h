@@ -46,6 +46,7 @@ struct Surroundings {
   std::string loop;                    ///< the variable of the innermost `for` that is open
   int heading = 0;                     ///< of the last roll above, where it is a number
   std::string pace;                    ///< its speed; empty where the ball rests
+  std::string label;                   ///< of a structured program, where it has only one
   std::string closer;                  ///< what ends the innermost open block
   std::vector<std::string_view> names; ///< that other lines use, too; of orbBasic: that they set
   std::vector<std::string_view> elsewhere; ///< all words of other lines

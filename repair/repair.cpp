@@ -179,35 +179,73 @@ private:
     return judge_.language == Language::Structured && line > 1 && goes_on(source_.line(line - 1));
   }
 
-  /// `else` on a line of its own, below its `if`.
-  bool join_else(Diagnostic& finding) const {
+  /// The nearest line that is not blank; 0 where there is none.
+  std::uint32_t above(std::uint32_t line) const {
+    while (--line > 0 && source_.line(line).find_first_not_of(" \t") == std::string_view::npos) {
+    }
+    return line;
+  }
+  std::uint32_t below(std::uint32_t line) const {
+    while (++line <= source_.line_count())
+      if (source_.line(line).find_first_not_of(" \t") != std::string_view::npos)
+        return line;
+    return 0;
+  }
+
+  /// An `if` of several lines that is one here: `else` below it, or its statement where nothing
+  /// ends the block.
+  bool join_if(Diagnostic& finding) const {
     const auto line = line_of(finding);
     const auto tokens = split(source_.line(line), judge_.language).tokens;
-    auto above = line - 1;
-    while (above > 0 && source_.line(above).find_first_not_of(" \t") == std::string_view::npos)
-      --above;
-    if (judge_.language != Language::Basic || above == 0 || tokens.empty() ||
-        !tokens[0].is("else") || source_.line(above).size() > longest_line)
+    if (judge_.language != Language::Basic || tokens.empty())
       return false;
-    const auto first = split(source_.line(above), judge_.language);
-    const auto joined = std::string(source_.line(above)) + " " + join(tokens);
+    if (tokens[0].is("else"))
+      return join(above(line), line, finding);
+    const auto next = tokens[0].is("if") && tokens.back().is("then") ? below(line) : 0;
+    return next != 0 && !ends_an_if() && join(line, next, finding);
+  }
+
+  bool ends_an_if() const {
+    for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+      const auto tokens = split(source_.line(n).substr(0, longest_line), judge_.language).tokens;
+      if (!tokens.empty() && (tokens[0].is("endif") || tokens[0].is("else") || tokens[0].is("}") ||
+                              (tokens.size() > 1 && tokens[0].is("end"))))
+        return true;
+    }
+    return false;
+  }
+
+  bool join(std::uint32_t upper, std::uint32_t lower, Diagnostic& finding) const {
+    if (upper == 0 || source_.line(upper).size() > longest_line ||
+        source_.line(lower).size() > longest_line)
+      return false;
+    const auto first = split(source_.line(upper), judge_.language);
+    const auto tokens = split(source_.line(lower), judge_.language).tokens;
+    const auto joined = join_parts(first.head, first.tokens, tokens);
     if (first.tokens.empty() || !first.tokens[0].is("if") || !first.comment.empty() ||
         !judge_.parses(joined))
       return false;
-    auto fix = remove(line, Safety::Unsafe);
+    auto fix = remove(lower, Safety::Unsafe);
     if (!fix)
       return false;
-    const auto end = source_.line_span(above).end;
-    fix->edits.push_back({{end, end}, " " + join(tokens)});
+    const auto span = source_.line_span(upper);
+    fix->edits.push_back({span, joined});
     std::sort(fix->edits.begin(), fix->edits.end(),
               [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
-    finding.help = fmt::format("write `{}`, and leave this line out", joined);
+    finding.help =
+        line_of(finding) == lower
+            ? fmt::format("write `{}`, and leave this line out", joined)
+            : fmt::format("write `{}`, and leave line {} out", joined, scenery_.number(lower));
     finding.fix = std::move(fix);
     return true;
   }
 
+  static std::string join_parts(std::string_view head, const Tokens& first, const Tokens& second) {
+    return std::string(head) + repair::join(first) + " " + repair::join(second);
+  }
+
   void offer(Diagnostic& finding) {
-    if (join_else(finding)) {
+    if (join_if(finding)) {
       mended_.insert(&finding);
       return;
     }
@@ -322,7 +360,8 @@ private:
       return; // what was offered does not go far enough to tell
     std::set<const Diagnostic*> gone;
     for (const auto& finding : findings_)
-      if (is_error(finding) && !finding.fix && !mended_.contains(&finding) &&
+      if (is_error(finding) && (!finding.fix || finding.rule->id == "block-end") &&
+          !mended_.contains(&finding) &&
           std::none_of(after.begin(), after.end(), [&](const Diagnostic& one) {
             return is_error(one) && ((one.rule == finding.rule && one.message == finding.message) ||
                                      then.line(then.position(one.span.begin).line) ==

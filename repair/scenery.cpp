@@ -28,6 +28,9 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
     if (!tokens.empty() && (language == Language::Structured || language == Language::Macro))
       open_or_close(tokens);
     note_roll(n, tokens);
+    if (language == Language::Structured && tokens.size() == 2 && tokens[0].is_word() &&
+        tokens[1].is(":") && !equal_words(tokens[0].text, "else"))
+      labels_.push_back(tokens[0].text);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;
@@ -133,6 +136,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     all.loop = loop_above(line);
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
     all.closer = closers_[line - 1];
+    all.label = labels_.size() == 1 ? labels_.front() : "";
   }
   return all;
 }

@@ -68,6 +68,7 @@ private:
   std::vector<std::string> open_;    ///< what ends the blocks that are open, the innermost last
   std::vector<std::string> closers_; ///< of each line: what ends the block that it is in
   std::vector<Roll> rolls_;          ///< from the top
+  std::vector<std::string> labels_;  ///< of a structured program
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };

@@ -155,8 +155,10 @@ private:
         if (!is_return(node))
           continue;
         if (inside_[i] == 0)
-          findings_.add(rules::ReturnWithoutGosub, node.span, "no `gosub` leads to this `return`",
-                        "end the program with `end`");
+          findings_
+              .add(rules::ReturnWithoutGosub, node.span, "no `gosub` leads to this `return`",
+                   "end the program with `end`")
+              .fix = single_fix("write `end`", node.span, "end", Safety::Unsafe);
         else
           falls_into = true;
       }

@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "compiler/lint/lint_passes.h"
 
 #include "compiler/lint/reading.h"
@@ -347,10 +348,62 @@ private:
           findings_.add(rules::DrivesOn, where, "the program ends while the ball is still driving",
                         "stop it first: `goroll 0,0,0`");
       add_note(d, statement_of(motion.roll).span, "it starts driving here");
+      add_stop(motion.roll, where, d);
     }
     if (motion.kind == Motion::Kind::Coasts)
       add_go(rules::WeakBrake, statement_of(motion.roll),
              "speed 0 with a go value above 0 lets the ball coast", '0');
+  }
+
+  /// The `delay` below a roll, if nothing jumps on the way to the end and no other one is there.
+  std::optional<std::uint32_t> only_wait_below(std::uint32_t roll) const {
+    std::optional<std::uint32_t> found;
+    for (auto i = roll + 1; i < size_; ++i) {
+      const auto& statement = statement_of(i);
+      if (flow_.code[i].target || statement.error || statement.then_branch != none ||
+          flow_.code[i].loops || !flow_.jumps_of(flow_.code[i]).empty() ||
+          (found && statement.kind == Statement::Delay))
+        return std::nullopt;
+      if (statement.kind == Statement::Delay)
+        found = i;
+    }
+    return found;
+  }
+
+  /// A line that stops the ball, in the direction in which it rolls: above an `end`, or as the
+  /// last.
+  void add_stop(std::uint32_t roll, Span where, Diagnostic& d) const {
+    if (const auto wait = only_wait_below(roll))
+      where = statement_of(*wait).span;
+    const auto& heading = program_.items_of(statement_of(roll))[0];
+    const auto stop = fmt::format(
+        "goroll {},0,0", number_in(program_, heading) ? program_.text_of(heading.span) : "0");
+    const auto line =
+        std::find_if(program_.lines.begin(), program_.lines.end(), [&](const Line& one) {
+          return one.span.begin <= where.begin && where.end <= one.span.end;
+        });
+    if (line == program_.lines.end() || !line->has_number() || !line->has_statement() ||
+        program_.statements[line->statement].span != where)
+      return; // in a branch of an `if`
+    const bool ends = program_.statements[line->statement].kind == Statement::End;
+    const auto below = std::find_if(line + 1, program_.lines.end(),
+                                    [](const Line& one) { return one.has_number(); });
+    const auto above = std::find_if(std::make_reverse_iterator(line), program_.lines.rend(),
+                                    [](const Line& one) { return one.has_number(); });
+    constexpr std::uint32_t step = 10;
+    const auto from = !ends ? line->number : above == program_.lines.rend() ? 0 : above->number;
+    const auto to = ends                            ? line->number
+                    : below != program_.lines.end() ? below->number
+                                                    : line->number + 2 * step;
+    if (to <= from + 1 ||
+        to > static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)))
+      return;
+    const auto text = fmt::format("{} {}", from + (to - from) / 2, stop);
+    const auto end = std::string(line_end_of(program_.text));
+    d.help = fmt::format("add `{}`", text);
+    d.fix =
+        ends ? single_fix(d.help, {line->span.begin, line->span.begin}, text + end, Safety::Unsafe)
+             : single_fix(d.help, {line->span.end, line->span.end}, end + text, Safety::Unsafe);
   }
 
   void judge_start(const StatementNode& roll) {

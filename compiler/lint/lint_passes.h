@@ -70,6 +70,9 @@ void lint_units(const Program& program, const Flow& flow, Findings& findings);
 /// Loops that wait for what cannot come, and loops that are meant as a wait.
 void lint_waits(const Program& program, const Flow& flow, Findings& findings);
 
+/// What is computed and lost on the way: values exchanged, sums, products, shares.
+void lint_sums(const Program& program, const Flow& flow, Findings& findings);
+
 /// What the robot does not have.
 void lint_robot(const Program& program, spec::Robot robot, Findings& findings);
 

@@ -122,6 +122,7 @@ private:
   const Node& first_operand(const Node& root, bool all) const;
   std::string_view inner_text(const Node& node) const;
   bool is_constant(const Node& root) const;
+  bool holds_call(const Node& root) const;
 
   int deepest_below(const Node& root) const;
 

@@ -363,8 +363,9 @@ void TextPass::check_operand(const Node& node, const Node& operand) {
   auto& d = findings_.add(
       rules::FunctionOperand, node.span,
       fmt::format("`{}` applies to all of `{}`", row.word, program_.text_of(operand.span)));
-  // A call as other languages write it, or numbers that nobody would leave to the robot to add up.
-  if (parenthesis || is_constant(operand)) {
+  // A call as other languages write it, numbers that nobody would leave to the robot to add up, or
+  // a sum of calls.
+  if (parenthesis || is_constant(operand) || holds_call(operand)) {
     d.help = fmt::format("write `{}`, or `{}` for all of it", less, all);
     d.fix = single_fix(d.help, {node.span.begin, operand.span.end}, less, Safety::Unsafe);
     return;
@@ -400,6 +401,11 @@ bool TextPass::is_constant(const Node& root) const {
   return std::all_of(first, &root, [](const Node& node) {
     return node.kind == NodeKind::Number || node.kind == NodeKind::Binary;
   });
+}
+
+bool TextPass::holds_call(const Node& root) const {
+  const auto* const first = program_.nodes.data() + root.first;
+  return std::any_of(first, &root, [](const Node& node) { return node.kind == NodeKind::Call; });
 }
 
 int TextPass::deepest_below(const Node& root) const {

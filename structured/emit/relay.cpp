@@ -138,6 +138,8 @@ private:
           return argument != nullptr && is_digit(program.text_of(argument->span)[0]);
         }))
       told.help.clear(); // what is exchanged there are names
+    if (found.rule == &robot::DrivesOn)
+      tell_of_stop(found, statement, told);
     if (found.rule == &robot::InvertedWait)
       told.help = "reverse the comparison";
     if (found.fix && found.fix->edits.size() == 1 && found.rule != &robot::ValueOutOfRange)
@@ -171,16 +173,63 @@ private:
                         program.text_of(items[1].span), test.substr(token.at + name.size()));
   }
 
+  /// A line that stops the ball in the direction in which it rolls.
+  void tell_of_stop(const Diagnostic& found, const Statement& statement, Diagnostic& told) const {
+    const auto& program = compiled_.program;
+    std::string_view heading = "0";
+    for (const auto& note : found.notes)
+      if (const auto& roll = statement_at(note.span.begin);
+          roll.kind == Kind::Robot && roll.robot == spec::Statement::Goroll &&
+          is_digit(program.text_of(program.items_of(roll)[0].span)[0]))
+        heading = program.text_of(program.items_of(roll)[0].span);
+    const auto line = fmt::format("goroll {}, 0, 0", heading);
+    const bool placed = found.fix && found.fix->edits[0].span.begin > 0;
+    const auto& last = placed ? statement_at(found.fix->edits[0].span.begin - 1) : statement;
+    const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
+    told.help = fmt::format("add `{}` {}", line, ends ? "above" : "below");
+    if (&last != &statement)
+      told.help += fmt::format(" `{}`", program.text_of(last.span));
+    if (last.depth > 0 || last.one_line)
+      return;
+    const std::string end(line_end_of(program.text));
+    const auto begin = last.span.begin;
+    const auto rest = program.text.find_first_of("\r\n", last.span.end);
+    const auto at = static_cast<std::uint32_t>(std::min(rest, program.text.size()));
+    told.fix = Fix{told.help,
+                   {ends ? Edit{{begin, begin}, line + end} : Edit{{at, at}, end + line}},
+                   Safety::Unsafe};
+  }
+
   /// The line to write is the source's own, with the one value replaced.
   void put_fix_into_source(const Fix& fix, const Statement& statement, Diagnostic& told) const {
     const auto& program = compiled_.program;
     const auto& edit = fix.edits.front();
     const auto* argument = argument_of(edit.span, statement);
-    if (argument == nullptr)
+    const auto there = argument != nullptr ? std::optional(argument->span)
+                                           : same_number(plain_.text_of(edit.span), statement);
+    if (!there)
       return;
-    told.help =
-        fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, argument->span.begin}),
-                    edit.text, program.text_of({argument->span.end, statement.span.end}));
+    told.help = fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, there->begin}),
+                            edit.text, program.text_of({there->end, statement.span.end}));
+    told.fix = Fix{told.help, {{*there, edit.text}}, fix.safety};
+  }
+
+  /// The only number of a statement that is written like one of its line.
+  std::optional<Span> same_number(std::string_view number, const Statement& statement) const {
+    std::optional<Span> found;
+    for (const auto& item : compiled_.program.items_of(statement)) {
+      if (item.kind != ItemKind::Expression)
+        continue;
+      for (auto n = compiled_.program.nodes[item.value].first; n <= item.value; ++n) {
+        const auto& node = compiled_.program.nodes[n];
+        if (node.kind != NodeKind::Number || compiled_.program.text_of(node.span) != number)
+          continue;
+        if (found)
+          return std::nullopt;
+        found = node.span;
+      }
+    }
+    return found;
   }
 
   static void replace(std::string& text, std::string_view from, std::string_view to) {

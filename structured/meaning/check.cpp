@@ -22,6 +22,8 @@ void Checker::run() {
   check_values();
   if (!any_error(program_.diagnostics))
     check_loops();
+  if (!any_error(program_.diagnostics))
+    check_products();
 }
 
 Diagnostic& Checker::report(const Rule& rule, Span span, std::string message, std::string help) {

@@ -77,6 +77,7 @@ void Checker::check_node(std::uint32_t n, bool is_root) {
     check_sensor(n);
   if (node.kind == NodeKind::Binary) {
     check_quotient(n);
+    check_share(n);
     check_overflow(n);
   }
   const bool takes_conditions =
@@ -158,9 +159,19 @@ void Checker::check_quotient(std::uint32_t n) {
       left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0 ||
       left.value >= right.value)
     return;
-  report(compiler::rules::ZeroQuotient, nodes[n].span,
-         fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
-         fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+  auto& d = report(compiler::rules::ZeroQuotient, nodes[n].span,
+                   fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
+                   fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+  const auto product = n + 1; // `x * (1 / 2)`
+  if (product >= nodes.size() || nodes[product].kind != NodeKind::Binary ||
+      static_cast<spec::Operator>(nodes[product].what) != spec::Operator::Multiply ||
+      nodes[product].first == nodes[n].first)
+    return;
+  const auto factor = program_.text_of(nodes[program_.before(n)].span);
+  const auto line = left.value == 1 ? fmt::format("{} / {}", factor, right.value)
+                                    : fmt::format("{} * {} / {}", factor, left.value, right.value);
+  d.help = fmt::format("write `{}`", line);
+  d.fix = Fix{d.help, {{nodes[product].span, line}}, Safety::Unsafe};
 }
 
 void Checker::check_overflow(std::uint32_t n) {
@@ -195,6 +206,7 @@ void Checker::check_sides(std::uint32_t root) {
     const auto left = program_.before(right);
     check_side(left, right);
     check_side(right, left);
+    check_joint(n);
   }
 }
 

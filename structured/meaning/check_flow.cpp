@@ -1,5 +1,8 @@
 #include "structured/meaning/checker.h"
 
+#include "base/suggest.h"
+#include "base/text.h"
+
 namespace orb::structured {
 
 void Checker::check_jumps() {
@@ -29,8 +32,7 @@ void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labe
     return at(l).name == jump.name && names_.routine_of[l] == names_.routine_of[i];
   });
   if (label == labels.end()) {
-    report(rules::GotoTarget, jump.name_span,
-           fmt::format("unknown label `{}:`", program_.text_of(jump.name_span)));
+    report_unknown_label(i, labels);
     return;
   }
   if (!encloses(*label, i))
@@ -39,6 +41,33 @@ void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labe
            "`goto` may leave blocks but not enter one");
   else
     report(rules::Unstructured, jump.span, "the program uses `goto`");
+}
+
+void Checker::report_unknown_label(std::uint32_t i, const std::vector<std::uint32_t>& labels) {
+  const auto& jump = at(i);
+  const auto word = std::string(program_.text_of(jump.name_span));
+  auto& d = report(rules::GotoTarget, jump.name_span, fmt::format("unknown label `{}:`", word));
+  const auto sub =
+      std::find_if(names_.symbols.begin(), names_.symbols.end(), [&](const Symbol& one) {
+        return one.kind == SymbolKind::Sub && equal_words(program_.name(one.name), word);
+      });
+  if (sub != names_.symbols.end()) {
+    const auto call =
+        fmt::format("{}{}", word, names_.routines[sub->routine].parameters > 0 ? "(…)" : "");
+    d.help = fmt::format("write `{}`; it is a sub", call);
+    if (call == word)
+      d.fix = Fix{"call the sub", {{jump.span, word}}, Safety::Unsafe};
+    return;
+  }
+  std::vector<std::string_view> here;
+  for (const auto label : labels)
+    if (names_.routine_of[label] == names_.routine_of[i])
+      here.push_back(program_.text_of(at(label).name_span));
+  const auto meant = closest(word, here);
+  if (!meant)
+    return;
+  d.help = fmt::format("did you mean `{}`?", *meant);
+  d.fix = Fix{fmt::format("write `{}`", *meant), {{jump.name_span, *meant}}, Safety::Unsafe};
 }
 
 bool Checker::encloses(std::uint32_t label, std::uint32_t other) const {
@@ -112,12 +141,20 @@ void Checker::check_loops() {
     if (at(i).kind == Kind::Loop ||
         (at(i).kind == Kind::While && always_holds(item(at(i), 0).value)))
       check_endless(i);
-    else if (at(i).kind == Kind::While)
+    else if (at(i).kind == Kind::While) {
       check_unchanged(i, item(at(i), 0).value);
-    else if (at(i).kind == Kind::Repeat && at(i).next != none && at(at(i).next).kind == Kind::Until)
+      if (at(i).next != none)
+        check_inverted(i);
+    } else if (at(i).kind == Kind::Repeat && at(i).next != none &&
+               at(at(i).next).kind == Kind::Until)
       check_unchanged(i, item(at(at(i).next), 0).value);
     if (at(i).kind == Kind::For)
       check_counter(i);
+    if (is_loop(at(i).kind) && at(i).next != none) {
+      check_single_round(i);
+      check_restart(i);
+    }
+    check_exchange(i);
   }
 }
 
@@ -130,6 +167,28 @@ bool Checker::always_holds(std::uint32_t condition) const {
     return right && right->value != 0;
   const auto left = evaluate(program_, names_, program_.before(condition - 1));
   return left && left->value == right->value;
+}
+
+void Checker::check_inverted(std::uint32_t i) {
+  const auto condition = item(at(i), 0).value;
+  const auto& root = program_.nodes[condition];
+  const auto asked = root.kind == NodeKind::Relation ? program_.before(condition - 1) : condition;
+  const auto& node = program_.nodes[asked];
+  if (node.kind != NodeKind::System)
+    return;
+  const auto& row = spec::info(static_cast<spec::Variable>(node.what));
+  const auto bound = root.kind == NodeKind::Relation ? bound_of(condition) : std::nullopt;
+  if (row.access != spec::Access::ReadClears || (root.kind == NodeKind::Relation && !bound) ||
+      (bound && (!bound->holds(row.greatest) || bound->holds(row.least))))
+    return;
+  for (auto n = i + 1; n < at(i).next; ++n)
+    if (at(n).kind != Kind::Robot || at(n).robot != spec::Statement::Delay)
+      return;
+  auto& d = report(
+      compiler::rules::InvertedWait, root.span,
+      fmt::format("`{}` is {} for one reading only: this does not wait", row.word, row.greatest),
+      fmt::format("write `while not {}`", row.word));
+  d.fix = Fix{d.help, {{root.span, fmt::format("not {}", row.word)}}, Safety::Unsafe};
 }
 
 void Checker::check_endless(std::uint32_t i) {

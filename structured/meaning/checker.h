@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/lint/joint.h"
 #include "compiler/lint/range.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
@@ -144,6 +145,8 @@ private:
 
   void check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labels);
 
+  void report_unknown_label(std::uint32_t i, const std::vector<std::uint32_t>& labels);
+
   /// Whether every block around `label` is also around `other`.
   bool encloses(std::uint32_t label, std::uint32_t other) const;
 
@@ -159,6 +162,9 @@ private:
   /// Whether a condition of constants holds.
   bool always_holds(std::uint32_t condition) const;
 
+  /// A loop that waits while what holds for one reading holds.
+  void check_inverted(std::uint32_t i);
+
   /// What stands after a loop that nothing leaves.
   void check_endless(std::uint32_t i);
 
@@ -173,6 +179,35 @@ private:
 
   /// A loop whose counter is an index in each turn, and not always that of an element.
   void check_counter(std::uint32_t i);
+
+  // ---- sums
+
+  /// A comparison with a number; nothing of any other node.
+  std::optional<compiler::Bound> bound_of(std::uint32_t relation) const;
+
+  /// `x > 9 and x < 1` never holds, `x <> 1 or x <> 2` always.
+  void check_joint(std::uint32_t n);
+
+  /// `a / b * 100`.
+  void check_share(std::uint32_t n);
+
+  /// The variable, array or parameter that a statement assigns to; none of any other one.
+  std::uint32_t set_by(const Statement& statement) const;
+
+  /// `a = b`, then `b = a`.
+  void check_exchange(std::uint32_t i);
+
+  /// A loop that ends with an `exit` that asks nothing.
+  void check_single_round(std::uint32_t i);
+
+  /// Variables that are only ever multiplied.
+  void check_products();
+  bool multiplies(const Statement& statement, std::uint32_t symbol) const;
+
+  /// A sum that its loop sets back in each round.
+  void check_restart(std::uint32_t i);
+  bool adds_to(const Statement& statement, std::uint32_t symbol) const;
+  bool is_read_below(std::uint32_t statement, std::uint32_t symbol) const;
 
   // ---- functions without a value
 

@@ -250,9 +250,30 @@ private:
     }
     alone_.insert(statement.word.begin);
     const bool ends = closes_block(statement.role());
-    if (report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word),
-               std::move(help)) &&
-        ends && !open_.empty()) {
+    const bool until =
+        statement.role() == Kind::Until && !open_.empty() && role(open_.back()) == Kind::Loop;
+    if (until)
+      help = "write `repeat` for the `loop` above";
+    if (open_.empty() && ends)
+      help = "leave the line out";
+    const bool told = report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word),
+                             std::move(help));
+    if (told && until) {
+      program_.diagnostics.back().fix = Fix{
+          "write `repeat`", {{program_.statements[open_.back()].word, "repeat"}}, Safety::Unsafe};
+    } else if (told && ends && open_.empty()) {
+      const std::string_view text = program_.text;
+      const auto line = text.substr(0, statement.span.begin).find_last_of("\r\n") + 1;
+      const auto next = text.find_first_not_of("\r\n", statement.span.end);
+      if (text.find_first_not_of(" \t", line) == statement.span.begin &&
+          text.find_first_of("\r\n", statement.span.end) == statement.span.end)
+        program_.diagnostics.back().fix =
+            Fix{"remove the line",
+                {{{static_cast<std::uint32_t>(line),
+                   static_cast<std::uint32_t>(std::min(next, text.size()))},
+                  {}}},
+                Safety::Unsafe};
+    } else if (told && ends && !open_.empty()) {
       auto& d = program_.diagnostics.back();
       const std::string end(by_opener(role(open_.back()))->end_words);
       d.fix = Fix{fmt::format("write `{}`", end), {{statement.span, end}}, Safety::Unsafe};

@@ -353,6 +353,31 @@ Diagnostic second_index(const Program& program, Span found) {
 
 } // namespace
 
+/// A number in front of a line: of a few lines it is a slip, of all another language.
+Diagnostic numbered_line(const Program& program, Span found) {
+  auto d = finding(rules::NumberedLine, found, "structured programs have no line numbers",
+                   "`orb lift` turns a numbered program into a structured one");
+  const std::string_view text = program.text;
+  std::size_t numbered = 0;
+  std::size_t all = 0;
+  for (std::size_t at = 0; at < text.size(); ++all) {
+    const auto begin = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+    numbered += begin < text.size() && is_digit(text[begin]) ? 1 : 0;
+    at = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    if (begin == text.size())
+      break;
+  }
+  const auto after = text.find_first_not_of(" \t", found.end);
+  if (numbered * 2 > all || after == std::string_view::npos)
+    return d;
+  const auto end = std::min(text.find_first_of("\r\n", after), text.size());
+  d.help = fmt::format("write `{}`", text.substr(after, end - after));
+  d.fix = Fix{"remove the number",
+              {{{found.begin, static_cast<std::uint32_t>(after)}, {}}},
+              Safety::Unsafe};
+  return d;
+}
+
 Diagnostic explain(const Program& program, Reason reason, Span found) {
   const auto text = std::string(program.text_of(found));
   if (!text.empty() && is_foreign(text.front()))
@@ -436,10 +461,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(rules::MisplacedStatement, found,
                    fmt::format("`{}` is not allowed in a one-line `if`", text),
                    "write `if … then`, the statement below it, and `end if`");
-  case Reason::LineNumber:
-    return finding(rules::NumberedLine, found, "structured programs have no line numbers",
-                   "`orb lift` turns a numbered "
-                   "program into a structured one");
+  case Reason::LineNumber: return numbered_line(program, found);
   case Reason::Gosub:
     return finding(rules::ForeignWord, found, "there is no `gosub`",
                    "write `sub name` … `end sub` and call it by its name");

@@ -1,0 +1,283 @@
+#include "compiler/lint/joint.h"
+#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/reading.h"
+#include "compiler/text/rules.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace orb::compiler {
+namespace {
+
+using spec::Statement;
+
+/// What letters add up to, and is lost on the way: values that are exchanged, sums, products and
+/// shares.
+class SumsPass {
+public:
+  SumsPass(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings) {}
+
+  void run() {
+    for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
+      const auto& statement = statement_of(i);
+      for (const auto& one : program_.whole(statement))
+        if (!one.error)
+          check(one);
+      if (statement.error)
+        continue;
+      check_exchange(i);
+      if (statement.kind == Statement::For)
+        check_sum(i);
+    }
+    check_products();
+  }
+
+private:
+  const StatementNode& statement_of(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+
+  /// The letter that a statement sets; nothing of any other one.
+  std::optional<std::uint8_t> set_by(const StatementNode& statement) const {
+    if (statement.error || statement.kind != Statement::Let)
+      return std::nullopt;
+    const auto let = program_.as<LetView>(statement);
+    return let.variable.kind == ItemKind::Letter
+               ? std::optional(static_cast<std::uint8_t>(let.variable.value))
+               : std::nullopt;
+  }
+  const Item& value_of(const StatementNode& let) const {
+    return program_.as<LetView>(let).expression;
+  }
+  static char name_of(std::uint8_t letter) { return static_cast<char>('A' + letter); }
+
+  void check(const StatementNode& statement) {
+    if (statement.kind == Statement::If)
+      check_joint(program_.as<IfView>(statement));
+    if (set_by(statement)) {
+      note_product(statement);
+      check_share(value_of(statement));
+    }
+  }
+
+  // ---- two comparisons of one letter or sensor
+
+  std::optional<Bound> bound_of(const Comparison& comparison) const {
+    const auto& right = comparison.right;
+    auto number = number_in(program_, right);
+    const auto nodes = nodes_of(program_, right); // `0 - 80`
+    if (!number && nodes.size() == 3 && nodes[0].kind == NodeKind::Number && nodes[0].value == 0 &&
+        nodes[1].kind == NodeKind::Number && nodes[2].kind == NodeKind::Binary &&
+        static_cast<spec::Operator>(nodes[2].what) == spec::Operator::Subtract)
+      number = -nodes[1].value;
+    if (!number)
+      return std::nullopt;
+    return Bound{static_cast<spec::Relation>(comparison.relation.value), *number};
+  }
+
+  void check_joint(const IfView& condition) {
+    if (!condition.second || program_.text_of(condition.first.left.span) !=
+                                 program_.text_of(condition.second->left.span))
+      return;
+    const bool read_twice = sensor_in(program_, condition.first.left).has_value();
+    const auto first = bound_of(condition.first);
+    const auto second = bound_of(*condition.second);
+    const bool both = condition.joint->kind == ItemKind::And;
+    if (!first || !second ||
+        (read_twice && !letter_in(program_, condition.first.left) &&
+         spec::info(*sensor_in(program_, condition.first.left)).access == spec::Access::ReadClears))
+      return;
+    const auto answer = joint_answer(*first, *second, both);
+    if (!answer)
+      return;
+    const Span all{condition.first.left.span.begin, condition.second->right.span.end};
+    const auto joint = condition.joint->span;
+    auto& d = findings_.add(
+        rules::ConstantComparison, all,
+        fmt::format("`{}` is {} true", program_.text_of(all), *answer ? "always" : "never"),
+        fmt::format("write `{}{}{}`", program_.text_of({all.begin, joint.begin}),
+                    both ? "or" : "and", program_.text_of({joint.end, all.end})));
+    d.fix = single_fix(d.help, joint, both ? "or" : "and", Safety::Unsafe);
+  }
+
+  // ---- A = B, then B = A
+
+  void check_exchange(std::uint32_t i) {
+    if (i + 1 == flow_.code.size() || flow_.code[i + 1].target)
+      return;
+    const auto first = set_by(statement_of(i));
+    const auto second = set_by(statement_of(i + 1));
+    if (!first || !second || first == second ||
+        letter_in(program_, value_of(statement_of(i))) != second ||
+        letter_in(program_, value_of(statement_of(i + 1))) != first)
+      return;
+    findings_.add(rules::LostExchange, statement_of(i).span,
+                  fmt::format("the old value of `{0}` is lost: the next line sets `{1}` to itself",
+                              name_of(*first), name_of(*second)),
+                  fmt::format("keep it first: `{2} = {0}`, then `{0} = {1}`, then `{1} = {2}`",
+                              name_of(*first), name_of(*second), free_letter()));
+  }
+
+  char free_letter() const {
+    std::array<bool, spec::letter_count> used{};
+    for (const auto& node : program_.nodes)
+      if (node.kind == NodeKind::Letter)
+        used[node.what] = true;
+    for (const auto& statement : program_.statements)
+      if (const auto letter = set_by(statement))
+        used[*letter] = true;
+    const auto free = std::find(used.begin() + 2, used.end(), false); // from C on
+    return name_of(static_cast<std::uint8_t>(free == used.end() ? 2 : free - used.begin()));
+  }
+
+  // ---- a share of 100
+
+  void check_share(const Item& value) {
+    const auto nodes = nodes_of(program_, value);
+    constexpr std::int32_t per_cent = 100;
+    if (nodes.size() < 5)
+      return;
+    const auto& root = nodes.back();
+    const auto& factor = nodes[nodes.size() - 2];
+    const auto& quotient = nodes[nodes.size() - 3];
+    const auto& divisor = nodes[nodes.size() - 4];
+    const auto is = [](const Node& node, spec::Operator sign) {
+      return node.kind == NodeKind::Binary && static_cast<spec::Operator>(node.what) == sign;
+    };
+    if (!is(root, spec::Operator::Multiply) || factor.kind != NodeKind::Number ||
+        factor.value != per_cent || !is(quotient, spec::Operator::Divide) ||
+        divisor.kind != NodeKind::Number || divisor.value < 2 || divisor.value % per_cent == 0)
+      return;
+    const auto& nodes_all = program_.nodes;
+    const auto at = static_cast<std::uint32_t>(&divisor - nodes_all.data());
+    const Span dividend{value.span.begin, nodes_all[at - 1].span.end};
+    const auto line =
+        fmt::format("{} * {} / {}", program_.text_of(dividend), factor.value, divisor.value);
+    auto& d = findings_.add(
+        rules::DividesFirst, value.span,
+        fmt::format("`{}` loses what the division leaves over", program_.text_of(value.span)),
+        fmt::format("multiply first: `{}`", line));
+    d.fix = single_fix(fmt::format("write `{}`", line), value.span, line, Safety::Unsafe);
+  }
+
+  // ---- a product that begins at 0
+
+  void note_product(const StatementNode& let) {
+    const auto letter = *set_by(let);
+    const auto nodes = nodes_of(program_, value_of(let));
+    const auto is_own = [&](const Node& node) {
+      return node.kind == NodeKind::Letter && node.what == letter;
+    };
+    const bool product =
+        nodes.size() > 2 && nodes.back().kind == NodeKind::Binary &&
+        static_cast<spec::Operator>(nodes.back().what) == spec::Operator::Multiply &&
+        (is_own(nodes.front()) || is_own(nodes[nodes.size() - 2])) && nodes.size() == 3;
+    auto& known = products_[letter];
+    known.others = known.others || !product;
+    if (product && known.first == nullptr)
+      known.first = &let;
+  }
+
+  void check_products() {
+    for (const auto& statement : program_.statements)
+      if (!statement.error &&
+          (statement.kind == Statement::For || statement.kind == Statement::Read ||
+           statement.kind == Statement::Input))
+        for (const auto& item : program_.items_of(statement))
+          if (item.kind == ItemKind::Letter)
+            products_[item.value].others = true;
+    for (std::size_t i = 0; i < products_.size(); ++i) {
+      if (products_[i].first == nullptr || products_[i].others || program_.lines.empty())
+        continue;
+      const auto name = name_of(static_cast<std::uint8_t>(i));
+      findings_.add(
+          rules::StaysZero, products_[i].first->span,
+          fmt::format("`{}` is 0 when the program starts, and times anything it stays 0", name),
+          fmt::format("set it above the loop: `{} = 1`", name));
+    }
+  }
+
+  // ---- a sum that begins anew in each round
+
+  void check_sum(std::uint32_t loop) {
+    const auto counter = program_.as<ForView>(statement_of(loop)).variable.value;
+    std::uint32_t depth = 0;
+    const StatementNode* restart = nullptr;
+    for (auto i = loop + 1; i < flow_.code.size(); ++i) {
+      const auto& statement = statement_of(i);
+      if (statement.error || flow_.code[i].target || statement.kind == Statement::If)
+        return;
+      if (statement.kind == Statement::Next && depth == 0)
+        return;
+      depth += statement.kind == Statement::For ? 1 : 0;
+      depth -= statement.kind == Statement::Next ? 1 : 0;
+      const auto letter = set_by(statement);
+      if (!letter || depth > 0 || *letter == counter)
+        continue;
+      if (restart == nullptr && number_in(program_, value_of(statement)))
+        restart = &statement;
+      else if (restart != nullptr && set_by(*restart) == letter && adds_to(statement, *letter) &&
+               is_read_after_loop(i, *letter))
+        return add_restart(*restart, *letter);
+    }
+  }
+
+  bool adds_to(const StatementNode& let, std::uint8_t letter) const {
+    const auto nodes = nodes_of(program_, value_of(let));
+    return nodes.size() > 2 && nodes.back().kind == NodeKind::Binary &&
+           nodes.front().kind == NodeKind::Letter && nodes.front().what == letter;
+  }
+
+  /// Whether what is read below the loop's `next` is that letter, before it is set there.
+  bool is_read_after_loop(std::uint32_t from, std::uint8_t letter) const {
+    std::uint32_t depth = 0;
+    bool below = false;
+    for (auto i = from; i < flow_.code.size(); ++i) {
+      const auto& statement = statement_of(i);
+      if (statement.error)
+        return false;
+      if (below && reads(statement, letter))
+        return true;
+      if (below && set_by(statement) == letter)
+        return false;
+      if (!below && statement.kind == Statement::Next && depth-- == 0)
+        below = true;
+      depth += statement.kind == Statement::For ? 1 : 0;
+    }
+    return false;
+  }
+
+  bool reads(const StatementNode& statement, std::uint8_t letter) const {
+    for (const auto& item : program_.items_of(statement))
+      for (const auto& node : nodes_of(program_, item))
+        if (node.kind == NodeKind::Letter && node.what == letter)
+          return true;
+    return false;
+  }
+
+  void add_restart(const StatementNode& restart, std::uint8_t letter) {
+    findings_.add(rules::SumRestarts, restart.span,
+                  fmt::format("`{}` starts anew in each round of the loop", name_of(letter)),
+                  fmt::format("write `{}` above the `for`", program_.text_of(restart.span)));
+  }
+
+  struct Product {
+    const StatementNode* first = nullptr;
+    bool others = false; ///< something else sets it, too
+  };
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  std::array<Product, spec::letter_count> products_{};
+};
+
+} // namespace
+
+void lint_sums(const Program& program, const Flow& flow, Findings& findings) {
+  SumsPass(program, flow, findings).run();
+}
+
+} // namespace orb::compiler
