@@ -81,7 +81,7 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
     return true;
   constexpr auto unknown = std::to_array<std::string_view>(
       {"unknown-name", "wrong-use", "argument-count", "foreign-word", "reserved-name",
-       "condition-as-value", "bad-number"});
+       "condition-as-value", "bad-number", "malformed-line"});
   return std::find(unknown.begin(), unknown.end(), finding.rule->id) != unknown.end();
 }
 

@@ -6,6 +6,7 @@
 #include "compiler/text/rules.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
+#include "structured/text/blocks.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -173,18 +174,34 @@ private:
                         program.text_of(items[1].span), test.substr(token.at + name.size()));
   }
 
+  /// The `delay` between a roll and the last statement, if no block is on the way and no other one
+  /// is there; else that statement.
+  const Statement* only_wait_below(const Statement& roll, const Statement& last) const {
+    const Statement* found = nullptr;
+    for (const auto* one = &roll + 1; one <= &last; ++one) {
+      const bool waits = one->kind == Kind::Robot && one->robot == spec::Statement::Delay;
+      if (one->depth != roll.depth || opens_block(one->kind) || one->kind == Kind::Label ||
+          (waits && found != nullptr))
+        return &last;
+      found = waits ? one : found;
+    }
+    return found != nullptr ? found : &last;
+  }
+
   /// A line that stops the ball in the direction in which it rolls.
   void tell_of_stop(const Diagnostic& found, const Statement& statement, Diagnostic& told) const {
     const auto& program = compiled_.program;
     std::string_view heading = "0";
+    const auto* place = &statement;
     for (const auto& note : found.notes)
       if (const auto& roll = statement_at(note.span.begin);
-          roll.kind == Kind::Robot && roll.robot == spec::Statement::Goroll &&
-          is_digit(program.text_of(program.items_of(roll)[0].span)[0]))
-        heading = program.text_of(program.items_of(roll)[0].span);
+          roll.kind == Kind::Robot && roll.robot == spec::Statement::Goroll) {
+        const auto first = program.text_of(program.items_of(roll)[0].span);
+        heading = is_digit(first[0]) ? first : heading;
+        place = only_wait_below(roll, statement);
+      }
     const auto line = fmt::format("goroll {}, 0, 0", heading);
-    const bool placed = found.fix && found.fix->edits[0].span.begin > 0;
-    const auto& last = placed ? statement_at(found.fix->edits[0].span.begin - 1) : statement;
+    const auto& last = *place;
     const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
     told.help = fmt::format("add `{}` {}", line, ends ? "above" : "below");
     if (&last != &statement)

@@ -21,7 +21,8 @@ void Checker::check_expressions(const Statement& statement) {
     for (auto n = program_.nodes[root].first; n <= root; ++n)
       check_node(n, n == root);
     const bool condition_fits = statement.kind == Kind::If || statement.kind == Kind::ElseIf ||
-                                statement.kind == Kind::While || statement.kind == Kind::Until;
+                                statement.kind == Kind::While || statement.kind == Kind::Until ||
+                                statement.kind == Kind::Broken; // of a block that is not there
     if (!program_.nodes[root].is_condition())
       continue;
     if (!condition_fits)

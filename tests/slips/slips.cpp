@@ -486,6 +486,8 @@ int main(int argc, char** argv) {
       judge_batch(root / "tests/slips/fresh.txt", show, troubles, [&] { return coin() % 2 == 1; });
   const auto third =
       judge_batch(root / "tests/slips/third.txt", show, troubles, [] { return false; });
+  const auto fourth =
+      judge_batch(root / "tests/slips/fourth.txt", show, troubles, [] { return false; });
   std::size_t clean = 0;
   const auto false_alarms = judge_clean(root, clean);
   Table all_typed;
@@ -494,8 +496,9 @@ int main(int argc, char** argv) {
   std::size_t all = 0;
   std::size_t of_parser = 0;
   std::size_t alone = 0;
-  for (const Table* one : {&habits.seen, &habits.held_out, &programs.seen, &programs.held_out,
-                           &first, &third.seen, &third.held_out, &typed}) {
+  for (const Table* one :
+       {&habits.seen, &habits.held_out, &programs.seen, &programs.held_out, &first, &third.seen,
+        &third.held_out, &fourth.seen, &fourth.held_out, &typed}) {
     all += total(one->sum());
     of_parser += one->of_parser;
     alone += one->of_parser_alone;
@@ -538,6 +541,13 @@ The machine, which asks for the same bytes, counts as follows. Held out:
 The others:
 
 {}
+A fourth batch (`tests/slips/fourth.txt`), by two people who had seen no table and were asked for what is hard: one
+mistake in ten is a matter of what was meant, and the program runs. Held out:
+
+{}
+The others:
+
+{}
 An older batch that has been read through (`tests/slips/programs.txt`):
 
 {}
@@ -572,7 +582,7 @@ of all mistakes above, to {:.1f} % without the line to write.
 {:.1f} % of the sentences in all these answers are said in German, Spanish and French, too (`--lang-ui`, `translations/`).
 )",
       printed(programs.held_out), printed(programs.seen), printed(third.held_out),
-      printed(third.seen), printed(first), clean,
+      printed(third.seen), printed(fourth.held_out), printed(fourth.seen), printed(first), clean,
       false_alarms == 0 ? std::string("no") : std::to_string(false_alarms),
       printed(habits.held_out), printed(habits.seen), printed(typed), percent(of_parser, all),
       percent(alone, all), percent(coverage.translated, coverage.said));
@@ -594,8 +604,9 @@ of all mistakes above, to {:.1f} % without the line to write.
   };
   return troubles == 0 && coverage.troubles.empty() && current && false_alarms == 0 &&
                  enough(habits.held_out, 93, 1, 3) && enough(programs.held_out, 91, 2, 3) &&
-                 enough(programs.seen, 98, 1, 1) && enough(third.held_out, 78, 4, 6) &&
-                 enough(third.seen, 94, 2, 1) && enough(first, 97, 1, 1) &&
+                 enough(programs.seen, 98, 1, 1) && enough(third.held_out, 78, 4, 7) &&
+                 enough(third.seen, 95, 1, 1) && enough(fourth.held_out, 52, 10, 9) &&
+                 enough(fourth.seen, 66, 12, 5) && enough(first, 97, 1, 1) &&
                  coverage.translated * 100 >= coverage.said * 97
              ? 0
              : 1;
