@@ -87,6 +87,12 @@ constexpr auto units = std::to_array<Unit>(
       second_ms},
      {"m min mins minute minutes minuten minuut minuto minutos minuti", 60 * second_ms}});
 
+const Unit* unit_called(std::string_view word) {
+  const auto* const unit = std::find_if(units.begin(), units.end(),
+                                        [&](const Unit& each) { return holds(each.words, word); });
+  return unit == units.end() ? nullptr : unit;
+}
+
 enum class Assume : std::uint8_t { Milliseconds, Seconds, Either };
 
 /// Milliseconds, and whether they were said in another unit.
@@ -109,10 +115,8 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
     return std::nullopt;
   const bool fraction = *value % second_ms != 0;
   if (used < tokens.size()) {
-    const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& one) {
-      return tokens[used].is_word() && holds(one.words, tokens[used].text);
-    });
-    if (unit == units.end() || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
+    const auto* const unit = tokens[used].is_word() ? unit_called(tokens[used].text) : nullptr;
+    if (unit == nullptr || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
       return std::nullopt;
     return Time{*value * unit->ms / second_ms, unit->ms > 1};
   }
@@ -273,6 +277,14 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return clock(a);
   if (function == "length")
     return length(a);
+  if (function == "clockface") { // minutes and seconds
+    const auto minutes = whole(a);
+    const auto seconds = whole(b);
+    constexpr std::int64_t minute = 60; // seconds
+    return minutes && seconds && *seconds < minute
+               ? Text(fmt::format("{}s", *minutes * minute + *seconds))
+               : std::nullopt;
+  }
   if (function == "less")
     return plus(a, -1);
   if (function == "more")
@@ -390,6 +402,11 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
 }
 
 } // namespace
+
+std::int64_t milliseconds_of(std::string_view unit) {
+  const auto* const found = unit_called(unit);
+  return found == nullptr ? 0 : found->ms;
+}
 
 bool holds_name(const Tokens& tokens, const Surroundings& around) {
   return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {

@@ -3,6 +3,10 @@
 #include "repair/idioms.h"
 
 #include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace orb::repair {
 
@@ -15,6 +19,9 @@ struct Holes {
   Tokens& operator[](char letter) { return of[static_cast<std::size_t>(letter - 'a')]; }
   const Tokens& operator[](char letter) const { return of[static_cast<std::size_t>(letter - 'a')]; }
 };
+
+/// How many milliseconds a unit of time is, in any of the languages; 0 for other words.
+std::int64_t milliseconds_of(std::string_view unit);
 
 /// Whether a name that other lines use, too, is among the tokens.
 bool holds_name(const Tokens& tokens, const Surroundings& around);

@@ -66,6 +66,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   const bool leaves_out = edit != nullptr && edit->text.empty() && edit->span.size() > 0 &&
                           is_letter(line_[edit->span.begin - begin_]) &&
                           own->find_first_not_of(" \t;", parts_.head.size()) != std::string::npos;
+  if (rephrase(parts_.tokens))
+    return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   if (!own || leaves_out || finding.fix->safety != Safety::Safe)
     several_lines(start);
   if (!best_ && !leaves_out &&
@@ -210,7 +212,7 @@ bool LineRepair::keeps_texts(std::string_view lines) const {
   return lines.empty() ||
          std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
            const bool filled = token.text.find_first_of("{%\\") != std::string::npos;
-           return !token.is_text() || filled || find_colour(token) ||
+           return !token.is_text() || !token.closed || filled || find_colour(token) ||
                   lines.find(token.text) != std::string_view::npos;
          });
 }
@@ -248,10 +250,26 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
   return accepted;
 }
 
+/// Tries what the language makes of the line's values; true when that cannot be better.
+bool LineRepair::rephrase(const Tokens& line) {
+  if (!judge_.rephrase || line.empty())
+    return false;
+  for (const auto& one : judge_.rephrase(line)) {
+    if (!attempt(one.text, {}, one.sure))
+      continue;
+    if (!one.other.empty())
+      other_ = attempt_line(whole(one.other), {}, false, false);
+    return true;
+  }
+  return false;
+}
+
 /// Applies habits until the line is one.
 void LineRepair::habits(const std::string& statement, Bounds bounds) {
-  explore(statement, around_, bounds, seen_,
-          [&](const Rewritten& one) { return attempt(one.text, one.note, one.sure); });
+  explore(statement, around_, bounds, seen_, [&](const Rewritten& one) {
+    return attempt(one.text, one.note, one.sure) ||
+           (judge_.rephrase && rephrase(tokens_of(one.text, judge_.language)));
+  });
 }
 
 /// Habits that are several lines here: they say more than any one line.

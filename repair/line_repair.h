@@ -70,6 +70,7 @@ private:
   bool keeps_texts(std::string_view lines) const;
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
+  bool rephrase(const Tokens& line);
   void habits(const std::string& statement, Bounds bounds);
   void several_lines(const std::string& statement);
   void by_fix(const Diagnostic& finding);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,12 +18,22 @@ namespace orb::repair {
 /// Of orbBasic, which stands below this room: compiler/check.cpp holds it against spec/.
 inline constexpr std::uint32_t greatest_line_number = 65535;
 
+/// A line that says the same in another form.
+struct Rephrased {
+  std::string text;       ///< without the blanks in front; several lines have `\n` between them
+  bool sure = true;       ///< nothing else can have been meant
+  std::string other = {}; ///< what can have been meant as well; empty without one
+};
+
 /// What a language answers about texts.
 struct Judge {
   Language language = Language::Basic;
   std::vector<std::string_view> words; ///< of the language, in their documented spelling
   /// Whether a line parses by itself, as far as one line can tell.
   std::function<bool(std::string_view line)> parses;
+  /// What the values of a line say, in the documented order and form, the likeliest first; may be
+  /// empty.
+  std::function<std::vector<Rephrased>(const Tokens& line)> rephrase = {};
   /// All findings about a whole text.
   std::function<std::vector<Diagnostic>(std::string_view text)> check;
 };

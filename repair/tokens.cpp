@@ -113,7 +113,8 @@ private:
     while (!said.empty() && is_blank(said.back()))
       said.remove_suffix(1);
     const bool hash = language_ == Language::Macro || language_ == Language::Test;
-    comment_ = (hash ? "# " : "' ") + std::string(said);
+    const bool kept = language_ == Language::Macro && sees(";");
+    comment_ = (kept ? "; " : hash ? "# " : "' ") + std::string(said);
     if (said.empty())
       comment_.pop_back();
     at_ = text_.size();
