@@ -58,6 +58,9 @@ private:
 
   void read_id(AssembledMacro& defined, const Value& value);
 
+  /// The first id from `first` that no macro above has.
+  void offer_id(Diagnostic& d, Span span, std::uint8_t first) const;
+
   void read_flag(AssembledMacro& defined, const Value& value);
 
   static void set_flags(AssembledMacro& defined, int flags);
@@ -131,6 +134,7 @@ private:
   Assembly assembly_;
   std::unordered_map<std::string_view, Name> names_;
   std::size_t constants_ = 0;
+  Span id_span_; ///< of the last id that was read
   std::size_t current_ = 0;
   bool inside_ = false;
   bool no_end_ = false;

@@ -1,11 +1,16 @@
 #include "assembler/lint.h"
 
+#include "assembler/edits.h"
 #include "assembler/layout.h"
+#include "assembler/lint_loops.h"
+#include "assembler/lint_meant.h"
 #include "assembler/lint_timing.h"
 #include "assembler/parse.h"
+#include "assembler/rephrase.h"
 #include "assembler/rules.h"
 #include "assembler/timing.h"
 #include "base/silence.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "repair/repair.h"
 
@@ -45,25 +50,30 @@ public:
 
   std::vector<Diagnostic> run() {
     for (const auto& macro : assembly_.macros) {
+      around_ = &macro;
       check_size(macro);
       check_flags(macro);
       check_commands(macro);
-      check_loops(macro);
       check_robot(macro);
     }
+    join(lint_loops(source_, assembly_));
+    join(lint_meant(source_, assembly_));
     check_heap();
     check_gosub_depth();
     check_collisions();
     check_rolls();
     if (any_error(assembly_.diagnostics))
       return std::move(diagnostics_); // a line that does not parse may take the time
-    auto in_time = lint_timing(assembly_);
-    diagnostics_.insert(diagnostics_.end(), std::make_move_iterator(in_time.begin()),
-                        std::make_move_iterator(in_time.end()));
+    join(lint_timing(source_, assembly_));
     return std::move(diagnostics_);
   }
 
 private:
+  void join(std::vector<Diagnostic> more) {
+    diagnostics_.insert(diagnostics_.end(), std::make_move_iterator(more.begin()),
+                        std::make_move_iterator(more.end()));
+  }
+
   Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
     diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
     return diagnostics_.back();
@@ -141,6 +151,7 @@ private:
             report(rules::StreamOnly, command.span,
                    fmt::format("`{}` aborts a macro that is not a stream", word),
                    fmt::format("write `end`, or give the macro `id={}`", spec::macro_id_stream));
+        diagnostic.fix = Fix{"write `end`", {{command.span, "end"}}, Safety::Unsafe};
         if (!macro.id)
           diagnostic.severity = Severity::Warning; // it may be sent as a stream yet
       }
@@ -149,10 +160,7 @@ private:
                fmt::format("the stream macro ignores `{}`", word),
                kind == MacroCommand::End ? "`stream_end` ends it" : "");
       if (leaves != nullptr && kind != MacroCommand::End && kind != MacroCommand::Comment) {
-        report(
-            rules::Unreachable, command.span,
-            fmt::format("`{}` is unreachable: `{}` does not return", word, leaves->info->mnemonic))
-            .notes.push_back({leaves->span, "control leaves the macro here"});
+        unreachable(macro, command, *leaves);
         leaves = nullptr;
       }
       if (kind == MacroCommand::Goto || kind == MacroCommand::Sleep ||
@@ -164,6 +172,37 @@ private:
     if (!macro.has_end && !stream)
       report(rules::MissingEnd, macro.commands.empty() ? macro.span : macro.commands.back().span,
              "missing `end`", "remove `.noend`");
+  }
+
+  /// `sleep` with commands below it: a wait was meant.
+  void sleeps_on(const PlacedCommand& sleep) {
+    auto line = std::string(source_.text(sleep.span));
+    line.replace(0, sleep.info->mnemonic.size(), spec::info(MacroCommand::Delay).mnemonic);
+    auto& d = report(rules::SleepsOn, sleep.span,
+                     "`sleep` switches the ball off, and what follows never runs",
+                     fmt::format("write `{}`", line));
+    d.fix = Fix{d.help, {{sleep.span, line}}, Safety::Unsafe};
+  }
+
+  void unreachable(const AssembledMacro& macro, const PlacedCommand& command,
+                   const PlacedCommand& leaves) {
+    if (is(leaves, MacroCommand::Sleep) && leaves.origin == Origin::Written)
+      return sleeps_on(leaves);
+    auto& d = report(rules::Unreachable, command.span,
+                     fmt::format("`{}` is unreachable: `{}` does not return",
+                                 command.info->mnemonic, leaves.info->mnemonic));
+    d.notes.push_back({leaves.span, "control leaves the macro here"});
+    const bool calls =
+        is(leaves, MacroCommand::Goto) && leaves.origin == Origin::Written &&
+        known_[static_cast<std::uint8_t>(leaves.value[0])] &&
+        spec::macro_id_kind(static_cast<std::uint8_t>(leaves.value[0])) == MacroIdKind::User &&
+        leaves.value[0] != macro.id && kind_of(macro) != MacroIdKind::Stream;
+    if (!calls)
+      return;
+    auto line = std::string(source_.text(leaves.span));
+    line.replace(0, leaves.info->mnemonic.size(), spec::info(MacroCommand::Gosub).mnemonic);
+    d.help = fmt::format("write `{}` in line {}", line, line_of(leaves));
+    d.fix = Fix{fmt::format("write `{}`", line), {{leaves.span, line}}, Safety::Unsafe};
   }
 
   void check_values(const PlacedCommand& command) {
@@ -178,9 +217,6 @@ private:
       report(rules::MarkerReserved, command.operand,
              fmt::format("the vendor's client uses markers 1 to {} to pace streams",
                          spec::macro_reserved_markers));
-    if (kind == MacroCommand::LoopStart && command.value[0] == 0)
-      report(rules::LoopZero, command.operand, "a loop count of 0 runs once",
-             "write 1, or remove it");
     check_time(command);
   }
 
@@ -193,13 +229,59 @@ private:
     const auto& operand = command.info->operand[last];
     const auto ms = command.value[last];
     const auto written = source_.text(command.span);
-    if (operand.unit != spec::MacroUnit::Milliseconds || operand.maximum <= UINT8_MAX || ms <= 0 ||
-        ms >= shortest_ms || !is_digit(written.back()))
+    const bool drives = is(command, MacroCommand::Roll);
+    const bool said = written.find('=') != std::string_view::npos;
+    if (operand.unit != spec::MacroUnit::Milliseconds || ms <= 0 || ms >= shortest_ms ||
+        !is_digit(written.back()) || (operand.maximum <= UINT8_MAX && !drives && !said))
       return;
     const Span span{command.span.end - 1, command.span.end};
     auto& d = report(rules::ShortTime, span, fmt::format("`{}` without a unit is {} ms", ms, ms),
                      fmt::format("write `{}s`", written));
     d.fix = Fix{d.help, {{{span.end, span.end}, "s"}}, Safety::Unsafe};
+    if (operand.maximum > UINT8_MAX || drives)
+      return;
+    const auto statement = std::string(written.substr(0, written.find_last_of(" ,\t")));
+    const auto wait = fmt::format("delay {}s", ms);
+    const auto bare = statement.substr(0, statement.find_last_not_of(" ,\t") + 1);
+    const auto line = line_of(command);
+    d.help = fmt::format("write `{}`, then `{}`", bare, wait);
+    d.fix =
+        Fix{d.help,
+            {{{command.span.begin + static_cast<std::uint32_t>(bare.size()), command.span.end}, {}},
+             below(source_, line, indent_of(source_, line), wait)},
+            Safety::Unsafe};
+  }
+
+  /// The one known id that is a slip away from what a command names; empty where there is none, or
+  /// several. The macro itself was not meant.
+  std::string near_id(const PlacedCommand& command) const {
+    const auto written = std::to_string(command.value[0]);
+    std::string found;
+    for (std::size_t other = spec::macro_id_user_first; other <= spec::macro_id_user_last;
+         ++other) {
+      const auto id = std::to_string(other);
+      if (!known_[other] || other == around_->id || edit_distance(written, id) != 1)
+        continue;
+      if (!found.empty())
+        return {};
+      found = id;
+    }
+    return found;
+  }
+
+  /// A known id with the same two digits the other way round; empty where there is none.
+  std::string turned_id(std::uint8_t id) const {
+    const std::size_t turned = id % 10U * 10U + id / 10U;
+    return turned >= spec::macro_id_user_first && known_[turned] ? std::to_string(turned)
+                                                                 : std::string();
+  }
+
+  void offer_id(Diagnostic& d, const PlacedCommand& command, const std::string& id) const {
+    if (id.empty() || parse_number<int>(source_.text(command.operand)) != command.value[0])
+      return;
+    const auto line = fmt::format("write `{} {}`", command.info->mnemonic, id);
+    d.help = d.help.empty() ? line : fmt::format("{}, or {}", line, d.help);
+    d.fix = Fix{line, {{command.operand, id}}, Safety::Unsafe};
   }
 
   void check_target(const PlacedCommand& command) {
@@ -219,54 +301,19 @@ private:
       return;
     case MacroIdKind::User:
       if (!known_[id])
-        report(rules::UnknownTarget, command.operand,
-               fmt::format("no macro in these files has id {}", id),
-               fmt::format("check it together with the file that defines `id={}`", id));
+        offer_id(report(rules::UnknownTarget, command.operand,
+                        fmt::format("no macro in these files has id {}", id),
+                        fmt::format("check it together with the file that defines `id={}`", id)),
+                 command, near_id(command));
       return;
     case MacroIdKind::System:
+      if (const auto turned = turned_id(id); !known_[id] && !turned.empty())
+        offer_id(report(rules::UnknownTarget, command.operand,
+                        fmt::format("id {} is a macro of the ball itself", id)),
+                 command, turned);
+      return;
     case MacroIdKind::Temporary: return;
     }
-  }
-
-  void check_loops(const AssembledMacro& macro) {
-    const PlacedCommand* open = nullptr;
-    int replaced = 0;
-    for (const auto& command : macro.commands) {
-      if (is(command, MacroCommand::LoopStart) || is(command, MacroCommand::LoopStartSystem)) {
-        if (open != nullptr) {
-          report(rules::NestedLoop, command.span, "this loop replaces the previous one",
-                 "loops do not nest; multiply the counts, or repeat the commands")
-              .notes.push_back({open->span, "which begins here"});
-          ++replaced;
-        }
-        open = &command;
-      } else if (is(command, MacroCommand::LoopEnd)) {
-        if (open == nullptr && replaced > 0)
-          --replaced; // explained by the nesting
-        else if (open == nullptr)
-          report(rules::LoopEnd, command.span, "`loop_end` without `loop_start`",
-                 "remove it, or add `loop_start` above");
-        open = nullptr;
-      } else if (open != nullptr && is(command, MacroCommand::End) && command.span.size() > 0) {
-        auto& d = report(rules::LoopOpen, command.span, "`end` in a loop ends the whole macro",
-                         "write `loop_end`");
-        d.fix = Fix{d.help, {{command.span, "loop_end"}}, Safety::Unsafe};
-        d.notes.push_back({open->span, "the loop"});
-        return;
-      }
-    }
-    if (open == nullptr || any_error(assembly_.diagnostics))
-      return;
-    auto& d = report(rules::LoopOpen, open->span, "unterminated loop", "write `loop_end` below");
-    const auto last = std::find_if(
-        macro.commands.rbegin(), macro.commands.rend(),
-        [](const PlacedCommand& command) { return command.origin != Origin::Supplied; });
-    const auto end = source_.line_span(line_of(*last)).end;
-    const auto line = source_.line(line_of(*open));
-    const auto indent = line.substr(0, line.find_first_not_of(" \t"));
-    d.fix = Fix{d.help,
-                {{{end, end}, fmt::format("{}{}loop_end", line_end_of(source_.text()), indent)}},
-                Safety::Unsafe};
   }
 
   std::uint32_t line_of(const PlacedCommand& command) const {
@@ -333,10 +380,12 @@ private:
       }
     if (roll == nullptr || !stops || roll->value[1] > UINT8_MAX)
       return;
+    const auto line = fmt::format("roll {}, 0{}", roll->value[1],
+                                  roll->value[2] > 0 ? fmt::format(", {}ms", roll->value[2]) : "");
     report(rules::NeverRolls, roll->span,
            "the ball never rolls: its speed is 0 here, and nowhere else more",
-           fmt::format("write `roll {}, 0{}`; the speed stands first", roll->value[1],
-                       roll->value[2] > 0 ? fmt::format(", {}ms", roll->value[2]) : ""));
+           fmt::format("write `{}`; the speed stands first", line))
+        .fix = Fix{fmt::format("write `{}`", line), {{roll->span, line}}, Safety::Unsafe};
   }
 
   void check_gosub_depth() {
@@ -365,6 +414,7 @@ private:
   const Assembly& assembly_;
   const LintOptions& options_;
   const Ids& known_;
+  const AssembledMacro* around_ = nullptr; ///< the macro that is looked at
   std::vector<Diagnostic> diagnostics_;
 };
 
@@ -416,6 +466,9 @@ void offer_lines(const Source& source, const Ids& known, const LintOptions& opti
   judge.language = repair::Language::Macro;
   judge.words = all_words();
   judge.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
+  judge.rephrase = [constants = constants_of(source.text())](const repair::Tokens& line) {
+    return rephrase(line, constants);
+  };
   judge.check = [&](std::string_view text) {
     const Source changed(source.name(), std::string(text));
     const auto assembly = assemble(changed);

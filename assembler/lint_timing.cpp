@@ -1,5 +1,6 @@
 #include "assembler/lint_timing.h"
 
+#include "assembler/edits.h"
 #include "assembler/rules.h"
 #include "assembler/timing.h"
 #include "assembler/walk.h"
@@ -28,7 +29,8 @@ bool rolls(MacroCommand kind) {
 
 class TimingLinter {
 public:
-  explicit TimingLinter(const Assembly& assembly) : assembly_(assembly) {}
+  TimingLinter(const Source& source, const Assembly& assembly)
+      : source_(source), assembly_(assembly) {}
 
   std::vector<Diagnostic> run() {
     std::vector<bool> led_to(assembly_.macros.size());
@@ -63,6 +65,8 @@ private:
     const PlacedCommand* command = nullptr; ///< null: none runs
     std::int64_t begin_ms = 0;
     std::int64_t end_ms = 0;
+    const PlacedCommand* wait = nullptr; ///< the one delay since then
+    int waits = 0;
   };
 
   void cut(const Background& background, std::int64_t now_ms, Span by, std::string_view what) {
@@ -76,9 +80,29 @@ private:
                                                                                   : "rotation",
                     print_time(background.end_ms - background.begin_ms),
                     print_time(now_ms - background.begin_ms)),
-        fmt::format("add `delay {}` after it", background.end_ms - now_ms));
+        fmt::format("add `delay {}` after it", time_text(background.end_ms - now_ms)));
+    lengthen(diagnostic, background, now_ms);
     if (by.size() > 0)
       diagnostic.notes.push_back({by, fmt::format("{} here", what)});
+  }
+
+  /// The delay that is there becomes long enough, or there is one.
+  void lengthen(Diagnostic& diagnostic, const Background& background, std::int64_t now_ms) const {
+    const auto& command = *background.command;
+    const auto line = fmt::format("delay {}", time_text(background.end_ms - background.begin_ms));
+    const auto title = fmt::format("write `{}`", line);
+    const bool ignored = background.wait != nullptr && rolls(background.wait->info->command) &&
+                         command.info->background == MacroBackground::Rotate;
+    if ((now_ms == background.begin_ms || ignored) && command.origin == Origin::Written) {
+      const auto at = source_.position(command.span.begin).line;
+      diagnostic.help = title + " below";
+      diagnostic.fix =
+          Fix{title, {below(source_, at, indent_of(source_, at), line)}, Safety::Unsafe};
+    } else if (background.waits == 1 && background.wait->origin == Origin::Written) {
+      const auto span = background.wait->span;
+      diagnostic.help = fmt::format("{} in line {}", title, source_.position(span.begin).line);
+      diagnostic.fix = Fix{title, {{span, line}}, Safety::Unsafe};
+    }
   }
 
   /// What goes on while commands run.
@@ -102,6 +126,13 @@ private:
       check_roll(command, visit.latest_ms, ongoing);
       check_time(command, visit, ongoing);
       stabilize(command, ongoing);
+      for (auto* background : {&ongoing.fade, &ongoing.rotation})
+        if (background->command != nullptr && command.info->wait != spec::MacroWait::None &&
+            wait_of(command, visit.sd1_ms, visit.sd2_ms).most_ms > 0)
+          background->waits += std::exchange(background->wait, &command) != &command ||
+                                       !is(command, MacroCommand::Delay)
+                                   ? is(command, MacroCommand::Delay) ? 1 : 2
+                                   : 0;
       begin_background(command, visit, ongoing);
       if (command.info->command == MacroCommand::Gosub && !defines(command.value[0]))
         ongoing = {}; // who knows what happens there
@@ -128,9 +159,41 @@ private:
                               fmt::format("this {} has no time: {}", what,
                                           by.size() > 0 ? "the next one replaces it at once"
                                                         : "the macro ends, and stops the motors"),
-                              "write `delay 1s` below");
+                              "put a delay below it, such as `delay 1s`");
+    last_as_others(diagnostic, *first.command);
     if (by.size() > 0)
       diagnostic.notes.push_back({by, "replaced here"});
+  }
+
+  static bool is_alike(const PlacedCommand& a, const PlacedCommand& b) {
+    return a.info != nullptr && b.info != nullptr &&
+           (rolls(a.info->command) ? rolls(b.info->command) && b.value[0] > 0
+                                   : a.info->command == b.info->command);
+  }
+
+  /// Where all others of its kind last equally long, so does this one.
+  void last_as_others(Diagnostic& diagnostic, const PlacedCommand& command) const {
+    std::vector<std::int64_t> times;
+    for (const auto& macro : assembly_.macros)
+      for (std::size_t i = 0; i + 1 < macro.commands.size(); ++i) {
+        const auto& other = macro.commands[i];
+        if (&other == &command || !is_alike(command, other))
+          continue;
+        const auto own = wait_of(other, 0, 0).most_ms;
+        const auto& next = macro.commands[i + 1];
+        times.push_back(own > 0 ? own : is(next, MacroCommand::Delay) ? next.value[0] : 0);
+      }
+    constexpr std::size_t enough = 2;
+    std::erase(times, 0);
+    if (times.size() < enough || command.origin != Origin::Written ||
+        std::any_of(times.begin(), times.end(), [&](auto time) { return time != times[0]; }))
+      return;
+    const auto line = fmt::format("delay {}", time_text(times[0]));
+    const auto at = source_.position(command.span.begin).line;
+    diagnostic.help = fmt::format("write `{}` below", line);
+    diagnostic.fix = Fix{fmt::format("write `{}`", line),
+                         {below(source_, at, indent_of(source_, at), line)},
+                         Safety::Unsafe};
   }
 
   void check_time(const PlacedCommand& command, const Visit& visit, Ongoing& ongoing) {
@@ -147,20 +210,32 @@ private:
     }
   }
 
+  /// A line that is missing above a command.
+  Diagnostic& before_it(Diagnostic& diagnostic, const PlacedCommand& command,
+                        const std::string& line) const {
+    diagnostic.help = fmt::format("add `{}` before it", line);
+    if (command.origin == Origin::Written)
+      diagnostic.fix = Fix{fmt::format("add `{}`", line),
+                           {above(source_, source_.position(command.span.begin).line, line)},
+                           Safety::Unsafe};
+    return diagnostic;
+  }
+
   void check_roll(const PlacedCommand& command, std::int64_t now, const Ongoing& ongoing) {
     const auto kind = command.info->command;
     const auto& rotation = ongoing.rotation;
     if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
         first_time(rules::RollDuringRotation, command.span))
-      report(rules::RollDuringRotation, command.span,
-             "this roll is ignored: a rotation is still in progress",
-             fmt::format("add `delay {}` before it", rotation.end_ms - now))
+      before_it(report(rules::RollDuringRotation, command.span,
+                       "this roll is ignored: a rotation is still in progress"),
+                command, fmt::format("delay {}", time_text(rotation.end_ms - now)))
           .notes.push_back({rotation.command->span, "the rotation begins here"});
     if ((rolls(kind) || kind == MacroCommand::SetSpeed) && ongoing.unstabilized != nullptr &&
         first_time(rules::RollUnstabilized, command.span))
-      report(rules::RollUnstabilized, command.span,
-             fmt::format("`{}` has no effect while stabilization is off", command.info->mnemonic),
-             "add `stabilization on` before it")
+      before_it(report(rules::RollUnstabilized, command.span,
+                       fmt::format("`{}` has no effect while stabilization is off",
+                                   command.info->mnemonic)),
+                command, "stabilization on")
           .notes.push_back({ongoing.unstabilized->span, "switched off here"});
   }
 
@@ -200,6 +275,7 @@ private:
                        });
   }
 
+  const Source& source_;
   const Assembly& assembly_;
   std::vector<Diagnostic> diagnostics_;
   std::set<std::pair<std::string_view, std::uint32_t>> reported_;
@@ -213,8 +289,8 @@ bool is(const PlacedCommand& command, MacroCommand kind) {
          command.info->command == kind;
 }
 
-std::vector<Diagnostic> lint_timing(const Assembly& assembly) {
-  return TimingLinter(assembly).run();
+std::vector<Diagnostic> lint_timing(const Source& source, const Assembly& assembly) {
+  return TimingLinter(source, assembly).run();
 }
 
 } // namespace orb::assembler

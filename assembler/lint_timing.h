@@ -13,6 +13,6 @@ bool is(const PlacedCommand& command, spec::MacroCommand kind);
 
 /// What macros do too early, while something else goes on: fades and rotations that are cut short,
 /// rolls that are ignored.
-std::vector<Diagnostic> lint_timing(const Assembly& assembly);
+std::vector<Diagnostic> lint_timing(const Source& source, const Assembly& assembly);
 
 } // namespace orb::assembler

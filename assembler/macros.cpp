@@ -67,34 +67,39 @@ std::optional<std::uint8_t> Assembler::header_byte(const Value& value, int minim
 
 void Assembler::read_id(AssembledMacro& defined, const Value& value) {
   const auto id = header_byte(value, spec::macro_id_none, "an id is");
-  if (!id) {
-    const auto is_taken = [&](std::uint8_t free) {
-      return std::any_of(assembly_.macros.begin(), assembly_.macros.end(),
-                         [&](const AssembledMacro& macro) { return macro.id == free; });
-    };
-    auto free = spec::macro_id_user_first;
-    while (free < spec::macro_id_user_last && is_taken(free))
-      ++free;
-    if (is_taken(free))
-      return;
-    auto& d = assembly_.diagnostics.back();
-    d.help = fmt::format("write `id={}`", free);
-    d.fix = Fix{d.help, {{value.span, std::to_string(free)}}, Safety::Unsafe};
-    return;
-  }
+  if (!id)
+    return offer_id(assembly_.diagnostics.back(), value.span, spec::macro_id_user_first);
   const auto kind = spec::macro_id_kind(*id);
   if (kind == spec::MacroIdKind::None)
-    report(rules::Header, value.span, "id 0 means that no macro is running",
-           fmt::format("write an id from {} to {}", spec::macro_id_user_first,
-                       spec::macro_id_user_last));
-  if (kind == spec::MacroIdKind::System)
-    report(rules::Header, value.span,
-           fmt::format("ids {} to {} are reserved for the ball's own macros",
-                       spec::macro_id_system_first, spec::macro_id_system_last),
-           fmt::format("write an id from {} to {}", spec::macro_id_user_first,
-                       spec::macro_id_user_last))
-        .severity = Severity::Warning;
+    offer_id(report(rules::Header, value.span, "id 0 means that no macro is running",
+                    fmt::format("write an id from {} to {}", spec::macro_id_user_first,
+                                spec::macro_id_user_last)),
+             value.span, spec::macro_id_user_first);
+  if (kind == spec::MacroIdKind::System) {
+    auto& d = report(rules::Header, value.span,
+                     fmt::format("ids {} to {} are reserved for the ball's own macros",
+                                 spec::macro_id_system_first, spec::macro_id_system_last),
+                     fmt::format("write an id from {} to {}", spec::macro_id_user_first,
+                                 spec::macro_id_user_last));
+    d.severity = Severity::Warning;
+    offer_id(d, value.span, spec::macro_id_user_first);
+  }
+  id_span_ = value.span;
   defined.id = id;
+}
+
+void Assembler::offer_id(Diagnostic& d, Span span, std::uint8_t first) const {
+  const auto is_taken = [&](std::uint8_t free) {
+    return std::any_of(assembly_.macros.begin(), assembly_.macros.end(),
+                       [&](const AssembledMacro& macro) { return macro.id == free; });
+  };
+  auto free = first;
+  while (free < spec::macro_id_user_last && is_taken(free))
+    ++free;
+  if (is_taken(free))
+    return;
+  d.help = fmt::format("write `id={}`", free);
+  d.fix = Fix{d.help, {{span, std::to_string(free)}}, Safety::Unsafe};
 }
 
 void Assembler::read_flag(AssembledMacro& defined, const Value& value) {
@@ -137,10 +142,11 @@ void Assembler::check_id_is_free(const AssembledMacro& defined) {
     return;
   for (const auto& other : assembly_.macros)
     if (other.id == defined.id) {
-      report(
+      auto& d = report(
           rules::DuplicateId, defined.span,
-          fmt::format("`{}` and `{}` have the same id {}", other.name, defined.name, *defined.id))
-          .notes.push_back({other.span, fmt::format("`{}` is here", other.name)});
+          fmt::format("`{}` and `{}` have the same id {}", other.name, defined.name, *defined.id));
+      d.notes.push_back({other.span, fmt::format("`{}` is here", other.name)});
+      offer_id(d, id_span_, *defined.id);
       return;
     }
 }

@@ -284,9 +284,13 @@ void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
              fmt::format("`{}` of `{}` is {}, found {}", operand.name, command, range_of(operand),
                          is_exact ? std::to_string(value) : fmt::format("`{}`", text(span))),
              help);
+  const bool brightness = operand.name == "red" || operand.name == "green" ||
+                          operand.name == "blue" || operand.name == "value";
   if (!is_exact || operand.word_count > 0 || operand.unit == MacroUnit::Milliseconds ||
-      number.span != span)
-    return; // nobody knows which word, or how to wait so long
+      operand.kind == MacroOperandKind::MacroId || number.span != span ||
+      (value < operand.minimum && operand.unit == MacroUnit::None && !brightness))
+    return; // nobody knows which word, which macro, what less than nothing is, or how to wait so
+            // long
   const auto near = operand.unit == MacroUnit::Degrees && !operand.is_signed
                         ? same_way(value, operand.maximum + 1)
                         : std::clamp<std::int64_t>(value, operand.minimum, operand.maximum);

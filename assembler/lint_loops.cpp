@@ -1,0 +1,176 @@
+#include "assembler/lint_loops.h"
+
+#include "assembler/edits.h"
+#include "assembler/layout.h"
+#include "assembler/lint_timing.h"
+#include "assembler/rules.h"
+#include "repair/arrange.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
+
+namespace orb::assembler {
+namespace {
+
+using spec::MacroCommand;
+using Origin = PlacedCommand::Origin;
+
+class LoopLinter {
+public:
+  LoopLinter(const Source& source, const Assembly& assembly)
+      : source_(source), assembly_(assembly) {}
+
+  std::vector<Diagnostic> run() {
+    for (const auto& macro : assembly_.macros)
+      check(macro);
+    return std::move(diagnostics_);
+  }
+
+private:
+  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+    diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
+    return diagnostics_.back();
+  }
+
+  std::uint32_t line_of(const PlacedCommand& command) const {
+    return source_.position(command.span.begin).line;
+  }
+
+  void check(const AssembledMacro& macro) {
+    const PlacedCommand* open = nullptr;
+    const PlacedCommand* before = nullptr;
+    int replaced = 0;
+    for (const auto& command : macro.commands) {
+      if (is(command, MacroCommand::LoopStart) || is(command, MacroCommand::LoopStartSystem)) {
+        if (open != nullptr) {
+          report(rules::NestedLoop, command.span, "this loop replaces the previous one",
+                 "loops do not nest; multiply the counts, or repeat the commands")
+              .notes.push_back({open->span, "which begins here"});
+          ++replaced;
+        }
+        check_count(command);
+        open = &command;
+      } else if (is(command, MacroCommand::LoopEnd)) {
+        if (open == nullptr && replaced > 0)
+          --replaced; // explained by the nesting
+        else if (open == nullptr)
+          second_end(command, before);
+        open = nullptr;
+      } else if (open != nullptr && is(command, MacroCommand::End) && command.span.size() > 0) {
+        auto& d = report(rules::LoopOpen, command.span, "`end` in a loop ends the whole macro",
+                         "write `loop_end`");
+        d.fix = Fix{d.help, {{command.span, "loop_end"}}, Safety::Unsafe};
+        d.notes.push_back({open->span, "the loop"});
+        return;
+      }
+      before = &command;
+    }
+    if (open != nullptr && !any_error(assembly_.diagnostics))
+      left_open(macro, *open);
+  }
+
+  void check_count(const PlacedCommand& command) {
+    if (command.info == nullptr || !is(command, MacroCommand::LoopStart) || command.value[0] > 1)
+      return;
+    const auto said = count_said(command);
+    auto help = said > 1 ? fmt::format("write `loop_start {}`", said) : std::string();
+    if (command.value[0] == 0)
+      report(rules::LoopZero, command.operand, "a loop count of 0 runs once",
+             help.empty() ? "write 1, or remove it" : help);
+    else
+      report(rules::LoopOne, command.operand, "a loop of 1 round repeats nothing",
+             help.empty() ? "write how many rounds there are, 2 to 255" : help);
+    if (said > 1)
+      diagnostics_.back().fix =
+          Fix{help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};
+  }
+
+  /// How often something happens by the remarks above a command, `three times`; 0 where none says.
+  int count_said(const PlacedCommand& command) const {
+    int said = 0;
+    for (std::uint32_t n = 1; n <= line_of(command); ++n) {
+      const auto line = source_.line(n);
+      const auto tokens = repair::tokens_of(line.substr(std::min(remark_of(line) + 1, line.size())),
+                                            repair::Language::Macro);
+      for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+        if (repair::is_called("times", tokens[i + 1].text))
+          said = repair::count_of(tokens[i]);
+    }
+    return said;
+  }
+
+  void second_end(const PlacedCommand& command, const PlacedCommand* before) {
+    auto& d = report(rules::LoopEnd, command.span, "`loop_end` without `loop_start`",
+                     "remove it, or add `loop_start` above");
+    if (before == nullptr || !is(*before, MacroCommand::LoopEnd) ||
+        any_error(assembly_.diagnostics))
+      return;
+    d.help = "leave the line out";
+    d.fix = Fix{"remove the line", {without_line(source_, line_of(command))}, Safety::Unsafe};
+  }
+
+  void left_open(const AssembledMacro& macro, const PlacedCommand& open) {
+    const auto* last = last_inside(macro, open);
+    const auto line = line_of(*last);
+    auto& d = report(rules::LoopOpen, open.span, "unterminated loop");
+    d.help = last == &open ? "write `loop_end` below"
+                           : fmt::format("write `loop_end` below line {}", line);
+    d.fix = Fix{"write `loop_end`",
+                {below(source_, line, indent_of(source_, line_of(open)), "loop_end")},
+                Safety::Unsafe};
+  }
+
+  /// The last command that a loop without an end was meant to repeat: what is indented by it, else
+  /// all but what rests and darkens the ball when everything is done.
+  const PlacedCommand* last_inside(const AssembledMacro& macro, const PlacedCommand& open) const {
+    const auto first = static_cast<std::size_t>(&open - macro.commands.data());
+    auto last = macro.commands.size();
+    while (last > first + 1 && macro.commands[last - 1].origin == Origin::Supplied)
+      --last;
+    const auto margin = indent_of(source_, line_of(open)).size();
+    const auto deep = [&](std::size_t i) {
+      return indent_of(source_, line_of(macro.commands[i])).size() > margin;
+    };
+    if (first + 1 < last && deep(first + 1)) {
+      auto at = first + 1;
+      while (at < last && deep(at))
+        ++at;
+      return &macro.commands[at - 1];
+    }
+    auto end = last;
+    while (end > first + 2 && finishes(macro.commands[end - 1]))
+      --end;
+    return &macro.commands[end - 1];
+  }
+
+  /// Whether a command is one that ends a dance: it takes no time, and lets the ball rest.
+  static bool finishes(const PlacedCommand& command) {
+    if (command.info == nullptr || command.origin != Origin::Written)
+      return false;
+    const auto kind = command.info->command;
+    if (kind == MacroCommand::WaitUntilStopped || kind == MacroCommand::Goto ||
+        kind == MacroCommand::Sleep)
+      return true;
+    const bool rests = kind == MacroCommand::Roll || kind == MacroCommand::SetSpeed;
+    const bool darkens = kind == MacroCommand::Rgb || kind == MacroCommand::BackLed;
+    const std::size_t channels = kind == MacroCommand::Rgb ? 3 : 1;
+    return (rests || darkens) && command.value[command.info->operand_count - 1U] == 0 &&
+           std::all_of(command.value.begin(),
+                       command.value.begin() + static_cast<std::ptrdiff_t>(channels),
+                       [](std::int32_t value) { return value == 0; });
+  }
+
+  const Source& source_;
+  const Assembly& assembly_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+} // namespace
+
+std::vector<Diagnostic> lint_loops(const Source& source, const Assembly& assembly) {
+  return LoopLinter(source, assembly).run();
+}
+
+} // namespace orb::assembler

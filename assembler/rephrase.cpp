@@ -1,0 +1,339 @@
+#include "assembler/rephrase.h"
+
+#include "base/text.h"
+#include "repair/tokens.h"
+#include "spec/macro.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::assembler {
+namespace {
+
+using repair::Counts;
+using repair::Measure;
+using repair::Operand;
+using repair::Quantities;
+using repair::Rephrased;
+using repair::Token;
+using repair::Tokens;
+using spec::MacroOperandKind;
+using spec::MacroUnit;
+
+constexpr std::int64_t one = 1000;        // in thousandths
+constexpr std::size_t longest_line = 240; // bytes; nobody writes longer constants
+
+Operand operand_of(const spec::MacroOperand& row) {
+  Operand operand;
+  operand.name = row.name;
+  operand.counts = row.kind == MacroOperandKind::MacroId ? Counts::Name
+                   : row.unit == MacroUnit::Degrees      ? Counts::Degrees
+                   : row.unit == MacroUnit::None         ? Counts::Plain
+                                                         : Counts::Milliseconds;
+  operand.least = row.minimum;
+  operand.most = row.maximum;
+  operand.optional = row.kind == MacroOperandKind::Delay;
+  for (const auto* word = row.begin_words(); word != row.end_words(); ++word)
+    operand.words.push_back(word->word);
+  return operand;
+}
+
+Tokens after(const Tokens& line, std::size_t begin) {
+  return {line.begin() + static_cast<std::ptrdiff_t>(std::min(begin, line.size())), line.end()};
+}
+
+std::optional<std::int64_t> milliseconds(const std::string& text) {
+  const auto value = repair::quantity_of(repair::tokens_of(text, repair::Language::Macro), {});
+  return value && value->thousandths % one == 0 && value->thousandths >= 0
+             ? std::optional(value->thousandths / one)
+             : std::nullopt;
+}
+
+std::string delays(const std::string& time) {
+  const auto ms = milliseconds(time);
+  const auto waits = ms ? waits_of(*ms) : std::vector<std::int64_t>();
+  const auto word = spec::info(spec::MacroCommand::Delay).mnemonic;
+  if (waits.size() == 1)
+    return fmt::format("{} {}", word, time);
+  std::string all;
+  for (const auto wait : waits)
+    all +=
+        fmt::format("{}{} {}", all.empty() ? "" : "\n", word,
+                    wait % one == 0 ? fmt::format("{}s", wait / one) : fmt::format("{}ms", wait));
+  return all;
+}
+
+/// What is taken where an operand lacks and one value is the clear one.
+std::string_view usual_of(const spec::MacroCommandInfo& info, const Operand& operand) {
+  if (info.background != spec::MacroBackground::None && operand.name == "time")
+    return "1s";
+  if (info.command == spec::MacroCommand::WaitUntilStopped)
+    return "5s";
+  return info.command == spec::MacroCommand::Stabilization && operand.name == "mode" ? "on" : "";
+}
+
+/// `left 90` turns by -90.
+void turn_left(Tokens& values) {
+  bool left = false;
+  std::erase_if(values, [&](const Token& token) {
+    const bool to_left = token.is_word() && repair::is_called("270", token.text);
+    left = left || to_left;
+    return to_left || (token.is_word() && repair::is_called("90", token.text));
+  });
+  for (auto& token : values)
+    if (left && token.is_number()) {
+      token.text.insert(0, "-");
+      return;
+    }
+}
+
+/// `100 -100` are powers of both motors: forward and reverse.
+void say_modes(Tokens& values) {
+  Tokens said;
+  std::size_t powers = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool back = values[i].is("-") && i + 1 < values.size() && values[i + 1].is_number();
+    i += back ? 1 : 0;
+    const bool timed = i + 1 < values.size() && values[i + 1].is_word() && !values[i + 1].gap;
+    if (values[i].is(","))
+      continue;
+    if (!values[i].is_number())
+      return;
+    if (timed)
+      break;
+    said.push_back(Token{Token::Kind::Word, back ? "reverse" : "forward", true});
+    said.push_back(values[i]);
+    ++powers;
+  }
+  if (powers == 2)
+    values = said;
+}
+
+/// Letters that names do not have, and what stands for them.
+constexpr auto letters = std::to_array<std::pair<std::string_view, std::string_view>>(
+    {{"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"}, {"ß", "ss"},
+     {"á", "a"},  {"à", "a"},  {"â", "a"},  {"ã", "a"},  {"é", "e"},  {"è", "e"},  {"ê", "e"},
+     {"ë", "e"},  {"í", "i"},  {"ì", "i"},  {"î", "i"},  {"ï", "i"},  {"ó", "o"},  {"ò", "o"},
+     {"ô", "o"},  {"õ", "o"},  {"ú", "u"},  {"ù", "u"},  {"û", "u"},  {"ñ", "n"},  {"ç", "c"}});
+
+std::string without_accents(std::string text) {
+  for (const auto& [letter, plain] : letters)
+    for (auto at = text.find(letter); at != std::string::npos; at = text.find(letter, at))
+      text.replace(at, letter.size(), plain);
+  return text;
+}
+
+/// A name in the letters that names have: `grün` is `gruen`, `my-name` is `my_name`.
+std::string plain_name(const Tokens& tokens) {
+  std::string name;
+  for (const auto& token : tokens)
+    for (const auto& part : repair::tokens_of(token.text, repair::Language::Macro))
+      if (part.is_word() || part.is_number())
+        name += (name.empty() ? "" : "_") + without_accents(part.text);
+  std::erase_if(name, [](char c) { return !is_letter(c) && !is_digit(c) && c != '_'; });
+  return name.empty() || !is_digit(name[0]) ? name : "m" + name;
+}
+
+std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
+                                        const Quantities& constants) {
+  auto operands = std::vector<Operand>();
+  for (const auto& row : info) {
+    if (row.kind == MacroOperandKind::Text)
+      return {};
+    operands.push_back(operand_of(row));
+  }
+  if (info.command == spec::MacroCommand::Roll && line.size() > 1 && line[1].is("("))
+    return {}; // other languages have the heading first
+  for (auto& operand : operands)
+    operand.usual = usual_of(info, operand);
+  Tokens values = after(line, 1);
+  if (spec::MacroBackground::Rotate == info.background)
+    turn_left(values);
+  if (info.command == spec::MacroCommand::RawMotors)
+    say_modes(values);
+  if (operands.size() == 1 && operands[0].counts == Counts::Name)
+    for (auto& token : values)
+      if (token.is_word() || token.is_text())
+        token = Token{Token::Kind::Word, plain_name({token}), token.gap};
+  if (info.command == spec::MacroCommand::Roll) // a longer delay makes it a roll2
+    operands.back().most = UINT16_MAX;
+  const auto arranged = repair::arrange(values, operands, constants);
+  if (!arranged)
+    return {};
+  if (info.command == spec::MacroCommand::Delay)
+    if (const auto ms = milliseconds(arranged->values[0]); ms && *ms > UINT16_MAX)
+      return {{delays(arranged->values[0]), true}};
+  // Names stay where they can: none may be left out before one that has none.
+  bool all_named = true;
+  for (std::size_t i = 0; i < operands.size(); ++i)
+    all_named = all_named && (arranged->values[i].empty() || arranged->named[i]);
+  const bool commas =
+      std::any_of(line.begin(), line.end(), [](const Token& token) { return token.is(","); });
+  std::string text(info.mnemonic);
+  bool first = true;
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    if (arranged->values[i].empty())
+      continue;
+    text += first || !commas ? " " : ", ";
+    first = false;
+    if (all_named || (operands[i].optional && arranged->named[i]))
+      text += fmt::format("{}=", operands[i].name);
+    text += arranged->values[i];
+  }
+  if (arranged->wait.empty())
+    return {{text, arranged->sure}};
+  const auto waits = delays(arranged->wait);
+  return waits.empty() ? std::vector<Rephrased>()
+                       : std::vector<Rephrased>{{text + "\n" + waits, arranged->sure}};
+}
+
+/// `.macro NAME id=40 flags=motor_control`, with its parts in any order.
+std::vector<Rephrased> rephrase_header(const Tokens& line) {
+  Tokens name;
+  std::string id;
+  std::vector<std::string> flags;
+  enum class In : std::uint8_t { Name, Id, Flags } in = In::Name;
+  Tokens flag;
+  const auto end_flag = [&] {
+    if (flag.empty())
+      return true;
+    std::string joined;
+    for (const auto& token : flag)
+      joined += token.text;
+    std::erase_if(joined, [](char c) { return c == '_' || c == '-'; });
+    for (const auto& row : spec::macro_flags) {
+      std::string bare(row.word);
+      std::erase(bare, '_');
+      if (equal_words(bare, joined)) {
+        flags.emplace_back(row.word);
+        flag.clear();
+        return true;
+      }
+    }
+    return false;
+  };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const auto& token = line[i];
+    if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
+      continue;
+    const bool is_id = equal_words(token.text, "id") || equal_words(token.text, "number");
+    const bool is_flags = equal_words(token.text, "flags") || equal_words(token.text, "flag");
+    if (token.is_word() && (is_id || is_flags)) {
+      if (!end_flag())
+        return {};
+      in = is_id ? In::Id : In::Flags;
+    } else if (in == In::Id && id.empty()) {
+      id = token.text;
+      in = In::Name;
+    } else if (in == In::Flags && (token.is(",") || token.is("|") || token.is("+"))) {
+      if (!end_flag())
+        return {};
+    } else if (in == In::Flags) {
+      if (token.gap && !flag.empty() && end_flag())
+        flag.clear();
+      flag.push_back(token);
+    } else if (!token.is(",")) {
+      if (token.is_number() && id.empty() && !name.empty() && token.gap)
+        id = token.text;
+      else
+        name.push_back(token);
+    }
+  }
+  if (!end_flag() || name.empty())
+    return {};
+  const auto plain = plain_name(name);
+  if (plain.empty())
+    return {};
+  auto text = ".macro " + plain;
+  if (!id.empty())
+    text += " id=" + id;
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    text += (i == 0 ? " flags=" : ",") + flags[i];
+  return {{text, true}};
+}
+
+} // namespace
+
+repair::Quantities constants_of(std::string_view text) {
+  Quantities known;
+  while (!text.empty()) {
+    const auto end = std::min(text.find_first_of("\r\n"), text.size());
+    const auto line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.find(".const") == std::string_view::npos || line.size() > longest_line)
+      continue;
+    const auto tokens = repair::split(line, repair::Language::Macro).tokens;
+    if (tokens.size() < 4 || !tokens[0].is(".const") || !tokens[2].is("="))
+      continue;
+    if (const auto value = repair::quantity_of(after(tokens, 3), known))
+      known.emplace(tokens[1].text, *value);
+  }
+  return known;
+}
+
+std::vector<std::int64_t> waits_of(std::int64_t ms) {
+  constexpr std::int64_t most_lines = 9;
+  const std::int64_t most = spec::info(spec::MacroCommand::Delay).operand[0].maximum;
+  const auto lines = std::max<std::int64_t>((ms + most - 1) / most, 1);
+  if (ms < 0 || lines > most_lines)
+    return {};
+  std::vector<std::int64_t> waits(static_cast<std::size_t>(lines), ms / lines);
+  waits.back() += ms % lines;
+  return waits;
+}
+
+namespace {
+
+/// `loop-start` and `loop start` are one word.
+Tokens joined(const Tokens& line) {
+  for (const std::size_t size : {3U, 2U}) {
+    if (line.size() < size || !line[0].is_word() || !line[size - 1].is_word() ||
+        (size == 3 && (!line[1].is("-") || line[2].gap)))
+      continue;
+    const auto word = line[0].text + "_" + line[size - 1].text;
+    if (spec::find_macro_command(word) == nullptr)
+      continue;
+    auto all = after(line, size - 1);
+    all[0].text = word;
+    return all;
+  }
+  return line;
+}
+
+} // namespace
+
+std::vector<Rephrased> rephrase(const Tokens& written, const Quantities& constants) {
+  const auto line = joined(written);
+  if (line.empty() || !line[0].is_word())
+    return {};
+  if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro")))
+    return rephrase_header(line);
+  if (line[0].is(".const") || line[0].is("const")) {
+    const std::size_t value = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;
+    if (line.size() <= value || !line[1].is_word())
+      return {};
+    auto rest = after(line, value);
+    if (rest.size() == 1 && rest[0].is_text())
+      rest = repair::tokens_of(rest[0].text, repair::Language::Macro);
+    if (const auto part = repair::quantity_of(rest, constants);
+        part && part->measure == Measure::Percent) { // of a speed or a brightness
+      constexpr std::int64_t hundred = 100 * one;    // per cent
+      return {{fmt::format(".const {} = {}", line[1].text,
+                           (part->thousandths * UINT8_MAX + hundred / 2) / hundred),
+               false}};
+    }
+    const auto known = repair::compute(rest, constants);
+    return known ? std::vector<Rephrased>{{fmt::format(".const {} = {}", line[1].text, *known)}}
+                 : std::vector<Rephrased>();
+  }
+  const auto* info = spec::find_macro_command(line[0].text);
+  if (info == nullptr && line[0].text.starts_with('.'))
+    info = spec::find_macro_command(std::string_view(line[0].text).substr(1));
+  for (const auto name : repair::meanings_of(line[0].text))
+    info = info == nullptr ? spec::find_macro_command(name) : info;
+  return info == nullptr ? std::vector<Rephrased>() : rephrase_command(*info, line, constants);
+}
+
+} // namespace orb::assembler
