@@ -251,10 +251,15 @@ void FileReader::read_error(Cursor& cursor, Expectation& one) {
   const auto digits = std::string_view(text).substr(0, text.size() - (hex ? 1 : 0));
   if (const auto number = parse_number<std::uint32_t>(digits, hex ? 16 : 10))
     one.error = spec::find_error(*number);
-  if (!one.error && !cursor.failed())
-    cursor.fail_at(
-        span, rules::Value, fmt::format("`{}` is not an error of the robot", text),
-        did_you_mean(text, known, fmt::format("the errors are {}", fmt::join(known, ", "))));
+  if (one.error || cursor.failed())
+    return;
+  cursor.fail_at(
+      span, rules::Value, fmt::format("`{}` is not an error of the robot", text),
+      did_you_mean(text, known, fmt::format("the errors are {}", fmt::join(known, ", "))));
+  if (const auto meant = closest(text, known)) {
+    auto& d = file_.diagnostics.back();
+    d.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+  }
 }
 
 void FileReader::read_below(Cursor& cursor, Expectation& one) {

@@ -46,6 +46,9 @@ private:
 
   void read_line(std::uint32_t line);
 
+  /// A line goes above the first test.
+  Fix move_up(std::uint32_t line) const;
+
   void read_row(LineWord word, Cursor& cursor, Span span, std::uint32_t line);
 
   void end_of_line(Cursor& cursor);

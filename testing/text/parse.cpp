@@ -1,5 +1,10 @@
 #include "testing/text/file_reader.h"
 
+#include "testing/text/doubts.h"
+#include "testing/text/rephrase.h"
+
+#include <iterator>
+
 namespace orb::testing {
 
 TestFile FileReader::read() {
@@ -13,6 +18,9 @@ TestFile FileReader::read() {
     read_line(line);
   for (auto& test : file_.tests)
     complete(test);
+  auto doubts = find_doubts(source_, file_);
+  file_.diagnostics.insert(file_.diagnostics.end(), std::make_move_iterator(doubts.begin()),
+                           std::make_move_iterator(doubts.end()));
   sort_by_place(file_.diagnostics);
   return std::move(file_);
 }
@@ -44,13 +52,24 @@ void FileReader::read_line(std::uint32_t line) {
     return read_stimulus(cursor, word, line);
   const auto span = cursor.peek_span();
   cursor.word();
-  if (row->stands == Stands::Head && has_tests_ && !file_.tests.empty())
-    return cursor.fail_at(span, rules::Place, fmt::format("`{}` after a test", word),
-                          "move it above the first `test`");
+  if (row->stands == Stands::Head && has_tests_ && !file_.tests.empty()) {
+    cursor.fail_at(span, rules::Place, fmt::format("`{}` after a test", word),
+                   "move it above the first `test`");
+    file_.diagnostics.back().fix = move_up(line);
+    return;
+  }
   if (row->stands == Stands::InTest && file_.tests.empty())
     return cursor.fail_at(span, rules::Place, fmt::format("`{}` before the first test", word),
                           "move it below the `test` it belongs to");
   read_row(static_cast<LineWord>(row - line_words.data()), cursor, span, line);
+}
+
+Fix FileReader::move_up(std::uint32_t line) const {
+  const auto begin = source_.line_start(file_.tests.front().line);
+  const auto text = fmt::format("{}{}", trim(source_.line(line)), line_end_of(source_.text()));
+  return {"move the line",
+          {{{begin, begin}, text}, {{source_.line_start(line), source_.line_start(line + 1)}, {}}},
+          Safety::Unsafe};
 }
 
 void FileReader::read_row(LineWord word, Cursor& cursor, Span span, std::uint32_t line) {
@@ -140,12 +159,6 @@ void FileReader::complete(Test& test) {
     speaks_of_errors = speaks_of_errors ||
                        (one.word == Word::Error && (!one.never || !one.error)) ||
                        (one.other && one.other->word == Word::Error);
-    if ((one.when.kind == When::Kind::Within || one.when.kind == When::Kind::At ||
-         one.when.kind == When::Kind::During) &&
-        one.when.to > test.bound)
-      file_.diagnostics.push_back(finding(
-          rules::Bound, one.span, "the run ends before that time",
-          fmt::format("for a longer run write `for {}s`", (one.when.to + 999ms) / Duration{1s})));
   }
   if (speaks_of_errors)
     return;
@@ -173,18 +186,43 @@ std::vector<std::string_view> all_words() {
   return words;
 }
 
+/// What a line may mean depends on it.
+Elsewhere look_elsewhere(const Source& source) {
+  Elsewhere found{default_bound};
+  for (const auto* word : {"insid", "reach", "zone", "stay"}) // somebody thinks of zones
+    found.may_have_zones = found.may_have_zones || source.text().find(word) != std::string::npos;
+  for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
+    std::vector<Diagnostic> ignored;
+    Cursor cursor(source, n, ignored);
+    found.has_texts = found.has_texts || cursor.peek_char() == '"';
+    const auto word = cursor.word();
+    found.has_course = found.has_course || word == info(LineWord::Course).word;
+    found.may_have_zones = found.may_have_zones || found.has_course;
+    if (word == info(LineWord::For).word)
+      found.bound = parse_duration(cursor.word()).value_or(default_bound);
+  }
+  return found;
+}
+
 /// The line to write, for each error.
 void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
   repair::Judge judge;
   judge.language = repair::Language::Test;
   judge.words = all_words();
-  judge.parses = [](std::string_view line) {
-    return FileReader(Source({}, "test \"x\"\n" + std::string(line))).read().diagnostics.empty() ||
-           FileReader(Source({}, std::string(line))).read().diagnostics.empty() ||
-           FileReader(Source({}, std::string(line) + "\n  expect resting"))
-               .read()
-               .diagnostics.empty();
+  const auto elsewhere = look_elsewhere(source);
+  judge.parses = [elsewhere](std::string_view line) {
+    if (!elsewhere.may_have_zones && (line.find(info(Word::Inside).word) != std::string::npos ||
+                                      line.find(info(LineWord::Reach).word) != std::string::npos))
+      return false;
+    const auto reads = [&](std::string_view above, std::string_view below) {
+      return FileReader(Source({}, fmt::format("{}{}{}", above, line, below)))
+          .read()
+          .diagnostics.empty();
+    };
+    return reads("test \"x\"\n", "") || reads("", "") || reads("", "\n  expect resting") ||
+           reads("test \"x\"\nexpect prints\n", "");
   };
+  judge.rephrase = [elsewhere](const repair::Tokens& line) { return rephrase(line, elsewhere); };
   judge.check = [&](std::string_view text) {
     return FileReader(Source(source.name(), std::string(text))).read().diagnostics;
   };

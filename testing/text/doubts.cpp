@@ -1,0 +1,192 @@
+#include "testing/text/doubts.h"
+
+#include "base/duration.h"
+#include "base/text.h"
+#include "testing/text/cursor.h"
+#include "testing/text/rephrase.h"
+#include "testing/text/rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::testing {
+namespace {
+
+using Of = When::Kind;
+
+class Doubts {
+public:
+  Doubts(const Source& source, const TestFile& file) : source_(source), file_(file) {}
+
+  std::vector<Diagnostic> run() {
+    for (const auto& test : file_.tests) {
+      for (const auto& one : test.expectations) {
+        if (one.line == 0)
+          continue;
+        check_bound(test, one);
+        check_start(one);
+        check_moving(test, one);
+        check_contradiction(test, one);
+      }
+    }
+    check_stimuli();
+    return std::move(found_);
+  }
+
+private:
+  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+    found_.push_back(finding(rule, span, std::move(message), std::move(help)));
+    return found_.back();
+  }
+
+  std::string text_of(const Expectation& one) const { return std::string(source_.text(one.span)); }
+
+  /// The line as it is to be written.
+  static void write(Diagnostic& d, const Expectation& one, const std::string& line) {
+    d.help = fmt::format("write `{}`", line);
+    d.fix = Fix{d.help, {{one.span, line}}, Safety::Unsafe};
+  }
+
+  /// The whole seconds that a run needs for a time.
+  static std::int64_t seconds_for(Duration time) { return (time + 999ms) / Duration{1s}; }
+
+  void check_bound(const Test& test, const Expectation& one) {
+    const auto kind = one.when.kind;
+    if ((kind == Of::Within || kind == Of::At || kind == Of::During) && one.when.to > test.bound)
+      too_late(rules::Bound, one.span, test, one.when.to);
+  }
+
+  void too_late(const Rule& rule, Span span, const Test& test, Duration time) {
+    const auto line = fmt::format("for {}s", seconds_for(time));
+    auto& d = report(rule, span, "the run ends before that time",
+                     fmt::format("for a longer run write `{}`", line));
+    if (source_.line(test.line).find(" for ") != std::string_view::npos)
+      return; // of this test alone
+    for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+      std::vector<Diagnostic> ignored;
+      Cursor cursor(source_, n, ignored);
+      const auto begin = cursor.offset();
+      const auto word = cursor.word();
+      if (word == info(LineWord::For).word) {
+        cursor.word();
+        d.fix =
+            Fix{fmt::format("write `{}`", line), {{cursor.span_from(begin), line}}, Safety::Unsafe};
+        return;
+      }
+      if (word == info(LineWord::Test).word || n == source_.line_count()) {
+        const auto at = source_.line_start(word == info(LineWord::Test).word ? n : 1);
+        d.fix = Fix{fmt::format("write `{}`", line),
+                    {{{at, at}, line + std::string(line_end_of(source_.text()))}},
+                    Safety::Unsafe};
+        return;
+      }
+    }
+  }
+
+  /// The ball starts at 0,0 where nothing says that it starts elsewhere.
+  void check_start(const Expectation& one) {
+    if (one.word != Word::Near || one.other_ball || file_.course || !file_.balls.empty() ||
+        !one.joined.empty() || one.order != Order::Free || one.lasts > Duration{} ||
+        one.when.kind != Of::AnyTime ||
+        std::hypot(one.x, one.y) > (one.never ? one.by : 0)) // another place is worth a way
+      return;
+    auto& d = report(rules::Start, one.span,
+                     one.never ? "the ball starts there, so this fails at once"
+                               : "the ball starts there, so this is met at once");
+    write(d, one, text_of(one) + " at end");
+  }
+
+  void check_moving(const Test& test, const Expectation& one) {
+    if (one.word != Word::Moving || one.never || one.when.kind != Of::AtEnd ||
+        !one.joined.empty() || one.lasts > Duration{})
+      return;
+    const auto rests = std::any_of(
+        test.expectations.begin(), test.expectations.end(), [](const Expectation& other) {
+          const bool place =
+              other.word == Word::Near || other.word == Word::Inside || other.word == Word::Resting;
+          return !other.never &&
+                 (other.word == Word::End || (place && other.when.kind == Of::AtEnd));
+        });
+    if (!rests)
+      return;
+    auto line = text_of(one);
+    const std::string_view moving = info(Word::Moving).word;
+    line.replace(line.find(moving), moving.size(), info(Word::Resting).word);
+    write(report(rules::MovingAtEnd, one.span, "at the end the ball rests"), one, line);
+  }
+
+  std::string what_of(const Expectation& one) const {
+    return what_is_expected(repair::tokens_of(text_of(one), repair::Language::Test));
+  }
+
+  /// Whether what never happens covers all the times at which the other is expected.
+  static bool covers(const When& never, const When& expected) {
+    if (never.kind == Of::AnyTime)
+      return true;
+    if (never.kind != Of::During)
+      return false;
+    switch (expected.kind) {
+    case Of::Within: return never.from == Duration{} && never.to >= expected.to;
+    case Of::At: return never.from <= expected.to && never.to >= expected.to;
+    case Of::During: return never.from <= expected.to && never.to >= expected.from;
+    case Of::AnyTime:
+    case Of::AtEnd: return false;
+    }
+    return false;
+  }
+
+  void check_contradiction(const Test& test, const Expectation& one) {
+    if (one.never || one.order != Order::Free || !one.joined.empty() || one.lasts > Duration{} ||
+        one.times.least == 0)
+      return;
+    for (const auto& other : test.expectations) {
+      if (!other.never || other.line == 0 || other.word != one.word || other.ball != one.ball ||
+          !other.joined.empty() || other.order != Order::Free || other.lasts > Duration{} ||
+          !covers(other.when, one.when) || what_of(other).empty() || what_of(other) != what_of(one))
+        continue;
+      report(rules::Contradiction, one.span, "this cannot be met: another line forbids it then",
+             "change the time of one of the two")
+          .notes.push_back({other.span, "it is forbidden here"});
+      return;
+    }
+  }
+
+  /// The test that a line belongs to; the first one for those above it.
+  const Test* test_of(std::uint32_t line) const {
+    const Test* found = nullptr;
+    for (const auto& test : file_.tests)
+      if (found == nullptr || test.line <= line)
+        found = &test;
+    return found;
+  }
+
+  void check_stimuli() {
+    for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+      std::vector<Diagnostic> ignored;
+      Cursor cursor(source_, n, ignored);
+      const auto begin = cursor.offset();
+      if (!cursor.take_word("at"))
+        continue;
+      const auto time = parse_duration(cursor.word());
+      const auto* test = test_of(n);
+      while (!cursor.at_end())
+        cursor.word();
+      if (time && test != nullptr && *time >= test->bound)
+        too_late(rules::Bound, cursor.span_from(begin), *test, *time + 1s);
+    }
+  }
+
+  const Source& source_;
+  const TestFile& file_;
+  std::vector<Diagnostic> found_;
+};
+
+} // namespace
+
+std::vector<Diagnostic> find_doubts(const Source& source, const TestFile& file) {
+  return Doubts(source, file).run();
+}
+
+} // namespace orb::testing

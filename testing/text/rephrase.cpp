@@ -1,0 +1,760 @@
+#include "testing/text/rephrase.h"
+
+#include "base/suggest.h"
+#include "base/text.h"
+#include "testing/text/vocabulary.h"
+#include "vm/stimulus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace orb::testing {
+namespace {
+
+using repair::Counts;
+using repair::Language;
+using repair::Measure;
+using repair::Operand;
+using repair::Quantity;
+using repair::Rephrased;
+using repair::Token;
+using repair::Tokens;
+
+constexpr std::int64_t one = 1000; // in thousandths
+constexpr std::int64_t full_circle = 360;
+
+Tokens part(const Tokens& tokens, std::size_t begin, std::size_t end) {
+  return {tokens.begin() + static_cast<std::ptrdiff_t>(begin),
+          tokens.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+const ExpectationInfo* expectation(const Token& token) {
+  const auto found =
+      std::find_if(expectations.begin(), expectations.end(), [&](const ExpectationInfo& row) {
+        return token.is_word() && row.word == token.text && &row != &info(Word::Variable);
+      });
+  return found == expectations.end() ? nullptr : &*found;
+}
+
+bool is_time_unit(const Token& token) {
+  return token.is("s") || token.is("ms") || token.is("min") || token.is("h");
+}
+
+/// What a line says, in phrases; each as it was written.
+struct Phrases {
+  Tokens what;  ///< the word of what is expected, then its values
+  Tokens by;    ///< without `by`
+  Tokens times; ///< with `times`
+  Tokens when;  ///< with its word
+};
+
+/// Reads phrases from left to right.
+class Reader {
+public:
+  explicit Reader(const Tokens& line) : line_(line) {}
+
+  std::optional<Phrases> read(std::size_t from) {
+    for (at_ = from; at_ < line_.size();) {
+      if (phrase(phrases_.when, {time_end("within"), moment_end(), span_end()}) ||
+          phrase(phrases_.times, {times_end()}))
+        continue;
+      if (line_[at_].is("by") && number_end(at_ + 1) > at_ + 1) {
+        if (!phrases_.by.empty())
+          return std::nullopt;
+        const auto end = number_end(at_ + 1);
+        phrases_.by = part(line_, at_ + 1, end);
+        at_ = end;
+        continue;
+      }
+      if (line_[at_].is("end") && at_ + 1 == line_.size() && !phrases_.what.empty() &&
+          phrases_.when.empty()) {
+        phrases_.when = {Token{Token::Kind::Word, "at", true}, line_[at_++]};
+        phrases_.when[1].gap = true;
+        continue;
+      }
+      for (const auto& row : join_words)
+        if (line_[at_].is(row.word) || line_[at_].is("then"))
+          return std::nullopt; // two are expected
+      phrases_.what.push_back(line_[at_++]);
+    }
+    return std::move(phrases_);
+  }
+
+private:
+  bool phrase(Tokens& into, std::initializer_list<std::size_t> ends) {
+    for (const auto end : ends)
+      if (end > at_ && into.empty()) {
+        into = part(line_, at_, end);
+        at_ = end;
+        return true;
+      }
+    return false;
+  }
+
+  /// Where a number with its unit ends that begins at `at`.
+  std::size_t number_end(std::size_t at) const {
+    if (at >= line_.size() || !line_[at].is_number())
+      return at;
+    const bool unit = at + 1 < line_.size() && line_[at + 1].is_word() && !line_[at + 1].gap;
+    return at + (unit ? 2 : 1);
+  }
+  bool is_time(std::size_t at) const {
+    return number_end(at) == at + 2 && is_time_unit(line_[at + 1]);
+  }
+
+  std::size_t time_end(std::string_view word) const {
+    return line_[at_].is(word) && is_time(at_ + 1) ? at_ + 3 : at_;
+  }
+  std::size_t moment_end() const {
+    const bool end = line_[at_].is("at") && at_ + 1 < line_.size() && line_[at_ + 1].is("end");
+    return end ? at_ + 2 : time_end("at");
+  }
+  std::size_t span_end() const {
+    if (!line_[at_].is("during"))
+      return at_;
+    const auto dots = number_end(at_ + 1);
+    return dots < line_.size() && line_[dots].is("..") && is_time(dots + 1) ? dots + 3 : at_;
+  }
+  std::size_t times_end() const {
+    auto at = at_;
+    if (!line_[at].is_number())
+      return at_;
+    ++at;
+    if (at + 1 < line_.size() && line_[at].is("to") && line_[at + 1].is_number())
+      at += 2;
+    return at < line_.size() && line_[at].is("times") ? at + 1 : at_;
+  }
+
+  const Tokens& line_;
+  std::size_t at_ = 0;
+  Phrases phrases_;
+};
+
+/// `A..B` and `A to B` with the smaller value first.
+Tokens ascending(Tokens tokens) {
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    if (!tokens[i].is("..") && !tokens[i].is("to"))
+      continue;
+    auto begin = i;
+    if (begin > 1 && tokens[begin - 1].is_word() && !tokens[begin - 1].gap)
+      --begin;
+    if (begin > 0 && tokens[begin - 1].is_number())
+      --begin;
+    auto end = i + 1;
+    if (end < tokens.size() && tokens[end].is_number())
+      ++end;
+    if (end < tokens.size() && tokens[end].is_word() && !tokens[end].gap)
+      ++end;
+    auto left = part(tokens, begin, i);
+    auto right = part(tokens, i + 1, end);
+    if (left.empty() || right.empty() || !left[0].is_number() || !right[0].is_number())
+      continue;
+    const auto factor = [](const Tokens& value) {
+      const auto is = [&](std::string_view unit) { return value.size() > 1 && value[1].is(unit); };
+      return is("m") ? 1000.0 : is("cm") ? 10.0 : is("min") ? 60000.0 : is("s") ? 1000.0 : 1.0;
+    };
+    const auto value = [&](const Tokens& of) {
+      const bool bare = of.size() == 1; // it has the unit of the other
+      return parse_number<double>(of[0].text, std::chars_format::fixed).value_or(0) *
+             factor(bare ? (left.size() > 1 ? left : right) : of);
+    };
+    if (value(left) <= value(right))
+      continue;
+    if (left.size() > 1 && right.size() == 1)
+      right.push_back(left[1]); // `110cm..90`
+    else if (left.size() == 1 && right.size() > 1)
+      left.push_back(right[1]); // `110..90cm`
+    std::swap(left[0].gap, right[0].gap);
+    Tokens all = part(tokens, 0, begin);
+    all.insert(all.end(), right.begin(), right.end());
+    all.push_back(tokens[i]);
+    all.insert(all.end(), left.begin(), left.end());
+    all.insert(all.end(), tokens.begin() + static_cast<std::ptrdiff_t>(end), tokens.end());
+    return all;
+  }
+  return tokens;
+}
+
+/// A place and how far from it: what has a unit is the distance.
+std::optional<std::string> near(const Tokens& values, const Tokens& by) {
+  std::vector<std::string> numbers;
+  std::string distance = repair::join(by);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& token = values[i];
+    if (token.is(",") || token.is(";") || token.is("(") || token.is(")") || token.is("[") ||
+        token.is("]") || token.is("=") || token.is(":") || token.is("x") || token.is("y") ||
+        token.is("by"))
+      continue;
+    const bool sign = token.is("-") && i + 1 < values.size() && values[i + 1].is_number();
+    if (!token.is_number() && !sign)
+      return std::nullopt;
+    const auto number = (sign ? "-" : "") + values[i + (sign ? 1 : 0)].text;
+    i += sign ? 1 : 0;
+    const bool unit = i + 1 < values.size() &&
+                      (values[i + 1].is("cm") || values[i + 1].is("m") || values[i + 1].is("mm"));
+    const bool is_place = unit && !distance.empty() && !values[i + 1].is("mm");
+    i += unit ? 1 : 0;
+    constexpr double metre_cm = 100;
+    if (unit && distance.empty())
+      distance = number + values[i].text;
+    else if (is_place && values[i].is("m"))
+      numbers.push_back(fmt::format(
+          "{}", parse_number<double>(number, std::chars_format::fixed).value_or(0) * metre_cm));
+    else if (!unit || is_place)
+      numbers.push_back(number);
+    else
+      return std::nullopt;
+  }
+  if (numbers.size() == 3 && distance.empty()) { // `near 90 90 15`
+    distance = numbers[2] + "cm";
+    numbers.pop_back();
+  }
+  if (numbers.size() != 2 || distance.empty())
+    return std::nullopt;
+  if (is_digit(distance.back()))
+    distance += "cm";
+  return fmt::format("near {},{} by {}", numbers[0], numbers[1], distance);
+}
+
+/// An angle from 0 to 359.
+std::optional<std::string> heading(const Tokens& values) {
+  const auto value = repair::quantity_of(values, {});
+  if (!value || value->thousandths % one != 0 ||
+      (value->measure != Measure::None && value->measure != Measure::Angle))
+    return std::nullopt;
+  return fmt::format("heading {}",
+                     (value->thousandths / one % full_circle + full_circle) % full_circle);
+}
+
+/// When an expectation of that kind can say that it is; empty for no time at all.
+std::string when_of(const ExpectationInfo& row, const Tokens& when, bool never) {
+  const auto text = repair::join(when);
+  if (when.empty())
+    return row.word == info(Word::End).word ? text : std::string();
+  const bool at_end = when.size() == 2;
+  const bool moment = when[0].is("at") && !at_end;
+  const auto time = repair::join(part(when, 1, when.size()));
+  switch (row.kind) {
+  case Kind::State:
+  case Kind::Stay: return never && when[0].is("within") ? "during 0s.." + time : text;
+  case Kind::Event:
+    if (never && (moment || when[0].is("within")))
+      return "during 0s.." + time;
+    return at_end ? std::string() : moment ? "within " + time : text;
+  case Kind::End: {
+    const auto dots = time.find("..");
+    return at_end ? text : "within " + (dots == std::string::npos ? time : time.substr(dots + 2));
+  }
+  case Kind::Output: return {};
+  case Kind::Final: return at_end ? text : std::string();
+  }
+  return text;
+}
+
+/// Several texts are the lines that are printed, one below the other; one is the first of them
+/// where others stand below.
+std::optional<std::string> texts(const Tokens& what, const Elsewhere& elsewhere) {
+  std::string all;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < what.size(); ++i) {
+    if (what[i].is(",") || what[i].is("then"))
+      continue;
+    if (!what[i].is_text())
+      return std::nullopt;
+    all += fmt::format("\n\"{}\"", what[i].text);
+    ++count;
+  }
+  const bool first = count == 1 && what[0].is("prints") && elsewhere.has_texts;
+  return count > 1 || first ? std::optional("expect prints" + all) : std::nullopt;
+}
+
+/// About a tenth more and less than one value: `1m` is `90cm..110cm`.
+std::string around(const Tokens& values, std::string_view unit) {
+  const auto from = values.begin();
+  if (values.size() < 2 || !from->is_number() || values[1].gap)
+    return repair::join(values);
+  const auto value = parse_number<double>(from->text, std::chars_format::fixed).value_or(0);
+  const bool metres = values[1].is("m");
+  if ((!metres && !values[1].is("cm")) || values.size() != (unit == "cm" ? 2U : 4U))
+    return repair::join(values);
+  constexpr double tenth = 0.1;
+  constexpr double metre_cm = 100;
+  const auto cm = value * (metres ? metre_cm : 1);
+  return fmt::format("{}{}..{}{}", std::lround(cm * (1 - tenth)), unit == "cm" ? unit : "",
+                     std::lround(cm * (1 + tenth)), unit);
+}
+
+/// What is expected, with its values; empty where no word says what.
+struct What {
+  const ExpectationInfo* row = nullptr;
+  std::string text;
+  bool never = false;
+  bool sure = true;
+};
+
+/// A number before or after what happens is how often.
+void count_events(const ExpectationInfo& row, Tokens& values, Tokens& times) {
+  if (row.kind != Kind::Event || !times.empty() || values.empty() || !values[0].is_number())
+    return;
+  const bool alone = values.size() == 1 && row.word == info(Word::Collision).word;
+  const bool before_text = values.size() == 2 && values[1].is_text();
+  if (!alone && !before_text)
+    return;
+  times = {values[0], Token{Token::Kind::Word, "times", true}};
+  values.erase(values.begin());
+}
+
+What what_of(Phrases& phrases, bool never) {
+  auto& what = phrases.what;
+  What all;
+  all.never = never;
+  const auto negations = std::erase_if(what, [](const Token& token) {
+    return token.is_word() && (token.is("not") || token.is("no") || token.is("nicht") ||
+                               token.is("never") || token.is("isnt"));
+  });
+  all.never = never || negations > 0;
+  const auto word = std::find_if(what.begin(), what.end(),
+                                 [](const Token& token) { return expectation(token) != nullptr; });
+  if (word == what.end() && what.size() == 1 && repair::test_colour(what[0])) {
+    all.row = &info(Word::Color);
+    all.text = fmt::format("{} {}", all.row->word, *repair::test_colour(what[0]));
+    return all;
+  }
+  if (word == what.end())
+    return all;
+  all.row = expectation(*word);
+  const auto& row = *all.row;
+  const bool print = row.word == info(Word::Print).word;
+  if (print &&
+      std::any_of(word + 1, what.end(), [](const Token& token) { return token.is("/"); })) {
+    all.row = nullptr;
+    return all;
+  }
+  std::rotate(what.begin(), word, word + 1);
+  auto values = ascending(part(what, 1, what.size()));
+  count_events(row, values, phrases.times);
+  all.text = std::string(row.word);
+  if (row.word == info(Word::Near).word) {
+    if (const auto place = near(values, phrases.by)) {
+      all.text = *place;
+      phrases.by.clear();
+      return all;
+    }
+  } else if (row.word == info(Word::Heading).word) {
+    if (const auto angle = heading(values)) {
+      all.text = *angle;
+      values.clear();
+    }
+  } else if (row.word == info(Word::Color).word && values.size() == 1) {
+    if (const auto colour = repair::test_colour(values[0]))
+      values[0] = Token{Token::Kind::Word, *colour, true};
+  } else if (row.word == info(Word::Distance).word || row.word == info(Word::Speed).word) {
+    const auto unit = row.word == info(Word::Speed).word ? "cm/s" : "cm";
+    if (!values.empty() && values[0].is("~"))
+      values.erase(values.begin());
+    const auto range = around(values, unit);
+    all.sure = range == repair::join(values);
+    all.text += " " + range;
+    return all;
+  }
+  if (!values.empty())
+    all.text += " " + repair::join(values);
+  return all;
+}
+
+/// Whether a word is nearly one of what can be expected.
+bool is_misspelt(std::string_view word) {
+  std::vector<std::string_view> words;
+  for (const auto& row : expectations)
+    words.push_back(row.word);
+  return closest(word, words).has_value();
+}
+
+std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
+                                             const Elsewhere& elsewhere) {
+  auto phrases = Reader(line).read(0);
+  if (!phrases || phrases->what.empty())
+    return std::nullopt;
+  if (!never && phrases->when.empty() && phrases->times.empty() && phrases->by.empty())
+    if (const auto lines = texts(phrases->what, elsewhere);
+        lines && (phrases->what[0].is("print") || phrases->what[0].is("prints")))
+      return Rephrased{*lines, true};
+  // `A = 5` is known at the end.
+  const auto& what = phrases->what;
+  if (what.size() > 2 && what[0].is_word() && what[1].is("=") && phrases->times.empty())
+    return Rephrased{fmt::format("{} {} at end", never ? "never" : "expect", repair::join(what)),
+                     true};
+  const bool zone = what.size() == 1 && what[0].is_word() && elsewhere.has_course &&
+                    !repair::test_colour(what[0]) && expectation(what[0]) == nullptr &&
+                    !is_misspelt(what[0].text);
+  if (zone)
+    phrases->what.insert(phrases->what.begin(),
+                         Token{Token::Kind::Word, std::string(info(Word::Inside).word), true});
+  const auto said = what_of(*phrases, never);
+  if (said.row == nullptr)
+    return std::nullopt;
+  auto text = (said.never ? "never " : "expect ") + said.text;
+  if (!phrases->by.empty())
+    text += " by " + repair::join(phrases->by);
+  if (!phrases->times.empty() && said.row->kind == Kind::Event)
+    text += " " + repair::join(ascending(phrases->times));
+  auto when = when_of(*said.row, ascending(phrases->when), said.never);
+  const bool ends = said.row->kind == Kind::End;
+  const bool whenever = ends && (when.empty() || when == "at end");
+  if (whenever)
+    when = fmt::format("within {}s", (elsewhere.bound + 999ms) / Duration{1s});
+  return Rephrased{text + (when.empty() ? "" : " ") + when, said.sure && !whenever && !zone};
+}
+
+/// Two things, one before or after the other, or both at once.
+std::optional<Rephrased> arrange_joined(const Tokens& line, bool never) {
+  const auto joint = std::find_if(line.begin(), line.end(), [](const Token& token) {
+    return token.is("then") || token.is("before") || token.is("after") || token.is("and");
+  });
+  if (joint == line.end() || joint == line.begin())
+    return std::nullopt;
+  const auto at = static_cast<std::size_t>(joint - line.begin());
+  auto left = Reader(part(line, 0, at)).read(0);
+  auto right_tokens = part(line, at + 1, line.size());
+  auto right = Reader(right_tokens).read(0);
+  if (!left || !right || left->what.empty() || right->what.empty())
+    return std::nullopt;
+  auto first = what_of(*left, never);
+  if (first.row == nullptr)
+    return std::nullopt;
+  const bool has_word = std::any_of(right->what.begin(), right->what.end(), [](const Token& token) {
+    return expectation(token) != nullptr;
+  });
+  if (!has_word) // `color red before green`
+    right->what.insert(right->what.begin(),
+                       Token{Token::Kind::Word, std::string(first.row->word), true});
+  const auto second = what_of(*right, never);
+  if (second.row == nullptr)
+    return std::nullopt;
+  const auto with = [](const What& what, const Phrases& phrases) {
+    auto text = what.text;
+    if (!phrases.by.empty())
+      text += " by " + repair::join(phrases.by);
+    if (!phrases.times.empty())
+      text += " " + repair::join(phrases.times);
+    return text;
+  };
+  auto when = left->when.empty() ? right->when : left->when;
+  const auto word = joint->is("then") ? "before" : joint->text;
+  if (word == "before")
+    when.clear();
+  return Rephrased{fmt::format("{} {} {} {}{}{}", never ? "never" : "expect", with(first, *left),
+                               word, with(second, *right), when.empty() ? "" : " ",
+                               repair::join(when)),
+                   joint->text != "then"};
+}
+
+/// An unterminated text ends before the words that say how often or when.
+std::optional<Tokens> close_text(const Tokens& line) {
+  if (line.empty() || !line.back().is_text() || line.back().closed)
+    return std::nullopt;
+  const auto& text = line.back().text;
+  for (auto blank = text.find(' '); blank != std::string::npos; blank = text.find(' ', blank + 1)) {
+    auto rest = repair::tokens_of(std::string_view(text).substr(blank), Language::Test);
+    Phrases phrases;
+    if (const auto read = Reader(rest).read(0))
+      phrases = *read;
+    if (!phrases.what.empty() || !phrases.by.empty() ||
+        (phrases.when.empty() && phrases.times.empty()))
+      continue;
+    Tokens all = line;
+    all.back().text = text.substr(0, blank);
+    all.back().closed = true;
+    if (!all.back().text.empty() && !rest.empty())
+      rest[0].gap = true;
+    all.insert(all.end(), rest.begin(), rest.end());
+    return all;
+  }
+  return std::nullopt;
+}
+
+/// What a stimulus takes, as its row says.
+struct Takes {
+  std::vector<std::string> names;
+  std::vector<Operand> operands;
+};
+
+Takes takes_of(const vm::StimulusInfo& row) {
+  Takes takes;
+  for (auto rest = row.operands; !rest.empty();) {
+    const auto end = std::min(rest.find(' '), rest.size());
+    std::string name(rest.substr(0, end));
+    std::transform(name.begin(), name.end(), name.begin(), to_lower);
+    takes.names.push_back(name);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  for (const auto& name : takes.names) {
+    Operand operand;
+    operand.name = name;
+    operand.most = UINT8_MAX;
+    if (name == "on|off") {
+      operand.words = {"on", "off"};
+      operand.usual = "on";
+    } else if (name == "time") {
+      operand.counts = Counts::Milliseconds;
+      operand.usual = "800ms";
+    } else if (name == "heading") {
+      operand.counts = Counts::Degrees;
+      operand.most = full_circle - 1;
+      operand.words = {"0", "90", "180", "270"};
+    } else if (name == "pitch" || name == "roll" || name == "rate") {
+      operand.counts = Counts::Degrees;
+      operand.least = -full_circle;
+      operand.usual = name == "roll" ? "0" : "";
+    } else if (name != "strength" && name != "speed" && row.word != "rgb")
+      operand.most = 0; // no part of a byte
+    takes.operands.push_back(std::move(operand));
+  }
+  return takes;
+}
+
+/// `at TIME EVENT VALUES`, in any order. A direction or a strength that lacks is that of the
+/// example.
+std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
+  const auto* row = static_cast<const vm::StimulusInfo*>(nullptr);
+  for (const auto& token : line)
+    for (const auto& each : vm::stimulus_words)
+      if (row == nullptr && token.is_word() && token.text == each.word)
+        row = &each;
+  if (row == nullptr || row->word == "wall")
+    return std::nullopt;
+  std::string head;
+  Tokens values;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i].is(row->word))
+      continue;
+    if (i + 2 < line.size() && line[i].is("at") && line[i + 1].is_number() &&
+        is_time_unit(line[i + 2]) && head.empty()) {
+      head = fmt::format("at {}{} ", line[i + 1].text, line[i + 2].text);
+      i += 2;
+    } else if (i + 1 < line.size() && line[i].is("/") && line[i + 1].is("s")) {
+      ++i; // degrees a second
+    } else {
+      values.push_back(line[i]);
+    }
+  }
+  head += row->word;
+  auto takes = takes_of(*row);
+  const bool aims = takes.names.size() == 2 && takes.names[0] == "heading";
+  if (aims) {
+    const auto usual = row->example.substr(row->example.find(row->word) + row->word.size() + 1);
+    const auto between = usual.find(' ');
+    takes.operands[0].usual = usual.substr(0, between);
+    takes.operands[1].usual = usual.substr(between + 1);
+    const auto value = values.size() == 1 && values[0].is_number()
+                           ? parse_number<int>(values[0].text).value_or(0)
+                           : 0;
+    if (value > UINT8_MAX)
+      return Rephrased{fmt::format("{} {} {}", head, value, usual.substr(between + 1)), false};
+    if (value > 0)
+      return Rephrased{fmt::format("{} {} {}", head, usual.substr(0, between), values[0].text),
+                       false,
+                       fmt::format("{} {} {}", head, values[0].text, usual.substr(between + 1))};
+  }
+  const auto arranged = repair::arrange(values, takes.operands, {});
+  if (!arranged || !arranged->wait.empty())
+    return std::nullopt;
+  for (const auto& value : arranged->values) {
+    auto text = value;
+    if (const auto unit = text.find("deg"); unit != std::string::npos)
+      text.erase(unit);
+    constexpr std::size_t few = 3; // digits of a time in seconds
+    if (row->word == "toss" && is_digit(text.back()))
+      text += text.size() < few ? "s" : "ms";
+    head += " " + text;
+  }
+  return Rephrased{head, arranged->sure};
+}
+
+} // namespace
+
+std::string what_is_expected(const Tokens& line) {
+  const auto phrases = Reader(line).read(1);
+  return phrases ? repair::join(phrases->what) + " " + repair::join(phrases->by) : std::string();
+}
+
+namespace {
+
+bool is_vocabulary(std::string_view word, bool first) {
+  const auto in = [&](const auto& rows) {
+    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.word == word; });
+  };
+  if (first)
+    return in(line_words) || in(vm::stimulus_words) || word == "at";
+  return in(expectations) || in(when_words) || in(join_words) || in(vm::stimulus_words) ||
+         word == "by" || word == "times" || word == "to" || word == "points" || word == "end" ||
+         word == "on" || word == "off" || word == "then" || word == "expect" || word == "never" ||
+         word == "seeds";
+}
+
+/// How often a word says that something happens: `three` before `times`, `dreimal`; 0 for others.
+int counted(const Tokens& line, std::size_t at) {
+  const auto& token = line[at];
+  if (!token.is_word())
+    return 0;
+  constexpr std::string_view suffix = "mal";
+  if (token.text.size() > suffix.size() && token.text.ends_with(suffix)) {
+    auto bare = token;
+    bare.text.resize(bare.text.size() - suffix.size());
+    return repair::count_of(bare);
+  }
+  const bool times = at + 1 < line.size() && repair::is_called("times", line[at + 1].text);
+  return times ? repair::count_of(token) : 0;
+}
+
+/// A line in the words of test files, as far as it is in those of another language.
+Tokens translate(const Tokens& line) {
+  Tokens all;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    auto token = line[i];
+    const auto add = [&](std::string_view word) {
+      token.text = word;
+      all.push_back(token);
+    };
+    const bool signed_ =
+        i + 1 < line.size() && (line[i + 1].is("=") || line[i + 1].is(">") || line[i + 1].is("<"));
+    const bool unit = i > 0 && line[i - 1].is_number() &&
+                      (!token.gap || repair::is_called("degrees", token.text) ||
+                       repair::is_called("turns", token.text));
+    if (const auto count = counted(line, i); count > 0) {
+      all.push_back(Token{Token::Kind::Number, std::to_string(count), true});
+      if (repair::count_of(token) == 0) // `dreimal`
+        all.push_back(Token{Token::Kind::Word, "times", true});
+      continue;
+    }
+    if (!token.is_word() || unit || signed_ || is_vocabulary(token.text, all.empty())) {
+      all.push_back(token);
+      continue;
+    }
+    if (const auto colour = repair::test_colour(token); colour && !all.empty()) {
+      add(*colour);
+      continue;
+    }
+    auto next = i + 1; // without the articles after a preposition
+    while (next < line.size() && line[next].is_word() && repair::is_called("", line[next].text) &&
+           !is_vocabulary(line[next].text, false))
+      ++next;
+    const bool number = next < line.size() && line[next].is_number();
+    const bool timed = number && next + 1 < line.size() && is_time_unit(line[next + 1]);
+    const bool long_ = number && !timed && next + 1 < line.size() && !line[next + 1].gap &&
+                       line[next + 1].is_word();
+    const bool ends =
+        next < line.size() && (line[next].is("end") || repair::is_called("end", line[next].text));
+    const auto called = [&](std::string_view name) { return repair::is_called(name, token.text); };
+    const bool after_near = !all.empty() && all.back().is("near");
+    const bool turns = std::any_of(all.begin(), all.end(),
+                                   [](const Token& before) { return before.is("heading"); });
+    if (called("within") && timed)
+      add("within");
+    else if (called("by") && number && (long_ || turns || !called("at")) && !timed && !after_near)
+      add("by");
+    else if (called("at") && (ends || (number && (timed || all.empty()))))
+      add("at");
+    else {
+      const auto meanings = repair::meanings_of(token.text);
+      const auto found = std::find_if(meanings.begin(), meanings.end(), [&](std::string_view name) {
+        return !name.empty() && name != "at" && name != "by" && name != "within" &&
+               is_vocabulary(name, all.empty());
+      });
+      if (found != meanings.end())
+        add(*found);
+      else if (!repair::is_called("", token.text))
+        all.push_back(token);
+    }
+  }
+  return all;
+}
+
+/// `wall` with its axis and place in any form; several are several lines.
+std::optional<Rephrased> arrange_wall(const Tokens& line) {
+  std::string all;
+  std::string axis;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i].is("x") || line[i].is("y"))
+      axis = line[i].text;
+    const bool negative = line[i].is("-");
+    i += negative ? 1 : 0;
+    if (i >= line.size() || !line[i].is_number())
+      continue;
+    if (axis.empty())
+      return std::nullopt;
+    const bool metres = i + 1 < line.size() && line[i + 1].is("m");
+    constexpr double metre_cm = 100;
+    const auto cm = parse_number<double>(line[i].text, std::chars_format::fixed).value_or(0) *
+                    (metres ? metre_cm : 1) * (negative ? -1 : 1);
+    all += fmt::format("{}wall {}={}", all.empty() ? "" : "\n", axis, cm);
+    axis.clear();
+  }
+  return all.empty() ? std::nullopt : std::optional(Rephrased{all, true});
+}
+
+/// `for` with one time among words that say nothing.
+std::optional<Rephrased> arrange_bound(const Tokens& line) {
+  std::optional<std::string> time;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (!line[i].is_number())
+      continue;
+    const bool unit = i + 1 < line.size() && line[i + 1].is_word();
+    const auto found = repair::compute(part(line, i, i + (unit ? 2 : 1)), {});
+    if (time || !found || is_digit(found->back()))
+      return std::nullopt;
+    time = found;
+  }
+  return time ? std::optional(Rephrased{"for " + *time, true}) : std::nullopt;
+}
+
+std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere) {
+  if (line.size() < 2)
+    return std::nullopt;
+  if (line[0].is("seeds") || line[0].is("test"))
+    return Rephrased{repair::join(ascending(line)), true};
+  if (line[0].is("wall"))
+    return arrange_wall(line);
+  if (line[0].is("for"))
+    return arrange_bound(line);
+  const auto verb = std::find_if(line.begin(), line.end(), [](const Token& token) {
+    return token.is("expect") || token.is("never");
+  });
+  auto rest = line;
+  const bool never = verb != line.end() && verb->is("never");
+  if (verb != line.end())
+    rest.erase(rest.begin() + (verb - line.begin()));
+  else if (auto stimulus = arrange_stimulus(line))
+    return stimulus;
+  else if (!line[0].is("at") && !line[0].is("within") && !line[0].is("during"))
+    return std::nullopt;
+  if (auto one = arrange_expectation(rest, never, elsewhere))
+    return one;
+  return arrange_joined(rest, never);
+}
+
+} // namespace
+
+std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) {
+  if (const auto closed = close_text(line)) {
+    auto all = rephrase(*closed, elsewhere);
+    all.push_back({repair::join(*closed), true});
+    return all;
+  }
+  if (elsewhere.has_texts || line.size() == 1 || line[0].is("-"))
+    if (const auto& last = line.back(); !last.is_text() || line[0].is("-"))
+      if (line.size() == (line[0].is("-") ? 2U : 1U) && (last.is_text() || last.is_number()))
+        return {{fmt::format("\"{}\"", last.text), false}}; // one of those below `prints`
+  const auto translated = translate(line);
+  if (auto one = arrange(translated, elsewhere))
+    return {std::move(*one)};
+  if (translated.size() > 1 && repair::join(translated) != repair::join(line))
+    return {{repair::join(translated), true}};
+  return {};
+}
+
+} // namespace orb::testing
