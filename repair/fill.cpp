@@ -259,7 +259,7 @@ Text hex_colour(const Token& token, Language language) {
   const auto value = parse_number<std::uint32_t>(digits, decimal ? 10 : 16);
   if (!value || *value > 0xFFFFFF || (decimal ? *value <= 0xFFFF : digits.size() != 6))
     return std::nullopt;
-  if (language == Language::Structured)
+  if (language == Language::Structured || language == Language::Test)
     return fmt::format("#{:06X}", *value);
   return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
 }
@@ -277,6 +277,13 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return clock(a);
   if (function == "length")
     return length(a);
+  if (function == "middle" || function == "half") { // of a range
+    const auto from = whole(a);
+    const auto to = whole(b);
+    if (!from || !to || *from >= *to || (*to - *from) % 2 != 0)
+      return std::nullopt;
+    return std::to_string(function == "half" ? (*to - *from) / 2 : (*to + *from) / 2);
+  }
   if (function == "clockface") { // minutes and seconds
     const auto minutes = whole(a);
     const auto seconds = whole(b);

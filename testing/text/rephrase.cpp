@@ -59,7 +59,7 @@ public:
 
   std::optional<Phrases> read(std::size_t from) {
     for (at_ = from; at_ < line_.size();) {
-      if (phrase(phrases_.when, {time_end("within"), moment_end(), span_end()}) ||
+      if (phrase(phrases_.when, {time_end("within"), moment_end(), span_end(), later_end()}) ||
           phrase(phrases_.times, {times_end()}))
         continue;
       if (line_[at_].is("by") && number_end(at_ + 1) > at_ + 1) {
@@ -68,6 +68,12 @@ public:
         const auto end = number_end(at_ + 1);
         phrases_.by = part(line_, at_ + 1, end);
         at_ = end;
+        continue;
+      }
+      if (is_time(at_) && at_ + 2 == line_.size() && !phrases_.what.empty() &&
+          phrases_.when.empty()) {
+        phrases_.when = part(line_, at_, at_ + 2); // which of `at` and `within` is not said
+        at_ += 2;
         continue;
       }
       if (line_[at_].is("end") && at_ + 1 == line_.size() && !phrases_.what.empty() &&
@@ -118,6 +124,11 @@ private:
       return at_;
     const auto dots = number_end(at_ + 1);
     return dots < line_.size() && line_[dots].is("..") && is_time(dots + 1) ? dots + 3 : at_;
+  }
+  /// `after 5s`, where nothing else follows.
+  std::size_t later_end() const {
+    const auto end = time_end("after");
+    return end == line_.size() ? end : at_;
   }
   std::size_t times_end() const {
     auto at = at_;
@@ -187,7 +198,7 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by) {
     const auto& token = values[i];
     if (token.is(",") || token.is(";") || token.is("(") || token.is(")") || token.is("[") ||
         token.is("]") || token.is("=") || token.is(":") || token.is("x") || token.is("y") ||
-        token.is("by"))
+        token.is("by") || token.is("at"))
       continue;
     const bool sign = token.is("-") && i + 1 < values.size() && values[i + 1].is_number();
     if (!token.is_number() && !sign)
@@ -231,10 +242,17 @@ std::optional<std::string> heading(const Tokens& values) {
 }
 
 /// When an expectation of that kind can say that it is; empty for no time at all.
-std::string when_of(const ExpectationInfo& row, const Tokens& when, bool never) {
+std::string when_of(const ExpectationInfo& row, const Tokens& when, bool never, Duration bound) {
   const auto text = repair::join(when);
   if (when.empty())
     return row.word == info(Word::End).word ? text : std::string();
+  if (when[0].is("after")) {
+    const auto time = repair::join(part(when, 1, when.size()));
+    return row.kind == Kind::Event
+               ? fmt::format("during {}..{}s", time, (bound + 999ms) / Duration{1s})
+           : row.kind == Kind::State && !never ? "at " + time
+                                               : text;
+  }
   const bool at_end = when.size() == 2;
   const bool moment = when[0].is("at") && !at_end;
   const auto time = repair::join(part(when, 1, when.size()));
@@ -261,7 +279,7 @@ std::optional<std::string> texts(const Tokens& what, const Elsewhere& elsewhere)
   std::string all;
   std::size_t count = 0;
   for (std::size_t i = 1; i < what.size(); ++i) {
-    if (what[i].is(",") || what[i].is("then"))
+    if (what[i].is(","))
       continue;
     if (!what[i].is_text())
       return std::nullopt;
@@ -275,11 +293,13 @@ std::optional<std::string> texts(const Tokens& what, const Elsewhere& elsewhere)
 /// About a tenth more and less than one value: `1m` is `90cm..110cm`.
 std::string around(const Tokens& values, std::string_view unit) {
   const auto from = values.begin();
-  if (values.size() < 2 || !from->is_number() || values[1].gap)
+  if (values.size() < 2 || !from->is_number())
     return repair::join(values);
   const auto value = parse_number<double>(from->text, std::chars_format::fixed).value_or(0);
-  const bool metres = values[1].is("m");
-  if ((!metres && !values[1].is("cm")) || values.size() != (unit == "cm" ? 2U : 4U))
+  const auto& length = values[1].text;
+  const bool metres = length == "m" || length.starts_with("met") || length.starts_with("mèt");
+  if ((!metres && length != "cm" && !length.starts_with("centim")) ||
+      values.size() != (unit == "cm" ? 2U : 4U))
     return repair::join(values);
   constexpr double tenth = 0.1;
   constexpr double metre_cm = 100;
@@ -324,6 +344,15 @@ What what_of(Phrases& phrases, bool never) {
     all.text = fmt::format("{} {}", all.row->word, *repair::test_colour(what[0]));
     return all;
   }
+  const auto numbers =
+      std::count_if(what.begin(), what.end(), [](const Token& token) { return token.is_number(); });
+  if (word == what.end() && numbers == 2 && !phrases.by.empty())
+    if (const auto place = near(what, phrases.by)) {
+      phrases.by.clear();
+      all.row = &info(Word::Near);
+      all.text = *place;
+      return all;
+    }
   if (word == what.end())
     return all;
   all.row = expectation(*word);
@@ -402,7 +431,16 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
     text += " by " + repair::join(phrases->by);
   if (!phrases->times.empty() && said.row->kind == Kind::Event)
     text += " " + repair::join(ascending(phrases->times));
-  auto when = when_of(*said.row, ascending(phrases->when), said.never);
+  if (!phrases->when.empty() && phrases->when[0].is_number()) {
+    const auto time = repair::join(phrases->when);
+    const auto within = fmt::format("{} within {}", text, time);
+    if (said.never)
+      return Rephrased{fmt::format("{} during 0s..{}", text, time), false};
+    return said.row->kind == Kind::State
+               ? Rephrased{fmt::format("{} at {}", text, time), false, within}
+               : Rephrased{within, false};
+  }
+  auto when = when_of(*said.row, ascending(phrases->when), said.never, elsewhere.bound);
   const bool ends = said.row->kind == Kind::End;
   const bool whenever = ends && (when.empty() || when == "at end");
   if (whenever)
@@ -413,7 +451,8 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
 /// Two things, one before or after the other, or both at once.
 std::optional<Rephrased> arrange_joined(const Tokens& line, bool never) {
   const auto joint = std::find_if(line.begin(), line.end(), [](const Token& token) {
-    return token.is("then") || token.is("before") || token.is("after") || token.is("and");
+    return token.is("then") || token.is("before") || token.is("after") || token.is("and") ||
+           token.is("or");
   });
   if (joint == line.end() || joint == line.begin())
     return std::nullopt;
@@ -444,12 +483,23 @@ std::optional<Rephrased> arrange_joined(const Tokens& line, bool never) {
     return text;
   };
   auto when = left->when.empty() ? right->when : left->when;
+  // Neither of two, or both of two that happen: a line for each.
+  const bool each = joint->is("or") ? never : joint->is("and") && second.row->kind == Kind::Event;
+  if (joint->is("or") && !each)
+    return std::nullopt;
+  const auto verb = never ? "never" : "expect";
+  if (each) {
+    const auto line_of = [&](const What& what, const Phrases& phrases) {
+      return fmt::format("{} {}{}{}", verb, with(what, phrases), when.empty() ? "" : " ",
+                         repair::join(when));
+    };
+    return Rephrased{line_of(first, *left) + "\n" + line_of(second, *right), true};
+  }
   const auto word = joint->is("then") ? "before" : joint->text;
   if (word == "before")
     when.clear();
-  return Rephrased{fmt::format("{} {} {} {}{}{}", never ? "never" : "expect", with(first, *left),
-                               word, with(second, *right), when.empty() ? "" : " ",
-                               repair::join(when)),
+  return Rephrased{fmt::format("{} {} {} {}{}{}", verb, with(first, *left), word,
+                               with(second, *right), when.empty() ? "" : " ", repair::join(when)),
                    joint->text != "then"};
 }
 
@@ -631,7 +681,8 @@ Tokens translate(const Tokens& line) {
         all.push_back(Token{Token::Kind::Word, "times", true});
       continue;
     }
-    if (!token.is_word() || unit || signed_ || is_vocabulary(token.text, all.empty())) {
+    if (!token.is_word() || unit || signed_ || is_vocabulary(token.text, all.empty()) ||
+        expectation(token) != nullptr) {
       all.push_back(token);
       continue;
     }
@@ -667,7 +718,7 @@ Tokens translate(const Tokens& line) {
       });
       if (found != meanings.end())
         add(*found);
-      else if (!repair::is_called("", token.text))
+      else if (!repair::is_called("", token.text) || token.text == "A")
         all.push_back(token);
     }
   }
