@@ -10,14 +10,14 @@ export class Client {
   /** Settles when the wasm is there; rejects where it cannot be loaded. A new one after restart(). */
   ready;
 
-  constructor(url) {
+  /** `early`: a worker that start.js began, and the events that it sent since. */
+  constructor(url, early) {
     this.#url = url;
-    this.#begin();
+    this.#begin(early);
   }
 
-  #begin() {
+  #begin({ worker, said } = { worker: new Worker(this.#url, { type: "module" }), said: [] }) {
     this.#broken = null;
-    const worker = new Worker(this.#url, { type: "module" });
     this.#worker = worker;
     this.#late = setTimeout(() => this.#emit("late"), patience);
     this.ready = new Promise((done, failed) => {
@@ -43,6 +43,9 @@ export class Client {
       };
     });
     this.ready.catch(() => {}); // whoever waits for it hears of it
+    setTimeout(() => { // those who listen come first
+      for (const event of said) (event.type === "error" ? worker.onerror : worker.onmessage)(event);
+    });
   }
 
   #settle({ id, result, error }) {

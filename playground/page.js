@@ -22,7 +22,8 @@ import { AddressError, checked, empty, from_fragment, keep, kept, kind_of, limit
 
 // One worker answers while somebody types; the other runs programs and is ended with them.
 const worker_url = new URL("./worker.js", import.meta.url);
-const language = new Client(worker_url), machine = new Client(worker_url);
+const early = globalThis.orb_workers;
+const language = new Client(worker_url, early?.language), machine = new Client(worker_url, early?.machine);
 
 let workspace = empty();
 window.addEventListener("beforeprint", () => fill_sheet(workspace));

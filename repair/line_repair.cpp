@@ -1,6 +1,7 @@
 #include "repair/line_repair.h"
 
 #include "base/text.h"
+#include "repair/fill.h"
 #include "repair/idioms.h"
 
 #include <algorithm>

@@ -28,7 +28,7 @@ const shared = {
   metafile: true, legalComments: "none", logLevel: "warning",
 };
 // What the page imports when it is asked for becomes a file of its own; one that is imported at once is loaded at once.
-const page = await esbuild.build({ ...shared, entryPoints: [join(root, "playground/page.js")], splitting: true, chunkNames: "[name]-[hash]" });
+const page = await esbuild.build({ ...shared, entryPoints: [join(root, "playground/start.js"), join(root, "playground/page.js")], splitting: true, chunkNames: "[name]-[hash]" });
 const rest = readFileSync(join(root, "build/wasm/rest.wasm"));
 const rest_name = `orb-rest-${createHash("sha256").update(rest).digest("hex").slice(0, 8)}.wasm`; // a page never takes that of another build
 writeFileSync(join(out, rest_name), rest);
@@ -38,7 +38,7 @@ for (const { path, text } of [...page.outputFiles, ...worker.outputFiles])
   writeFileSync(path, (await minify(text, { module: true, ecma: 2020, compress: { passes: 3 } })).code);
 const parts = Object.fromEntries(Object.entries(page.metafile.outputs).map(([path, { imports }]) => [relative(out, resolve(root, path)),
   imports.filter(({ kind }) => kind === "import-statement").map(one => relative(out, resolve(root, one.path)))]));
-const at_once = new Set(["page.js"]);
+const at_once = new Set(["start.js", "page.js"]);
 for (const name of at_once) for (const one of parts[name]) at_once.add(one); // a set goes on to what is added
 const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => !at_once.has(name))]);
 const styled = (...paths) => esbuild.transformSync(paths.map(read).join("\n"), { loader: "css", minify: true }).code;

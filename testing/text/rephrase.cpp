@@ -24,7 +24,7 @@ using repair::Rephrased;
 using repair::Token;
 using repair::Tokens;
 
-constexpr std::int64_t one = 1000; // in thousandths
+constexpr std::int64_t whole = 1000; // in thousandths
 constexpr std::int64_t full_circle = 360;
 
 Tokens part(const Tokens& tokens, std::size_t begin, std::size_t end) {
@@ -234,11 +234,11 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by) {
 /// An angle from 0 to 359.
 std::optional<std::string> heading(const Tokens& values) {
   const auto value = repair::quantity_of(values, {});
-  if (!value || value->thousandths % one != 0 ||
+  if (!value || value->thousandths % whole != 0 ||
       (value->measure != Measure::None && value->measure != Measure::Angle))
     return std::nullopt;
   return fmt::format("heading {}",
-                     (value->thousandths / one % full_circle + full_circle) % full_circle);
+                     (value->thousandths / whole % full_circle + full_circle) % full_circle);
 }
 
 /// When an expectation of that kind can say that it is; empty for no time at all.

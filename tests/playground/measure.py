@@ -4,6 +4,7 @@
 import os
 import statistics
 import sys
+import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "report"))
 import browser as chromium
@@ -12,6 +13,7 @@ import weight
 
 folder = os.path.abspath(sys.argv[1])
 rounds = 7
+settle = 3 # seconds: a browser compiles on when a page can run already; the next visitor has a processor of his own
 
 
 def load(browser, server):
@@ -33,6 +35,7 @@ def newcomer(browser, server):
     page.wait("document.querySelectorAll('#map .run').length > 0")
     took = page.evaluate("performance.now() - performance.getEntriesByName('first-contentful-paint')[0].startTime")
     page.close()
+    time.sleep(settle)
     return took
 
 
@@ -54,12 +57,18 @@ for words, names in (("a first visit", "core"), ("on demand", "on_demand")):
           + f"; all {sum(sizes.values()) / 1000:.0f}")
 server, browser = site_server.Site(folder), chromium.Browser(chromium.find())
 try:
-    loads = [load(browser, server) for _ in range(rounds)]
+    loads = []
+    for _ in range(rounds):
+        if loads:
+            loads[-1][0].close()
+        time.sleep(settle)
+        loads.append(load(browser, server))
     print(f"{'':46}{'least':>8}{'median':>8}{'most':>8}")
     row("first paint", [paint for _, paint, _ in loads], "ms")
     row("from first paint to a program that can run", [max(0, ready - paint) for _, paint, ready in loads], "ms")
     row("from first paint to a ball that moves", [newcomer(browser, server) for _ in range(rounds)], "ms")
     page = loads[-1][0]
+    time.sleep(settle)
     page.wait("document.querySelector('.tok-keyword') !== null")
     page.evaluate("document.querySelector('.cm-content').focus()")
     page.key("End", modifiers=2)
