@@ -466,8 +466,8 @@ void offer_lines(const Source& source, const Ids& known, const LintOptions& opti
   judge.language = repair::Language::Macro;
   judge.words = all_words();
   judge.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
-  judge.rephrase = [constants = constants_of(source.text())](const repair::Tokens& line) {
-    return rephrase(line, constants);
+  judge.rephrase = [elsewhere = look_elsewhere(source.text())](const repair::Tokens& line) {
+    return rephrase(line, elsewhere);
   };
   judge.check = [&](std::string_view text) {
     const Source changed(source.name(), std::string(text));

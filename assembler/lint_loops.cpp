@@ -17,6 +17,8 @@ namespace {
 using spec::MacroCommand;
 using Origin = PlacedCommand::Origin;
 
+constexpr std::size_t longest_line = 240; // bytes, of what is looked at
+
 class LoopLinter {
 public:
   LoopLinter(const Source& source, const Assembly& assembly)
@@ -101,7 +103,29 @@ private:
     return said;
   }
 
+  /// Whether a line above has an error and looks like the beginning of a loop.
+  bool may_begin_above(const PlacedCommand& command) const {
+    return std::any_of(
+        assembly_.diagnostics.begin(), assembly_.diagnostics.end(), [&](const Diagnostic& error) {
+          const auto line = source_.line(source_.position(error.span.begin).line);
+          return error.span.begin < command.span.begin && line.size() < longest_line &&
+                 begins_loop(repair::split(line, repair::Language::Macro).tokens);
+        });
+  }
+
+  static bool begins_loop(const repair::Tokens& line) {
+    if (line.empty())
+      return false;
+    const auto& word = line[0].text;
+    const auto meanings = repair::meanings_of(word);
+    return word.find("loop") != std::string::npos || word == "repeat" || word == "for" ||
+           word == "while" || word == "forever" ||
+           std::find(meanings.begin(), meanings.end(), "loop_start") != meanings.end();
+  }
+
   void second_end(const PlacedCommand& command, const PlacedCommand* before) {
+    if (may_begin_above(command))
+      return;
     auto& d = report(rules::LoopEnd, command.span, "`loop_end` without `loop_start`",
                      "remove it, or add `loop_start` above");
     if (before == nullptr || !is(*before, MacroCommand::LoopEnd) ||

@@ -1,5 +1,7 @@
 #include "assembler/rephrase.h"
 
+#include "assembler/program.h"
+
 #include "base/text.h"
 #include "repair/tokens.h"
 #include "spec/macro.h"
@@ -22,8 +24,7 @@ using repair::Tokens;
 using spec::MacroOperandKind;
 using spec::MacroUnit;
 
-constexpr std::int64_t one = 1000;        // in thousandths
-constexpr std::size_t longest_line = 240; // bytes; nobody writes longer constants
+constexpr std::size_t longest_constant = 240; // bytes; nobody writes longer constants
 
 Operand operand_of(const spec::MacroOperand& row) {
   Operand operand;
@@ -37,6 +38,10 @@ Operand operand_of(const spec::MacroOperand& row) {
   operand.optional = row.kind == MacroOperandKind::Delay;
   for (const auto* word = row.begin_words(); word != row.end_words(); ++word)
     operand.words.push_back(word->word);
+  if (operand.name == "heading")
+    operand.words = {"0", "90", "180", "270"};
+  if (operand.name == "count" || operand.name == "speed")
+    operand.words = {"255"};
   return operand;
 }
 
@@ -46,8 +51,8 @@ Tokens after(const Tokens& line, std::size_t begin) {
 
 std::optional<std::int64_t> milliseconds(const std::string& text) {
   const auto value = repair::quantity_of(repair::tokens_of(text, repair::Language::Macro), {});
-  return value && value->thousandths % one == 0 && value->thousandths >= 0
-             ? std::optional(value->thousandths / one)
+  return value && value->thousandths % whole == 0 && value->thousandths >= 0
+             ? std::optional(value->thousandths / whole)
              : std::nullopt;
 }
 
@@ -59,14 +64,21 @@ std::string delays(const std::string& time) {
     return fmt::format("{} {}", word, time);
   std::string all;
   for (const auto wait : waits)
-    all +=
-        fmt::format("{}{} {}", all.empty() ? "" : "\n", word,
-                    wait % one == 0 ? fmt::format("{}s", wait / one) : fmt::format("{}ms", wait));
+    all += fmt::format("{}{} {}", all.empty() ? "" : "\n", word,
+                       wait % whole == 0 ? fmt::format("{}s", wait / whole)
+                                         : fmt::format("{}ms", wait));
   return all;
 }
 
 /// What is taken where an operand lacks and one value is the clear one.
-std::string_view usual_of(const spec::MacroCommandInfo& info, const Operand& operand) {
+std::string_view usual_of(const spec::MacroCommandInfo& info, const Operand& operand,
+                          const Elsewhere& elsewhere) {
+  const auto as_elsewhere = elsewhere.times.find(info.mnemonic);
+  const bool lasts = info.background != spec::MacroBackground::None ||
+                     info.command == spec::MacroCommand::WaitUntilStopped;
+  if (lasts && operand.counts == Counts::Milliseconds && as_elsewhere != elsewhere.times.end() &&
+      milliseconds(as_elsewhere->second))
+    return as_elsewhere->second;
   if (info.background != spec::MacroBackground::None && operand.name == "time")
     return "1s";
   if (info.command == spec::MacroCommand::WaitUntilStopped)
@@ -87,6 +99,17 @@ void turn_left(Tokens& values) {
       token.text.insert(0, "-");
       return;
     }
+}
+
+/// `1,5s` is `1.5s`, and `1,000` is `1000`.
+void join_decimals(Tokens& values) {
+  if (values.size() < 3 || !values[0].is_number() || !values[1].is(",") || !values[2].is_number() ||
+      values[2].gap)
+    return;
+  constexpr std::size_t thousand = 3; // digits
+  const bool thousands = values.size() == 3 && values[2].text.size() == thousand;
+  values[0].text += (thousands ? "" : ".") + values[2].text;
+  values.erase(values.begin() + 1, values.begin() + 3);
 }
 
 /// `100 -100` are powers of both motors: forward and reverse.
@@ -137,29 +160,33 @@ std::string plain_name(const Tokens& tokens) {
 }
 
 std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
-                                        const Quantities& constants) {
+                                        const Elsewhere& elsewhere) {
   auto operands = std::vector<Operand>();
   for (const auto& row : info) {
     if (row.kind == MacroOperandKind::Text)
       return {};
     operands.push_back(operand_of(row));
   }
+  if (info.command == spec::MacroCommand::Sleep)
+    return {}; // elsewhere it is a wait
   if (info.command == spec::MacroCommand::Roll && line.size() > 1 && line[1].is("("))
-    return {}; // other languages have the heading first
+    return {}; // a function of another language, with the heading first
   for (auto& operand : operands)
-    operand.usual = usual_of(info, operand);
+    operand.usual = usual_of(info, operand, elsewhere);
   Tokens values = after(line, 1);
   if (spec::MacroBackground::Rotate == info.background)
     turn_left(values);
   if (info.command == spec::MacroCommand::RawMotors)
     say_modes(values);
+  if (operands.size() == 1 && operands[0].counts == Counts::Milliseconds)
+    join_decimals(values);
   if (operands.size() == 1 && operands[0].counts == Counts::Name)
     for (auto& token : values)
       if (token.is_word() || token.is_text())
         token = Token{Token::Kind::Word, plain_name({token}), token.gap};
   if (info.command == spec::MacroCommand::Roll) // a longer delay makes it a roll2
     operands.back().most = UINT16_MAX;
-  const auto arranged = repair::arrange(values, operands, constants);
+  const auto arranged = repair::arrange(values, operands, elsewhere.constants);
   if (!arranged)
     return {};
   if (info.command == spec::MacroCommand::Delay)
@@ -256,21 +283,23 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
 
 } // namespace
 
-repair::Quantities constants_of(std::string_view text) {
-  Quantities known;
+Elsewhere look_elsewhere(std::string_view text) {
+  Elsewhere found;
   while (!text.empty()) {
     const auto end = std::min(text.find_first_of("\r\n"), text.size());
     const auto line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.find(".const") == std::string_view::npos || line.size() > longest_line)
+    if (line.size() > longest_constant)
       continue;
     const auto tokens = repair::split(line, repair::Language::Macro).tokens;
-    if (tokens.size() < 4 || !tokens[0].is(".const") || !tokens[2].is("="))
-      continue;
-    if (const auto value = repair::quantity_of(after(tokens, 3), known))
-      known.emplace(tokens[1].text, *value);
+    if (tokens.size() > 3 && tokens[0].is(".const") && tokens[2].is("="))
+      if (const auto value = repair::quantity_of(after(tokens, 3), found.constants))
+        found.constants.emplace(tokens[1].text, *value);
+    if (tokens.size() > 2 && tokens.back().is_word() && tokens[tokens.size() - 2].is_number())
+      found.times.insert_or_assign(tokens[0].text,
+                                   tokens[tokens.size() - 2].text + tokens.back().text);
   }
-  return known;
+  return found;
 }
 
 std::vector<std::int64_t> waits_of(std::int64_t ms) {
@@ -304,7 +333,8 @@ Tokens joined(const Tokens& line) {
 
 } // namespace
 
-std::vector<Rephrased> rephrase(const Tokens& written, const Quantities& constants) {
+std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
+  const auto& constants = elsewhere.constants;
   const auto line = joined(written);
   if (line.empty() || !line[0].is_word())
     return {};
@@ -319,7 +349,7 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Quantities& constan
       rest = repair::tokens_of(rest[0].text, repair::Language::Macro);
     if (const auto part = repair::quantity_of(rest, constants);
         part && part->measure == Measure::Percent) { // of a speed or a brightness
-      constexpr std::int64_t hundred = 100 * one;    // per cent
+      constexpr std::int64_t hundred = 100 * whole;  // per cent
       return {{fmt::format(".const {} = {}", line[1].text,
                            (part->thousandths * UINT8_MAX + hundred / 2) / hundred),
                false}};
@@ -333,7 +363,7 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Quantities& constan
     info = spec::find_macro_command(std::string_view(line[0].text).substr(1));
   for (const auto name : repair::meanings_of(line[0].text))
     info = info == nullptr ? spec::find_macro_command(name) : info;
-  return info == nullptr ? std::vector<Rephrased>() : rephrase_command(*info, line, constants);
+  return info == nullptr ? std::vector<Rephrased>() : rephrase_command(*info, line, elsewhere);
 }
 
 } // namespace orb::assembler

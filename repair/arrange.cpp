@@ -153,7 +153,8 @@ private:
     Quantity number{sign * *value, Measure::None};
     if (at_end())
       return number;
-    if (const auto unit = unit_of(here())) {
+    const bool is_name = next() != nullptr && (next()->is("=") || next()->is(":"));
+    if (const auto unit = unit_of(here()); unit && !is_name) {
       number = {number.thousandths * (unit->thousandths / one), unit->measure};
       skip();
     }
@@ -205,7 +206,6 @@ public:
     all.values.resize(operands_.size());
     all.named.resize(operands_.size());
     turn_round();
-    exchange();
     for (std::size_t i = 0; i < operands_.size(); ++i) {
       const auto& operand = operands_[i];
       if (bound_[i] == nullptr && operand.optional)
@@ -226,7 +226,8 @@ public:
       const bool wraps =
           operand.counts == Counts::Degrees && operand.least >= 0 && bound_[i]->word.empty() &&
           (bound_[i]->number.thousandths < 0 || bound_[i]->number.thousandths >= full_circle * one);
-      all.sure = all.sure && !brims && !wraps && !exchanged_;
+      const bool spoken = operand.counts == Counts::Degrees && !bound_[i]->word.empty();
+      all.sure = all.sure && !spoken && !brims && !wraps && !exchanged_;
       all.named[i] = !bound_[i]->name.empty() && !is_colour(operand);
       if (too_long(*bound_[i], operand)) {
         if (extra_ != nullptr)
@@ -297,7 +298,8 @@ private:
     std::string name;
     while (!values.at_end()) {
       const auto& token = values.here();
-      if (token.is(",") || token.is(";") || token.is("=") || token.is(":") || token.is("/")) {
+      if (token.is(",") || token.is(";") || token.is("=") || token.is(":") || token.is("/") ||
+          token.is("|")) {
         values.skip();
         continue;
       }
@@ -409,10 +411,11 @@ private:
         return false;
       bound_[at] = &value;
     }
+    place_large();
     const auto tells = [](const Given& value) { return value.number.measure != Measure::None; };
     for (const bool told : {true, false})
       for (const auto& value : given_) {
-        if (!value.name.empty() || tells(value) != told)
+        if (!value.name.empty() || tells(value) != told || is_bound(value))
           continue;
         const auto at = place_for(value);
         if (at < operands_.size())
@@ -423,6 +426,34 @@ private:
           return false;
       }
     return true;
+  }
+
+  bool is_bound(const Given& value) const {
+    return std::find(bound_.begin(), bound_.end(), &value) != bound_.end();
+  }
+
+  /// A number that is too large where it stands goes where alone it fits.
+  void place_large() {
+    for (std::size_t i = 0; i < given_.size() && i < operands_.size(); ++i) {
+      const auto number = given_[i].number.thousandths;
+      if (!is_plain(&given_[i]) || number <= operands_[i].most * one || operands_[i].most == 0)
+        continue;
+      std::size_t found = operands_.size();
+      std::size_t count = 0;
+      for (std::size_t at = 0; at < operands_.size(); ++at)
+        if (!operands_[at].optional && bound_[at] == nullptr &&
+            number <= operands_[at].most * one) {
+          found = at;
+          ++count;
+        }
+      const bool rests = std::any_of(given_.begin(), given_.end(), [](const Given& value) {
+        return is_plain(&value) && value.number.thousandths == 0;
+      });
+      if (count != 1 || (rests && operands_[i].name == "speed"))
+        continue;
+      bound_[found] = &given_[i];
+      exchanged_ = true;
+    }
   }
 
   /// A speed below 0 drives back.
@@ -446,21 +477,6 @@ private:
   static bool is_plain(const Given* value) {
     return value != nullptr && value->name.empty() && value->word.empty() &&
            value->number.measure == Measure::None;
-  }
-
-  /// Two values that are each too large, or fit, only in the other's place.
-  void exchange() {
-    const auto fits = [&](std::size_t value, std::size_t place) {
-      return bound_[value]->number.thousandths >= operands_[place].least * one &&
-             bound_[value]->number.thousandths <= operands_[place].most * one;
-    };
-    for (std::size_t i = 0; i + 1 < operands_.size(); ++i)
-      if (is_plain(bound_[i]) && is_plain(bound_[i + 1]) && !operands_[i + 1].optional &&
-          (!fits(i, i) || !fits(i + 1, i + 1)) && fits(i, i + 1) && fits(i + 1, i) &&
-          bound_[i + 1]->number.thousandths > 0) {
-        std::swap(bound_[i], bound_[i + 1]);
-        exchanged_ = true;
-      }
   }
 
   /// Whether a byte was meant as a part of 1.

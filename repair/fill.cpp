@@ -15,6 +15,7 @@ namespace {
 constexpr std::int64_t second_ms = 1000;
 constexpr std::int64_t most_seconds = 20; // a wait for so few was meant in seconds
 constexpr std::int64_t largest = 2147483647;
+constexpr std::int64_t full_turn = 360; // degrees
 
 using Text = std::optional<std::string>;
 
@@ -277,6 +278,8 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return clock(a);
   if (function == "length")
     return length(a);
+  if (function == "compass") // a heading, no turns
+    return whole(a).value_or(0) < full_turn ? Text(join(a)) : std::nullopt;
   if (function == "middle" || function == "half") { // of a range
     const auto from = whole(a);
     const auto to = whole(b);

@@ -67,7 +67,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   const bool leaves_out = edit != nullptr && edit->text.empty() && edit->span.size() > 0 &&
                           is_letter(line_[edit->span.begin - begin_]) &&
                           own->find_first_not_of(" \t;", parts_.head.size()) != std::string::npos;
-  if (rephrase(parts_.tokens))
+  // The same words in another order say what was meant, whatever else is told of the line.
+  if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   if (!own || leaves_out || finding.fix->safety != Safety::Safe)
     several_lines(start);
@@ -212,7 +213,10 @@ bool LineRepair::parses(std::string_view lines) const {
 bool LineRepair::keeps_texts(std::string_view lines) const {
   return lines.empty() ||
          std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
-           const bool filled = token.text.find_first_of("{%\\") != std::string::npos;
+           const bool filled =
+               token.text.find_first_of("{%\\") != std::string::npos ||
+               (judge_.language == Language::Macro && // quoted numbers
+                token.text.find_first_not_of("0123456789 ,.;") == std::string::npos);
            return !token.is_text() || !token.closed || filled || find_colour(token) ||
                   lines.find(token.text) != std::string_view::npos;
          });
@@ -249,6 +253,13 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
       (!best_ || errors < best_->errors || (errors == best_->errors && quiet && !best_->quiet)))
     best_ = accepted;
   return accepted;
+}
+
+/// Whether lines begin with the word that the line begins with.
+bool LineRepair::begins_alike(std::string_view lines) const {
+  const auto& word = parts_.tokens.front().text;
+  const auto begin = lines.substr(std::min(parts_.head.size(), lines.size()));
+  return begin.starts_with(word) && begin.substr(word.size()).starts_with(' ');
 }
 
 /// Tries what the language makes of the line's values; true when that cannot be better.

@@ -71,6 +71,7 @@ private:
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
   bool rephrase(const Tokens& line);
+  bool begins_alike(std::string_view lines) const;
   void habits(const std::string& statement, Bounds bounds);
   void several_lines(const std::string& statement);
   void by_fix(const Diagnostic& finding);

@@ -174,7 +174,8 @@ private:
       while (!cursor.at_end())
         cursor.word();
       if (time && test != nullptr && *time >= test->bound)
-        too_late(rules::Bound, cursor.span_from(begin), *test, *time + 1s);
+        report(rules::Bound, cursor.span_from(begin), "the run ends before that time",
+               "for a longer run write a later time after `for`");
     }
   }
 

@@ -188,7 +188,8 @@ std::vector<std::string_view> all_words() {
 
 /// What a line may mean depends on it.
 Elsewhere look_elsewhere(const Source& source) {
-  Elsewhere found{default_bound};
+  Elsewhere found;
+  found.bound = default_bound;
   for (const auto* word : {"insid", "reach", "zone", "stay"}) // somebody thinks of zones
     found.may_have_zones = found.may_have_zones || source.text().find(word) != std::string::npos;
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
@@ -198,10 +199,32 @@ Elsewhere look_elsewhere(const Source& source) {
     const auto word = cursor.word();
     found.has_course = found.has_course || word == info(LineWord::Course).word;
     found.may_have_zones = found.may_have_zones || found.has_course;
-    if (word == info(LineWord::For).word)
+    if (word == info(LineWord::For).word) {
+      found.has_bound = true;
       found.bound = parse_duration(cursor.word()).value_or(default_bound);
+    }
+    auto* by = static_cast<std::string*>(nullptr);
+    for (auto next = cursor.word(); !next.empty() && !cursor.at_end(); next = cursor.word()) {
+      if (next == info(Word::Near).word)
+        by = &found.near_by;
+      else if (next == info(Word::Heading).word)
+        by = &found.heading_by;
+      else if (next == "by" && by != nullptr && is_digit(cursor.peek_char()))
+        *by = cursor.peek();
+    }
   }
   return found;
+}
+
+/// Whether a line expects the value of a variable that is called like something else that can be
+/// expected: nobody means that who does not write it so.
+bool makes_variable(std::string_view line) {
+  const auto equals = line.find(" = ");
+  if (equals == std::string_view::npos)
+    return false;
+  const auto before = line.substr(0, equals);
+  const auto word = before.substr(before.find_last_of(' ') + 1);
+  return find_word<ExpectationInfo>(expectations, word) != nullptr;
 }
 
 /// The line to write, for each error.
@@ -213,6 +236,8 @@ void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
   judge.parses = [elsewhere](std::string_view line) {
     if (!elsewhere.may_have_zones && (line.find(info(Word::Inside).word) != std::string::npos ||
                                       line.find(info(LineWord::Reach).word) != std::string::npos))
+      return false;
+    if (makes_variable(line))
       return false;
     const auto reads = [&](std::string_view above, std::string_view below) {
       return FileReader(Source({}, fmt::format("{}{}{}", above, line, below)))

@@ -59,7 +59,8 @@ public:
 
   std::optional<Phrases> read(std::size_t from) {
     for (at_ = from; at_ < line_.size();) {
-      if (phrase(phrases_.when, {time_end("within"), moment_end(), span_end(), later_end()}) ||
+      if (phrase(phrases_.when,
+                 {time_end("within"), moment_end(), span_end(), later_end(), time_end("until")}) ||
           phrase(phrases_.times, {times_end()}))
         continue;
       if (line_[at_].is("by") && number_end(at_ + 1) > at_ + 1) {
@@ -191,7 +192,7 @@ Tokens ascending(Tokens tokens) {
 }
 
 /// A place and how far from it: what has a unit is the distance.
-std::optional<std::string> near(const Tokens& values, const Tokens& by) {
+std::optional<std::string> near(const Tokens& values, const Tokens& by, const std::string& usual) {
   std::vector<std::string> numbers;
   std::string distance = repair::join(by);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -224,6 +225,8 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by) {
     distance = numbers[2] + "cm";
     numbers.pop_back();
   }
+  if (distance.empty())
+    distance = usual;
   if (numbers.size() != 2 || distance.empty())
     return std::nullopt;
   if (is_digit(distance.back()))
@@ -290,22 +293,20 @@ std::optional<std::string> texts(const Tokens& what, const Elsewhere& elsewhere)
   return count > 1 || first ? std::optional("expect prints" + all) : std::nullopt;
 }
 
-/// About a tenth more and less than one value: `1m` is `90cm..110cm`.
-std::string around(const Tokens& values, std::string_view unit) {
-  const auto from = values.begin();
-  if (values.size() < 2 || !from->is_number())
-    return repair::join(values);
-  const auto value = parse_number<double>(from->text, std::chars_format::fixed).value_or(0);
-  const auto& length = values[1].text;
-  const bool metres = length == "m" || length.starts_with("met") || length.starts_with("mèt");
-  if ((!metres && length != "cm" && !length.starts_with("centim")) ||
-      values.size() != (unit == "cm" ? 2U : 4U))
-    return repair::join(values);
+/// About a tenth more and less than one length: `1m` is `90cm..110cm`.
+std::string around(const Tokens& values) {
+  const auto text = repair::join(values);
+  if (values.size() != 2 || !values[0].is_number())
+    return text;
+  const auto value = parse_number<double>(values[0].text, std::chars_format::fixed).value_or(0);
+  const auto& unit = values[1].text;
+  const bool metres = unit == "m" || unit.starts_with("met") || unit.starts_with("mèt");
+  if (!metres && unit != "cm" && !unit.starts_with("centim"))
+    return text;
   constexpr double tenth = 0.1;
   constexpr double metre_cm = 100;
   const auto cm = value * (metres ? metre_cm : 1);
-  return fmt::format("{}{}..{}{}", std::lround(cm * (1 - tenth)), unit == "cm" ? unit : "",
-                     std::lround(cm * (1 + tenth)), unit);
+  return fmt::format("{}cm..{}cm", std::lround(cm * (1 - tenth)), std::lround(cm * (1 + tenth)));
 }
 
 /// What is expected, with its values; empty where no word says what.
@@ -328,7 +329,7 @@ void count_events(const ExpectationInfo& row, Tokens& values, Tokens& times) {
   values.erase(values.begin());
 }
 
-What what_of(Phrases& phrases, bool never) {
+What what_of(Phrases& phrases, bool never, const Elsewhere& elsewhere) {
   auto& what = phrases.what;
   What all;
   all.never = never;
@@ -347,7 +348,7 @@ What what_of(Phrases& phrases, bool never) {
   const auto numbers =
       std::count_if(what.begin(), what.end(), [](const Token& token) { return token.is_number(); });
   if (word == what.end() && numbers == 2 && !phrases.by.empty())
-    if (const auto place = near(what, phrases.by)) {
+    if (const auto place = near(what, phrases.by, {})) {
       phrases.by.clear();
       all.row = &info(Word::Near);
       all.text = *place;
@@ -368,8 +369,9 @@ What what_of(Phrases& phrases, bool never) {
   count_events(row, values, phrases.times);
   all.text = std::string(row.word);
   if (row.word == info(Word::Near).word) {
-    if (const auto place = near(values, phrases.by)) {
+    if (const auto place = near(values, phrases.by, elsewhere.near_by)) {
       all.text = *place;
+      all.sure = near(values, phrases.by, {}).has_value();
       phrases.by.clear();
       return all;
     }
@@ -377,15 +379,18 @@ What what_of(Phrases& phrases, bool never) {
     if (const auto angle = heading(values)) {
       all.text = *angle;
       values.clear();
+      if (phrases.by.empty() && !elsewhere.heading_by.empty()) {
+        all.text += " by " + elsewhere.heading_by;
+        all.sure = false;
+      }
     }
   } else if (row.word == info(Word::Color).word && values.size() == 1) {
     if (const auto colour = repair::test_colour(values[0]))
       values[0] = Token{Token::Kind::Word, *colour, true};
-  } else if (row.word == info(Word::Distance).word || row.word == info(Word::Speed).word) {
-    const auto unit = row.word == info(Word::Speed).word ? "cm/s" : "cm";
+  } else if (row.word == info(Word::Distance).word) {
     if (!values.empty() && values[0].is("~"))
       values.erase(values.begin());
-    const auto range = around(values, unit);
+    const auto range = around(values);
     all.sure = range == repair::join(values);
     all.text += " " + range;
     return all;
@@ -423,7 +428,7 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
   if (zone)
     phrases->what.insert(phrases->what.begin(),
                          Token{Token::Kind::Word, std::string(info(Word::Inside).word), true});
-  const auto said = what_of(*phrases, never);
+  const auto said = what_of(*phrases, never, elsewhere);
   if (said.row == nullptr)
     return std::nullopt;
   auto text = (said.never ? "never " : "expect ") + said.text;
@@ -431,6 +436,14 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
     text += " by " + repair::join(phrases->by);
   if (!phrases->times.empty() && said.row->kind == Kind::Event)
     text += " " + repair::join(ascending(phrases->times));
+  if (!phrases->when.empty() && phrases->when[0].is("until")) {
+    const auto time = repair::join(part(phrases->when, 1, phrases->when.size()));
+    const auto all_along = fmt::format("{} during 0s..{}", text, time);
+    const auto within = fmt::format("{} within {}", text, time);
+    return said.row->kind != Kind::State ? Rephrased{within, true}
+           : said.never                  ? Rephrased{all_along, true}
+                                         : Rephrased{all_along, false, within};
+  }
   if (!phrases->when.empty() && phrases->when[0].is_number()) {
     const auto time = repair::join(phrases->when);
     const auto within = fmt::format("{} within {}", text, time);
@@ -442,14 +455,15 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
   }
   auto when = when_of(*said.row, ascending(phrases->when), said.never, elsewhere.bound);
   const bool ends = said.row->kind == Kind::End;
-  const bool whenever = ends && (when.empty() || when == "at end");
+  const bool whenever = ends && elsewhere.has_bound && (when.empty() || when == "at end");
   if (whenever)
     when = fmt::format("within {}s", (elsewhere.bound + 999ms) / Duration{1s});
   return Rephrased{text + (when.empty() ? "" : " ") + when, said.sure && !whenever && !zone};
 }
 
 /// Two things, one before or after the other, or both at once.
-std::optional<Rephrased> arrange_joined(const Tokens& line, bool never) {
+std::optional<Rephrased> arrange_joined(const Tokens& line, bool never,
+                                        const Elsewhere& elsewhere) {
   const auto joint = std::find_if(line.begin(), line.end(), [](const Token& token) {
     return token.is("then") || token.is("before") || token.is("after") || token.is("and") ||
            token.is("or");
@@ -462,7 +476,7 @@ std::optional<Rephrased> arrange_joined(const Tokens& line, bool never) {
   auto right = Reader(right_tokens).read(0);
   if (!left || !right || left->what.empty() || right->what.empty())
     return std::nullopt;
-  auto first = what_of(*left, never);
+  auto first = what_of(*left, never, elsewhere);
   if (first.row == nullptr)
     return std::nullopt;
   const bool has_word = std::any_of(right->what.begin(), right->what.end(), [](const Token& token) {
@@ -471,7 +485,7 @@ std::optional<Rephrased> arrange_joined(const Tokens& line, bool never) {
   if (!has_word) // `color red before green`
     right->what.insert(right->what.begin(),
                        Token{Token::Kind::Word, std::string(first.row->word), true});
-  const auto second = what_of(*right, never);
+  const auto second = what_of(*right, never, elsewhere);
   if (second.row == nullptr)
     return std::nullopt;
   const auto with = [](const What& what, const Phrases& phrases) {
@@ -642,8 +656,8 @@ bool is_vocabulary(std::string_view word, bool first) {
     return in(line_words) || in(vm::stimulus_words) || word == "at";
   return in(expectations) || in(when_words) || in(join_words) || in(vm::stimulus_words) ||
          word == "by" || word == "times" || word == "to" || word == "points" || word == "end" ||
-         word == "on" || word == "off" || word == "then" || word == "expect" || word == "never" ||
-         word == "seeds";
+         word == "on" || word == "off" || word == "then" || word == "until" || word == "expect" ||
+         word == "never" || word == "seeds";
 }
 
 /// How often a word says that something happens: `three` before `times`, `dreimal`; 0 for others.
@@ -785,7 +799,7 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
     return std::nullopt;
   if (auto one = arrange_expectation(rest, never, elsewhere))
     return one;
-  return arrange_joined(rest, never);
+  return arrange_joined(rest, never, elsewhere);
 }
 
 } // namespace
@@ -799,7 +813,7 @@ std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) 
   if (elsewhere.has_texts || line.size() == 1 || line[0].is("-"))
     if (const auto& last = line.back(); !last.is_text() || line[0].is("-"))
       if (line.size() == (line[0].is("-") ? 2U : 1U) && (last.is_text() || last.is_number()))
-        return {{fmt::format("\"{}\"", last.text), false}}; // one of those below `prints`
+        return {{fmt::format("\"{}\"", last.text), false}}; // whole of those below `prints`
   const auto translated = translate(line);
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};

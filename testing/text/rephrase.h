@@ -16,6 +16,9 @@ struct Elsewhere {
   Duration bound{}; ///< after how long a run is stopped
   bool has_course = false;
   bool may_have_zones = false;
+  std::string near_by;    ///< the tolerance of the last place; empty without one
+  std::string heading_by; ///< the same of headings
+  bool has_bound = false; ///< the file says how long a run is
   bool has_texts = false; ///< lines that begin with a quote, as those below `prints`
 };
 
