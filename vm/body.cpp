@@ -88,7 +88,7 @@ void Body::travel() {
     strike({blow->vx, blow->vy}, blow->speed);
     impact_->wall = blow->wall;
   }
-  move_to(place, std::hypot(place.x - world_.x, place.y - world_.y), going.speed);
+  move_to(place, vm::length(place.x - world_.x, place.y - world_.y), going.speed);
 }
 
 void Body::move_to(Point place, double way_cm, double speed) {
@@ -102,8 +102,8 @@ void Body::move_to(Point place, double way_cm, double speed) {
     locator_.x += dx;
     locator_.y += dy;
   } else {
-    const double sine = std::sin(turned * to_radians);
-    const double cosine = std::cos(turned * to_radians);
+    const double sine = vm::sine(turned * to_radians);
+    const double cosine = vm::cosine(turned * to_radians);
     locator_.x += dx * cosine + dy * sine;
     locator_.y += dy * cosine - dx * sine;
   }
@@ -115,8 +115,8 @@ void Body::strike(Point velocity, double speed) {
   const double world = (drive_.yaw_deg() + drive_.world_offset_deg()) * to_radians;
   const double scale = power_per_speed * greatest / full_speed;
   Impact impact;
-  impact.x_power = scale * (velocity.x * std::cos(world) - velocity.y * std::sin(world));
-  impact.y_power = scale * (velocity.x * std::sin(world) + velocity.y * std::cos(world));
+  impact.x_power = scale * (velocity.x * vm::cosine(world) - velocity.y * vm::sine(world));
+  impact.y_power = scale * (velocity.x * vm::sine(world) + velocity.y * vm::cosine(world));
   impact.speed = static_cast<int>(std::lround(std::min(speed / full_speed, 1.0) * greatest));
   impact_ = impact;
   sensors_.strike(now_);
@@ -145,7 +145,7 @@ void Body::become(Elsewhere& robot) {
 
 bool Body::robot_moves() const {
   constexpr double crawl = 1; // cm/s: less is the noise of the sensors
-  return drive_.strives() || std::hypot(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y) > crawl;
+  return drive_.strives() || vm::length(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y) > crawl;
 }
 
 /// What renames headings is done here: the robot keeps its own.
@@ -164,10 +164,10 @@ void Body::tell_robot(const Motion& motion) {
 }
 
 void Body::feel(const Sample& sample) {
-  const double way = std::hypot(sample.place_cm.x - world_.x, sample.place_cm.y - world_.y);
+  const double way = vm::length(sample.place_cm.x - world_.x, sample.place_cm.y - world_.y);
   felt_ = sample;
   drive_.face(wrap_360(sample.yaw_deg - drive_.world_offset_deg()));
-  move_to(sample.place_cm, way, std::hypot(sample.velocity_cm_s.x, sample.velocity_cm_s.y));
+  move_to(sample.place_cm, way, vm::length(sample.velocity_cm_s.x, sample.velocity_cm_s.y));
 }
 
 Outcome Body::obey_one(const SetHeading& name) {
@@ -180,7 +180,7 @@ Outcome Body::obey_one(const SetHeading& name) {
 void Body::push(int heading_deg, int strength) {
   const double direction = heading_deg * to_radians;
   const double speed = full_speed * strength / greatest;
-  const Point velocity{speed * std::sin(direction), speed * std::cos(direction)};
+  const Point velocity{speed * vm::sine(direction), speed * vm::cosine(direction)};
   // A push to the right is a blow on the left side.
   strike({-velocity.x, -velocity.y}, drive_.course().speed);
   drive_.push(velocity);
@@ -222,26 +222,26 @@ Vector3 Body::velocity_cm_s() const {
   if (felt_) {
     const double turned = (tare_deg_ - drive_.world_offset_deg()) * to_radians;
     const auto [x, y, z] = felt_->velocity_cm_s;
-    return {x * std::cos(turned) + y * std::sin(turned),
-            y * std::cos(turned) - x * std::sin(turned), z};
+    return {x * vm::cosine(turned) + y * vm::sine(turned),
+            y * vm::cosine(turned) - x * vm::sine(turned), z};
   }
   if (tare_deg_ == drive_.world_offset_deg()) // the locator has the world's axes
     return {drive_.course().vx, drive_.course().vy, 0};
   const auto drift = drive_.drift_cm_s();
   const auto own = drive_.own_velocity_cm_s(drive_.yaw_deg() + tare_deg_);
   const double turned = (tare_deg_ - drive_.world_offset_deg()) * to_radians;
-  const double sine = std::sin(turned);
-  const double cosine = std::cos(turned);
+  const double sine = vm::sine(turned);
+  const double cosine = vm::cosine(turned);
   return {own.x + drift.x * cosine + drift.y * sine, own.y + drift.y * cosine - drift.x * sine, 0};
 }
 
 double Body::speed_cm_s() const {
   if (felt_)
-    return std::hypot(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y);
+    return vm::length(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y);
   if (tare_deg_ == drive_.world_offset_deg())
     return drive_.course().speed;
   const auto velocity = velocity_cm_s();
-  return std::hypot(velocity.x, velocity.y);
+  return vm::length(velocity.x, velocity.y);
 }
 
 Pose Body::pose() const {

@@ -125,7 +125,8 @@ V2Error RobotV2::perform(const PacketV2& request, Bytes& answer) {
   const bool targeted = spec::has(request.flags, V2Flag::HasTarget);
   const auto first = spec::v2_target(V2Processor::Primary);
   const auto second = spec::v2_target(V2Processor::Secondary);
-  // A robot with one processor takes what names the second, too: clients that drive real ones do so.
+  // A robot with one processor takes what names the second, too: clients that drive real ones do
+  // so.
   if (targeted && request.target != first && request.target != second)
     return V2Error::BadTarget;
   if (std::none_of(spec::v2_commands.begin(), spec::v2_commands.end(),
@@ -366,7 +367,7 @@ double RobotV2::sense(spec::V2Sensor sensor) const {
   case V2Sensor::VelocityX: return body.velocity_cm_s().x / cm_per_m;
   case V2Sensor::VelocityY: return body.velocity_cm_s().y / cm_per_m;
   case V2Sensor::Speed:
-    return std::hypot(body.velocity_cm_s().x, body.velocity_cm_s().y) / cm_per_m;
+    return vm::length(body.velocity_cm_s().x, body.velocity_cm_s().y) / cm_per_m;
   case V2Sensor::CoreTime:
     return std::chrono::duration<double>(ball_.now().time_since_epoch()).count();
   case V2Sensor::GyroX: return body.rotation_deg_s().x;

@@ -4,6 +4,7 @@
 
 #include "base/time.h"
 #include "spec/ball.h"
+#include "vm/body/trigonometry.h"
 
 #include <algorithm>
 #include <cmath>

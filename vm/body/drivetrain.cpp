@@ -1,4 +1,5 @@
 #include "vm/body/drivetrain.h"
+#include "vm/body/trigonometry.h"
 
 namespace orb::vm {
 
@@ -186,7 +187,7 @@ void Drivetrain::step() {
 
 bool Drivetrain::stopped() const {
   return std::abs(forward_) < stopped_below && std::abs(slip_) < stopped_below &&
-         (!drifts() || std::hypot(drift_x_, drift_y_) < stopped_below);
+         (!drifts() || vm::length(drift_x_, drift_y_) < stopped_below);
 }
 
 bool Drivetrain::fast_turn() const {
@@ -277,7 +278,7 @@ void Drivetrain::lose_slip() {
 void Drivetrain::lose_drift() {
   if (!drifts())
     return;
-  const double drift = std::hypot(drift_x_, drift_y_);
+  const double drift = vm::length(drift_x_, drift_y_);
   const double left = std::max(0.0, drift - drift_friction * step_s) / drift;
   drift_x_ *= left;
   drift_y_ *= left;

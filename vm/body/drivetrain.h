@@ -24,8 +24,8 @@ public:
   const Direction& of(double degrees) {
     if (degrees != degrees_) {
       degrees_ = degrees;
-      sine_ = std::sin(degrees * to_radians);
-      cosine_ = std::cos(degrees * to_radians);
+      sine_ = vm::sine(degrees * to_radians);
+      cosine_ = vm::cosine(degrees * to_radians);
     }
     return *this;
   }

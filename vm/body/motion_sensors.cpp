@@ -33,7 +33,7 @@ void MotionSensors::step(Instant now) {
 }
 
 double MotionSensors::pitch_deg(const Movement& movement) const {
-  const double lifted = std::atan2(movement.forward_acceleration_cm_s2, gravity) / to_radians;
+  const double lifted = arctangent(movement.forward_acceleration_cm_s2, gravity) / to_radians;
   return std::clamp(tilt_pitch_deg_ + lifted + noise(0, movement.at) * noise_deg, -half_circle / 2,
                     half_circle / 2);
 }
@@ -48,9 +48,9 @@ Vector3 MotionSensors::acceleration_g(const Movement& movement) const {
     return {};
   const double pitch = tilt_pitch_deg_ * to_radians;
   const double roll = tilt_roll_deg_ * to_radians;
-  Vector3 felt{-std::sin(roll) * std::cos(pitch) + movement.sideways_acceleration_cm_s2 / gravity,
-               std::sin(pitch) + movement.forward_acceleration_cm_s2 / gravity,
-               std::cos(roll) * std::cos(pitch)};
+  Vector3 felt{-vm::sine(roll) * vm::cosine(pitch) + movement.sideways_acceleration_cm_s2 / gravity,
+               vm::sine(pitch) + movement.forward_acceleration_cm_s2 / gravity,
+               vm::cosine(roll) * vm::cosine(pitch)};
   if (now < shaken_until_)
     felt.x += (shaken_until_ - now) / shake_half_period % 2 == 0 ? shake_g : -shake_g;
   if (now < struck_until_)
@@ -71,9 +71,9 @@ Quaternion MotionSensors::attitude(const Movement& movement) const {
   const double yaw = -movement.yaw_deg * to_radians / 2;
   const double pitch = pitch_deg(movement) * to_radians / 2;
   const double roll = roll_deg(movement.at) * to_radians / 2;
-  const double cy = std::cos(yaw), sy = std::sin(yaw);
-  const double cp = std::cos(pitch), sp = std::sin(pitch);
-  const double cr = std::cos(roll), sr = std::sin(roll);
+  const double cy = vm::cosine(yaw), sy = vm::sine(yaw);
+  const double cp = vm::cosine(pitch), sp = vm::sine(pitch);
+  const double cr = vm::cosine(roll), sr = vm::sine(roll);
   return {cr * cp * cy + sr * sp * sy, cr * sp * cy + sr * cp * sy, sr * cp * cy - cr * sp * sy,
           cr * cp * sy - sr * sp * cy};
 }

@@ -1,4 +1,5 @@
 #include "vm/body/walls.h"
+#include "vm/body/trigonometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ void Walls::hit_endless(Point& place, Drivetrain& drive, std::optional<Blow>& bl
 }
 
 void Walls::hit_segments(Point from, Point& place, Drivetrain& drive, std::optional<Blow>& blow) {
-  const double way = std::hypot(place.x - from.x, place.y - from.y);
+  const double way = vm::length(place.x - from.x, place.y - from.y);
   if (way < clear_cm_) {
     clear_cm_ -= way;
     return;
@@ -113,7 +114,7 @@ bool Walls::push_out(Point from, Point& place, Drivetrain& drive, std::optional<
     double nearest = HUGE_VAL;
     for (const auto& wall : segments_) {
       const auto foot = nearest_point(wall, place);
-      const double distance = std::hypot(place.x - foot.x, place.y - foot.y);
+      const double distance = vm::length(place.x - foot.x, place.y - foot.y);
       nearest = std::min(nearest, distance);
       if (distance >= touch || distance == 0)
         continue;

@@ -1,4 +1,5 @@
 #include "vm/ball.h"
+#include "vm/body/trigonometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ void Ball::meet(const Shove& shove, std::span<const std::string> names) {
   const auto [place, velocity] = body_.mover();
   body_.meet(shove);
   for (const auto& knock : shove.knocks) {
-    body_.feel_blow(knock.into, std::hypot(velocity.x, velocity.y));
+    body_.feel_blow(knock.into, vm::length(velocity.x, velocity.y));
     const auto impact = *body_.take_impact();
     trace(event::Bump{{}, impact.speed, names[knock.other]});
     detect_collision(impact);

@@ -1,4 +1,5 @@
 #include "vm/room/contacts.h"
+#include "vm/body/trigonometry.h"
 
 #include "spec/ball.h"
 
@@ -24,7 +25,7 @@ std::vector<Contact> touching(std::span<const Mover> balls, std::span<const Pair
   for (const auto& pair : pairs) {
     const auto& one = balls[pair.first].place;
     const auto& other = balls[pair.second].place;
-    const double distance = std::hypot(one.x - other.x, one.y - other.y);
+    const double distance = vm::length(one.x - other.x, one.y - other.y);
     if (distance >= touch)
       continue;
     const Point normal = distance == 0
