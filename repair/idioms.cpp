@@ -18,9 +18,10 @@ constexpr auto words = std::to_array<ForeignWord>({
 #define ORB_WORD(meaning, patterns) {meaning, patterns},
 #include "repair/idioms.def"
 });
-constexpr auto idioms = std::to_array<Idiom>({
+/// The columns of a row lie in one text: an address of each would be as long as the table again.
+constexpr auto idiom_rows = std::to_array<std::string_view>({
 #define ORB_IDIOM(where, patterns, basic, structured, macro, test, note)                           \
-  {Where::where, patterns, basic, structured, macro, test, note},
+#where "\x1f" patterns "\x1f" basic "\x1f" structured "\x1f" macro "\x1f" test "\x1f" note,
 #include "repair/idioms.def"
 });
 
@@ -60,6 +61,19 @@ std::vector<std::string_view> pieces(std::string_view text, std::string_view bet
       return all;
     text.remove_prefix(end + between.size());
   }
+}
+
+const std::vector<Idiom>& idioms() {
+  static const auto all = [] {
+    std::vector<Idiom> rows;
+    for (const auto row : idiom_rows) {
+      const auto columns = pieces(row, "\x1f");
+      rows.push_back({columns[0] == "Line" ? Where::Line : Where::Inside, columns[1], columns[2],
+                      columns[3], columns[4], columns[5], columns[6]});
+    }
+    return rows;
+  }();
+  return all;
 }
 
 Part part_of(std::string_view text) {
@@ -115,7 +129,7 @@ const std::vector<Pattern>& patterns_of(Language language) {
     for (std::size_t i = 0; i < each.size(); ++i) {
       for (const auto& word : words)
         add_patterns(each[i], word.patterns, nullptr, word.meaning, static_cast<Language>(i));
-      for (const auto& idiom : idioms)
+      for (const auto& idiom : idioms())
         if (!form_of(idiom, static_cast<Language>(i)).empty())
           add_patterns(each[i], idiom.patterns, &idiom, {}, static_cast<Language>(i));
     }

@@ -211,7 +211,9 @@ private:
   }
 
   bool is_drawn() const {
-    return std::any_of(drawn.begin(), drawn.end(),
+    constexpr unsigned char first = 0xC2; // none begins below
+    return static_cast<unsigned char>(text_[at_]) >= first &&
+           std::any_of(drawn.begin(), drawn.end(),
                        [&](const Written& one) { return sees(one.text); });
   }
 
