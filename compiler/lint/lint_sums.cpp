@@ -136,7 +136,7 @@ private:
 
   void check_share(const Item& value) {
     const auto nodes = nodes_of(program_, value);
-    constexpr std::int32_t per_cent = 100;
+    constexpr std::int32_t per_cent = 100; // of a whole
     if (nodes.size() < 5)
       return;
     const auto& root = nodes.back();

@@ -40,7 +40,7 @@ const parts = Object.fromEntries(Object.entries(page.metafile.outputs).map(([pat
   imports.filter(({ kind }) => kind === "import-statement").map(one => relative(out, resolve(root, one.path)))]));
 const at_once = new Set(["start.js", "page.js"]);
 for (const name of at_once) for (const one of parts[name]) at_once.add(one); // a set goes on to what is added
-const on_demand = new Set([rest_name, "examples.json", ...Object.keys(parts).filter(name => !at_once.has(name))]);
+const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => !at_once.has(name))]);
 const styled = (...paths) => esbuild.transformSync(paths.map(read).join("\n"), { loader: "css", minify: true }).code;
 writeFileSync(join(out, "page.css"), styled("report/page.css", "playground/page.css", "playground/page/blocks/toggle.css"));
 writeFileSync(join(out, "blocks.css"), styled("playground/page/blocks/blocks.css"));

@@ -1,11 +1,12 @@
 // What somebody does on the page who does not reach for a robot, as calls of the engine: what is called here
-// becomes the part of orb.wasm that is loaded at once. The first mistake fetches the rest, with all that looks for the
-// line to write.
+// becomes the part of orb.wasm that is loaded at once.
 import { readFileSync } from "node:fs";
 import { welcome } from "../page/steps.js";
 
 const attempt = deed => { try { return deed(); } catch (error) { if (error instanceof WebAssembly.RuntimeError) throw error; } };
 
+/** Mistakes of a first hour, as texts. */
+const slips = ["goroll 0, 300, 1\nprint x\nfor i = 1 to 3\n", "goroll 0, 80\n", "repeat 4\n  goroll 0, 80, 1\n"];
 
 /** What an editor asks about a text that is open. */
 function edit(engine, files) {
@@ -78,6 +79,7 @@ export function visit(engine, examples) {
     edit(engine, files);
     run_all(files, main, run);
   }
-  for (const text of [welcome, "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
+  for (const text of slips) edit(engine, { "robot.orb": text });
+  for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
     run_all({ "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
 }

@@ -61,7 +61,7 @@ void Checker::check_joint(std::uint32_t n) {
 
 void Checker::check_share(std::uint32_t n) {
   const auto& nodes = program_.nodes;
-  constexpr std::int32_t per_cent = 100;
+  constexpr std::int32_t per_cent = 100; // of a whole
   const auto is = [&](std::uint32_t node, spec::Operator sign) {
     return nodes[node].kind == NodeKind::Binary &&
            static_cast<spec::Operator>(nodes[node].what) == sign;

@@ -541,8 +541,10 @@ The machine, which asks for the same bytes, counts as follows. Held out:
 The others:
 
 {}
-A fourth batch (`tests/slips/fourth.txt`), by two people who had seen no table and were asked for what is hard: one
-mistake in ten is a matter of what was meant, and the program runs. Held out:
+A fourth batch (`tests/slips/fourth.txt`), by two people who had seen no table and were asked for what is hard: many of
+the programs run, and only their words tell what was meant. Two others read the held-out half one by one: before any
+row was made for the other half it was 61.9 % fully good, 26.6 % named, 5.8 % silent and 5.8 % wrong; afterwards 70.5,
+20.1, 4.3 and 5.0 %. The machine counts as follows. Held out:
 
 {}
 The others:
