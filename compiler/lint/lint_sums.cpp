@@ -1,11 +1,13 @@
-#include "compiler/lint/joint.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/reading.h"
+#include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <string>
+#include <utility>
 
 namespace orb::compiler {
 namespace {
@@ -51,7 +53,7 @@ private:
   const Item& value_of(const StatementNode& let) const {
     return program_.as<LetView>(let).expression;
   }
-  static char name_of(std::uint8_t letter) { return static_cast<char>('A' + letter); }
+  static std::string name_of(std::uint8_t letter) { return {static_cast<char>('A' + letter)}; }
 
   void check(const StatementNode& statement) {
     if (statement.kind == Statement::If)
@@ -81,24 +83,22 @@ private:
     if (!condition.second || program_.text_of(condition.first.left.span) !=
                                  program_.text_of(condition.second->left.span))
       return;
-    const bool read_twice = sensor_in(program_, condition.first.left).has_value();
+    const auto sensor = sensor_in(program_, condition.first.left);
+    if (!sensor && !letter_in(program_, condition.first.left))
+      return; // `rnd 6` is another one each time
     const auto first = bound_of(condition.first);
     const auto second = bound_of(*condition.second);
     const bool both = condition.joint->kind == ItemKind::And;
-    if (!first || !second ||
-        (read_twice && !letter_in(program_, condition.first.left) &&
-         spec::info(*sensor_in(program_, condition.first.left)).access == spec::Access::ReadClears))
+    if (!first || !second || (sensor && spec::info(*sensor).access == spec::Access::ReadClears))
       return;
     const auto answer = joint_answer(*first, *second, both);
     if (!answer)
       return;
     const Span all{condition.first.left.span.begin, condition.second->right.span.end};
     const auto joint = condition.joint->span;
-    auto& d = findings_.add(
-        rules::ConstantComparison, all,
-        fmt::format("`{}` is {} true", program_.text_of(all), *answer ? "always" : "never"),
-        fmt::format("write `{}{}{}`", program_.text_of({all.begin, joint.begin}),
-                    both ? "or" : "and", program_.text_of({joint.end, all.end})));
+    const auto line = fmt::format("{}{}{}", program_.text_of({all.begin, joint.begin}),
+                                  both ? "or" : "and", program_.text_of({joint.end, all.end}));
+    auto& d = add(rules::ConstantComparison, all, one_answer(program_.text_of(all), *answer, line));
     d.fix = single_fix(d.help, joint, both ? "or" : "and", Safety::Unsafe);
   }
 
@@ -113,14 +113,11 @@ private:
         letter_in(program_, value_of(statement_of(i))) != second ||
         letter_in(program_, value_of(statement_of(i + 1))) != first)
       return;
-    findings_.add(rules::LostExchange, statement_of(i).span,
-                  fmt::format("the old value of `{0}` is lost: the next line sets `{1}` to itself",
-                              name_of(*first), name_of(*second)),
-                  fmt::format("keep it first: `{2} = {0}`, then `{0} = {1}`, then `{1} = {2}`",
-                              name_of(*first), name_of(*second), free_letter()));
+    add(rules::LostExchange, statement_of(i).span,
+        lost_exchange(name_of(*first), name_of(*second), free_letter()));
   }
 
-  char free_letter() const {
+  std::string free_letter() const {
     std::array<bool, spec::letter_count> used{};
     for (const auto& node : program_.nodes)
       if (node.kind == NodeKind::Letter)
@@ -137,29 +134,21 @@ private:
   void check_share(const Item& value) {
     const auto nodes = nodes_of(program_, value);
     constexpr std::int32_t per_cent = 100; // of a whole
-    if (nodes.size() < 5)
-      return;
-    const auto& root = nodes.back();
-    const auto& factor = nodes[nodes.size() - 2];
-    const auto& quotient = nodes[nodes.size() - 3];
-    const auto& divisor = nodes[nodes.size() - 4];
-    const auto is = [](const Node& node, spec::Operator sign) {
-      return node.kind == NodeKind::Binary && static_cast<spec::Operator>(node.what) == sign;
+    const auto last = nodes.size() - 1;    // dividend, divisor, `/`, 100, `*`
+    const auto is = [&](std::size_t node, spec::Operator sign) {
+      return nodes[node].kind == NodeKind::Binary &&
+             static_cast<spec::Operator>(nodes[node].what) == sign;
     };
-    if (!is(root, spec::Operator::Multiply) || factor.kind != NodeKind::Number ||
-        factor.value != per_cent || !is(quotient, spec::Operator::Divide) ||
-        divisor.kind != NodeKind::Number || divisor.value < 2 || divisor.value % per_cent == 0)
+    const auto is_number = [&](std::size_t node) { return nodes[node].kind == NodeKind::Number; };
+    if (nodes.size() < 5 || !is(last, spec::Operator::Multiply) || !is_number(last - 1) ||
+        nodes[last - 1].value != per_cent || !is(last - 2, spec::Operator::Divide) ||
+        !is_number(last - 3) || nodes[last - 3].value < 2 || nodes[last - 3].value % per_cent == 0)
       return;
-    const auto& nodes_all = program_.nodes;
-    const auto at = static_cast<std::uint32_t>(&divisor - nodes_all.data());
-    const Span dividend{value.span.begin, nodes_all[at - 1].span.end};
     const auto line =
-        fmt::format("{} * {} / {}", program_.text_of(dividend), factor.value, divisor.value);
-    auto& d = findings_.add(
-        rules::DividesFirst, value.span,
-        fmt::format("`{}` loses what the division leaves over", program_.text_of(value.span)),
-        fmt::format("multiply first: `{}`", line));
-    d.fix = single_fix(fmt::format("write `{}`", line), value.span, line, Safety::Unsafe);
+        fmt::format("{} * {} / {}", program_.text_of({value.span.begin, nodes[last - 4].span.end}),
+                    per_cent, nodes[last - 3].value);
+    add(rules::DividesFirst, value.span, divides_first(program_.text_of(value.span), line)).fix =
+        single_fix(fmt::format("write `{}`", line), value.span, line, Safety::Unsafe);
   }
 
   // ---- a product that begins at 0
@@ -191,11 +180,8 @@ private:
     for (std::size_t i = 0; i < products_.size(); ++i) {
       if (products_[i].first == nullptr || products_[i].others || program_.lines.empty())
         continue;
-      const auto name = name_of(static_cast<std::uint8_t>(i));
-      findings_.add(
-          rules::StaysZero, products_[i].first->span,
-          fmt::format("`{}` is 0 when the program starts, and times anything it stays 0", name),
-          fmt::format("set it above the loop: `{} = 1`", name));
+      add(rules::StaysZero, products_[i].first->span,
+          stays_zero(name_of(static_cast<std::uint8_t>(i))));
     }
   }
 
@@ -258,9 +244,12 @@ private:
   }
 
   void add_restart(const StatementNode& restart, std::uint8_t letter) {
-    findings_.add(rules::SumRestarts, restart.span,
-                  fmt::format("`{}` starts anew in each round of the loop", name_of(letter)),
-                  fmt::format("write `{}` above the `for`", program_.text_of(restart.span)));
+    add(rules::SumRestarts, restart.span,
+        sum_restarts(name_of(letter), program_.text_of(restart.span), "`for`"));
+  }
+
+  Diagnostic& add(const Rule& rule, Span span, Said said) {
+    return findings_.add(rule, span, std::move(said.message), std::move(said.help));
   }
 
   struct Product {

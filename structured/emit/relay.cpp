@@ -228,7 +228,7 @@ private:
       return;
     told.help = fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, there->begin}),
                             edit.text, program.text_of({there->end, statement.span.end}));
-    told.fix = Fix{told.help, {{*there, edit.text}}, fix.safety};
+    told.fix = Fix{told.help, {{*there, edit.text}}, Safety::Unsafe};
   }
 
   /// The only number of a statement that is written like one of its line.

@@ -1,5 +1,4 @@
 #include "base/text.h"
-#include "compiler/lint/joint.h"
 #include "structured/meaning/checker.h"
 
 namespace orb::structured {
@@ -51,11 +50,10 @@ void Checker::check_joint(std::uint32_t n) {
   const auto begin = nodes[left].span.end + static_cast<std::uint32_t>(joint);
   const Span word{begin, begin + (both ? 3U : 2U)};
   const auto* const other = both ? "or" : "and";
-  auto& d =
-      report(compiler::rules::ConstantComparison, all,
-             fmt::format("`{}` is {} true", program_.text_of(all), *answer ? "always" : "never"),
-             fmt::format("write `{}{}{}`", program_.text_of({all.begin, word.begin}), other,
-                         program_.text_of({word.end, all.end})));
+  const auto line = fmt::format("{}{}{}", program_.text_of({all.begin, word.begin}), other,
+                                program_.text_of({word.end, all.end}));
+  auto& d = report(compiler::rules::ConstantComparison, all,
+                   compiler::one_answer(program_.text_of(all), *answer, line));
   d.fix = Fix{d.help, {{word, other}}, Safety::Unsafe};
 }
 
@@ -83,10 +81,8 @@ void Checker::check_share(std::uint32_t n) {
       fmt::format("{} * {} / {}",
                   trim(program_.text_of({nodes[n].span.begin, static_cast<std::uint32_t>(slash)})),
                   per_cent, program_.text_of(nodes[quotient - 1].span));
-  auto& d = report(
-      compiler::rules::DividesFirst, nodes[n].span,
-      fmt::format("`{}` loses what the division leaves over", program_.text_of(nodes[n].span)),
-      fmt::format("multiply first: `{}`", line));
+  auto& d = report(compiler::rules::DividesFirst, nodes[n].span,
+                   compiler::divides_first(program_.text_of(nodes[n].span), line));
   d.fix = Fix{fmt::format("write `{}`", line), {{nodes[n].span, line}}, Safety::Unsafe};
 }
 
@@ -114,9 +110,7 @@ void Checker::check_exchange(std::uint32_t i) {
     return;
   const auto a = program_.name(names_.symbols[first].name);
   const auto b = program_.name(names_.symbols[second].name);
-  report(compiler::rules::LostExchange, at(i).span,
-         fmt::format("the old value of `{0}` is lost: the next line sets `{1}` to itself", a, b),
-         fmt::format("keep it first: `kept = {0}`, then `{0} = {1}`, then `{1} = kept`", a, b));
+  report(compiler::rules::LostExchange, at(i).span, compiler::lost_exchange(a, b, "kept"));
 }
 
 void Checker::check_single_round(std::uint32_t i) {
@@ -148,12 +142,9 @@ void Checker::check_products() {
     }
   for (std::size_t symbol = 0; symbol < product.size(); ++symbol)
     if (product[symbol] != nullptr && !others[symbol] &&
-        names_.symbols[symbol].kind == SymbolKind::Variable) {
-      const auto name = program_.name(names_.symbols[symbol].name);
+        names_.symbols[symbol].kind == SymbolKind::Variable)
       report(compiler::rules::StaysZero, product[symbol]->span,
-             fmt::format("`{}` is 0 when the program starts, and times anything it stays 0", name),
-             fmt::format("set it above the loop: `{} = 1`", name));
-    }
+             compiler::stays_zero(program_.name(names_.symbols[symbol].name)));
 }
 
 bool Checker::multiplies(const Statement& statement, std::uint32_t symbol) const {
@@ -182,9 +173,8 @@ void Checker::check_restart(std::uint32_t i) {
       if (at(m).depth == loop.depth + 1 && set_by(at(m)) == symbol) {
         if (adds_to(at(m), symbol) && is_read_below(loop.next, symbol))
           report(compiler::rules::SumRestarts, at(n).span,
-                 fmt::format("`{}` starts anew in each round of the loop",
-                             program_.name(names_.symbols[symbol].name)),
-                 fmt::format("write `{}` above the loop", program_.text_of(at(n).span)));
+                 compiler::sum_restarts(program_.name(names_.symbols[symbol].name),
+                                        program_.text_of(at(n).span), "loop"));
         break;
       }
   }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "compiler/lint/joint.h"
 #include "compiler/lint/range.h"
 #include "compiler/lint/sensor_tests.h"
+#include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 #include "structured/meaning/check.h"
@@ -25,6 +25,9 @@ public:
 
 private:
   Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {});
+  Diagnostic& report(const Rule& rule, Span span, compiler::Said said) {
+    return report(rule, span, std::move(said.message), std::move(said.help));
+  }
   const Statement& at(std::uint32_t i) const { return program_.statements[i]; }
   const Item& item(const Statement& statement, std::uint32_t n) const;
   static std::uint32_t size(const Statement& statement);

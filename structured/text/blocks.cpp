@@ -264,14 +264,13 @@ private:
     } else if (told && ends && open_.empty()) {
       const std::string_view text = program_.text;
       const auto line = text.substr(0, statement.span.begin).find_last_of("\r\n") + 1;
-      const auto next = text.find_first_not_of("\r\n", statement.span.end);
+      auto next = std::size_t{statement.span.end};
+      next += text.substr(next).starts_with("\r\n") ? 2 : next < text.size() ? 1 : 0;
       if (text.find_first_not_of(" \t", line) == statement.span.begin &&
           text.find_first_of("\r\n", statement.span.end) == statement.span.end)
         program_.diagnostics.back().fix =
             Fix{"remove the line",
-                {{{static_cast<std::uint32_t>(line),
-                   static_cast<std::uint32_t>(std::min(next, text.size()))},
-                  {}}},
+                {{{static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(next)}, {}}},
                 Safety::Unsafe};
     } else if (told && ends && !open_.empty()) {
       auto& d = program_.diagnostics.back();
