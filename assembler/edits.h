@@ -36,10 +36,4 @@ inline Edit without_line(const Source& source, std::uint32_t line) {
   return {{source.line_start(line), source.line_start(line + 1)}, {}};
 }
 
-/// A time as people write it: whole seconds as such.
-inline std::string time_text(std::int64_t ms) {
-  constexpr std::int64_t second = 1000; // in milliseconds
-  return ms > 0 && ms % second == 0 ? fmt::format("{}s", ms / second) : fmt::format("{}ms", ms);
-}
-
 } // namespace orb::assembler

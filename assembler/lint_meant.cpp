@@ -17,34 +17,16 @@ namespace {
 using spec::MacroCommand;
 using Origin = PlacedCommand::Origin;
 
-/// A value that the system keeps: what sets it, what uses it, and the other of its kind.
+/// A value that the system keeps, as mnemonics name it: `set_sd1` sets it, `roll_sd1` uses it.
 struct Kept {
-  MacroCommand set;
-  MacroCommand other;
+  std::string_view set;
+  std::string_view use; ///< part of the mnemonics that use it
   std::string_view name;
-  std::array<MacroCommand, 4> used_by;
 };
-constexpr auto kept =
-    std::to_array<Kept>({{MacroCommand::SetSd1,
-                          MacroCommand::SetSd2,
-                          "system delay 1",
-                          {MacroCommand::RollSd1, MacroCommand::RollSpd1Sd1,
-                           MacroCommand::RollSpd2Sd1, MacroCommand::RotateSd1}},
-                         {MacroCommand::SetSd2,
-                          MacroCommand::SetSd1,
-                          "system delay 2",
-                          {MacroCommand::RgbSd2, MacroCommand::RotateSd2, MacroCommand::RgbSd2,
-                           MacroCommand::RotateSd2}},
-                         {MacroCommand::SetSpd1,
-                          MacroCommand::SetSpd2,
-                          "system speed 1",
-                          {MacroCommand::RollSpd1Sd1, MacroCommand::RollSpd1Sd1,
-                           MacroCommand::RollSpd1Sd1, MacroCommand::RollSpd1Sd1}},
-                         {MacroCommand::SetSpd2,
-                          MacroCommand::SetSpd1,
-                          "system speed 2",
-                          {MacroCommand::RollSpd2Sd1, MacroCommand::RollSpd2Sd1,
-                           MacroCommand::RollSpd2Sd1, MacroCommand::RollSpd2Sd1}}});
+constexpr auto kept = std::to_array<Kept>({{"set_sd1", "_sd1", "system delay 1"},
+                                           {"set_sd2", "_sd2", "system delay 2"},
+                                           {"set_spd1", "_spd1", "system speed 1"},
+                                           {"set_spd2", "_spd2", "system speed 2"}});
 
 class MeantLinter {
 public:
@@ -145,32 +127,35 @@ private:
     }
   }
 
-  const PlacedCommand* first(MacroCommand kind) const {
+  template <typename Fits>
+  const PlacedCommand* first(Fits fits) const {
     for (const auto& macro : assembly_.macros)
       for (const auto& command : macro.commands)
-        if (is(command, kind))
+        if (fits(command.info->mnemonic))
           return &command;
     return nullptr;
   }
 
+  const PlacedCommand* setter(const Kept& one) const {
+    return first([&](std::string_view mnemonic) { return mnemonic == one.set; });
+  }
   const PlacedCommand* user(const Kept& one) const {
-    for (const auto kind : one.used_by)
-      if (const auto* command = first(kind))
-        return command;
-    return nullptr;
+    return first([&](std::string_view mnemonic) {
+      return mnemonic != one.set && mnemonic.find(one.use) != std::string_view::npos;
+    });
   }
 
-  /// One system value is set and not used, the other is used and not set.
+  /// One system value is set and not used, its twin is used and not set.
   void check_kept() {
-    for (const auto& one : kept) {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const auto& one = kept[i];
+      const auto& other = kept[i ^ 1U];
       const auto* uses = user(one);
-      const auto* sets = first(one.other);
-      const auto& other = *std::find_if(kept.begin(), kept.end(),
-                                        [&](const Kept& each) { return each.set == one.other; });
-      if (uses == nullptr || sets == nullptr || first(one.set) != nullptr || user(other) != nullptr)
+      const auto* sets = setter(other);
+      if (uses == nullptr || sets == nullptr || setter(one) != nullptr || user(other) != nullptr)
         continue;
       auto line = std::string(source_.text(sets->span));
-      line.replace(0, sets->info->mnemonic.size(), spec::info(one.set).mnemonic);
+      line.replace(0, sets->info->mnemonic.size(), one.set);
       offer(rules::OtherSystemValue, *sets,
             fmt::format("nothing uses this: `{}` takes {}", uses->info->mnemonic, one.name), line,
             "");

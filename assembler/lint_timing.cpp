@@ -4,6 +4,7 @@
 #include "assembler/rules.h"
 #include "assembler/timing.h"
 #include "assembler/walk.h"
+#include "base/duration.h"
 #include "spec/api.h"
 
 #include <algorithm>

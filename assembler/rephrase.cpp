@@ -2,6 +2,7 @@
 
 #include "assembler/program.h"
 
+#include "base/duration.h"
 #include "base/text.h"
 #include "repair/tokens.h"
 #include "spec/macro.h"
@@ -64,9 +65,7 @@ std::string delays(const std::string& time) {
     return fmt::format("{} {}", word, time);
   std::string all;
   for (const auto wait : waits)
-    all += fmt::format("{}{} {}", all.empty() ? "" : "\n", word,
-                       wait % whole == 0 ? fmt::format("{}s", wait / whole)
-                                         : fmt::format("{}ms", wait));
+    all += fmt::format("{}{} {}", all.empty() ? "" : "\n", word, time_text(wait));
   return all;
 }
 

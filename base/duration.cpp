@@ -3,6 +3,7 @@
 #include "base/text.h"
 
 #include <array>
+#include <fmt/format.h>
 
 namespace orb {
 namespace {
@@ -47,6 +48,11 @@ std::optional<Duration> parse_duration(std::string_view text, Duration bare) {
       time += unit * (text[at] - '0');
     }
   return at == text.size() ? std::optional(time) : std::nullopt;
+}
+
+std::string time_text(std::int64_t ms) {
+  constexpr std::int64_t second = 1s / 1ms;
+  return ms % second == 0 ? fmt::format("{}s", ms / second) : fmt::format("{}ms", ms);
 }
 
 } // namespace orb

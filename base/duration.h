@@ -2,7 +2,9 @@
 
 #include "base/time.h"
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace orb {
@@ -11,5 +13,8 @@ namespace orb {
 /// unit counts in `bare`; where that is zero, a unit is required. Nothing where `text` is
 /// not a time, is negative or longer than a year.
 std::optional<Duration> parse_duration(std::string_view text, Duration bare = {});
+
+/// A time in milliseconds as people write it, and as parse_duration() reads it: `2s`, `250ms`.
+std::string time_text(std::int64_t ms);
 
 } // namespace orb

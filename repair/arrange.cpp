@@ -1,5 +1,6 @@
 #include "repair/arrange.h"
 
+#include "base/duration.h"
 #include "base/text.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
@@ -11,8 +12,7 @@
 namespace orb::repair {
 namespace {
 
-constexpr std::int64_t one = 1000; // in thousandths
-constexpr std::int64_t full_circle = 360;
+constexpr auto one = Quantity::one;
 constexpr std::int64_t most_thousandths = 1'000'000'000'000;
 
 struct Calling {
@@ -53,14 +53,8 @@ std::optional<std::int64_t> thousandths_of(std::string_view text) {
     const auto value = parse_number<std::uint32_t>(text.substr(2), 16);
     return value ? std::optional<std::int64_t>(*value * one) : std::nullopt;
   }
-  const auto point = text.find('.');
-  auto digits = std::string(text.substr(0, point));
-  auto decimals =
-      point == std::string_view::npos ? std::string() : std::string(text.substr(point + 1));
-  if (decimals.size() > 3 || digits.size() > 9)
-    return std::nullopt;
-  decimals.resize(3, '0');
-  return parse_number<std::int64_t>(digits + decimals);
+  constexpr std::size_t longest = 9; // digits
+  return text.substr(0, text.find('.')).size() <= longest ? decimal(text) : std::nullopt;
 }
 
 /// Reads values from left to right; `*`, `/`, `+` and `-` compute.
@@ -187,9 +181,8 @@ std::string written(const Quantity& value) {
   case Measure::Percent: return written_number(value.thousandths) + "%";
   case Measure::Angle: return written_number(value.thousandths) + "deg";
   case Measure::Time:
-    return value.thousandths % (one * one) == 0
-               ? fmt::format("{}s", value.thousandths / (one * one))
-               : written_number(value.thousandths) + "ms";
+    return value.thousandths % one == 0 ? time_text(value.thousandths / one)
+                                        : written_number(value.thousandths) + "ms";
   }
   return {};
 }

@@ -31,6 +31,7 @@ enum class Measure : std::uint8_t { None, Time, Angle, Percent };
 
 /// A number, in thousandths of its own unit; of times: of a millisecond, of angles: of a degree.
 struct Quantity {
+  static constexpr std::int64_t one = 1000;
   std::int64_t thousandths = 0;
   Measure measure = Measure::None;
 };

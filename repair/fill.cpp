@@ -1,5 +1,6 @@
 #include "repair/fill.h"
 
+#include "base/duration.h"
 #include "base/text.h"
 #include "repair/colours.h"
 #include "repair/print_items.h"
@@ -15,29 +16,13 @@ namespace {
 constexpr std::int64_t second_ms = 1000;
 constexpr std::int64_t most_seconds = 20; // a wait for so few was meant in seconds
 constexpr std::int64_t largest = 2147483647;
-constexpr std::int64_t full_turn = 360; // degrees
 
 using Text = std::optional<std::string>;
 
 /// A number in thousandths, with a point or without.
 std::optional<std::int64_t> thousandths(const Token& token) {
-  if (!token.is_number() || token.text.size() > 12 || token.text.starts_with("0x"))
-    return std::nullopt;
-  std::int64_t value = 0;
-  int places = -1;
-  for (const char c : token.text) {
-    if (c == '.') {
-      places = 0;
-      continue;
-    }
-    if (!is_digit(c) || places == 3)
-      return std::nullopt;
-    value = value * 10 + (c - '0');
-    places += places >= 0 ? 1 : 0;
-  }
-  for (int i = std::max(places, 0); i < 3; ++i)
-    value *= 10;
-  return value;
+  constexpr std::size_t longest = 12;
+  return token.is_number() && token.text.size() <= longest ? decimal(token.text) : std::nullopt;
 }
 
 std::optional<std::int64_t> whole(const Tokens& tokens) {
@@ -132,9 +117,7 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
   if (const auto time = time_of(tokens, assume)) {
     if (language == Language::Basic || !time->seconds)
       return std::to_string(time->ms);
-    if (time->ms % second_ms == 0)
-      return fmt::format("{}s", time->ms / second_ms);
-    return fmt::format("{}ms", time->ms);
+    return time_text(time->ms);
   }
   for (const auto& token : tokens)
     if (token.is_text() || token.is(",") ||
@@ -153,8 +136,7 @@ Text clock(const Tokens& tokens) {
       time_of(tokens, plain && *plain <= most_plain ? Assume::Seconds : Assume::Either);
   if (!time)
     return std::nullopt;
-  return time->ms % second_ms == 0 ? fmt::format("{}s", time->ms / second_ms)
-                                   : fmt::format("{}ms", time->ms);
+  return time_text(time->ms);
 }
 
 Text length(const Tokens& tokens) {
@@ -279,7 +261,7 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
   if (function == "length")
     return length(a);
   if (function == "compass") // a heading, no turns
-    return whole(a).value_or(0) < full_turn ? Text(join(a)) : std::nullopt;
+    return whole(a).value_or(0) < full_circle ? Text(join(a)) : std::nullopt;
   if (function == "middle" || function == "half") { // of a range
     const auto from = whole(a);
     const auto to = whole(b);
@@ -412,6 +394,17 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
 }
 
 } // namespace
+
+std::optional<std::int64_t> decimal(std::string_view text) {
+  constexpr std::size_t places = 3;
+  const auto point = text.find('.');
+  auto digits = std::string(text.substr(0, point));
+  auto decimals = point == std::string_view::npos ? "" : std::string(text.substr(point + 1));
+  if (decimals.size() > places)
+    return std::nullopt;
+  decimals.resize(places, '0');
+  return parse_number<std::int64_t>(digits + decimals);
+}
 
 std::int64_t milliseconds_of(std::string_view unit) {
   const auto* const found = unit_called(unit);

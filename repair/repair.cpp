@@ -181,15 +181,19 @@ private:
 
   /// The nearest line that is not blank; 0 where there is none.
   std::uint32_t above(std::uint32_t line) const {
-    while (--line > 0 && source_.line(line).find_first_not_of(" \t") == std::string_view::npos) {
-    }
+    do
+      --line;
+    while (line > 0 && is_bare(line));
     return line;
   }
   std::uint32_t below(std::uint32_t line) const {
-    while (++line <= source_.line_count())
-      if (source_.line(line).find_first_not_of(" \t") != std::string_view::npos)
-        return line;
-    return 0;
+    do
+      ++line;
+    while (line <= source_.line_count() && is_bare(line));
+    return line <= source_.line_count() ? line : 0;
+  }
+  bool is_bare(std::uint32_t line) const {
+    return source_.line(line).find_first_not_of(" \t") == std::string_view::npos;
   }
 
   /// An `if` of several lines that is one here: `else` below it, or its statement where nothing
@@ -221,7 +225,7 @@ private:
       return false;
     const auto first = split(source_.line(upper), judge_.language);
     const auto tokens = split(source_.line(lower), judge_.language).tokens;
-    const auto joined = join_parts(first.head, first.tokens, tokens);
+    const auto joined = first.head + repair::join(first.tokens) + " " + repair::join(tokens);
     if (first.tokens.empty() || !first.tokens[0].is("if") || !first.comment.empty() ||
         !judge_.parses(joined))
       return false;
@@ -238,10 +242,6 @@ private:
             : fmt::format("write `{}`, and leave line {} out", joined, scenery_.number(lower));
     finding.fix = std::move(fix);
     return true;
-  }
-
-  static std::string join_parts(std::string_view head, const Tokens& first, const Tokens& second) {
-    return std::string(head) + repair::join(first) + " " + repair::join(second);
   }
 
   void offer(Diagnostic& finding) {

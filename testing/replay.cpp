@@ -1,5 +1,6 @@
 #include "testing/replay.h"
 
+#include "base/duration.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -22,8 +23,7 @@ std::string option(std::string_view name, std::string_view value) {
 }
 
 std::string seconds(Duration t) {
-  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(t).count();
-  return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000) : fmt::format("{}ms", ms);
+  return time_text(std::chrono::ceil<std::chrono::milliseconds>(t).count());
 }
 
 std::string with_line(const run::LinePlace& place, const std::string& file, std::string_view text) {

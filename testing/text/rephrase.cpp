@@ -2,6 +2,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "spec/ball.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
 
@@ -24,8 +25,8 @@ using repair::Rephrased;
 using repair::Token;
 using repair::Tokens;
 
-constexpr std::int64_t whole = 1000; // in thousandths
-constexpr std::int64_t full_circle = 360;
+constexpr auto whole = Quantity::one;
+constexpr std::int64_t full_circle = spec::ball::full_circle;
 
 Tokens part(const Tokens& tokens, std::size_t begin, std::size_t end) {
   return {tokens.begin() + static_cast<std::ptrdiff_t>(begin),
