@@ -66,19 +66,19 @@ inline Said lost_exchange(std::string_view a, std::string_view b, std::string_vi
 
 /// Of a share that is divided first, and the same multiplied first.
 inline Said divides_first(std::string_view share, std::string_view meant) {
-  return {fmt::format("`{}` loses what the division leaves over", share),
+  return {fmt::format("`{}` loses the remainder of the division", share),
           fmt::format("multiply first: `{}`", meant)};
 }
 
 /// Of a variable that is only ever multiplied.
 inline Said stays_zero(std::string_view name) {
-  return {fmt::format("`{}` is 0 when the program starts, and times anything it stays 0", name),
+  return {fmt::format("`{}` starts at 0, and 0 times anything is 0", name),
           fmt::format("set it above the loop: `{} = 1`", name)};
 }
 
 /// Of a sum that a line of its loop sets back.
 inline Said sum_restarts(std::string_view name, std::string_view line, std::string_view loop) {
-  return {fmt::format("`{}` starts anew in each round of the loop", name),
+  return {fmt::format("`{}` is reset in every round of the loop", name),
           fmt::format("write `{}` above the {}", line, loop)};
 }
 
