@@ -18,10 +18,10 @@ def test_ping_is_answered(ball):
 
 
 def test_fibonacci_prints_its_numbers(run):
-    prints = [event["text"] for event in run(EXAMPLES / "fibonacci.orb") if event["event"] == "print"]
+    prints = [event["text"] for event in run(EXAMPLES / "numbers" / "fibonacci.orb") if event["event"] == "print"]
     assert prints[4] == "F(5) = 5\n"
 
 
 def test_star_comes_back_to_where_it_began(run):
-    last = [event for event in run(EXAMPLES / "star.bas") if event["event"] == "pose"][-1]
+    last = [event for event in run(EXAMPLES / "drawing" / "star.bas") if event["event"] == "pose"][-1]
     assert abs(last["x"]) < 30 and abs(last["y"]) < 30
