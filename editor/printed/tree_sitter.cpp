@@ -171,7 +171,7 @@ module.exports = grammar({
 
     // names
     constant: $ => seq(word('const'), field('name', $.name), equals, $._expression),
-    local: $ => seq(word('local'), several($.name)),
+    local: $ => seq(word('local'), several(seq($.name, optional(seq(equals, $._expression))))),
     array: $ => seq(word('array'), field('name', $.name), '[', $._expression, ']'),
     use: $ => seq(word('use'), $.string),
     include: $ => seq(word('include'), $.string),
