@@ -19,7 +19,7 @@ using json = nlohmann::ordered_json;
 
 constexpr std::size_t bytes_per_line = 8;
 
-std::string identifier(std::string_view name) {
+std::string c_name(std::string_view name) {
   std::string out;
   for (const char c : name) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -73,7 +73,7 @@ std::string wait_text(const CommandTiming& timing) {
 
 std::string print_c(std::string_view name, const AssembledMacro& macro) {
   const auto bytes = protocol::encode(macro.image());
-  const auto id = identifier(name);
+  const auto id = c_name(name);
   auto out = fmt::format("// Macro {}: id, flags, commands, end.\nconst unsigned char {}[] = {{",
                          to_printable(name), id);
   for (std::size_t i = 0; i < bytes.size(); ++i)

@@ -25,10 +25,11 @@ set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque
     <limits> <map> <memory> <numeric> <optional> <set> <span> <string> <string_view> <tl/expected.hpp> <utility>
     <variant> <vector>)
 orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
+orb_precompiled(json_rooms LIBRARIES fmt::fmt nlohmann_json::nlohmann_json HEADERS ${headers_std} <nlohmann/json.hpp>)
 
-option(ORB_JOIN "Compile up to eight files of a folder together: less than half the time from nothing" OFF)
+option(ORB_JOIN "Compile up to 32 files of a folder together: less than half the time from nothing" OFF)
 
-# orb_join(<target>): with ORB_JOIN, files of one folder are compiled together, up to eight at a time. They see each
+# orb_join(<target>): with ORB_JOIN, files of one folder are compiled together, up to thirty-two at a time. They see each
 # other's private names, so a folder has no such name twice. A file with options of its own stays alone.
 function(orb_join target)
   if(NOT ORB_JOIN)
@@ -39,7 +40,7 @@ function(orb_join target)
     cmake_path(GET source PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${ORB_ROOT})
     string(REPLACE "/" "_" folder "${folder}")
-    math(EXPR group "(0${count_${folder}}) / 8")
+    math(EXPR group "(0${count_${folder}}) / 32")
     math(EXPR count_${folder} "0${count_${folder}} + 1")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
   endforeach()
@@ -48,10 +49,10 @@ function(orb_join target)
     "#pragma GCC diagnostic ignored \"-Wshadow\"\n#pragma GCC diagnostic ignored \"-Wsubobject-linkage\"")
 endfunction()
 
-# orb_library(<folder> [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its
-# .cpp files, alias orb::<folder>. A new file needs no edit here. On Windows NAME_windows.cpp stands in for NAME.cpp.
+# orb_library(<folder> [JSON] [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its .cpp files,
+# alias orb::<folder>; JSON: most of them see that library. A new file needs no edit here. On Windows NAME_windows.cpp stands in for NAME.cpp.
 function(orb_library folder)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "JSON" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ORB_ROOT}/${folder}/*.cpp)
   set(windows ${sources})
   list(FILTER windows INCLUDE REGEX "_windows\\.cpp$")
@@ -59,10 +60,14 @@ function(orb_library folder)
     list(TRANSFORM windows REPLACE "_windows\\.cpp$" ".cpp")
   endif()
   list(REMOVE_ITEM sources "" ${windows})
+  set(kind rooms)
+  if(ARG_JSON)
+    set(kind json_rooms)
+  endif()
   add_library(orb_${folder} STATIC ${sources})
   add_library(orb::${folder} ALIAS orb_${folder})
   target_link_libraries(orb_${folder} PUBLIC $<BUILD_INTERFACE:orb_options> ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  target_precompile_headers(orb_${folder} REUSE_FROM precompiled_rooms)
+  target_precompile_headers(orb_${folder} REUSE_FROM precompiled_${kind})
   orb_join(orb_${folder})
 endfunction()
 

@@ -24,4 +24,4 @@ orb_library(run        PUBLIC orb::report orb::structured orb::uploader PRIVATE 
 orb_library(testing    PUBLIC orb::run PRIVATE ${json} PkgConfig::PCRE2 Threads::Threads)
 orb_library(reference  PUBLIC orb::testing PRIVATE ${json})
 orb_library(debug      PUBLIC orb::testing)
-orb_library(editor     PUBLIC orb::reference orb::debug PRIVATE ${json})
+orb_library(editor     JSON PUBLIC orb::reference orb::debug PRIVATE ${json})

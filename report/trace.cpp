@@ -57,7 +57,7 @@ std::string csv_string(std::string_view text) {
   return out + '"';
 }
 
-std::string number(double value) {
+std::string two_decimals(double value) {
   // Two decimals: a tenth of a millimetre. No sign before zero.
   auto text = fmt::format("{:.2f}", value);
   return text == "-0.00" ? "0.00" : text;
@@ -71,7 +71,7 @@ std::string milliseconds(Duration t) {
 std::string printed(TraceFormat format, const TraceField& field) {
   return std::visit(Overloaded{
                         [](std::int64_t value) { return fmt::format("{}", value); },
-                        [](double value) { return number(value); },
+                        [](double value) { return two_decimals(value); },
                         [&](const std::string& value) {
                           return format == TraceFormat::Json ? json_string(value)
                                                              : csv_string(value);

@@ -81,7 +81,7 @@ tl::expected<std::vector<testing::GivenFile>, Failure> tests_in_link(const std::
         tests.push_back({folder + "/" + name, text});
   }
   if (tests.empty())
-    return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there is no test in {}", path)});
+    return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there are no tests in {}", path)});
   return tests;
 }
 
@@ -118,7 +118,7 @@ read_tests(const std::vector<std::string>& paths) {
     if (!found)
       return tl::unexpected(found.error());
     if (found->empty())
-      return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there is no {} file below {}",
+      return tl::unexpected(Failure{ExitCode::Usage, fmt::format("there are no {} files below {}",
                                                                  testing::file_ending, path)});
     for (const auto& one : *found)
       if (auto added = add(one); !added)
@@ -132,16 +132,18 @@ tl::expected<testing::Shard, Failure> read_shard(const std::string& text) {
   if (text.empty())
     return shard;
   const auto slash = text.find('/');
-  const auto index = parse_number<std::uint64_t>(std::string_view(text).substr(0, slash));
-  const auto count = slash == std::string::npos
-                         ? std::nullopt
-                         : parse_number<std::uint64_t>(std::string_view(text).substr(slash + 1));
-  if (!index || !count || *index < 1 || *index > *count)
+  const auto number = [](std::string_view digits) {
+    return parse_number<std::uint64_t>(digits).value_or(0);
+  };
+  const auto index = number(std::string_view(text).substr(0, slash));
+  const auto count =
+      slash == std::string::npos ? 0 : number(std::string_view(text).substr(slash + 1));
+  if (index < 1 || index > count)
     return tl::unexpected(
         Failure{ExitCode::Usage,
                 fmt::format("`--shard {}` is not a share; write it like 3/16, the third of sixteen",
                             text)});
-  return testing::Shard{*index, *count};
+  return testing::Shard{index, count};
 }
 
 /// The tests of the command line; of a class without one, those that came with its programs.
@@ -180,14 +182,14 @@ public:
       const auto old = disk::read(index);
       if (!old || !old->starts_with(testing::report_mark))
         return refuse(
-            fmt::format("{} is not a report of `orb test`; choose another folder", index));
+            fmt::format("{} is not a report from `orb test`; choose another folder", index));
       fs::remove(disk::as_path(index), error);
       for (const auto& file : fs::directory_iterator(disk::as_path(folder_ + "/runs"), error))
         remove_old(file.path());
     }
     fs::create_directories(disk::as_path(folder_ + "/runs"), error);
     if (error)
-      return refuse(fmt::format("cannot make {}/runs: {}", folder_, error.message()));
+      return refuse(fmt::format("cannot create {}/runs: {}", folder_, error.message()));
     return {};
   }
 
@@ -242,13 +244,14 @@ tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& op
     return wanted;
   wanted.seeds = testing::parse_seeds(options.seeds);
   if (wanted.seeds && wanted.seeds->count() > testing::most_seeds)
-    return tl::unexpected(Failure{
-        ExitCode::Usage, fmt::format("`--seeds {}` asks for too many; a test takes at most {}",
-                                     options.seeds, testing::most_seeds)});
-  if (!wanted.seeds)
     return tl::unexpected(
         Failure{ExitCode::Usage,
-                fmt::format("`--seeds {}` are not seeds; write them like 1..20", options.seeds)});
+                fmt::format("`--seeds {}` asks for too many seeds; a test takes at most {}",
+                            options.seeds, testing::most_seeds)});
+  if (!wanted.seeds)
+    return tl::unexpected(Failure{
+        ExitCode::Usage,
+        fmt::format("`--seeds {}` is not a range of seeds; write it like 1..20", options.seeds)});
   return wanted;
 }
 
@@ -421,7 +424,7 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
   if (const auto runs = suite->cases / shard->count; runs > most_runs)
     return tl::unexpected(Failure{
         ExitCode::Usage,
-        fmt::format("these are {} runs, and one command does at most {}; `--shard` divides them",
+        fmt::format("these are {} runs, but one command does at most {}; `--shard` divides them",
                     runs, most_runs)});
   testing::RunOptions run;
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
@@ -439,7 +442,7 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
 
 void add_test(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("test", "run the tests of programs and judge them",
+      orb.add_command("test", "test programs and judge the results",
                       "orb test\norb test corner.test\norb test task.test --program *.bas\n"
                       "orb test maze.test --seeds 1..200 --format junit --output tests.xml\n"
                       "orb test --class results --report results/page\n"
@@ -454,18 +457,18 @@ void add_test(const Command& orb, Context& context) {
       .show_default();
   command.add_option(
       "--program", options->programs,
-      "programs to test, each with every test, in place of those the tests name; of a "
-      "folder those in it, and one of each folder in it");
+      "programs to test, each with every test, instead of those the tests name; for a "
+      "folder, those in it and one from each folder in it");
   command
       .add_option("--class", options->class_folder,
-                  "a folder of what pupils handed in: files with addresses of the playground, "
-                  "programs, a folder each; without FILE their tests are those in the addresses")
+                  "a folder of pupils' work: files with playground addresses, programs, or a "
+                  "folder for each pupil; without FILE, the tests come from the addresses")
       .type_name("FOLDER");
   command.add_option("--jobs", options->jobs, "how many runs at once; 0: one for each processor")
       .check(whole_number(0, most_jobs))
       .show_default();
-  command.add_option("--seeds", options->seeds, "the seeds of every test, such as 1..200");
-  command.add_option("--only", options->only, "runs the one test of this name");
+  command.add_option("--seeds", options->seeds, "the seeds for every test, such as 1..200");
+  command.add_option("--only", options->only, "runs only the test with this name");
   command.add_option("--shard", options->shard,
                      "a share of the runs: 3/16 is the third of sixteen");
   std::vector<std::string> formats(testing::format_names().begin(), testing::format_names().end());
@@ -480,10 +483,9 @@ void add_test(const Command& orb, Context& context) {
   add_ball_option(command, options->ball,
                   "virtual balls drive like the robot that `orb calibrate` measured");
   add_robot_port_options(command, options->port, options->robot);
-  command.add_flag("--yes", options->yes,
-                   "the robot is on its mark: nobody is asked before a test on it");
+  command.add_flag("--yes", options->yes, "the robot is on its mark: do not ask before each test");
   command.add_flag("--merge", options->merge,
-                   "joins results: the files are those that shards wrote with --format json");
+                   "merge results: the files are those that shards wrote with --format json");
   command.callback([&context, options] {
     if (const auto done = run_tests(context, *options); !done)
       fail(context, done.error());

@@ -14,8 +14,6 @@ namespace {
 
 using spec::Statement;
 
-constexpr auto letters = spec::letter_count;
-
 /// What a statement shows until the next one of its kind.
 enum class Shows : std::uint8_t { Nothing, Colour, BackLed, Roll };
 
@@ -453,7 +451,7 @@ private:
 
   /// Looks for endless loops that add to what a statement takes and never look at it.
   void check_growth() {
-    std::array<Growth, letters> growth;
+    std::array<Growth, spec::letter_count> growth;
     for (std::uint32_t i = 0; i < size_; ++i) {
       const auto whole = program_.whole(program_.statements[flow_.code[i].statement]);
       for (const auto& statement : whole)
@@ -478,7 +476,7 @@ private:
   }
 
   void read_growth(const StatementNode& statement, std::uint32_t code, bool in_if,
-                   std::array<Growth, letters>& growth) const {
+                   std::array<Growth, spec::letter_count>& growth) const {
     for (const auto& item : program_.items_of(statement)) {
       if (item.kind == ItemKind::Letter)
         set_growth(statement, item.value, code, in_if, growth);
@@ -490,7 +488,7 @@ private:
   }
 
   void set_growth(const StatementNode& statement, std::uint32_t letter, std::uint32_t code,
-                  bool in_if, std::array<Growth, letters>& growth) const {
+                  bool in_if, std::array<Growth, spec::letter_count>& growth) const {
     auto& grown = growth[letter];
     if (statement.kind != Statement::Let || in_if) {
       grown.bounded = true;
