@@ -1,72 +1,92 @@
-#include "assembler/assembler.h"
+#include "assembler/assemble.h"
+
+#include "assembler/names.h"
+#include "assembler/operands.h"
+#include "assembler/parse.h"
+#include "assembler/rules.h"
+#include "base/utf8.h"
+
+#include <algorithm>
+#include <fmt/format.h>
 
 namespace orb::assembler {
 
-Assembler::Assembler(const Source& source, Folding folding)
-    : source_(source), folding_(folding), program_(parse(source.text())) {
-  assembly_.diagnostics = std::move(program_.diagnostics);
-}
+namespace {
+
+using spec::MacroCommand;
+using spec::MacroOperandKind;
+using Origin = PlacedCommand::Origin;
+using OperandValues = std::array<std::int32_t, spec::macro_max_operands>;
+
+/// Puts the commands of a program into its macros.
+class Assembler {
+public:
+  Assembler(const Source& source, Folding folding)
+      : folding_(folding), program_(parse(source.text())),
+        findings_(source.text(), std::move(program_.diagnostics)), names_(program_, findings_),
+        operands_(program_, names_, findings_), macros_(names_.macros()) {}
+
+  Assembly run();
+
+private:
+  const Value* values(const Statement& statement) const {
+    return program_.values.data() + statement.first;
+  }
+
+  AssembledMacro& macro() { return macros_[current_]; }
+
+  void begin_unnamed();
+
+  /// Room for what the rest of the file may hold.
+  void reserve();
+
+  void add(const Statement& statement);
+
+  void end_macro();
+
+  void add_raw(const Statement& statement);
+
+  void add_command(const Statement& statement);
+
+  void place(const spec::MacroCommandInfo& info, Span span, Span operand, Origin origin,
+             const OperandValues& value, std::string_view comment);
+
+  /// Takes a delay into the command before it. False where that has no delay of its own, or no
+  /// room.
+  bool fold(std::int32_t time_ms);
+
+  Folding folding_;
+  Program program_;
+  Findings findings_;
+  Names names_;
+  Operands operands_;
+  std::vector<AssembledMacro> macros_;
+  std::size_t current_ = 0;
+  bool inside_ = false;
+  bool no_end_ = false;
+  bool outside_reported_ = false;
+  bool after_end_reported_ = false;
+};
 
 Assembly Assembler::run() {
-  collect_names();
-  if (assembly_.macros.empty())
+  if (macros_.empty())
     begin_unnamed();
   for (const auto& statement : program_.statements)
     add(statement);
   end_macro();
-  if (program_.statements.size() == constants_ && assembly_.diagnostics.empty())
-    report(rules::EmptyFile, {0, 0}, "the file has no macro command",
-           "write one, such as `marker 20`");
-  sort_by_place(assembly_.diagnostics);
-  return std::move(assembly_);
+  const bool says_nothing =
+      std::all_of(program_.statements.begin(), program_.statements.end(),
+                  [](const Statement& one) { return one.kind == Statement::Kind::Const; });
+  if (says_nothing && findings_.empty())
+    findings_.report(rules::EmptyFile, {0, 0}, "the file has no macro commands",
+                     "write one, such as `marker 20`");
+  return {std::move(macros_), std::move(findings_).sorted()};
 }
 
-Diagnostic& Assembler::report(const Rule& rule, Span span, std::string message, std::string help) {
-  assembly_.diagnostics.push_back(finding(rule, span, std::move(message), std::move(help)));
-  return assembly_.diagnostics.back();
-}
-
-const Value* Assembler::values(const Statement& statement) const {
-  return program_.values.data() + statement.first;
-}
-
-void Assembler::collect_names() {
-  for (const auto& statement : program_.statements) {
-    if (statement.kind == Statement::Kind::Const)
-      define_constant(statement);
-    else if (statement.kind == Statement::Kind::Macro)
-      define_macro(statement);
-  }
-}
-
-void Assembler::define(Span span, Name name) {
-  name.span = span;
-  const auto [old, is_new] = names_.emplace(text(span), name);
-  if (!is_new)
-    report(rules::DuplicateName, span, fmt::format("`{}` is defined twice", text(span)))
-        .notes.push_back({old->second.span, "first here"});
-}
-
-void Assembler::define_constant(const Statement& statement) {
-  ++constants_;
-  const auto* value = values(statement);
-  if (statement.count != 1 || value->name.size() == 0) {
-    report(rules::Syntax, statement.span, "`.const` takes a name and a value",
-           "write `.const NAME = 100`");
-    return;
-  }
-  Name name;
-  name.value = *value;
-  if (value->kind == Value::Kind::Word)
-    if (const auto* other = find_name(text(value->span));
-        other != nullptr && other->kind == Name::Kind::Constant)
-      name.value = other->value;
-  define(value->name, name);
-}
-
-const Name* Assembler::find_name(std::string_view word) const {
-  const auto found = names_.find(word);
-  return found == names_.end() ? nullptr : &found->second;
+void Assembler::begin_unnamed() {
+  macros_.emplace_back();
+  inside_ = true;
+  reserve();
 }
 
 void Assembler::reserve() {
@@ -83,7 +103,7 @@ void Assembler::add(const Statement& statement) {
       ++current_;
     }
     inside_ = true;
-    if (assembly_.macros.size() == 1)
+    if (macros_.size() == 1)
       reserve();
     return;
   case Statement::Kind::Command:
@@ -92,8 +112,8 @@ void Assembler::add(const Statement& statement) {
   }
   if (!inside_) {
     if (!outside_reported_)
-      report(rules::OutsideMacro, statement.span, "this is above the first `.macro` line",
-             "move it below a `.macro` line, or add one above it");
+      findings_.report(rules::OutsideMacro, statement.span, "this is above the first `.macro` line",
+                       "move it below a `.macro` line, or add one above it");
     outside_reported_ = true;
     return;
   }
@@ -105,16 +125,28 @@ void Assembler::add(const Statement& statement) {
     add_command(statement);
 }
 
+void Assembler::end_macro() {
+  if (!inside_)
+    return;
+  auto& ended = macro();
+  if (!ended.has_end && !no_end_) {
+    place(spec::info(MacroCommand::End), {}, {}, Origin::Supplied, {}, {});
+    ended.has_end = true;
+  }
+  no_end_ = false;
+  after_end_reported_ = false;
+}
+
 void Assembler::add_raw(const Statement& statement) {
   auto& out = macro();
   const auto begin = static_cast<std::uint32_t>(out.body.size());
   for (const auto* value = values(statement); value != values(statement) + statement.count;
        ++value) {
     static constexpr auto byte =
-        spec::macro_detail::number("byte", MacroUnit::None, 1, 0, UINT8_MAX);
+        spec::macro_detail::number("byte", spec::MacroUnit::None, 1, 0, UINT8_MAX);
     if (value->name.size() != 0)
-      report(rules::UnknownOperand, value->name, "`.raw` takes bytes, not names");
-    else if (const auto number = resolve(*value, byte, ".raw"))
+      findings_.report(rules::UnknownOperand, value->name, "`.raw` takes bytes, not names");
+    else if (const auto number = operands_.resolve(*value, byte, ".raw"))
       out.body.push_back(static_cast<std::uint8_t>(*number));
   }
   const ByteView raw = ByteView(out.body).subspan(begin);
@@ -138,29 +170,30 @@ void Assembler::add_command(const Statement& statement) {
   auto& out = macro();
   if (out.has_end && out.id != spec::macro_id_stream) {
     if (!after_end_reported_)
-      report(rules::AfterEnd, statement.span, "this is after `end`",
-             "remove `end`, or start another macro with `.macro`");
+      findings_.report(rules::AfterEnd, statement.span, "this is after `end`",
+                       "remove `end`, or start another macro with `.macro`");
     after_end_reported_ = true;
     return;
   }
   const spec::MacroCommandInfo* info = statement.info;
-  std::array<const Value*, spec::macro_max_operands> bound{};
-  std::array<std::int32_t, spec::macro_max_operands> value{};
-  bool good = bind(statement, *info, bound);
+  OperandValues value{};
+  const auto bound = operands_.bind(statement, *info);
+  bool good = bound.has_value();
   if (good) {
-    if (info->command == MacroCommand::Roll && bound[2] != nullptr)
-      info = roll_for(*bound[2]);
+    if (const auto* delay = (*bound)[2]; info->command == MacroCommand::Roll && delay != nullptr)
+      info = operands_.roll_for(*delay);
     for (std::size_t i = 0; i < info->operand_count; ++i) {
-      if (bound[i] == nullptr || info->operand[i].kind == MacroOperandKind::Text)
+      const auto* given = (*bound)[i];
+      if (given == nullptr || info->operand[i].kind == MacroOperandKind::Text)
         continue;
-      const auto number = resolve(*bound[i], info->operand[i], info->mnemonic);
+      const auto number = operands_.resolve(*given, info->operand[i], info->mnemonic);
       good = good && number.has_value();
       value[i] = number.value_or(0);
     }
   }
   const auto operand = statement.count > 0 ? values(statement)->span : Span{};
   if (info->variable_length) {
-    const auto comment = good ? read_text(*bound[0]) : std::string();
+    const auto comment = good ? operands_.read_text(*bound->front()) : std::string();
     place(*info, statement.span, operand, good ? Origin::Written : Origin::Broken, value, comment);
     out.has_end = false;
     return;
@@ -172,8 +205,7 @@ void Assembler::add_command(const Statement& statement) {
 }
 
 void Assembler::place(const spec::MacroCommandInfo& info, Span span, Span operand, Origin origin,
-                      const std::array<std::int32_t, spec::macro_max_operands>& value,
-                      std::string_view comment) {
+                      const OperandValues& value, std::string_view comment) {
   auto& out = macro();
   PlacedCommand placed{&info, origin, span, operand, static_cast<std::uint32_t>(out.body.size()),
                        0,     value};
@@ -208,8 +240,6 @@ bool Assembler::fold(std::int32_t time_ms) {
   place(*info, folded.span, folded.operand, Origin::Written, folded.value, {});
   return true;
 }
-
-namespace {
 
 std::optional<Diagnostic> unreadable(const Source& source) {
   const auto text = source.text();

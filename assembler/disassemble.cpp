@@ -107,8 +107,9 @@ tl::expected<std::string, std::string> disassemble(ByteView bytes, Reading readi
   }
   const auto body = bytes.subspan(header_size);
   if (body.empty())
-    return tl::unexpected(fmt::format(
-        "offset {} ({:02X}h): the bytes end; expected a macro command", header_size, header_size));
+    return tl::unexpected(
+        fmt::format("offset {} ({:02X}h): unexpected end of the bytes; expected a macro command",
+                    header_size, header_size));
   const auto listing = protocol::decode_macro_body(body);
   if (listing.error)
     return tl::unexpected(in_file(*listing.error, header_size));

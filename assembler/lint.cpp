@@ -144,7 +144,7 @@ private:
       const auto word = command.info->mnemonic;
       if (command.info->executive > options_.executive)
         report(rules::Executive, command.span,
-               fmt::format("`{}` needs macro executive {}, the target has {}", word,
+               fmt::format("`{}` needs macro executive {}; the target has {}", word,
                            command.info->executive, options_.executive));
       if (command.info->place == spec::MacroPlace::OnlyInStream && !stream) {
         auto& diagnostic =
@@ -179,7 +179,7 @@ private:
     auto line = std::string(source_.text(sleep.span));
     line.replace(0, sleep.info->mnemonic.size(), spec::info(MacroCommand::Delay).mnemonic);
     auto& d = report(rules::SleepsOn, sleep.span,
-                     "`sleep` switches the ball off, and what follows never runs",
+                     "`sleep` switches the ball off, so what follows never runs",
                      fmt::format("write `{}`", line));
     d.fix = Fix{d.help, {{sleep.span, line}}, Safety::Unsafe};
   }
@@ -211,7 +211,7 @@ private:
       check_target(command);
     if (kind == MacroCommand::Marker && command.value[0] == spec::macro_end_marker)
       report(rules::MarkerZero, command.operand, "marker 0 is emitted at the end of a macro",
-             fmt::format("use one from {}", spec::macro_reserved_markers + 1));
+             fmt::format("use {} or higher", spec::macro_reserved_markers + 1));
     if (kind == MacroCommand::Marker && command.value[0] > 0 &&
         command.value[0] <= spec::macro_reserved_markers)
       report(rules::MarkerReserved, command.operand,
@@ -309,7 +309,7 @@ private:
     case MacroIdKind::System:
       if (const auto turned = turned_id(id); !known_[id] && !turned.empty())
         offer_id(report(rules::UnknownTarget, command.operand,
-                        fmt::format("id {} is a macro of the ball itself", id)),
+                        fmt::format("id {} is one of the ball's own macros", id)),
                  command, turned);
       return;
     case MacroIdKind::Temporary: return;
@@ -331,14 +331,14 @@ private:
       ++entries;
       if (heap <= spec::macro_heap_size && entries <= spec::macro_heap_entries)
         continue;
-      report(
-          rules::HeapFull, macro.span,
-          entries > spec::macro_heap_entries
-              ? fmt::format("this is user macro number {}; the ball has room for {}", entries,
-                            spec::macro_heap_entries)
-              : fmt::format("with this one the user macros total {} bytes; the ball's heap is {}",
-                            heap, spec::macro_heap_size),
-          "run some of them as temporary macros");
+      report(rules::HeapFull, macro.span,
+             entries > spec::macro_heap_entries
+                 ? fmt::format("this is user macro number {}; the ball has room for {}", entries,
+                               spec::macro_heap_entries)
+                 : fmt::format(
+                       "with this one, the user macros total {} bytes; the ball's heap holds {}",
+                       heap, spec::macro_heap_size),
+             "run some of them as temporary macros");
       return;
     }
   }
@@ -353,9 +353,9 @@ private:
           asks = &command;
       }
     if (asks != nullptr && !any_error(assembly_.diagnostics))
-      report(rules::CollisionsOff, asks->span,
-             "nothing here switches the detection of collisions on",
-             "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, where no client does");
+      report(
+          rules::CollisionsOff, asks->span, "nothing here switches collision detection on",
+          "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, unless a client does it");
   }
 
   /// The only roll has speed 0, and then the ball is stopped: speed and heading are exchanged.
@@ -383,8 +383,8 @@ private:
     const auto line = fmt::format("roll {}, 0{}", roll->value[1],
                                   roll->value[2] > 0 ? fmt::format(", {}ms", roll->value[2]) : "");
     report(rules::NeverRolls, roll->span,
-           "the ball never rolls: its speed is 0 here, and nowhere else more",
-           fmt::format("write `{}`; the speed stands first", line))
+           "the ball never rolls: its speed is 0 here and never set higher",
+           fmt::format("write `{}`; the speed comes first", line))
         .fix = Fix{fmt::format("write `{}`", line), {{roll->span, line}}, Safety::Unsafe};
   }
 

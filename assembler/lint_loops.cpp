@@ -49,7 +49,7 @@ private:
         if (open != nullptr) {
           report(rules::NestedLoop, command.span, "this loop replaces the previous one",
                  "loops do not nest; multiply the counts, or repeat the commands")
-              .notes.push_back({open->span, "which begins here"});
+              .notes.push_back({open->span, "the previous one begins here"});
           ++replaced;
         }
         check_count(command);
@@ -83,7 +83,7 @@ private:
              help.empty() ? "write 1, or remove it" : help);
     else
       report(rules::LoopOne, command.operand, "a loop of 1 round repeats nothing",
-             help.empty() ? "write how many rounds there are, 2 to 255" : help);
+             help.empty() ? "write the number of rounds, 2 to 255" : help);
     if (said > 1)
       diagnostics_.back().fix =
           Fix{help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};

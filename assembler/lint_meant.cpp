@@ -94,7 +94,7 @@ private:
         changed = true;
       }
     if (changed)
-      offer(rules::DimColour, command, "this is all but dark: a brightness goes from 0 to 255",
+      offer(rules::DimColour, command, "this is almost dark: brightness goes from 0 to 255",
             repair::join(tokens), "");
   }
 
@@ -120,9 +120,9 @@ private:
         return;
       std::swap(tokens[two[0]].text, tokens[two[1]].text);
       offer(rules::ExchangedRoll, *one,
-            fmt::format("speed {} and heading {} seem exchanged: all other rolls have speed {}",
+            fmt::format("speed {} and heading {} seem to be swapped: all other rolls have speed {}",
                         one->value[0], speed, speed),
-            repair::join(tokens), "the speed stands first");
+            repair::join(tokens), "the speed comes first");
       return;
     }
   }

@@ -76,7 +76,7 @@ private:
       return;
     auto& diagnostic = report(
         rules::CutShort, background.command->span,
-        fmt::format("this {} needs {} but has {}",
+        fmt::format("this {} needs {} but only gets {}",
                     background.command->info->background == MacroBackground::Fade ? "fade"
                                                                                   : "rotation",
                     print_time(background.end_ms - background.begin_ms),
@@ -157,7 +157,7 @@ private:
         !first_time(rules::NoTime, first.command->span))
       return;
     auto& diagnostic = report(rules::NoTime, first.command->span,
-                              fmt::format("this {} has no time: {}", what,
+                              fmt::format("this {} has no effect: {}", what,
                                           by.size() > 0 ? "the next one replaces it at once"
                                                         : "the macro ends, and stops the motors"),
                               "put a delay below it, such as `delay 1s`");

@@ -1,6 +1,18 @@
-#include "assembler/assembler.h"
+#include "assembler/operands.h"
+
+#include "assembler/rules.h"
+#include "base/suggest.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
 
 namespace orb::assembler {
+
+using spec::MacroCommand;
+using spec::MacroOperand;
+using spec::MacroOperandKind;
+using spec::MacroUnit;
 
 namespace {
 
@@ -52,211 +64,8 @@ std::string operand_list(const spec::MacroCommandInfo& info) {
   return list;
 }
 
-} // namespace
-
-bool Assembler::bind(const Statement& statement, const spec::MacroCommandInfo& info,
-                     std::array<const Value*, spec::macro_max_operands>& bound) {
-  std::size_t position = 0;
-  bool named = false;
-  for (const auto* value = values(statement); value != values(statement) + statement.count;
-       ++value) {
-    std::size_t i = position;
-    if (value->name.size() != 0) {
-      named = true;
-      i = 0;
-      while (i < info.operand_count && info.operand[i].name != text(value->name))
-        ++i;
-      if (i == info.operand_count)
-        return unknown_operand(info, value->name);
-    } else if (named) {
-      report(rules::OperandCount, value->span, "positional operand after a named one",
-             fmt::format("`{}` takes {}", info.mnemonic, operand_list(info)));
-      return false;
-    } else if (position == info.operand_count) {
-      report(rules::OperandCount, value->span,
-             info.operand_count == 0
-                 ? fmt::format("`{}` takes no operands", info.mnemonic)
-                 : fmt::format("`{}` takes {}, found {}", info.mnemonic,
-                               plural(info.operand_count, "operand"), statement.count),
-             info.operand_count == 0 ? std::string()
-                                     : fmt::format("they are {}", operand_list(info)));
-      return false;
-    }
-    if (bound[i] != nullptr) {
-      report(rules::OperandCount, value->span,
-             fmt::format("duplicate operand `{}`", info.operand[i].name));
-      return false;
-    }
-    bound[i] = value;
-    ++position;
-  }
-  for (std::size_t i = 0; i < info.operand_count; ++i)
-    if (bound[i] == nullptr && info.operand[i].kind != MacroOperandKind::Delay) {
-      report(rules::OperandCount, statement.span,
-             fmt::format("`{}` is missing its operand `{}`", info.mnemonic, info.operand[i].name),
-             fmt::format("it takes {}, as in `{}`", operand_list(info), info.example));
-      return false;
-    }
-  return true;
-}
-
-bool Assembler::unknown_operand(const spec::MacroCommandInfo& info, Span span) {
-  std::array<std::string_view, spec::macro_max_operands> names;
-  for (std::size_t i = 0; i < info.operand_count; ++i)
-    names[i] = info.operand[i].name;
-  const auto meant = closest(text(span), std::span(names).first(info.operand_count));
-  auto& diagnostic =
-      report(rules::UnknownOperand, span,
-             fmt::format("`{}` has no operand `{}`", info.mnemonic, text(span)),
-             meant                     ? fmt::format("did you mean `{}`?", *meant)
-             : info.operand_count == 0 ? "it has none"
-                                       : fmt::format("they are {}", operand_list(info)));
-  if (meant)
-    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
-  return false;
-}
-
-const spec::MacroCommandInfo* Assembler::roll_for(const Value& delay) {
-  const auto& roll = spec::info(MacroCommand::Roll);
-  const auto& roll2 = spec::info(MacroCommand::Roll2);
-  const auto* number = constant(delay);
-  const auto per = number == nullptr ? 0 : scale(number->unit, roll2.operand[2].unit);
-  return per > 0 && number->thousandths / whole * per / whole > roll.operand[2].maximum ? &roll2
-                                                                                        : &roll;
-}
-
-const Value* Assembler::constant(const Value& value) const {
-  if (value.kind == Value::Kind::Number)
-    return &value;
-  if (value.kind == Value::Kind::Text)
-    return nullptr;
-  const auto* name = find_name(text(value.span));
-  return name != nullptr && name->kind == Name::Kind::Constant &&
-                 name->value.kind == Value::Kind::Number
-             ? &name->value
-             : nullptr;
-}
-
-std::optional<std::int32_t> Assembler::resolve(const Value& value, const MacroOperand& operand,
-                                               std::string_view command) {
-  if (operand.kind == MacroOperandKind::Text)
-    return std::nullopt;
-  if (value.kind == Value::Kind::Number)
-    return to_number(value, value.span, operand, command);
-  if (value.kind == Value::Kind::Text) {
-    report(rules::OutOfRange, value.span,
-           fmt::format("`{}` of `{}` must be a number, found text", operand.name, command));
-    return std::nullopt;
-  }
-  const auto word = text(value.span);
-  for (const auto* known = operand.begin_words(); known != operand.end_words(); ++known)
-    if (known->word == word)
-      return known->value;
-  const auto* name = find_name(word);
-  if (name == nullptr)
-    return unknown_name(value.span, operand, command);
-  if (name->kind == Name::Kind::Macro)
-    return macro_id(value.span, *name, operand);
-  if (name->value.kind == Value::Kind::Number)
-    return to_number(name->value, value.span, operand, command);
-  if (name->value.kind == Value::Kind::Word) {
-    const auto meaning = text(name->value.span);
-    for (const auto* known = operand.begin_words(); known != operand.end_words(); ++known)
-      if (known->word == meaning)
-        return known->value;
-  }
-  return unknown_name(value.span, operand, command);
-}
-
-std::optional<std::int32_t> Assembler::macro_id(Span span, const Name& name,
-                                                const MacroOperand& operand) {
-  if (operand.kind != MacroOperandKind::MacroId) {
-    report(rules::UnknownName, span,
-           fmt::format("`{}` is a macro; `{}` is a number", text(span), operand.name));
-    return std::nullopt;
-  }
-  const auto& target = assembly_.macros[name.macro];
-  if (target.id)
-    return *target.id;
-  if (assembly_.macros.size() == 1)
-    return spec::macro_id_temporary;
-  report(rules::UnknownName, span, fmt::format("`{}` has no id to jump to", text(span)),
-         fmt::format("write `.macro {} id={}`", text(span), spec::macro_id_user_first))
-      .notes.push_back({target.span, "defined here"});
-  return std::nullopt;
-}
-
-std::optional<std::int32_t> Assembler::unknown_name(Span span, const MacroOperand& operand,
-                                                    std::string_view command) {
-  std::vector<std::string_view> known;
-  for (const auto* word = operand.begin_words(); word != operand.end_words(); ++word)
-    known.push_back(word->word);
-  for (const auto& [name, meaning] : names_)
-    if (meaning.kind == Name::Kind::Constant || operand.kind == MacroOperandKind::MacroId)
-      known.push_back(name);
-  std::sort(known.begin() + operand.word_count, known.end());
-  const auto meant = closest(text(span), known);
-  std::string help;
-  if (meant)
-    help = fmt::format("did you mean `{}`?", *meant);
-  else if (operand.word_count > 0 && operand.kind != MacroOperandKind::MacroId)
-    for (std::size_t i = 0; i < operand.word_count; ++i)
-      help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
-  else if (operand.kind == MacroOperandKind::MacroId)
-    help = fmt::format("`.macro {} id={}` defines it, or write an id", text(span),
-                       spec::macro_id_user_first);
-  else
-    help = fmt::format("`{}` is {}; `.const {} = {}` gives the name a value", operand.name,
-                       range_of(operand), text(span), operand.maximum);
-  auto& diagnostic = report(
-      rules::UnknownName, span,
-      fmt::format("`{}` is not valid as `{}` of `{}`", text(span), operand.name, command), help);
-  if (meant)
-    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
-  return std::nullopt;
-}
-
-std::optional<std::int32_t> Assembler::to_number(const Value& number, Span span,
-                                                 const MacroOperand& operand,
-                                                 std::string_view command) {
-  const auto per = scale(number.unit, operand.unit);
-  if (number.unit == Unit::Unknown || per == 0) {
-    wrong_unit(number, span, operand, command);
-    return std::nullopt;
-  }
-  // Thousandths of a number times thousandths of the own unit: bounded far below 2^63.
-  const auto millionths = number.thousandths * per;
-  if (millionths % (whole * whole) != 0) {
-    report(rules::OutOfRange, span,
-           fmt::format("`{}` of `{}` takes whole {}, found `{}`", operand.name, command,
-                       operand.unit == MacroUnit::None ? "numbers" : spec::to_string(operand.unit),
-                       text(span)));
-    return std::nullopt;
-  }
-  const auto value = millionths / (whole * whole);
-  if (value >= operand.minimum && value <= operand.maximum)
-    return static_cast<std::int32_t>(value);
-  out_of_range(value, number, span, operand, command);
-  return std::nullopt;
-}
-
-void Assembler::wrong_unit(const Value& number, Span span, const MacroOperand& operand,
-                           std::string_view command) {
-  if (number.unit == Unit::Unknown) {
-    const auto word = text(number.span);
-    const bool hex = word.ends_with('h') || word.ends_with('H');
-    report(rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
-           hex ? fmt::format("write hexadecimal as `0x{}`", word.substr(0, word.size() - 1))
-               : "units are `ms`, `s` and `deg`, with at most three decimals before them");
-    return;
-  }
-  report(rules::WrongUnit, span,
-         fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
-                     unit_word(number.unit)),
-         fmt::format("it is {}", range_of(operand)));
-}
-
-std::string Assembler::waits_for(std::int64_t ms) {
+/// The lines that wait as long; empty for what would be a page of them.
+std::string waits_for(std::int64_t ms) {
   constexpr std::int64_t most_lines = 9;
   const auto& delay = spec::info(MacroCommand::Delay);
   const std::int64_t most = delay.operand[0].maximum;
@@ -268,8 +77,211 @@ std::string Assembler::waits_for(std::int64_t ms) {
                                  ms / lines, lines);
 }
 
-void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
-                             const MacroOperand& operand, std::string_view command) {
+} // namespace
+
+std::optional<Bound> Operands::bind(const Statement& statement,
+                                    const spec::MacroCommandInfo& info) {
+  Bound bound{};
+  const auto* const begin = program_.values.data() + statement.first;
+  std::size_t position = 0;
+  bool named = false;
+  for (const auto* value = begin; value != begin + statement.count; ++value) {
+    std::size_t i = position;
+    if (value->name.size() != 0) {
+      named = true;
+      i = 0;
+      while (i < info.operand_count && info.operand[i].name != findings_.text(value->name))
+        ++i;
+      if (i == info.operand_count) {
+        unknown_operand(info, value->name);
+        return std::nullopt;
+      }
+    } else if (named) {
+      findings_.report(rules::OperandCount, value->span, "positional operand after a named one",
+                       fmt::format("`{}` takes {}", info.mnemonic, operand_list(info)));
+      return std::nullopt;
+    } else if (position == info.operand_count) {
+      findings_.report(rules::OperandCount, value->span,
+                       info.operand_count == 0
+                           ? fmt::format("`{}` takes no operands", info.mnemonic)
+                           : fmt::format("`{}` takes {}, found {}", info.mnemonic,
+                                         plural(info.operand_count, "operand"), statement.count),
+                       info.operand_count == 0
+                           ? std::string()
+                           : fmt::format("its operands are {}", operand_list(info)));
+      return std::nullopt;
+    }
+    if (bound[i] != nullptr) {
+      findings_.report(rules::OperandCount, value->span,
+                       fmt::format("duplicate operand `{}`", info.operand[i].name));
+      return std::nullopt;
+    }
+    bound[i] = value;
+    ++position;
+  }
+  for (std::size_t i = 0; i < info.operand_count; ++i)
+    if (bound[i] == nullptr && info.operand[i].kind != MacroOperandKind::Delay) {
+      findings_.report(
+          rules::OperandCount, statement.span,
+          fmt::format("`{}` is missing its operand `{}`", info.mnemonic, info.operand[i].name),
+          fmt::format("it takes {}, as in `{}`", operand_list(info), info.example));
+      return std::nullopt;
+    }
+  return bound;
+}
+
+void Operands::unknown_operand(const spec::MacroCommandInfo& info, Span span) {
+  std::array<std::string_view, spec::macro_max_operands> names;
+  for (std::size_t i = 0; i < info.operand_count; ++i)
+    names[i] = info.operand[i].name;
+  const auto meant = closest(findings_.text(span), std::span(names).first(info.operand_count));
+  auto& diagnostic = findings_.report(
+      rules::UnknownOperand, span,
+      fmt::format("`{}` has no operand `{}`", info.mnemonic, findings_.text(span)),
+      meant                     ? fmt::format("did you mean `{}`?", *meant)
+      : info.operand_count == 0 ? "it has none"
+                                : fmt::format("its operands are {}", operand_list(info)));
+  if (meant)
+    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+}
+
+const spec::MacroCommandInfo* Operands::roll_for(const Value& delay) const {
+  const auto& roll = spec::info(MacroCommand::Roll);
+  const auto& roll2 = spec::info(MacroCommand::Roll2);
+  const auto* number = names_.number(delay);
+  const auto per = number == nullptr ? 0 : scale(number->unit, roll2.operand[2].unit);
+  return per > 0 && number->thousandths / whole * per / whole > roll.operand[2].maximum ? &roll2
+                                                                                        : &roll;
+}
+
+std::optional<std::int32_t> Operands::resolve(const Value& value, const MacroOperand& operand,
+                                              std::string_view command) {
+  if (operand.kind == MacroOperandKind::Text)
+    return std::nullopt;
+  if (value.kind == Value::Kind::Number)
+    return to_number(value, value.span, operand, command);
+  if (value.kind == Value::Kind::Text) {
+    findings_.report(
+        rules::OutOfRange, value.span,
+        fmt::format("`{}` of `{}` must be a number, found text", operand.name, command));
+    return std::nullopt;
+  }
+  const auto word = findings_.text(value.span);
+  for (const auto* known = operand.begin_words(); known != operand.end_words(); ++known)
+    if (known->word == word)
+      return known->value;
+  const auto* name = names_.find(word);
+  if (name == nullptr)
+    return unknown_name(value.span, operand, command);
+  if (name->kind == Name::Kind::Macro)
+    return macro_id(value.span, *name, operand);
+  if (name->value.kind == Value::Kind::Number)
+    return to_number(name->value, value.span, operand, command);
+  if (name->value.kind == Value::Kind::Word) {
+    const auto meaning = findings_.text(name->value.span);
+    for (const auto* known = operand.begin_words(); known != operand.end_words(); ++known)
+      if (known->word == meaning)
+        return known->value;
+  }
+  return unknown_name(value.span, operand, command);
+}
+
+std::optional<std::int32_t> Operands::macro_id(Span span, const Name& name,
+                                               const MacroOperand& operand) {
+  if (operand.kind != MacroOperandKind::MacroId) {
+    findings_.report(rules::UnknownName, span,
+                     fmt::format("`{}` is a macro, but `{}` takes a number", findings_.text(span),
+                                 operand.name));
+    return std::nullopt;
+  }
+  const auto& target = names_.macros()[name.macro];
+  if (target.id)
+    return *target.id;
+  if (names_.macros().size() == 1)
+    return spec::macro_id_temporary;
+  findings_
+      .report(
+          rules::UnknownName, span, fmt::format("`{}` has no id to jump to", findings_.text(span)),
+          fmt::format("write `.macro {} id={}`", findings_.text(span), spec::macro_id_user_first))
+      .notes.push_back({target.span, "defined here"});
+  return std::nullopt;
+}
+
+std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand& operand,
+                                                   std::string_view command) {
+  std::vector<std::string_view> known;
+  for (const auto* word = operand.begin_words(); word != operand.end_words(); ++word)
+    known.push_back(word->word);
+  for (const auto& [name, meaning] : names_.all())
+    if (meaning.kind == Name::Kind::Constant || operand.kind == MacroOperandKind::MacroId)
+      known.push_back(name);
+  std::sort(known.begin() + operand.word_count, known.end());
+  const auto meant = closest(findings_.text(span), known);
+  std::string help;
+  if (meant)
+    help = fmt::format("did you mean `{}`?", *meant);
+  else if (operand.word_count > 0 && operand.kind != MacroOperandKind::MacroId)
+    for (std::size_t i = 0; i < operand.word_count; ++i)
+      help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
+  else if (operand.kind == MacroOperandKind::MacroId)
+    help = fmt::format("`.macro {} id={}` defines it, or write an id", findings_.text(span),
+                       spec::macro_id_user_first);
+  else
+    help = fmt::format("`{}` is {}; `.const {} = {}` gives the name a value", operand.name,
+                       range_of(operand), findings_.text(span), operand.maximum);
+  auto& diagnostic = findings_.report(
+      rules::UnknownName, span,
+      fmt::format("`{}` is not a valid `{}` for `{}`", findings_.text(span), operand.name, command),
+      help);
+  if (meant)
+    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+  return std::nullopt;
+}
+
+std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
+                                                const MacroOperand& operand,
+                                                std::string_view command) {
+  const auto per = scale(number.unit, operand.unit);
+  if (number.unit == Unit::Unknown || per == 0) {
+    wrong_unit(number, span, operand, command);
+    return std::nullopt;
+  }
+  // Thousandths of a number times thousandths of the own unit: bounded far below 2^63.
+  const auto millionths = number.thousandths * per;
+  if (millionths % (whole * whole) != 0) {
+    findings_.report(
+        rules::OutOfRange, span,
+        fmt::format("`{}` of `{}` takes whole {}, found `{}`", operand.name, command,
+                    operand.unit == MacroUnit::None ? "numbers" : spec::to_string(operand.unit),
+                    findings_.text(span)));
+    return std::nullopt;
+  }
+  const auto value = millionths / (whole * whole);
+  if (value >= operand.minimum && value <= operand.maximum)
+    return static_cast<std::int32_t>(value);
+  out_of_range(value, number, span, operand, command);
+  return std::nullopt;
+}
+
+void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& operand,
+                          std::string_view command) {
+  if (number.unit == Unit::Unknown) {
+    const auto word = findings_.text(number.span);
+    const bool hex = word.ends_with('h') || word.ends_with('H');
+    findings_.report(
+        rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
+        hex ? fmt::format("write hexadecimal as `0x{}`", word.substr(0, word.size() - 1))
+            : "the units are `ms`, `s` and `deg`; a number has at most three decimals");
+    return;
+  }
+  findings_.report(rules::WrongUnit, span,
+                   fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
+                               unit_word(number.unit)),
+                   fmt::format("it must be {}", range_of(operand)));
+}
+
+void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
+                            const MacroOperand& operand, std::string_view command) {
   const bool is_exact = std::abs(number.thousandths) < largest_number * whole;
   std::string help;
   if (operand.kind == MacroOperandKind::Delay)
@@ -279,11 +291,11 @@ void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
   else if (operand.word_count > 0)
     for (std::size_t i = 0; i < operand.word_count; ++i)
       help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
-  auto& d =
-      report(rules::OutOfRange, span,
-             fmt::format("`{}` of `{}` is {}, found {}", operand.name, command, range_of(operand),
-                         is_exact ? std::to_string(value) : fmt::format("`{}`", text(span))),
-             help);
+  auto& d = findings_.report(
+      rules::OutOfRange, span,
+      fmt::format("`{}` of `{}` must be {}, found {}", operand.name, command, range_of(operand),
+                  is_exact ? std::to_string(value) : fmt::format("`{}`", findings_.text(span))),
+      help);
   const bool brightness = operand.name == "red" || operand.name == "green" ||
                           operand.name == "blue" || operand.name == "value";
   if (!is_exact || operand.word_count > 0 || operand.unit == MacroUnit::Milliseconds ||
@@ -297,13 +309,13 @@ void Assembler::out_of_range(std::int64_t value, const Value& number, Span span,
   d.fix = Fix{fmt::format("write `{}`", near), {{span, std::to_string(near)}}, Safety::Unsafe};
 }
 
-std::string Assembler::read_text(const Value& value) {
+std::string Operands::read_text(const Value& value) {
   if (value.kind != Value::Kind::Text) {
-    report(rules::OutOfRange, value.span, "a comment needs text in quotes",
-           fmt::format("write `comment \"{}\"`", text(value.span)));
+    findings_.report(rules::OutOfRange, value.span, "a comment needs text in quotes",
+                     fmt::format("write `comment \"{}\"`", findings_.text(value.span)));
     return {};
   }
-  const auto quoted = text(value.span);
+  const auto quoted = findings_.text(value.span);
   std::string out;
   for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
     if (quoted[i] != '\\') {

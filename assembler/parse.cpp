@@ -146,7 +146,7 @@ std::string seen(const char* at, const char* end) {
   if (at == end)
     return "the end of the line";
   if (*at < ' ' || *at > '~')
-    return fmt::format("the byte {:02X}h", static_cast<unsigned char>(*at));
+    return fmt::format("byte {:02X}h", static_cast<unsigned char>(*at));
   return fmt::format("`{}`", *at);
 }
 

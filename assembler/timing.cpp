@@ -63,11 +63,11 @@ std::string to_string(const MacroTiming& timing) {
           : fmt::format("{} to {}", print_time(timing.least_ms), print_time(timing.most_ms));
   switch (timing.note) {
   case TimingNote::Exact: return time;
-  case TimingNote::UntilStopped: return time + ", as the ball stops";
+  case TimingNote::UntilStopped: return time + ", depending on when the ball stops";
   case TimingNote::Endless: return "endless";
   case TimingNote::Leaves: return time + ", then another macro";
-  case TimingNote::Calls: return time + ", and the macros of other files that it calls";
-  case TimingNote::SystemLoops: return time + ", with one system loop";
+  case TimingNote::Calls: return time + ", plus the macros in other files that it calls";
+  case TimingNote::SystemLoops: return time + ", with each system loop run once";
   case TimingNote::Sleeps: return time + ", then the ball sleeps";
   case TimingNote::Broken: return time + ", then bytes that are not a command";
   case TimingNote::TooLong: return "more than " + time;

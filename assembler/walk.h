@@ -3,6 +3,7 @@
 // Follows macros as the executive does, with a clock but without a ball. Private to assembler/.
 
 #include "assembler/assemble.h"
+#include "assembler/waits.h"
 
 #include <algorithm>
 #include <array>
@@ -57,28 +58,6 @@ inline MacrosById macros_by_id(const Assembly& assembly) {
   for (std::size_t i = assembly.macros.size(); i-- > 0;)
     found[assembly.macros[i].id.value_or(spec::macro_id_temporary)] = i;
   return found;
-}
-
-/// How long a command waits, given the system delays: earliest and latest.
-struct Wait {
-  std::int64_t least_ms = 0;
-  std::int64_t most_ms = 0;
-};
-
-inline Wait wait_of(const PlacedCommand& command, std::int32_t sd1_ms, std::int32_t sd2_ms) {
-  if (command.info == nullptr || command.origin == PlacedCommand::Origin::Broken)
-    return {};
-  switch (command.info->wait) {
-  case spec::MacroWait::None: return {};
-  case spec::MacroWait::Operand: {
-    const auto time = command.value[command.info->operand_count - 1U];
-    return {time, time};
-  }
-  case spec::MacroWait::Sd1: return {sd1_ms, sd1_ms};
-  case spec::MacroWait::Sd2: return {sd2_ms, sd2_ms};
-  case spec::MacroWait::Stopped: return {0, command.value[command.info->operand_count - 1U]};
-  }
-  return {};
 }
 
 /// Follows one macro as the executive does. Private to walk().

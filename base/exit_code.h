@@ -27,14 +27,15 @@ struct ExitCodeInfo {
 
 /// The exit codes in words: one table for the manual and for whoever asks.
 inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
-    {ExitCode::Done, "done; no finding of error level"},
+    {ExitCode::Done, "done; no findings at error level"},
     {ExitCode::BadInput,
      "the input has errors, or the program or macro that was run ended in a fault"},
     {ExitCode::Usage, "wrong command line or configuration"},
     {ExitCode::File, "an input cannot be read, or an output cannot be written"},
     {ExitCode::NoBall,
      "no such ball: it cannot be opened or connected to, or does not answer the first ping"},
-    {ExitCode::Refused, "the ball refused a command; the message names it and the remedy. Of several robots: one failed"},
+    {ExitCode::Refused, "the ball refused a command; the message names the command and the remedy. "
+                        "With several robots: one failed"},
     {ExitCode::LinkLost,
      "the link was lost or timed out; the message says what is on the ball now"},
     {ExitCode::Unknown,

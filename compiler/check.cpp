@@ -82,7 +82,7 @@ Checked check(std::string_view text, const Target& target) {
   checked.program = parse(text);
   if (!holds_program(checked.program)) {
     checked.diagnostics.push_back(
-        finding(rules::EmptyProgram, {0, 0}, "the file has no program line",
+        finding(rules::EmptyProgram, {0, 0}, "the file has no program lines",
                 "a line is a number, a space and a statement: `10 print \"hello\"`"));
     return checked;
   }

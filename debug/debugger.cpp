@@ -212,7 +212,7 @@ bool Debugger::give_number(std::int32_t value) {
 
 tl::expected<void, std::string> Debugger::happen(const vm::Stimulus& stimulus) {
   if (timeline_->drives())
-    return tl::unexpected(std::string("do it to the robot by hand while the program goes on"));
+    return tl::unexpected(std::string("do this to the robot by hand while the program runs"));
   is_helped_ = true;
   timeline_->change(stimulus);
   return {};

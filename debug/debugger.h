@@ -23,7 +23,7 @@ namespace orb::debug {
 
 /// Why a run on a robot is not gone back.
 inline constexpr std::string_view no_way_back =
-    "a robot cannot drive its way back: set a breakpoint earlier and begin again, or leave the "
+    "a robot cannot run backwards: set an earlier breakpoint and start again, or leave the "
     "port "
     "out";
 

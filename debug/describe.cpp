@@ -113,13 +113,13 @@ std::vector<Variable> Debugger::ball() const {
   add("place", fmt::format("{:.1f}, {:.1f}", pose.x_cm + 0.0, pose.y_cm + 0.0), "cm");
   add("heading", fmt::format("{:.0f}", pose.heading_deg), "deg");
   add("speed", fmt::format("{:.1f}", pose.speed_cm_s), "cm/s");
-  add("driven to",
+  add("target",
       ball.body().speed_setpoint() == 0
-          ? "stand"
+          ? "stand still"
           : fmt::format("heading {:.0f}, speed {}", ball.body().heading_setpoint_deg(),
                         ball.body().speed_setpoint()),
       "");
-  add("way", fmt::format("{:.1f}", ball.body().way_cm()), "cm");
+  add("distance", fmt::format("{:.1f}", ball.body().way_cm()), "cm");
   add("colour", fmt::format("#{:02X}{:02X}{:02X}", color.red, color.green, color.blue), "");
   add("battery", fmt::format("{:.2f}", ball.body().battery_v()), "V");
   add("client", ball.connected() ? "connected" : "none", "");

@@ -80,7 +80,7 @@ private:
       return static_cast<std::int32_t>(std::sqrt(static_cast<double>(*operand)));
     case spec::Function::Rnd:
       return tl::unexpected(
-          std::string("`rnd` would draw a number that the program then does not get"));
+          std::string("`rnd` would use up a random number meant for the program"));
     }
     return 0;
   }
@@ -121,7 +121,7 @@ private:
     if (const auto value = bytecode::calculate(op, a, b))
       return *value;
     return tl::unexpected(b == 0 ? std::string("division by zero")
-                                 : fmt::format("a shift by {}", b));
+                                 : fmt::format("cannot shift by {} bits", b));
   }
 
   const structured::Program& program_;

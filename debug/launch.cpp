@@ -111,7 +111,7 @@ tl::expected<void, Failure> read_test(const Launch& launch, structured::Files& f
     if (auto wrong = errors_of(*file.source, file.file.diagnostics); !wrong.empty())
       return failed(ExitCode::BadInput, std::move(wrong));
   if (made.suite->groups.empty())
-    return failed(ExitCode::BadInput, fmt::format("{} contains no test", launch.test));
+    return failed(ExitCode::BadInput, fmt::format("{} contains no tests", launch.test));
   const auto& group = made.suite->groups.front();
   const auto& program = made.suite->programs[group.program];
   if (!program.problem.empty())

@@ -91,7 +91,7 @@ std::string Debugger::missing(std::string_view name) const {
   if (input != nullptr && input->program->compiled) {
     const auto any = [](const structured::Symbol&) { return true; };
     if (symbol_called(*input->program->compiled, name, any) != nullptr)
-      return fmt::format("the robot does not hold `{}` here: it is not needed any more, or the "
+      return fmt::format("the robot does not store `{}` here: it is no longer needed, or the "
                          "compiler knew its value",
                          name);
   }
@@ -165,7 +165,7 @@ tl::expected<std::int32_t, std::string> Debugger::set(std::string_view name,
   if (!place)
     return tl::unexpected(missing(name));
   if (!timeline_->change(SetVariable{*place, *number}))
-    return tl::unexpected(std::string("no program runs"));
+    return tl::unexpected(std::string("no program is running"));
   return *number;
 }
 

@@ -102,7 +102,7 @@ std::string picture(const report::Journey& journey) {
     field.line(path[i - 1], path[i], '.');
   field.put(path.front(), 'S');
   field.put(path.back(), 'O');
-  return fmt::format("{}one character: {:.0f} cm across, {:.0f} cm up\n", field.text(),
+  return fmt::format("{}one character is {:.0f} cm wide and {:.0f} cm high\n", field.text(),
                      field.scale(), field.scale() * wider_than_high);
 }
 

@@ -70,28 +70,28 @@ std::span<const Shell::Row> Shell::rows() {
   static constexpr Row table[] = {
       {"break",        "b",   "b LINE|FILE:LINE|SUB [if COND]", "stops before a line, or where a sub begins", &Shell::add_break},
       {"watch",        "w",   "watch EXPR",      "stops when a value changes, or a condition becomes true", &Shell::add_watch},
-      {"log",          "",    "log LINE TEXT",   "prints a text instead of stopping; `{EXPR}` in it is replaced by its value", &Shell::add_log},
+      {"log",          "",    "log LINE TEXT",   "prints text instead of stopping; `{EXPR}` in it is replaced by its value", &Shell::add_log},
       {"delete",       "d",   "d [NUMBER]",      "deletes a breakpoint, or all of them", &Shell::drop},
       {"continue",     "c",   "c",               "continues to the next breakpoint", &Shell::go_on, Repeats::Yes},
-      {"step",         "s",   "s",               "goes to the next line, also into a sub", &Shell::go<Move::In, Direction::Forward>, Repeats::Yes},
-      {"next",         "n",   "n",               "goes to the next line of this sub", &Shell::go<Move::Over, Direction::Forward>, Repeats::Yes},
+      {"step",         "s",   "s",               "goes to the next line, entering subs", &Shell::go<Move::In, Direction::Forward>, Repeats::Yes},
+      {"next",         "n",   "n",               "goes to the next line in this sub", &Shell::go<Move::Over, Direction::Forward>, Repeats::Yes},
       {"finish",       "fin", "fin",             "continues until this sub has returned", &Shell::go<Move::Out, Direction::Forward>, Repeats::Yes},
-      {"until",        "u",   "until TIME",      "continues to a time of the run: `until 3.5s`", &Shell::until},
+      {"until",        "u",   "until TIME",      "continues to a time in the run: `until 3.5s`", &Shell::until},
       {"reverse-continue", "rc", "rc",           "goes back to the previous breakpoint", &Shell::go<Move::Continue, Direction::Back>, Repeats::Yes},
-      {"reverse-step", "rs",  "rs",              "goes one line back, also into a sub", &Shell::go<Move::In, Direction::Back>, Repeats::Yes},
+      {"reverse-step", "rs",  "rs",              "goes one line back, entering subs", &Shell::go<Move::In, Direction::Back>, Repeats::Yes},
       {"reverse-next", "rn",  "rn",              "goes one line back in this sub", &Shell::go<Move::Over, Direction::Back>, Repeats::Yes},
       {"goto",         "g",   "goto LINE",       "continues at another line", &Shell::jump},
       {"restart",      "r",   "r",               "goes back to the beginning and forgets what was changed", &Shell::again},
       {"print",        "p",   "p EXPR",          "prints a value: `p turns * 2`, `p xpos`, `p time`", &Shell::print},
       {"set",          "",    "set NAME = EXPR", "changes a variable", nullptr},
       {"input",        "",    "input NUMBER",    "gives `input` a number", nullptr},
-      {"shake",        "",    "shake, push 90 120, …", "something happens to the ball now, as in stimulus scripts", nullptr},
-      {"bt",           "",    "bt",              "prints where it is and who called", &Shell::trace},
+      {"shake",        "",    "shake, push 90 120, …", "makes something happen to the ball now, as in stimulus scripts", nullptr},
+      {"bt",           "",    "bt",              "prints where the program is and what called it", &Shell::trace},
       {"list",         "l",   "l [LINE]",        "prints the source around this line", &Shell::list},
       {"info",         "i",   "i [WHAT]",        "prints variables; `i ball`, `i sensors`, `i limits`, `i arrays`, `i breaks`", &Shell::info},
       {"path",         "",    "path [FILE.svg]", "draws the path so far", &Shell::path},
       {"help",         "h",   "help [COMMAND]",  "prints this", &Shell::help},
-      {"quit",         "q",   "q",               "ends", &Shell::quit},
+      {"quit",         "q",   "q",               "ends the debugger", &Shell::quit},
   };
   // clang-format on
   return table;
@@ -157,7 +157,7 @@ void Shell::until(std::string_view rest, const GiveUp& give_up) {
 void Shell::jump(std::string_view rest, const GiveUp&) {
   const auto spot = spot_of(rest);
   if (!spot || !debugger_.jump(*spot))
-    return wrong("the program cannot go on there");
+    return wrong("the program cannot continue there");
   show_place();
 }
 
@@ -181,13 +181,13 @@ void Shell::report(const Stop& stop) {
     console_.say("interrupted");
     break;
   case Stop::Reason::Robot: return wrong(stop.text);
-  case Stop::Reason::Input: console_.say("it waits for a number: `input 42`"); break;
+  case Stop::Reason::Input: console_.say("waiting for a number: `input 42`"); break;
   case Stop::Reason::End:
     if (!stop.text.empty())
       console_.say(fmt::format("error: {}", stop.text));
     console_.say(ending_of(debugger_) + (debugger_.timeline().drives() ? "" : "; `rs` goes back"));
     return;
-  case Stop::Reason::Begin: console_.say("this is where it began"); break;
+  case Stop::Reason::Begin: console_.say("this is where the run began"); break;
   }
   show_place();
 }
@@ -226,7 +226,7 @@ std::string Shell::no_place(std::string_view text) const {
     return fmt::format("`{}` is not a file of this run", text.substr(0, colon));
   const auto line = trim(text.substr(colon == std::string_view::npos ? 0 : colon + 1));
   if (parse_number<std::uint32_t>(line))
-    return fmt::format("nothing runs from line {} on", line);
+    return fmt::format("nothing runs at line {} or below", line);
   return fmt::format("no sub `{}` is called", text);
 }
 
@@ -268,7 +268,7 @@ void Shell::add_watch(std::string_view rest, const GiveUp&) {
   const bool condition = one.kind == Breakpoint::Kind::Condition;
   const auto text = one.text;
   console_.say(fmt::format("breakpoint {}: {} {}", debugger_.add(std::move(one)).id,
-                           condition ? "when" : "changes of", text));
+                           condition ? "when" : "changes to", text));
 }
 
 void Shell::add_log(std::string_view rest, const GiveUp&) {
@@ -282,7 +282,7 @@ void Shell::add_log(std::string_view rest, const GiveUp&) {
   one.spots = {*spot};
   one.log = text;
   one.text = debugger_.sources().words(*spot);
-  console_.say(fmt::format("breakpoint {}: {} says `{}`", debugger_.add(one).id, one.text, text));
+  console_.say(fmt::format("breakpoint {}: {} prints `{}`", debugger_.add(one).id, one.text, text));
 }
 
 void Shell::drop(std::string_view rest, const GiveUp&) {
@@ -346,7 +346,7 @@ std::string Shell::described(const Breakpoint& one) const {
   if (one.only_if)
     text += fmt::format(" if {}", one.only_if->text());
   if (!one.log.empty())
-    text += fmt::format(" says `{}`", one.log);
+    text += fmt::format(" prints `{}`", one.log);
   return text;
 }
 
@@ -369,7 +369,7 @@ void Shell::info(std::string_view rest, const GiveUp&) {
     return;
   }
   if (!rest.empty() && !is("variables"))
-    return wrong("`info` knows variables, arrays, ball, sensors, limits and breaks");
+    return wrong("`info` takes variables, arrays, ball, sensors, limits or breaks");
   show(debugger_.variables());
 }
 

@@ -146,7 +146,7 @@ tl::expected<Draft, IoError> Draft::of(const std::string& path) {
   draft.fd_ = ::mkostemp(draft.beside_.data(), O_CLOEXEC);
   if (draft.fd_ < 0) {
     draft.beside_.clear();
-    return failure(exists ? "write beside" : "write", path);
+    return failure(exists ? "write next to" : "write", path);
   }
   return draft;
 }

@@ -63,7 +63,7 @@ tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& na
       text.append(buffer, static_cast<std::size_t>(n));
     if (text.size() > read_most)
       return tl::unexpected(
-          IoError{fmt::format("cannot read {}: it holds more than {} MB; is it the right file?",
+          IoError{fmt::format("cannot read {}: it is larger than {} MB; is it the right file?",
                               name, read_most >> 20)});
     if (n < 0 && errno != EINTR)
       return failure("read", name);

@@ -18,7 +18,7 @@ inline constexpr auto macro_directives = std::to_array<MacroDirective>({
     {"macro", ".macro NAME [id=N] [flags=FLAG,…]",
      "begins a macro; goto, gosub and branches find it by its name"},
     {"const", ".const NAME = VALUE", "gives a number a name"},
-    {"raw", ".raw BYTE…", "puts bytes as they are"},
+    {"raw", ".raw BYTE…", "inserts bytes as they are"},
     {"noend", ".noend", "leaves out the End that the assembler adds"},
 });
 

@@ -81,7 +81,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
       } catch (error) {
         if (error.code === "broken") return; // which the page says
         if (error.code !== "stopped" && ++lost <= reconnects) language.restart();
-        else if (lost > reconnects) say("The checker has stopped. Save your program and load the page again.", "bad");
+        else if (lost > reconnects) say("The checker has stopped. Save your program and reload the page.", "bad");
       }
     };
     client = new LSPClient({

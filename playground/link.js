@@ -68,8 +68,8 @@ export async function serial_link(orb, port) {
   const { pauses_ms, serial } = await orb.call("links");
   if (!port.readable)
     await patiently(pauses_ms, () => port.open({ baudRate: serial.baud_rate }), (error, last) => {
-      if (error.name === "InvalidStateError") throw no_ball("cannot open the port: it is in use; close the other tab or program that has it");
-      if (last) throw no_ball(`cannot open the port: ${words_of(error)}; shake the ball awake, keep it near, and end other connections to it`);
+      if (error.name === "InvalidStateError") throw no_ball("cannot open the port: it is in use; close the other tab or program that is using it");
+      if (last) throw no_ball(`cannot open the port: ${words_of(error)}; shake the ball awake, keep it close, and end other connections to it`);
     });
   const inbox = new Inbox();
   const reader = port.readable.getReader(), writer = port.writable.getWriter();
@@ -124,7 +124,7 @@ export async function bluetooth_link(orb, device, which = "ble") {
   });
   const ble = kinds.find(kind => kind.names.some(name => device.name?.startsWith(name))) ?? kinds[0];
   const inbox = new Inbox();
-  const lost = closed("the robot is gone; hold it near, charge it, and try again");
+  const lost = closed("the robot is gone; bring it closer, charge it, and try again");
   let here = true;
   const gone = () => {
     here = false;
@@ -132,7 +132,7 @@ export async function bluetooth_link(orb, device, which = "ble") {
   };
   const commands = await patiently(pauses_ms, () => greet(device, ble, bytes => inbox.push(bytes)), (error, last) => {
     device.gatt.disconnect();
-    if (last) throw no_ball(`cannot connect to ${device.name ?? "the robot"}: ${words_of(error)}; shake it awake, hold it near, and end the app or the phone that may hold it`);
+    if (last) throw no_ball(`cannot connect to ${device.name ?? "the robot"}: ${words_of(error)}; shake it awake, bring it closer, and close any app or disconnect any phone that may be using it`);
   });
   device.addEventListener("gattserverdisconnected", gone);
   return {

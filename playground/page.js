@@ -192,7 +192,7 @@ function show_came(words = "", more = []) {
   $("came").hidden = !workspace.before && !more.length;
   if ($("came").hidden) return;
   const back = workspace.before ? [button("Back to what you had", go_back)] : [];
-  $("came").replaceChildren(element("span", {}, words || `This is “${workspace.title}”.`), ...more, ...back, button("Fine", () => {
+  $("came").replaceChildren(element("span", {}, words || `This is “${workspace.title}”.`), ...more, ...back, button("OK", () => {
     workspace.before = "";
     keep_soon();
     $("came").hidden = true;
@@ -213,7 +213,7 @@ const document_of = async id => id === workspace.document ? structuredClone(work
 async function go_back() {
   const before = await document_of(workspace.before) ?? kept("before");
   if (before) exchange({ ...before, before: "" }, `“${before.title}”, as you left it.`);
-  else say("This browser has not kept it.", "bad");
+  else say("This browser no longer has it.", "bad");
 }
 /** A lesson or an example of the page. */
 const pick = item => resume({ ...checked(as_workspace(item)), document: item.id, title: item.title },
@@ -222,9 +222,9 @@ const pick = item => resume({ ...checked(as_workspace(item)), document: item.id,
 async function resume(fresh, what) {
   const mine = await document_of(fresh.document);
   if (!mine || same_files(mine, fresh)) exchange(fresh, `${what} is open.`);
-  else exchange({ ...mine, before: "" }, `${what}, as you left it.`, [button("Begin it again", () => {
+  else exchange({ ...mine, before: "" }, `${what}, as you left it.`, [button("Start over", () => {
     mark_version();
-    exchange(fresh, `${what} from its beginning. What you had is among the earlier states under Mine.`);
+    exchange(fresh, `${what} from the beginning. What you had is among the earlier versions under Mine.`);
   })]);
   show_view("work");
 }
@@ -245,7 +245,7 @@ async function ask_name(title, start, then) {
   $("name-form").onsubmit = event => {
     if (event.submitter?.value !== "ok") return;
     const name = $("name").value.trim();
-    const trouble = name_trouble(name) || (name !== start && Object.hasOwn(workspace.files, name) ? "There is such a file already." : "")
+    const trouble = name_trouble(name) || (name !== start && Object.hasOwn(workspace.files, name) ? "There is already a file with that name." : "")
       || (name !== start && title === "New file" && Object.keys(workspace.files).length >= limits.files ? `${limit_words.files}.` : "");
     $("name-trouble").textContent = trouble;
     if (trouble) { event.preventDefault(); $("name").focus(); } else then(name);
@@ -261,7 +261,7 @@ $("new-file").addEventListener("click", () => ask_name("New file", "new.orb", na
 /** What a new file is good for. */
 function new_words(name) {
   const kind = kind_of(name);
-  return kind.program ? `${name} is a ${kind.words} of its own: Run runs the program that is shown.`
+  return kind.program ? `${name} is a separate ${kind.words}: Run runs the program that is shown.`
     : ending_of(name) === "test" ? `${name} says what the program must do: ${program_of(workspace, name) || "no program"} is tested.`
     : `${name} is a ${kind.words}: choose it under More.`;
 }
@@ -294,7 +294,7 @@ async function take_files(list) {
     if (file.name.endsWith(".link")) {
       const addresses = addresses_in(file.size <= 4 * limits.text ? await file.text() : "");
       if (addresses.length === 1) location.hash = addresses[0];
-      else troubles.push(addresses.length ? `${file.name} holds ${addresses.length} addresses: open them one at a time.` : `${file.name} holds no address.`);
+      else troubles.push(addresses.length ? `${file.name} contains ${addresses.length} addresses: open them one at a time.` : `${file.name} contains no address.`);
       continue;
     }
     const text = file.size <= 4 * limits.text ? await file.text() : null;
@@ -312,7 +312,7 @@ async function take_files(list) {
       mark_version();
       const next = checked({ ...stays ? workspace : {}, files: all, active: names[0] });
       if (stays) open_workspace(next);
-      else exchange({ ...next, document: new_id() }, `${names.join(", ")}: opened.`);
+      else exchange({ ...next, document: new_id() }, `Opened ${names.join(", ")}.`);
     }
   }
   if (troubles.length) say(troubles.slice(0, 3).join(" "), "bad");
@@ -333,17 +333,17 @@ async function take_address(hash) {
   if (named) {
     const id = decodeURIComponent(named[1]);
     const groups = await load_library().catch(() => {
-      throw new AddressError("The lessons and examples could not be loaded. Is there a network? Load the page again.");
+      throw new AddressError("The lessons and examples could not be loaded. Check your network connection and reload the page.");
     });
     const all = groups.flatMap(group => group.items);
     const item = all.find(one => one.id === id) ?? all.find(one => one.main === id) ?? all.find(one => Object.hasOwn(one.files, id));
     if (!item) throw new AddressError(`The address is damaged: there is no lesson or example “${id}”.`);
     return () => pick(item);
   }
-  if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which says nothing to this page.`);
+  if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which this page does not understand.`);
   const next = await from_fragment(hash);
-  if (!next) throw new AddressError("The address is damaged: there is no program in it that can be read.");
-  if (next.name) return () => exchange({ ...next, document: new_id(), title: `${next.name}: ${title_of(next)}` }, `What ${next.name} has handed in is open.`);
+  if (!next) throw new AddressError("The address is damaged: it contains no program that can be read.");
+  if (next.name) return () => exchange({ ...next, document: new_id(), title: `${next.name}: ${title_of(next)}` }, `What ${next.name} handed in is open.`);
   if (!next.task) return () => exchange({ ...next, document: new_id() }, "A shared program is open.");
   return () => resume({ ...next, document: id_of(hash), title: title_of(next) }, `The lesson “${title_of(next)}”`);
 }
@@ -357,7 +357,7 @@ async function open_address() {
     await open();
     return true;
   } catch (error) {
-    say(error instanceof AddressError ? error.message : "The address is damaged: there is no program in it that can be read.", "bad");
+    say(error instanceof AddressError ? error.message : "The address is damaged: it contains no program that can be read.", "bad");
     return false;
   }
 }

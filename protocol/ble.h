@@ -29,13 +29,13 @@ struct BleStepInfo {
 };
 
 inline constexpr auto ble_steps = std::to_array<BleStepInfo>({
-    {BleStep::Bus, "bus", "asking for bluetoothd"},
+    {BleStep::Bus, "bus", "looking for bluetoothd"},
     {BleStep::Adapter, "adapter", "looking for an adapter"},
     {BleStep::Find, "find", "looking for the robot"},
     {BleStep::Connect, "connect", "connecting"},
     {BleStep::Services, "services", "asking what the robot can do"},
     {BleStep::AntiDos, "anti-dos", "opening the robot to commands"},
-    {BleStep::TxPower, "tx-power", "setting its sending power"},
+    {BleStep::TxPower, "tx-power", "setting its transmit power"},
     {BleStep::Wake, "wake", "waking the robot"},
     {BleStep::Subscribe, "subscribe", "subscribing to its answers"},
 });

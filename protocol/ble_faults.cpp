@@ -108,7 +108,7 @@ tl::expected<void, std::string> read_value(std::string_view item, std::string_vi
   return wrong_word(
       item,
       fmt::format("unknown; {}",
-                  did_you_mean(name, words, fmt::format("there are {}", fmt::join(words, " ")))));
+                  did_you_mean(name, words, fmt::format("use one of {}", fmt::join(words, " ")))));
 }
 
 tl::expected<void, std::string> read_item(std::string_view item, BleFaultPlan& plan) {

@@ -82,8 +82,8 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
     constexpr std::uint64_t most_stale = 1000; // more than any link was seen to keep
     const auto count = parse_number<std::uint64_t>(value);
     if (!count || (name == "stale=" && *count > most_stale))
-      return wrong_word(item,
-                        name == "seed=" ? "a seed is a whole number" : "a number from 0 to 1000");
+      return wrong_word(item, name == "seed=" ? "a seed is a whole number"
+                                              : "it takes a number from 0 to 1000");
     if (name == "seed=")
       plan.seed = *count;
     else
@@ -97,7 +97,7 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
   return wrong_word(
       item,
       fmt::format("unknown; {}",
-                  did_you_mean(name, words, fmt::format("there are {}", fmt::join(words, " ")))));
+                  did_you_mean(name, words, fmt::format("use one of {}", fmt::join(words, " ")))));
 }
 
 void add_rate(std::string& out, std::string_view name, double rate) {

@@ -46,10 +46,11 @@ std::string seen_and_expected(const MacroError& error) {
         "{:02X}h is not a macro command; expected a command code, {:02X}h to {:02X}h", error.byte,
         std::begin(spec::macro_commands)->code, (std::end(spec::macro_commands) - 1)->code);
   case MacroError::Kind::CutOperand:
-    return fmt::format("the bytes end inside `{}` ({:02X}h); expected its operand `{}`, {} of the "
-                       "{} that the command takes are there",
-                       error.command->mnemonic, error.byte, error.operand->name, error.present,
-                       plural(error.wanted, "byte"));
+    return fmt::format(
+        "the bytes end inside `{}` ({:02X}h); expected its operand `{}`, found {} of the "
+        "{} that the command takes",
+        error.command->mnemonic, error.byte, error.operand->name, error.present,
+        plural(error.wanted, "byte"));
   case MacroError::Kind::CutText:
     return fmt::format("the bytes end inside a `{}` ({:02X}h); expected {} of text, found {}",
                        error.command->mnemonic, error.byte, plural(error.wanted, "byte"),

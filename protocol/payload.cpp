@@ -123,7 +123,7 @@ tl::expected<Bytes, EncodeError> parse_hex(const Field& field, std::string_view 
 }
 
 EncodeError out_of_range(const Field& field, std::int64_t value) {
-  return {fmt::format("`{}` is {} to {}, found {}", field.name, field.least, field.most, value)};
+  return {fmt::format("`{}` takes {} to {}, found {}", field.name, field.least, field.most, value)};
 }
 
 EncodeError miscounted(const spec::CommandInfo& row, std::size_t least, std::size_t most,
@@ -227,7 +227,7 @@ tl::expected<Bytes, EncodeError> encode_rest(const Field& field,
     const auto range = field.least == field.most ? fmt::format("{}", field.most)
                                                  : fmt::format("{} to {}", field.least, field.most);
     return tl::unexpected(
-        EncodeError{fmt::format("`{}` is {} bytes, found {}", field.name, range, size)});
+        EncodeError{fmt::format("`{}` takes {} bytes, found {}", field.name, range, size)});
   }
   return data;
 }
@@ -238,7 +238,7 @@ tl::expected<std::int64_t, EncodeError> encode_number(const Field& field, const 
     value = named_value(field, word);
   if (!value)
     return tl::unexpected(
-        EncodeError{fmt::format("`{}` is a number, found `{}`", field.name, word)});
+        EncodeError{fmt::format("`{}` takes a number, found `{}`", field.name, word)});
   if (*value < field.least || *value > field.most)
     return tl::unexpected(out_of_range(field, *value));
   return *value;
@@ -246,7 +246,7 @@ tl::expected<std::int64_t, EncodeError> encode_number(const Field& field, const 
 
 EncodeError too_close(const spec::Distance& distance, std::int64_t upper, std::int64_t lower) {
   const auto fields = spec::operands(distance.command);
-  return {fmt::format("`{}` is at least {} more than `{}`, found {} and {}",
+  return {fmt::format("`{}` must be at least {} more than `{}`, found {} and {}",
                       fields[distance.upper].name, distance.least, fields[distance.lower].name,
                       upper, lower)};
 }

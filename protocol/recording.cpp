@@ -58,11 +58,11 @@ tl::expected<void, LinkError> ReplayTransport::write(ByteView bytes) {
           fmt::format("the recording ends before sent byte {} ({:02X}h)", total_ + 1, byte)});
     const auto expected = pieces_[next_].bytes[written_];
     if (byte != expected)
-      return tl::unexpected(
-          LinkError{LinkError::Kind::Mismatch,
-                    fmt::format("sent byte {} is {:02X}h, the recording has {:02X}h there; it was "
-                                "made with other files or options",
-                                total_ + 1, byte, expected)});
+      return tl::unexpected(LinkError{
+          LinkError::Kind::Mismatch,
+          fmt::format("sent byte {} is {:02X}h, but the recording has {:02X}h there; it was "
+                      "made with different files or options",
+                      total_ + 1, byte, expected)});
     ++total_;
     if (++written_ == pieces_[next_].bytes.size()) {
       written_ = 0;

@@ -13,7 +13,7 @@ std::string_view describe(spec::Status status) {
   switch (status) {
   case spec::Status::Implemented: return "implemented";
   case spec::Status::Factory: return "refused with 05h: works only at the factory";
-  case spec::Status::Unsupported: return "refused with 05h: no firmware has it";
+  case spec::Status::Unsupported: return "refused with 05h: no firmware supports it";
   case spec::Status::Password: return "refused with 0Bh: the password is not public";
   case spec::Status::Bootloader: return "refused with 09h outside the bootloader";
   }
@@ -24,7 +24,7 @@ std::string_view describe(spec::Retry retry) {
   switch (retry) {
   case spec::Retry::No: return "no";
   case spec::Retry::SameAgain: return "send the same packet again";
-  case spec::Retry::Later: return "again when the ball's state has changed";
+  case spec::Retry::Later: return "send it again when the ball's state has changed";
   case spec::Retry::StartOver: return "repeat the whole operation";
   }
   return "";
@@ -58,7 +58,7 @@ std::string describe(const spec::Field& field) {
   if (!field.unit.empty() && field.unit != field.name)
     out += fmt::format(" {}", field.unit);
   if (field.presence == spec::Presence::Optional)
-    out += " (may be missing)";
+    out += " (optional)";
   return out;
 }
 
@@ -132,7 +132,7 @@ Section responses_section() {
 }
 
 Section streams_section() {
-  Section section{"streams", "Sources of data streaming", "stream", {}};
+  Section section{"streams", "Data streaming sources", "stream", {}};
   for (const auto& row : spec::streams) {
     Entry entry;
     entry.name = row.name;
@@ -161,7 +161,7 @@ Section firmwares_section() {
                                                  : "no orbBasic");
     entry.facts.emplace_back("API", fmt::format("{}.{:02}", row.api.major, row.api.minor));
     entry.facts.emplace_back("Level 2 diagnostics",
-                             row.level_2 == spec::Level2::Told ? "told" : "refused");
+                             row.level_2 == spec::Level2::Told ? "supported" : "refused");
     section.entries.push_back(std::move(entry));
   }
   return section;

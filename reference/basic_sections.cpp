@@ -126,17 +126,18 @@ Section letters_section() {
   const auto values = range(-greatest, greatest, "");
   Entry plain;
   plain.name = "A to X";
-  plain.summary = "a variable of the program: a number, 0 when it starts";
+  plain.summary = "a program variable: a number, 0 when the program starts";
   for (char letter = 'A'; letter <= 'X'; ++letter)
     plain.aliases.emplace_back(1, letter);
   plain.facts.emplace_back("range", values);
   plain.facts.emplace_back("small letters", "the same variables: `a` is `A`");
   plain.code.emplace_back("example", "10 A = A + 1");
-  Entry index{.name = "Y", .summary = "a variable, and the number of the element that `Z` is"};
+  Entry index{.name = "Y",
+              .summary = "a variable, and the index of the element that `Z` stands for"};
   index.facts.emplace_back(
       "range", fmt::format("{}; where `Z` is used, {}", values,
                            range(1, spec::value_of(spec::Limit::IndexedVariables), "")));
-  Entry element{.name = "Z", .summary = "the element of the list that `Y` names"};
+  Entry element{.name = "Z", .summary = "the list element that `Y` selects"};
   element.facts.emplace_back("range", values);
   element.code.emplace_back("example", "10 Y = 3\n20 Z = 100");
   section.entries = {std::move(plain), std::move(index), std::move(element)};
@@ -148,7 +149,7 @@ Section colours_section() {
   for (const auto& row : spec::led_colours) {
     Entry entry;
     entry.name = row.name;
-    entry.summary = fmt::format("the colour {} of `LEDC`", row.code);
+    entry.summary = fmt::format("colour {} of `LEDC`", row.code);
     entry.facts.emplace_back("LEDC", fmt::format("{}", row.code));
     entry.facts.emplace_back("RGB", fmt::format("{},{},{}", row.red, row.green, row.blue));
     entry.swatches.push_back(swatch(row));
@@ -211,7 +212,7 @@ Section operators_section() {
 }
 
 Section basic_errors_section() {
-  Section section{"errors", "Errors of a running program", "orbBasic error", {}};
+  Section section{"errors", "Errors in a running program", "orbBasic error", {}};
   for (const auto& row : spec::basic_errors) {
     const auto code = spec::code(row.error);
     Entry entry;

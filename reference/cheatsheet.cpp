@@ -92,10 +92,11 @@ std::string errors() {
 std::string limits() {
   const auto of = [](spec::Limit limit) { return spec::value_of(limit); };
   return fmt::format(
-      "Lines are numbered {} to {}. {} loops and {} subroutines can be open, {} parentheses in an "
+      "Lines are numbered {} to {}. {} loops and {} subroutines can be open, and {} parentheses in "
+      "an "
       "expression. A `print` has at most {} characters, `data` {} values, the list `Z` {} "
       "elements, "
-      "a number at most {}. A program has {} bytes on every robot, {} on newer ones.\n",
+      "and a number is at most {}. A program can have {} bytes on every robot, {} on newer ones.\n",
       of(spec::Limit::LeastLineNumber), of(spec::Limit::GreatestLineNumber),
       of(spec::Limit::ForDepth), of(spec::Limit::GosubDepth), of(spec::Limit::ExpressionLevels),
       of(spec::Limit::PrintBytes), of(spec::Limit::DataValues), of(spec::Limit::IndexedVariables),
@@ -111,12 +112,12 @@ std::string print_cheatsheet() {
                     "## Structured programs (`.orb`)\n\n"
                     "One statement per line, names of your own, blocks; `'` begins a comment, "
                     "`1.5s` and `200ms` are times. `goto`, `gosub`, `on` and line numbers are not "
-                    "needed; all other statements of the second table are the same.\n\n";
+                    "needed; all other statements in the second table are the same.\n\n";
   out += structured_words();
-  out += "\n## Numbered programs (`.bas`), and what both have\n\n"
+  out += "\n## Numbered programs (`.bas`), and what both share\n\n"
          "A line is a number, a space and a statement; lines run in the order of the "
          "text. `'` begins a comment. Variables are `A` to `Y`, all 0 at the start, and "
-         "`Z`, the element of the list that `Y` selects. Case counts: `RGB`, `goto`.\n\n";
+         "`Z`, the element of the list that `Y` selects. Case matters: `RGB`, `goto`.\n\n";
   out += statements();
   out += fmt::format("\n**In expressions:** {}\n**Between expressions after `if`:** {}\n"
                      "**To read:** {}\n**`LEDC`:** {}\n**`basflg`:** {}\n"

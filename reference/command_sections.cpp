@@ -50,7 +50,7 @@ void add(Section& section, const Option& option, const std::string& command) {
 } // namespace
 
 std::vector<Section> commands_knowledge(const CommandLine& line) {
-  Section commands{"commands", "Commands", "command of orb", {}};
+  Section commands{"commands", "Commands", "orb command", {}};
   Section options{"options", "Options", "option", {}};
   for (const auto& option : line.orb.options)
     add(options, option, "every command");

@@ -11,7 +11,7 @@ namespace {
 
 std::string describe(const spec::MacroOperand& operand) {
   if (operand.kind == spec::MacroOperandKind::Text)
-    return fmt::format("text, its length in {} bytes before it", operand.width);
+    return fmt::format("text, preceded by its length in {} bytes", operand.width);
   const auto unit = spec::to_string(operand.unit);
   auto out = fmt::format("{} to {}{}{}, {}", operand.minimum, operand.maximum,
                          unit.empty() ? "" : " ", unit, plural(operand.width, "byte"));

@@ -203,7 +203,7 @@ std::string options_list(const Command& command) {
     if (!option.default_value.empty())
       text += fmt::format(" The default is `{}`.", option.default_value);
     if (!option.environment.empty())
-      text += fmt::format(" The environment variable `{}` gives it too.", option.environment);
+      text += fmt::format(" The environment variable `{}` sets it too.", option.environment);
     out += prose(text);
   }
   return out.empty() ? out : ".Bl -tag -width Ds\n" + out + ".El\n";
@@ -244,7 +244,7 @@ ManualPage command_page(const CommandLine& line, const Command& command) {
     if (!option.asks_for_help)
       common +=
           fmt::format("{}.Fl Fl {}", common.empty() ? "" : " ,\n", word(option.long_names.front()));
-  text += common + "\nof\n" + reference("orb.1") + "\nmay stand here too.\n";
+  text += common + "\nof\n" + reference("orb.1") + "\nmay be used here too.\n";
   text += exit_status();
   text += ".Sh EXAMPLES\n" + literal(command.examples);
   text += see_also({"orb.1", "orb-macro.7", "orbbasic.7"});
@@ -261,26 +261,26 @@ ManualPage main_page(const CommandLine& line) {
     pages.push_back("orb-" + command.name + ".1");
     text += fmt::format(".It {}\n{}", reference(pages.back()), prose(sentence(command.summary)));
   }
-  text += ".El\n.Pp\nThe options that stand before or after any command are as follows:\n" +
+  text += ".El\n.Pp\nThe options that can come before or after any command are as follows:\n" +
           options_list(line.orb);
   text += ".Sh ENVIRONMENT\n.Bl -tag -width Ds\n"
           ".It Ev ORB_PORT\n.It Ev ORB_TARGET\n"
-          "Stand for\n.Fl Fl port\nand\n.Fl Fl target\nwhere these are not given.\n"
+          "Stand in for\n.Fl Fl port\nand\n.Fl Fl target\nwhere these are not given.\n"
           ".It Ev NO_COLOR\n.It Ev CLICOLOR_FORCE\n"
           "Switch colour off, or on even when the output is not a terminal.\n"
           ".It Ev ORB_PERF_MAP\n"
-          "Lets\n.Nm orb Cm run\nleave\n.Pa /tmp/perf-PID.map ,\n"
-          "which tells\n.Ql perf report\nthe lines that machine code belongs to.\n.El\n";
+          "Lets\n.Nm orb Cm run\nwrite\n.Pa /tmp/perf-PID.map ,\n"
+          "which tells\n.Ql perf report\nwhich lines the machine code belongs to.\n.El\n";
   text += ".Sh FILES\n.Bl -tag -width Ds\n"
           ".It Pa orb.toml\n"
-          "Configuration of a project, found in the working folder or one above it.\n"
+          "The configuration of a project, found in the working folder or one above it.\n"
           "A section\n.Li [balls]\nnames balls\n.Pq Li red = \\(dqrfcomm://...\\(dq\n"
           "that are used as\n.Li @red ;\n"
-          "other sections give the options of the command of that name:\n"
-          "targets, levels of rules, layout and budgets, but no outputs.\n"
-          "The search ends at the root of the repository or at home.\n"
+          "other sections set options of the command with that name:\n"
+          "targets, rule levels, layout and budgets, but not outputs.\n"
+          "The search ends at the root of the repository or at the home folder.\n"
           ".It Pa $XDG_CONFIG_HOME/orb/config.toml\n"
-          "The same for all projects, and any option; weaker than\n.Pa orb.toml .\n.El\n";
+          "The same for all projects, and for any option; overridden by\n.Pa orb.toml .\n.El\n";
   text += exit_status();
   text += ".Sh EXAMPLES\n" + literal(line.orb.examples);
   std::sort(pages.begin(), pages.end());
@@ -312,17 +312,17 @@ std::string section_text(const Section& section) {
 }
 
 constexpr std::string_view basic_intro =
-    "orbBasic is the programming language inside Sphero robots of the first generation. "
+    "orbBasic is the programming language inside first-generation Sphero robots. "
     "A program is a list of lines, and each line is a number from {} to {}, at least one space, "
-    "and one statement. The lines run in the order of the text, about 3000 in a second. Keywords "
+    "and one statement. The lines run in the order of the text, about 3000 a second. Keywords "
     "and system variables are written exactly as on this page: `RGB` is a statement, `rgb` is not. "
     "A single quote begins a comment, which never reaches the robot.";
 constexpr std::string_view basic_values =
     "Values are 32-bit integers. The variables are `A` to `Y`, the same as `a` to `y`; "
     "`Z` is the element of a set of 25 that `Y` names. All are 0 when a program begins. "
-    "Parentheses bind strongest, then `* / % { }`, then `+ - & |`; operators of one level "
+    "Parentheses bind strongest, then `* / % { }`, then `+ - & |`; operators of the same level "
     "associate to the left. "
-    "Conditions are two expressions with one of `= ! < >` between them, and at most two of them "
+    "A condition is two expressions with one of `= ! < >` between them; at most two can be "
     "joined by `and` or `or`.";
 constexpr std::string_view basic_example = "10 for H = 0 to 270 step 90\n"
                                            "20 goroll H,100,1\n"
@@ -330,13 +330,14 @@ constexpr std::string_view basic_example = "10 for H = 0 to 270 step 90\n"
                                            "40 next H\n"
                                            "50 goroll 0,0,0";
 constexpr std::string_view macro_intro =
-    "A macro is a short list of commands that runs inside a Sphero robot with a clock of one "
-    "millisecond, without arithmetic or conditions. This page lists the commands and flags as the "
-    "assembler of orb writes them: one command in a line, its operands separated by commas or "
+    "A macro is a short list of commands that runs inside a Sphero robot with a one-"
+    "millisecond clock, without arithmetic or conditions. This page lists the commands and flags "
+    "as the "
+    "assembler takes them: one command per line, its operands separated by commas or "
     "given "
-    "by name, `delay=` last; `#` begins a remark. `.macro` names a macro and gives its id and "
+    "by name, `delay=` last; `#` begins a comment. `.macro` names a macro and gives its id and "
     "flags, `.const` names a "
-    "number, `.raw` holds bytes as they are; an End is added where none is written.";
+    "number, `.raw` inserts bytes as they are; an End is added where none is written.";
 constexpr std::string_view macro_example = ".macro blink id=40 flags=motor_control\n"
                                            "  loop_start 3\n"
                                            "    rgb 255, 0, 0, delay=250ms\n"
@@ -359,7 +360,7 @@ ManualPage basic_page(const std::vector<Section>& sections) {
 }
 
 ManualPage macro_page(const std::vector<Section>& sections) {
-  auto text = head("orb-macro", 7, "macros of Sphero robots");
+  auto text = head("orb-macro", 7, "macros for Sphero robots");
   text += ".Sh DESCRIPTION\n" + prose(macro_intro);
   for (const auto& section : sections)
     if (section.id.starts_with("macro-") && section.id.find("rules") == std::string_view::npos)

@@ -36,8 +36,7 @@ Section limits_section() {
 }
 
 Section macro_limits_section() {
-  return with_rows({"macro-limits", "Ids and sizes of macros", "macro limit", {}},
-                   spec::macro_numbers);
+  return with_rows({"macro-limits", "Macro ids and sizes", "macro limit", {}}, spec::macro_numbers);
 }
 
 Section ball_section() {

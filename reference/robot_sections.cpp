@@ -69,7 +69,7 @@ Section robots_section() {
     entry.facts.emplace_back("name over Bluetooth LE", row.robot == spec::Robot::Sphero
                                                            ? "none"
                                                            : fmt::format("{}…", ble.prefix));
-    entry.facts.emplace_back("a command each", fmt::format("{} ms at least", row.interval.count()));
+    entry.facts.emplace_back("a command each", fmt::format("at least {} ms", row.interval.count()));
     entry.facts.emplace_back("processors", std::to_string(row.processors));
     entry.facts.emplace_back("speed 60", fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 60)));
     entry.facts.emplace_back("speed 255",
@@ -83,7 +83,7 @@ Section robots_section() {
 }
 
 Section robot_commands_section() {
-  Section section{"robot-commands", "Commands of the newer robots", "command of packets v2", {}};
+  Section section{"robot-commands", "Commands of the newer robots", "v2 packet command", {}};
   for (const auto& row : spec::v2_commands) {
     Entry entry;
     entry.name = row.name;

@@ -147,7 +147,7 @@ private:
   /// Blocks of several lines, each with one fix at all of its findings.
   void blocks() {
     for (const auto& block : blocks_as_jumps(source_, scenery_, judge_.parses)) {
-      Fix fix{"write jumps for the block", block.edits, Safety::Safe};
+      Fix fix{"replace the block with jumps", block.edits, Safety::Safe};
       Diagnostic all;
       all.fix = fix;
       fix.safety = block.sure ? Safety::Safe : Safety::Unsafe;

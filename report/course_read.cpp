@@ -110,8 +110,8 @@ Span Reader::place(const pugi::xml_node& node, std::string_view attribute, Span 
 
 bool Reader::is_text() {
   if (text_.size() > most_bytes) {
-    say(rules::CourseTooLarge, {0, 0}, fmt::format("the file has {} bytes", text_.size()),
-        "4 MB is the most; delete everything that is not a wall, zone or start");
+    say(rules::CourseTooLarge, {0, 0}, fmt::format("the file is {} bytes", text_.size()),
+        "the limit is 4 MB; delete everything that is not a wall, zone or start");
     return false;
   }
   if (text_.starts_with("\x1f\x8b")) {
@@ -182,7 +182,7 @@ double Reader::scale(const pugi::xml_node& root) {
     return 1;
   if (box.size() != 4 || box[2] <= 0 || box[3] <= 0) {
     say(rules::CourseValue, place(root, "viewBox"),
-        "`viewBox` is four numbers: left, top, width and height",
+        "`viewBox` takes four numbers: left, top, width and height",
         "as in `viewBox=\"0 0 210 297\"`");
     return 1;
   }
@@ -197,9 +197,11 @@ double Reader::scale(const pugi::xml_node& root) {
   constexpr double alike = 0.01;
   if (std::abs(by_width - by_height) > alike * by_width)
     say(rules::CourseScale, place(root, "viewBox"),
-        fmt::format("1 unit is {:.4g} cm by the width and {:.4g} cm by the height", by_width,
-                    by_height),
-        fmt::format("the smaller one counts; `height=\"{:.6g}cm\"` would fit", by_width * box[3]));
+        fmt::format(
+            "1 unit is {:.4g} cm according to the width and {:.4g} cm according to the height",
+            by_width, by_height),
+        fmt::format("the smaller one counts; `height=\"{:.6g}cm\"` would match",
+                    by_width * box[3]));
   return std::min(by_width, by_height);
 }
 
@@ -225,7 +227,7 @@ void Reader::walk(const Element& parent, int depth) {
   if (depth > most_groups) {
     say(rules::CourseTooLarge, place(parent.node),
         fmt::format("more than {} nested groups", most_groups),
-        "in Inkscape ungroup what is not one thing (Shift+Ctrl+G)");
+        "in Inkscape, ungroup what need not be a group (Shift+Ctrl+G)");
     return;
   }
   for (const auto& node : parent.node.children()) {
@@ -289,7 +291,8 @@ void Reader::doubt(const pugi::xml_node& node, std::string_view attribute, std::
   const auto meant = closest(word, names);
   if (meant && (meant->size() != word.size() ||
                 std::is_permutation(word.begin(), word.end(), meant->begin())))
-    say(rules::CourseName, place(node, attribute), fmt::format("`{}` is decoration", word),
+    say(rules::CourseName, place(node, attribute),
+        fmt::format("`{}` is treated as decoration", word),
         fmt::format("did you mean `{}`?", *meant));
 }
 
@@ -325,7 +328,7 @@ double Reader::number(const pugi::xml_node& node, const char* attribute) {
   if (!value || !std::isfinite(*value)) {
     say(rules::CourseValue, place(node, attribute),
         fmt::format("`{}` must be a number without a unit, found `{}`", attribute, text),
-        "`width`, `height` and `viewBox` of the drawing set the length of 1 unit");
+        "the drawing's `width`, `height` and `viewBox` set the length of 1 unit");
     return 0;
   }
   return *value;

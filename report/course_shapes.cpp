@@ -38,7 +38,7 @@ std::optional<Outlines> Reader::points(const Element& element) {
   const auto numbers = attribute_numbers(element.node, "points");
   if (numbers.size() % 2 != 0)
     say(rules::CourseValue, place(element.node, "points"),
-        fmt::format("`points` has {} numbers; a point is two", numbers.size()));
+        fmt::format("`points` has {} numbers; each point needs two", numbers.size()));
   Outline line;
   for (std::size_t i = 0; i + 1 < numbers.size() && i < 2 * most_points; i += 2)
     line.points.push_back({numbers[i], numbers[i + 1]});
@@ -76,7 +76,7 @@ std::vector<Point> Reader::placed(const Element& element, const std::vector<Poin
     if (!(std::abs(place_cm.x) <= farthest_cm && std::abs(place_cm.y) <= farthest_cm)) {
       say(rules::CourseTooLarge, place(element.node),
           fmt::format("this {} reaches farther than 1 km", name_of(element.role)),
-          "`width`, `height` and `viewBox` of the drawing set the length of 1 unit");
+          "the drawing's `width`, `height` and `viewBox` set the length of 1 unit");
       return {};
     }
     out.push_back(place_cm);
@@ -92,7 +92,7 @@ std::vector<Point> Reader::placed(const Element& element, const std::vector<Poin
 }
 
 void Reader::wall(const Element& element) {
-  constexpr std::string_view help = "draw it with straight pieces, or make them of it: "
+  constexpr std::string_view help = "draw it with straight pieces, or flatten it: "
                                     "Extensions > Modify Path > Flatten Bezier";
   if (is_round(element))
     return say(rules::CourseCurvedWall, place(element.node),
@@ -106,7 +106,7 @@ void Reader::wall(const Element& element) {
                element.name == "path" ? place(element.node, "d", *lines->curve)
                                       : place(element.node, "rx"),
                element.name == "path" ? "this part of the wall is curved"
-                                      : "the corners of this wall are round",
+                                      : "the corners of this wall are rounded",
                std::string(element.name == "path" ? help : "remove `rx` and `ry`"));
   const auto before = pieces_.size();
   for (const auto& line : lines->lines)
@@ -130,11 +130,11 @@ void Reader::zone(const Element& element) {
   Zone zone;
   zone.id = element.node.attribute("id").value();
   if (zone.id.empty())
-    say(rules::CourseZone, place(element.node), "missing `id` of a zone",
-        "give it one, such as `id=\"goal\"`: tests call it by that");
+    say(rules::CourseZone, place(element.node), "missing zone `id`",
+        "give it one, such as `id=\"goal\"`, by which tests can name it");
   else if (!ids_.insert(zone.id).second)
     say(rules::CourseZone, place(element.node, "id"),
-        fmt::format("duplicate zone id `{}`", zone.id), "each zone needs an id of its own");
+        fmt::format("duplicate zone id `{}`", zone.id), "each zone needs its own id");
   if (is_round(element))
     round_zone(element, zone);
   else if (const auto lines = element.name == "line" ? std::nullopt : outlines(element))

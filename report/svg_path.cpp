@@ -158,7 +158,8 @@ constexpr auto functions = std::to_array<Function>({
 // clang-format on
 
 constexpr std::string_view transform_help =
-    "a transform is translate(x y), rotate(degrees), scale(factor), matrix(a b c d e f) or several";
+    "a transform is translate(x y), rotate(degrees), scale(factor), matrix(a b c d e f) or several "
+    "of these";
 
 /// Reads path data into lines: the commands of SVG, and where the pen is.
 class Path {
@@ -405,7 +406,7 @@ Numbers read_numbers(std::string_view text) {
   while (!scan.done()) {
     const auto value = scan.number();
     if (!value) {
-      out.mistake = scan.mistake("a number", "write numbers with blanks or commas between them");
+      out.mistake = scan.mistake("a number", "separate the numbers with spaces or commas");
       return out;
     }
     out.values.push_back(*value);

@@ -39,7 +39,7 @@ std::string elsewhere(const Suspect& suspect, std::int64_t value) {
   if (!is_colour && !(suspect.turns && value < suspect.least))
     return "";
   const auto turn = suspect.greatest + 1;
-  return fmt::format("some balls take it as {} and go on, as with `--lenient`",
+  return fmt::format("some balls treat it as {} and continue, as with `--lenient`",
                      is_colour ? std::clamp(value, suspect.least, suspect.greatest)
                                : (value % turn + turn) % turn);
 }
@@ -174,7 +174,7 @@ private:
     cause.aside = elsewhere(suspect, value);
     cause.least = suspect.least;
     cause.greatest = suspect.greatest;
-    cause.seen = fmt::format("{} is {}, {} allowed", suspect.name, value,
+    cause.seen = fmt::format("{} is {}; it must be {}", suspect.name, value,
                              range(suspect.least, suspect.greatest));
     if (suspect.turns && !is_written_out(suspect) && !text(suspect.root).empty()) {
       const auto use = turned(suspect, value < 0);
@@ -296,9 +296,9 @@ public:
       return {};
     const auto& frames = machine_->core().frames;
     if (frames.loop == frames.loops.data())
-      return {.seen = "no loop is open", .help = "a `goto` into a loop misses its `for`"};
+      return {.seen = "no loop is open", .help = "a `goto` into a loop skips its `for`"};
     const auto name = name_of(*frames.loop);
-    return {.seen = fmt::format("the open loop counts `{}`", name),
+    return {.seen = fmt::format("the open loop counts with `{}`", name),
             .help = fmt::format("write `{} next {}`", line_.number, name)};
   }
 
@@ -309,7 +309,7 @@ public:
     Cause cause;
     for (const auto* loop = &frames.loops[1]; loop <= frames.loop; ++loop)
       cause.seen += fmt::format("{}{}", cause.seen.empty() ? "" : ", ", name_of(*loop));
-    cause.seen = fmt::format("the loops of {} are open", cause.seen);
+    cause.seen = fmt::format("the loops that count with {} are open", cause.seen);
     cause.help = "a loop ends at its `next`; a `goto` out of it leaves it open";
     return cause;
   }
@@ -322,7 +322,7 @@ public:
     if (count == 0)
       return {.seen = "no `data` line has run yet",
               .help = before ? fmt::format("write `{} data 1,2,3`", *before) : ""};
-    return {.seen = fmt::format("all {} values of `data` are read", count),
+    return {.seen = fmt::format("all {} values in `data` have been read", count),
             .help = before ? fmt::format("to start again, write `{} rstr`", *before) : ""};
   }
 

@@ -43,7 +43,7 @@ tl::expected<uploader::Delivery, Failure> arrange(std::span<const Input> inputs,
       continue;
     if (delivery.program)
       return refuse(ExitCode::Usage,
-                    fmt::format("{}: a ball holds one program, and {} is already given",
+                    fmt::format("{}: a ball holds one program, but {} was already given",
                                 input.source->name(), delivery.program_name));
     delivery.program_name = input.source->name();
     const auto& bytes = input.program->image.bytes;
@@ -54,7 +54,7 @@ tl::expected<uploader::Delivery, Failure> arrange(std::span<const Input> inputs,
   }
   if (std::count_if(delivery.macros.begin(), delivery.macros.end(), std::not_fn(is_kept)) > 1)
     return refuse(ExitCode::Usage,
-                  "a ball holds one temporary or streamed macro; give the others ids from "
+                  "a ball holds only one temporary or streamed macro; give the others ids from "
                   "32 to 253");
   if (options.run && !delivery.program && !delivery.macros.empty())
     delivery.macros.back().job.run = true;

@@ -107,7 +107,7 @@ std::string story(const Ending& ending) {
   tell(sight.color ? name_of(*sight.color) : "");
   tell(blows(sight));
   tell(sight.met.empty() ? "" : fmt::format("met {}", fmt::join(sight.met, " and ")));
-  tell(ending.waits_for.empty() ? "" : "waits for " + ending.waits_for);
+  tell(ending.waits_for.empty() ? "" : "waiting for " + ending.waits_for);
   return told;
 }
 

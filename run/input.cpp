@@ -175,7 +175,7 @@ Failure unknown_content(std::string_view name) {
   if (name.ends_with(".stimulus"))
     return {ExitCode::Usage,
             fmt::format("{0} is a stimulus script; give it with `--stimulus {0}`", name)};
-  return {ExitCode::Usage, fmt::format("cannot tell the language of {} by its name; give "
+  return {ExitCode::Usage, fmt::format("cannot tell the language of {} from its name; give "
                                        "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};
 }

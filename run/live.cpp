@@ -265,9 +265,9 @@ std::string_view why(const vm::event::MacroEnd& end) {
   case vm::event::MacroEnd::Reason::Aborted:
   case vm::event::MacroEnd::Reason::Slept: return {};
   case vm::event::MacroEnd::Reason::NoSuchMacro:
-    return "it jumps to an id that no macro of the ball has; add that macro to the command line";
+    return "it jumps to an id that no macro on the ball has; add that macro to the command line";
   case vm::event::MacroEnd::Reason::BadCommand:
-    return "what follows is not a whole command; see `orb asm --listing`";
+    return "what follows is not a complete command; see `orb asm --listing`";
   case vm::event::MacroEnd::Reason::StreamEnd: return "`stream_end` ends only streams; write `end`";
   case vm::event::MacroEnd::Reason::Inhibited:
     return "it leads to a macro that `inh_if_conn` keeps from running while a client is connected";
@@ -278,7 +278,7 @@ std::string_view why(const vm::event::MacroEnd& end) {
 std::string how_aborted(const std::optional<vm::event::MacroEnd>& end) {
   if (!end || why(*end).empty())
     return {};
-  return fmt::format("macro {} aborted at its command {}: {}", end->macro, end->command, why(*end));
+  return fmt::format("macro {} aborted at command {}: {}", end->macro, end->command, why(*end));
 }
 
 Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {

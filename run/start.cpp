@@ -124,7 +124,7 @@ std::optional<Failure> objection(const Load& load) {
     return Failure{ExitCode::BadInput, "there is no macro to run"};
   if (load.programs.empty() && load.macros.front()->image.body.empty())
     return Failure{ExitCode::BadInput,
-                   fmt::format("macro `{}` holds no command, not even the final 00",
+                   fmt::format("macro `{}` has no commands, not even the final 00",
                                load.macros.front()->name)};
   for (const auto* macro : load.macros)
     if (const auto size = encode(macro->image).size();
@@ -176,7 +176,7 @@ Started start(const Load& load, const Options& options, vm::Ball& ball,
 
 Failure refusal(const Load& load, const Options& options) {
   if (!load.programs.empty())
-    return {ExitCode::Refused, fmt::format("the ball does not run the program: its firmware {} "
+    return {ExitCode::Refused, fmt::format("the ball cannot run the program: its firmware {} "
                                            "has no orbBasic; choose another with `--firmware`",
                                            spec::info(options.firmware).name)};
   const auto& macro = *load.macros.front();

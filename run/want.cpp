@@ -27,7 +27,7 @@ constexpr auto feels =
     is_one_of<vm::Wall, stimulus::Push, stimulus::Shake, stimulus::Toss, stimulus::Tilt>;
 
 constexpr auto sensors = std::to_array<Sensor>({
-    {spec::Variable::Dshake, "a shake", "nobody shakes this ball", "at 2s shake",
+    {spec::Variable::Dshake, "a shake", "nothing shakes this ball", "at 2s shake",
      is_one_of<stimulus::Shake>},
     {spec::Variable::Cmdroll, "a roll from the client", "no client drives this ball",
      "at 2s roll 90 128", is_one_of<stimulus::ClientRoll>},
@@ -37,11 +37,11 @@ constexpr auto sensors = std::to_array<Sensor>({
      "at 2s toss 500ms", feels},
     {spec::Variable::AccelX, "an impact", "nothing pushes this ball", "at 2s push 90 200", feels},
     {spec::Variable::AccelY, "an impact", "nothing pushes this ball", "at 2s push 0 200", feels},
-    {spec::Variable::Pitch, "somebody who tilts it", "nobody tilts this ball", "at 2s tilt 20 0",
+    {spec::Variable::Pitch, "somebody to tilt it", "nothing tilts this ball", "at 2s tilt 20 0",
      is_one_of<stimulus::Tilt>},
-    {spec::Variable::Roll, "somebody who tilts it", "nobody tilts this ball", "at 2s tilt 0 20",
+    {spec::Variable::Roll, "somebody to tilt it", "nothing tilts this ball", "at 2s tilt 0 20",
      is_one_of<stimulus::Tilt>},
-    {spec::Variable::Sbatt, "another state of the battery", "its battery stays full",
+    {spec::Variable::Sbatt, "a change in the battery state", "its battery stays full",
      "at 2s battery 6.9", is_one_of<stimulus::Battery, stimulus::Charger>},
 });
 
@@ -86,7 +86,7 @@ std::optional<Want> sensor(const Program& of, const Options& options) {
     if (read == sensors.end() || comes(options, read->brings))
       continue;
     const auto line = line_at(program, node.span.begin);
-    const auto lack = fmt::format("{} reads `{}`, and {}", of.where(line),
+    const auto lack = fmt::format("{} reads `{}`, but {}", of.where(line),
                                   program.text_of(node.span), read->lack);
     constexpr std::string_view time = "at 2s ";
     return Want{line, read->what, fmt::format("{}; add `--stimulus '{}'`", lack, read->line), lack,

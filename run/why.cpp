@@ -122,9 +122,10 @@ std::string unset_timer(const Program& program) {
     if (!test || !compiler::is_timer(test->sensor) || sets(parsed, test->sensor))
       continue;
     const auto word = spec::info(test->sensor).word;
-    return sentence(program.where(line.number),
-                    fmt::format("it waits for `{}`, which nothing sets, so it counts up", word),
-                    fmt::format("above it write `{} = 1000`", word));
+    return sentence(
+        program.where(line.number),
+        fmt::format("this waits for `{}`, but nothing sets the timer, so it counts up", word),
+        fmt::format("above it, write `{} = 1000`", word));
   }
   return {};
 }

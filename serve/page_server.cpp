@@ -18,8 +18,8 @@ namespace {
 
 using asio::ip::tcp;
 
-constexpr std::size_t most_head = 8192; // bytes: what browsers send is a tenth of that
-constexpr std::size_t most_body = 1024; // bytes: a post holds a few numbers
+constexpr std::size_t most_head = 8192;  // bytes: what browsers send is a tenth of that
+constexpr std::size_t most_body = 1024;  // bytes: a post holds a few numbers
 constexpr std::size_t most_waiting = 64; ///< events that a page has not taken yet
 constexpr std::size_t most_guests = 16;
 
@@ -175,7 +175,7 @@ void PageServer::State::serve(Guest& guest) {
   constexpr std::size_t blank_line = 4;
   if (!head || head->length > most_body) {
     guest.leaves = true;
-    return say(guest, answer("400 Bad Request", "text/plain", "not a request that is served\n"));
+    return say(guest, answer("400 Bad Request", "text/plain", "this request is not supported\n"));
   }
   if (text.size() - end - blank_line >= head->length)
     answer_to(guest, *head, text.substr(end + blank_line, head->length));

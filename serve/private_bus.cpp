@@ -77,7 +77,7 @@ tl::expected<void, IoError> PrivateBus::start(std::string_view denied) {
   std::error_code error;
   auto name = (fs::temp_directory_path(error) / "orb-bluez-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
-    return tl::unexpected(failure("make a folder for a D-Bus", errno));
+    return tl::unexpected(failure("create a folder for a D-Bus", errno));
   folder_ = name;
   const auto rule =
       denied.empty() ? std::string() : fmt::format("<deny send_destination=\"{}\"/>", denied);

@@ -99,13 +99,13 @@ tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
     ::unlink(path.c_str());
   if (const auto target = target_of(path); !target.empty())
     return tl::unexpected(
-        IoError{fmt::format("`{}` already leads to {}; remove it or give another name", path,
+        IoError{fmt::format("`{}` already points to {}; remove it or give another name", path,
                             fs::path(target).lexically_normal().string())});
   if (::symlink(our_target(slave_).c_str(), path.c_str()) != 0) {
     if (errno == EEXIST)
       return tl::unexpected(
           IoError{fmt::format("`{}` exists and is not a symbolic link; give another name", path)});
-    return tl::unexpected(failure("make link " + path));
+    return tl::unexpected(failure("create link " + path));
   }
   path_ = path;
   return {};

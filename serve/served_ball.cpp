@@ -61,7 +61,7 @@ tl::expected<void, IoError> ServedBall::load() {
   if (path.empty())
     return {};
   auto lock =
-      disk::Lock::take(path, Duration{}, "end that ball, or give this one another `--state`");
+      disk::Lock::take(path, Duration{}, "stop that ball, or give this one a different `--state`");
   if (!lock)
     return tl::unexpected(lock.error());
   lock_ = *std::move(lock);
@@ -72,7 +72,7 @@ tl::expected<void, IoError> ServedBall::load() {
     return tl::unexpected(text.error());
   if (const auto loaded = vm::load_state(*text, ball_); !loaded)
     return tl::unexpected(
-        IoError{fmt::format("{} cannot be used as the state of a ball: {}; remove it to start with "
+        IoError{fmt::format("{} cannot be used as a ball's state: {}; remove it to start with "
                             "a new ball, or give another file",
                             path, loaded.error())});
   saved_revision_ = ball_.dispatcher().revision();
@@ -97,7 +97,7 @@ tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place)
     return opened;
   if (tcp->is_exposed() && index_ == 0)
     options_.warn(
-        fmt::format("anyone who reaches {} over the network can drive and change this ball; "
+        fmt::format("anyone who can reach {} over the network can drive and change this ball; "
                     "127.0.0.1 keeps it to this machine",
                     tcp->address()));
   links_.push_back(std::move(tcp));

@@ -105,7 +105,7 @@ Diagnostic wrong_index(const Compiled& compiled, const WrongIndex& wrong) {
                    "this always accesses an array out of bounds");
   const auto& array = compiled.names.symbols[compiled.names.of_node[elements.front()]];
   const auto found = wrong.index.constant() ? fmt::format("found {}", wrong.index.lo - array.base)
-                                            : std::string("and the index is never one of them");
+                                            : std::string("but the index is never one of them");
   return finding(
       rules::ArrayIndex, program.nodes[elements.front() - 1].span,
       fmt::format("`{}` has elements 1 to {}, {}", program.name(array.name), array.value, found));
@@ -208,7 +208,7 @@ void compile(Compiled& compiled, const compiler::Target& target,
              const std::vector<std::string>& kept, Shape shape) {
   if (compiled.program.statements.empty() && !compiled.has_errors())
     compiled.program.diagnostics.push_back(
-        finding(rules::NothingToRun, {0, 0}, "the file has no statement",
+        finding(rules::NothingToRun, {0, 0}, "the file has no statements",
                 "write at least one line such as `print \"hello\"`"));
   compiled.names = resolve(compiled.program);
   check(compiled.program, compiled.names, target);

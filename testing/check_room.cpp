@@ -12,8 +12,8 @@ void check_room(SuiteFile& file, structured::Files& files) {
   const auto& balls = file.file.balls;
   if (!balls.empty() && file.file.program)
     findings.push_back(finding(rules::Place, file.file.program->span,
-                               "a room has no `program` besides those of its balls",
-                               "leave `program` out, or the balls"));
+                               "a room cannot have a `program` besides those of its balls",
+                               "leave out `program` or the balls"));
   std::vector<run::RoomBall> placed;
   for (const auto& ball : balls) {
     auto& one = placed.emplace_back();

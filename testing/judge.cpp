@@ -117,9 +117,9 @@ private:
     if (one_.never || one_.when.kind == When::Kind::During)
       return meet();
     if (longest_ > Duration{} && nearest_ == 0)
-      return miss(
-          fmt::format("{} for {} only, from {} on", best_, words(longest_), words(longest_from_.t)),
-          longest_from_);
+      return miss(fmt::format("{} for only {}, starting at {}", best_, words(longest_),
+                              words(longest_from_.t)),
+                  longest_from_);
     miss(fmt::format("nearest {} at {}", best_, words(best_at_.t)), best_at_);
   }
 

@@ -102,7 +102,7 @@ private:
     const auto lag = second_->moment()->t - begin_;
     if (lag >= *one_.lag - one_.lag_by && lag <= *one_.lag + one_.lag_by)
       return meet(second_->moment());
-    miss(fmt::format("{} after, at {}", words(lag), words(second_->moment()->t)),
+    miss(fmt::format("{} later, at {}", words(lag), words(second_->moment()->t)),
          second_->moment());
   }
 

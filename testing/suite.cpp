@@ -206,7 +206,7 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
 std::string meant(std::string_view word, const std::vector<std::string_view>& known,
                   std::string_view what) {
   return did_you_mean(word, known,
-                      known.empty() ? fmt::format("it has no {}", what)
+                      known.empty() ? fmt::format("it has no {}s", what)
                                     : fmt::format("it has {}", fmt::join(known, ", ")));
 }
 
@@ -230,7 +230,7 @@ void find_variable(const Expectation& one, const Prepared& program, Lookup& foun
   const auto& name = one.name.text;
   const auto* first = run::first_with_program(program.inputs);
   if (first == nullptr) {
-    found.meaning.problem = "there is no program, only macros: no variable";
+    found.meaning.problem = "there are only macros and no program, so there are no variables";
   } else if (first->program->compiled) {
     const auto& compiled = *first->program->compiled;
     if (const auto letter = structured::letter_of(compiled, name)) {
@@ -272,7 +272,7 @@ void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
   found.rule = &rules::Zone;
   if (!file.course) {
     found.meaning.problem = fmt::format("`{}` is a zone, but the file names no course", name);
-    found.help = "add `course hall.svg` at its top";
+    found.help = "add `course hall.svg` at the top";
     return;
   }
   std::vector<std::string_view> known;
@@ -390,7 +390,7 @@ void read_course(SuiteFile& file, structured::Files& files) {
   }
   const auto place = drawing.position(wrong->span.begin);
   findings.push_back(finding(rules::File, given->span,
-                             fmt::format("the course has mistakes: {}:{}:{}: {}", path, place.line,
+                             fmt::format("the course has errors: {}:{}:{}: {}", path, place.line,
                                          place.column, wrong->message),
                              fmt::format("`orb check {}` lists them all", path)));
 }

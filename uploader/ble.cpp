@@ -19,24 +19,24 @@ struct FailureInfo {
 
 // clang-format off
 constexpr auto failures = std::to_array<FailureInfo>({
-    {BleFailure::NotBuilt,     "install `libsdbus-c++-dev` and build orb again; `orb --version -v` says whether it has it", false},
+    {BleFailure::NotBuilt,     "install `libsdbus-c++-dev` and build orb again; `orb --version -v` says whether it has Bluetooth LE", false},
     {BleFailure::NoSystem,     "the playground reaches these robots, in Chrome or Edge", false},
     {BleFailure::NotLoaded,    "reinstall orb with all its files, and `libsdbus-c++1`", false},
-    {BleFailure::NoBus,        "`sudo systemctl start dbus`; in a container, let /run/dbus/system_bus_socket in", false},
+    {BleFailure::NoBus,        "`sudo systemctl start dbus`; in a container, mount /run/dbus/system_bus_socket", false},
     {BleFailure::NoDaemon,     "`sudo systemctl start bluetooth`; it is in the package `bluez`", false},
     {BleFailure::NotAllowed,   "`sudo usermod -aG bluetooth $USER`, then log in again", false},
     {BleFailure::NoAdapter,    "plug one in; `bluetoothctl list` shows them", false},
     {BleFailure::AdapterOff,   "`bluetoothctl power on`; if that fails, `rfkill unblock bluetooth`", false},
-    {BleFailure::AdapterGone,  "plug it in again, into another port if it is loose", false},
-    {BleFailure::NotFound,     "take it off the charger, shake it awake, hold it near, and close any app that may hold it", false},
+    {BleFailure::AdapterGone,  "plug it in again, or into another port if that one is loose", false},
+    {BleFailure::NotFound,     "take it off the charger, shake it awake, bring it closer, and close any app that may be using it", false},
     {BleFailure::Ambiguous,    "name one by its address; `orb ports` lists them", false},
-    {BleFailure::NotConnected, "shake the robot awake, hold it near, and end the app or the phone that may hold it", true},
+    {BleFailure::NotConnected, "shake the robot awake, bring it closer, and close any app or disconnect any phone that may be using it", true},
     {BleFailure::NotResolved,  "bring the robot closer and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
     {BleFailure::Newer,        "drive it from here: `orb run PROGRAM --port ble://ADDRESS`", false},
     {BleFailure::NoRobot,      "`orb ports` lists robots", false},
     {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
-    {BleFailure::Held,         "end that program; `bluetoothctl disconnect ADDRESS` disconnects it", false},
-    {BleFailure::Lost,         "hold the robot near, charge it, and try again", true},
+    {BleFailure::Held,         "close that program; `bluetoothctl disconnect ADDRESS` disconnects it", false},
+    {BleFailure::Lost,         "bring the robot closer, charge it, and try again", true},
     {BleFailure::Interrupted,  "", false},
 });
 // clang-format on
@@ -156,7 +156,7 @@ private:
     step_ = BleStep::Subscribe;
     if (auto subscribed = gatt_.subscribe(answers, patience(budgets_.ble_answer)); !subscribed)
       return subscribed;
-    tell("its answers are subscribed to");
+    tell("subscribed to its answers");
     return {};
   }
 
@@ -189,7 +189,7 @@ private:
     protocol_ = is_v2 ? spec::BleProtocol::V2 : spec::BleProtocol::V1;
     if (is_v2 && accepts_ == Accepts::V1)
       return tl::unexpected(
-          BleError{BleFailure::Newer, "this robot keeps no programs and speaks packets v2"});
+          BleError{BleFailure::Newer, "this robot keeps no programs and speaks v2 packets"});
     for (const auto& row : spec::ble_characteristics)
       if (!is_v2 && spec::protocol_of(row.characteristic) == spec::BleProtocol::V1 &&
           !gatt_.has(row.characteristic))

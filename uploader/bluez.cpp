@@ -98,7 +98,7 @@ public:
       return failed(
           BleFailure::Refused,
           step_ ? fmt::format("the robot refused what was written while {}", info(*step_).doing)
-                : std::string("the robot does not take what is written to it"),
+                : std::string("the robot does not accept what is written to it"),
           written ? CallError{} : written.error());
     return {};
   }
@@ -116,7 +116,7 @@ public:
     if (!started && started.error().is("NotPermitted"))
       return tl::unexpected(taken);
     if (!started || !connected())
-      return failed(BleFailure::Refused, "the robot's answers cannot be subscribed to",
+      return failed(BleFailure::Refused, "cannot subscribe to the robot's answers",
                     started ? CallError{} : started.error());
     step_.reset();
     ours_ = true;
@@ -216,7 +216,7 @@ private:
     if (found.empty()) {
       const bluez::Discovery discovery(*bus_, adapter_, patience);
       if (!discovery.started() && !discovery.started().error().is("InProgress"))
-        return failed(BleFailure::NotFound, "no scan can be started", discovery.started().error());
+        return failed(BleFailure::NotFound, "cannot start a scan", discovery.started().error());
       static_cast<void>(bus_->wait(patience, [&] {
         found = candidates();
         return !found.empty() || bluez::trouble(*bus_, adapter_);
@@ -235,7 +235,7 @@ private:
                    fmt::format("{} robots are called `{}`", found.size(), endpoint_.name)});
     device_ = found.front();
     const auto device = describe(*bus_, device_);
-    return fmt::format("{} is near ({})", device.name.empty() ? device.address : device.name,
+    return fmt::format("{} is nearby ({})", device.name.empty() ? device.address : device.name,
                        strength(device));
   }
 
@@ -255,12 +255,13 @@ private:
     }
     const auto robots = names.empty() ? std::string(", nor any other robot")
                                       : fmt::format(", but {}", fmt::join(names, ", "));
-    return tl::unexpected(BleError{
-        BleFailure::NotFound,
-        fmt::format("no `{}` was seen within {:.1f} s{}{}",
-                    endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
-                    seconds(budget), robots,
-                    others > 0 ? fmt::format("; {} that are no robots", others) : std::string())});
+    return tl::unexpected(
+        BleError{BleFailure::NotFound,
+                 fmt::format("no `{}` was seen within {:.1f} s{}{}",
+                             endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
+                             seconds(budget), robots,
+                             others > 0 ? fmt::format("; devices that are not robots: {}", others)
+                                        : std::string())});
   }
 
   tl::expected<std::string, BleError> connect(const Patience& patience) {
@@ -286,7 +287,7 @@ private:
     if (!risen)
       return failed(BleFailure::NotConnected, "the robot does not connect", {});
     ours_ = ours_ || !before;
-    return std::string(before ? "it was connected already" : "it is connected");
+    return std::string(before ? "it was already connected" : "it is connected");
   }
 
   /// Connect answers before the services are known.

@@ -36,7 +36,7 @@ std::string open_help(const Endpoint& endpoint, int error) {
   if (error == EBUSY || error == EWOULDBLOCK)
     return is_node
                ? fmt::format("another program has it open; `fuser -v {}` names it", endpoint.path)
-               : "another program is connected to this ball; end it first";
+               : "another program is connected to this ball; close it first";
   if (error == EISDIR)
     return "give the path of a device, such as `/dev/rfcomm0`; `orb ports` lists them";
   if (error == ENOTTY || error == EINVAL)
@@ -48,8 +48,8 @@ std::string open_help(const Endpoint& endpoint, int error) {
     return fmt::format("nothing is listening there; `orb ball --tcp {}:{}` starts a virtual ball",
                        endpoint.host, endpoint.port);
   if (endpoint.scheme == Scheme::Rfcomm)
-    return "shake the ball awake, keep it near, and end other connections to it";
-  return "`orb doctor` looks for the reason";
+    return "shake the ball awake, keep it close, and end other connections to it";
+  return "`orb doctor` looks for the cause";
 }
 
 } // namespace orb::uploader

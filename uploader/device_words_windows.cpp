@@ -61,17 +61,18 @@ std::string open_help(const Endpoint& endpoint, int error) {
     return "Windows has no pty; a virtual ball is at `sim:`, or at `tcp://127.0.0.1:4242` after "
            "`orb ball --tcp 127.0.0.1:4242`";
   if (endpoint.scheme == Scheme::Rfcomm)
-    return "pair the ball in the Bluetooth settings of Windows, which gives it a COM port, and "
-           "write that one; `orb ports` lists them";
+    return "pair the ball in the Windows Bluetooth settings, which gives it a COM port, and "
+           "use that port; `orb ports` lists them";
   if (error == ECONNREFUSED && endpoint.scheme == Scheme::Tcp)
     return fmt::format("nothing is listening there; `orb ball --tcp {}:{}` starts a virtual ball",
                        endpoint.host, endpoint.port);
   if (endpoint.scheme == Scheme::Serial && (error == EACCES || error == EBUSY))
-    return "another program has it open; end it first";
+    return "another program has it open; close it first";
   if (endpoint.scheme == Scheme::Serial)
-    return "shake the ball awake, keep it near, and end other connections to it; `orb ports` lists "
-           "the ports that there are";
-  return "`orb doctor` looks for the reason";
+    return "shake the ball awake, keep it close, and end other connections to it; `orb ports` "
+           "lists "
+           "the available ports";
+  return "`orb doctor` looks for the cause";
 }
 
 } // namespace orb::uploader

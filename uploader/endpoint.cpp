@@ -137,7 +137,7 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
   }
   if (parse_bluetooth_address(url))
     return wrong(
-        url, fmt::format("a Sphero is `rfcomm://{0}`, a SPRK+, BB-8 or Ollie `ble://{0}`", url));
+        url, fmt::format("a Sphero is `rfcomm://{0}`; a SPRK+, BB-8 or Ollie is `ble://{0}`", url));
   if (spec::find_ble_name(url) != nullptr)
     return wrong(url, fmt::format("did you mean `ble://{}`?", url));
   const auto colon = url.find("://");

@@ -38,8 +38,8 @@ tl::expected<Addresses, LinkError> look_up(const Endpoint& endpoint, const Stop&
   if (auto addresses = found.get(); !addresses.empty())
     return addresses;
   return failed(LinkError::Kind::CannotOpen,
-                fmt::format("cannot open {}: no host is called `{}`; check the name", endpoint.text,
-                            endpoint.host));
+                fmt::format("cannot open {}: there is no host named `{}`; check the name",
+                            endpoint.text, endpoint.host));
 }
 
 Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
@@ -71,7 +71,8 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
   case Scheme::Replay:
   case Scheme::Sim: break;
   }
-  return failed(LinkError::Kind::CannotOpen, "the operating system does not support this kind of link");
+  return failed(LinkError::Kind::CannotOpen,
+                "the operating system does not support this kind of link");
 }
 
 } // namespace

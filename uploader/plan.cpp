@@ -131,8 +131,8 @@ std::optional<PlanError> misfit(const ProgramJob& job, const Capabilities& ball)
   const auto room = in_ram ? ball.ram_bytes : ball.flash_bytes;
   if (size <= room)
     return std::nullopt;
-  return PlanError{fmt::format("the program has {} bytes, the {} area of this ball {}; {}", size,
-                               in_ram ? "RAM" : "flash", room,
+  return PlanError{fmt::format("the program is {} bytes; the {} area of this ball holds {}; {}",
+                               size, in_ram ? "RAM" : "flash", room,
                                in_ram && size <= ball.flash_bytes
                                    ? "use `--area flash`"
                                    : "`orb build --pack` makes it smaller")};
@@ -154,14 +154,15 @@ std::string_view note_of(Route route) {
 std::optional<PlanError> misfit(Route route, const MacroImage& image, std::size_t size) {
   if (route == Route::TemporaryChunks && size > spec::macro_buffer_planned)
     return PlanError{
-        fmt::format("the macro has {} bytes, a temporary macro at most {}; use `--as stream`", size,
-                    spec::macro_buffer_planned)};
+        fmt::format("the macro is {} bytes; a temporary macro can be at most {}; use `--as stream`",
+                    size, spec::macro_buffer_planned)};
   if (route != Route::UserMacro)
     return std::nullopt;
   if (size > spec::macro_max_packet)
-    return PlanError{fmt::format("the macro has {} bytes, a user macro at most {}; use `--as temp` "
-                                 "or `--as stream`",
-                                 size, spec::macro_max_packet)};
+    return PlanError{
+        fmt::format("the macro is {} bytes; a user macro can be at most {}; use `--as temp` "
+                    "or `--as stream`",
+                    size, spec::macro_max_packet)};
   if (spec::macro_id_kind(image.id) != spec::MacroIdKind::User)
     return PlanError{
         fmt::format("a user macro has an id from {} to {}, not {}; choose one with `--id`",
@@ -174,7 +175,7 @@ std::optional<PlanError> misfit(Route route, const MacroImage& image, std::size_
 tl::expected<Step, PlanError> stream_step(MacroImage image) {
   const auto listing = protocol::decode_macro_body(image.body);
   if (listing.error)
-    return impossible(fmt::format("the macro cannot be cut into commands: {}",
+    return impossible(fmt::format("the macro cannot be split into commands: {}",
                                   protocol::to_string(*listing.error)));
   Step step{StepKind::Append, ApiCommand::SaveMacro, {}, std::move(image.body), {0}};
   image.id = spec::macro_id_stream;

@@ -151,10 +151,10 @@ bool only_asks(ApiCommand command) {
 std::string after_silence(ApiCommand command) {
   if (only_asks(command))
     return "the ball is unchanged";
-  return fmt::format("whether the ball has carried out {} is not known{}", spec::info(command).name,
-                     spec::info(command).idempotent == spec::Idempotent::Yes
-                         ? "; sent again it does no harm"
-                         : "");
+  return fmt::format(
+      "it is not known whether the ball has carried out {}{}", spec::info(command).name,
+      spec::info(command).idempotent == spec::Idempotent::Yes ? "; sending it again does no harm"
+                                                              : "");
 }
 
 } // namespace
@@ -177,7 +177,7 @@ tl::expected<Response, Report> request(Session& session, ApiCommand command, con
 }
 
 std::string bootloader_remedy(std::string_view port) {
-  return fmt::format("`orb exec leave-bootloader --port {}` starts the firmware; where that is "
+  return fmt::format("`orb exec leave-bootloader --port {}` starts the firmware; if that is "
                      "refused, charge the ball and let the vendor's app write its firmware again",
                      port);
 }
@@ -207,7 +207,7 @@ Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery)
   plan.steps = {{StepKind::Prepare, ApiCommand::AbortOrbbasicProgram},
                 {StepKind::Store, ApiCommand::CommitRamToFlash}};
   NullProgress nobody;
-  return Upload(session, plan, nobody).run("the program in RAM is in flash now");
+  return Upload(session, plan, nobody).run("the program in RAM is now in flash");
 }
 
 Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,

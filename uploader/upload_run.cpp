@@ -150,7 +150,7 @@ Report Upload::refuse(ApiCommand command, const Response& response) const {
 
 Report Upload::lose(ApiCommand command, const NoAnswer& failure) const {
   const auto advice = content_ == Content::Unconfirmed ? std::string()
-                      : content_ == Content::Stored    ? "; it is unknown whether it runs"
+                      : content_ == Content::Stored    ? "; it is unknown whether it is running"
                                                        : fmt::format("; {}", plan_.again);
   return lost(session_, command, failure, content_, state() + advice);
 }
@@ -341,7 +341,7 @@ Upload::Ended Upload::save_user_macro(const Step& step) {
       return Sent::Whole;
     auto report = refuse(step.command, **first);
     report.message += ". An id that is in use cannot be replaced: choose another with `--id`, or "
-                      "clear all macros of the ball with `--clear-macros`";
+                      "clear all macros on the ball with `--clear-macros`";
     return tl::unexpected(report);
   }
   content_ = Content::Unconfirmed;

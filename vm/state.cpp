@@ -69,7 +69,7 @@ tl::expected<int, std::string> read_version(std::string_view line) {
     return tl::unexpected(fmt::format("it does not begin with `{}{}`", kind, version));
   if (*number > version)
     return tl::unexpected(
-        fmt::format("it is of version {}, and this orb reads 1 to {}", *number, version));
+        fmt::format("it is version {}; this orb reads 1 to {}", *number, version));
   return *number;
 }
 
@@ -110,7 +110,7 @@ tl::expected<void, std::string> load_state(std::string_view text, Ball& ball) {
   if (!profile.soul.load(fields["soul"]))
     return tl::unexpected(std::string("`soul` is not a soul block"));
   if (const auto size = life({}, 0).size(); fields["life"].size() != size)
-    return tl::unexpected(fmt::format("`life` is {} bytes", size));
+    return tl::unexpected(fmt::format("`life` must be {} bytes", size));
   load_life(fields["life"], profile);
   if (ball.erase_basic(Area::Flash) == Outcome::Refused ||
       ball.append_basic(Area::Flash, fields["flash"]) == Outcome::Refused)

@@ -105,7 +105,7 @@ tl::expected<std::vector<std::size_t>, std::string> choose_macros(const AsmOptio
     return all;
   return tl::unexpected(fmt::format(
       "{} has no macro `{}`; {}", disk::display_name(options.file), options.macro,
-      did_you_mean(options.macro, names, fmt::format("there are {}", fmt::join(names, ", ")))));
+      did_you_mean(options.macro, names, fmt::format("it has {}", fmt::join(names, ", ")))));
 }
 
 ExitCode write_text(const Context& context, const std::string& path, const std::string& text) {
@@ -205,23 +205,23 @@ ExitCode run_asm(const Context& context, const AsmOptions& options) {
 
 void add_asm(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("asm", "assemble macro source into the bytes of a ball",
+      orb.add_command("asm", "assemble macro source into bytes for the ball",
                       "orb asm dance.macro -o dance.sphero\norb asm dance.macro --listing\n"
                       "orb asm set.macro --format bin -o build/");
   auto options = std::make_shared<AsmOptions>();
   command.add_option("FILE", options->file, "macro source; - is stdin").required();
   command.add_option("-o,--out", options->out,
-                     "where to write; a folder (with a final /) takes a file per macro");
+                     "where to write; a folder (with a trailing /) gets one file per macro");
   std::vector<std::string> names;
   for (const auto& format : formats)
     names.emplace_back(format.name);
   command
       .add_option("--format", options->format,
-                  "what to write; by default from the extension of OUT, otherwise sphero")
+                  "output format; by default chosen by the extension of OUT, otherwise sphero")
       .check(one_of(names));
-  command.add_option("--macro", options->macro, "the one macro of the file to write");
+  command.add_option("--macro", options->macro, "write only this macro from the file");
   command.add_flag("--listing", options->listing,
-                   "print offset, bytes, times and source instead of the bytes");
+                   "print offset, bytes, times and source instead of the bytes alone");
   command.add_flag("--fold-delays", options->fold_delays,
                    "fold `delay` into the command before it where all times stay the same");
   command.callback([&context, options] { context.exit = run_asm(context, *options); });

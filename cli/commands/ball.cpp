@@ -77,7 +77,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   }
   const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
   if (is_v2 && !arguments.state.empty())
-    return fail(context, {ExitCode::Usage, fmt::format("a {} keeps no programs and no settings; "
+    return fail(context, {ExitCode::Usage, fmt::format("a {} keeps no programs or settings; "
                                                        "leave `--state` out",
                                                        spec::info(options.robot).title)});
   options.ball.seed = arguments.seed;
@@ -133,7 +133,7 @@ void add_ball(const Command& orb, Context& context) {
   // A flag, because flags take a value only after `=`.
   command
       .add_flag("--pty", arguments->pty,
-                "serve on a pty; with =LINK, a symlink to it (the default without --tcp)")
+                "serve on a pty (the default without --tcp); =LINK also creates a symlink to it")
       .type_name("LINK");
   command
       .add_flag("--bluez", arguments->bluez,
@@ -147,12 +147,14 @@ void add_ball(const Command& orb, Context& context) {
                   "how many balls; ports count up, links and files get -1, -2, …")
       .check(whole_number(1, 1000))
       .show_default();
-  command.add_option("--speed", arguments->speed, "how many seconds of the ball pass in one second")
+  command
+      .add_option("--speed", arguments->speed,
+                  "how many seconds pass on the ball in one real second")
       .check(number_between(0.001, 1000))
       .show_default();
   command
       .add_option("--seed", arguments->seed,
-                  "seeds all random choices; the address follows from it")
+                  "seeds all random choices; the address depends on it, too")
       .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       .show_default();
   command.add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
@@ -160,14 +162,15 @@ void add_ball(const Command& orb, Context& context) {
       .show_default();
   command
       .add_option("--robot", arguments->robot,
-                  "which robot it is; those after SPRK+ speak packets v2")
+                  "which robot to be; those after SPRK+ speak v2 packets")
       .check(one_of(names_of(spec::robots)))
       .show_default();
   add_ball_option(command, arguments->profile,
-                  "how it drives: a profile of `orb calibrate`, by name or file");
+                  "how it drives: a profile from `orb calibrate`, by name or file");
   command
-      .add_option("--fault", arguments->fault,
-                  "a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
+      .add_option(
+          "--fault", arguments->fault,
+          "simulate a bad link: drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7")
       .type_name("PLAN");
   add_stimulus_option(command, arguments->stimuli);
   add_course_option(command, arguments->course);

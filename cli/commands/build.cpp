@@ -69,7 +69,7 @@ void build_basic(Context& context, const BuildOptions& options, const Source& so
   if (image.bytes.size() > room) {
     return fail(context,
                 {ExitCode::BadInput,
-                 fmt::format("{} takes {} bytes, {} more than the {} of the {} area{}",
+                 fmt::format("{} takes {} bytes, {} more than the {} in the {} area{}",
                              source.name(), image.bytes.size(), image.bytes.size() - room, room,
                              options.target.area, options.pack ? "" : "; try `--pack`")});
   }
@@ -116,13 +116,13 @@ void build_structured(Context& context, const BuildOptions& options, const Sourc
   const auto packed = bytes_as(compiler::Packing::Packed);
   const auto note = [&](std::size_t bytes, const std::string& way_out) {
     print_note(context, fmt::format("the readable text takes {} bytes, {} more than the {} area "
-                                    "has; {}",
+                                    "holds; {}",
                                     bytes, bytes - room, options.target.area, way_out));
   };
   if (packed > room)
     note(packed, fmt::format("upload {} itself", source.name()));
   else if (plain > room)
-    note(plain, fmt::format("`orb build --pack` makes it {}", packed));
+    note(plain, fmt::format("`orb build --pack` reduces it to {}", packed));
 }
 
 void build(Context& context, const BuildOptions& options) {
@@ -152,7 +152,7 @@ void build(Context& context, const BuildOptions& options) {
 
 void add_build(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("build", "make the exact bytes to upload",
+      orb.add_command("build", "build the exact bytes to upload",
                       "orb build square.bas -o square.img\n"
                       "orb build --pack square.bas --map square.json -o square.img\n"
                       "orb build patrol.orb --readable -o patrol.bas\n"
@@ -160,11 +160,13 @@ void add_build(const Command& orb, Context& context) {
   auto options = std::make_shared<BuildOptions>();
   command.add_option("FILE", options->file, "a source; `-` is standard input").required();
   add_language_option(command, options->lang);
-  command.add_option("-o,--output", options->out, "where the bytes go; standard output if missing");
+  command.add_option("-o,--output", options->out,
+                     "where to write the bytes; standard output if omitted");
   command.add_flag("--pack", options->pack,
-                   "as small as possible with the same behaviour; structured programs always are");
+                   "make the program as small as possible without changing its behaviour; "
+                   "structured programs are always packed");
   const auto map =
-      command.add_option("--map", options->map, "write which source line became which robot line");
+      command.add_option("--map", options->map, "write a map from source lines to robot lines");
   const auto readable =
       command.add_flag("--readable", options->readable,
                        "for a structured program: readable orbBasic, with comments");
@@ -172,14 +174,15 @@ void add_build(const Command& orb, Context& context) {
   add_target_options(command, options->target);
   command.add_flag(
       "--no-check", options->no_check,
-      "build although the program has errors; of a structured one nothing can be built then");
+      "build even if the program has errors; a structured program with errors cannot be built");
   const auto listing =
       command.add_flag("--listing", options->listing,
-                       "in place of the bytes: each line and the instructions that "
-                       "the virtual ball makes of it; of a structured program the "
+                       "instead of the bytes: each line and the instructions that "
+                       "the virtual ball turns it into; for a structured program, the "
                        "robot's lines and their bytes");
   listing.excludes(readable);
-  command.add_flag("--native", options->native, "also list their machine code").needs(listing);
+  command.add_flag("--native", options->native, "with --listing, also show the machine code")
+      .needs(listing);
   command.callback([&context, options] { build(context, *options); });
 }
 

@@ -81,7 +81,7 @@ bool fix_one(Context& context, const CheckOptions& options, SourceFile& input) {
     return false;
   }
   print_note(context,
-             fmt::format("{}: {} fix{} made", input.source.name(), made, made == 1 ? "" : "es"));
+             fmt::format("{}: {} fix{} applied", input.source.name(), made, made == 1 ? "" : "es"));
   return true;
 }
 
@@ -154,7 +154,7 @@ void check(Context& context, const CheckOptions& given) {
 
 void add_check(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("check", "find the mistakes in programs, macros, courses, rooms and tests",
+      orb.add_command("check", "find mistakes in programs, macros, courses, rooms and tests",
                       "orb check square.bas\n"
                       "orb check --target 1.2 --ram 1024 *.bas\n"
                       "orb check --robot rvr patrol.orb\n"
@@ -177,7 +177,7 @@ void add_check(const Command& orb, Context& context) {
       .check(one_of({"text", "json", "sarif", "gcc"}))
       .show_default();
   add_policy_options(command, options->policy);
-  command.add_flag("--fix", options->fix, "make the safe fixes and write the files back");
+  command.add_flag("--fix", options->fix, "apply the safe fixes and write the files back");
   command.add_flag("--watch", options->watch, "check again whenever a file changes");
   command.callback([&context, options] {
     if (options->watch)

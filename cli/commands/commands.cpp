@@ -19,7 +19,7 @@ std::string version(const Command& orb) {
   auto text = fmt::format("orb {}", ORB_VERSION);
   if (orb.find("--verbose")->given()) { // its variable is set only after the version is asked for
     text += vm::has_native_code() ? "\nmachine code for orbBasic: x86-64"
-                                  : "\nmachine code for orbBasic: none, programs are interpreted";
+                                  : "\nmachine code for orbBasic: none; programs are interpreted";
     const auto no_ble = uploader::no_ble();
     text += no_ble ? "\nBluetooth LE: none; " + no_ble->seen : "\nBluetooth LE: BlueZ";
   }
@@ -72,7 +72,7 @@ std::unique_ptr<CommandLine> frame(Context& context) {
       "orb upload program.bas --port /dev/rfcomm0 --run\n");
   const auto orb = line->root();
   line->add_help_and_version([orb] { return version(orb); },
-                             "print the version and end; with -v, also what it was built with");
+                             "print the version and exit; with -v, also what it was built with");
   orb.add_flag("-q,--quiet", context.quiet, "print nothing but results and errors");
   orb.add_flag("-v,--verbose", context.verbosity, "say more; -vv traces every packet");
   orb.add_option("--color", context.color, "auto, always or never")

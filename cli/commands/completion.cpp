@@ -105,7 +105,7 @@ constexpr std::array<Shell, 3> shells = {
 } // namespace
 
 void add_completion(const Command& orb, Context&) {
-  const auto command = orb.add_command("completion", "print the completion script of a shell",
+  const auto command = orb.add_command("completion", "print a completion script for a shell",
                                        "eval \"$(orb completion bash)\"\n"
                                        "orb completion zsh > ~/.zfunc/_orb\n"
                                        "orb completion fish > ~/.config/fish/completions/orb.fish");

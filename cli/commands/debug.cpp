@@ -95,7 +95,7 @@ tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
   if (launch.files.empty() && launch.test.empty())
     return refuse("name a program, or a test file with `--test`");
   if (!launch.test_name.empty() && launch.test.empty())
-    return refuse("`--only` needs `--test`: it names a test of that file");
+    return refuse("`--only` needs `--test`: it names a test in that file");
   if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
     return refuse("`--test` brings its own course and stimuli; leave `--course` and `--stimulus` "
                   "out");
@@ -156,7 +156,7 @@ void add_debug(const Command& orb, Context& context) {
       "orb debug square.bas --do 'b 40' --do c --do 'p X'");
   auto options = std::make_shared<DebugOptions>();
   auto& launch = options->launch;
-  command.add_option("FILE", launch.files, "a program, and macros that go along");
+  command.add_option("FILE", launch.files, "a program, and any macros to load with it");
   add_language_option(command, launch.language);
   add_stimulus_option(command, launch.stimuli);
   add_course_option(command, launch.course);
@@ -168,13 +168,13 @@ void add_debug(const Command& orb, Context& context) {
       .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       .show_default();
   command.add_option("--input", launch.numbers, "numbers for `input`").separated_by(',');
-  command.add_flag("--disconnected", options->disconnected, "no client is connected");
+  command.add_flag("--disconnected", options->disconnected, "run with no client connected");
   const auto plain =
       command.add_flag("--plain", options->plain,
-                       "each statement keeps lines of its own (the default without `--test`)");
+                       "each statement keeps its own lines (the default without `--test`)");
   command
       .add_flag("--optimized", options->optimized,
-                "the lines that are sent to a robot, which may stand for several statements")
+                "the lines as sent to a robot; one line may stand for several statements")
       .excludes(plain);
   add_ball_option(command, options->ball,
                   "the virtual ball drives like the robot that `orb calibrate` measured");

@@ -229,14 +229,15 @@ void add_decode(const Command& orb, Context& context) {
                                        "orb decode FFFE08000748656C6C6F0AF2\n"
                                        "orb decode session.txt\norb decode --v2 8D0A11061FBFD8");
   auto arguments = std::make_shared<DecodeArguments>();
-  command.add_option("FILE", arguments->words,
-                     "hex bytes, or a file with hex, bytes or a recording; - or nothing is stdin");
+  command.add_option(
+      "FILE", arguments->words,
+      "hex bytes, or a file of hex, raw bytes or a recording; stdin if - or omitted");
   command.add_flag("--v2", arguments->v2, "packets of the newer robots");
   add_format_option(command, arguments->format);
   command
       .add_option(
           "--from", arguments->from,
-          "who sent the bytes; auto: the side whose checksums are right; a recording says so")
+          "who sent the bytes; auto: the side whose checksums match; a recording says so itself")
       .check(one_of({"auto", "client", "ball"}))
       .show_default();
   command.callback([&context, arguments] { decode(context, *arguments); });

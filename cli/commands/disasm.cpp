@@ -60,9 +60,10 @@ ExitCode disassemble_file(const Context& context, const DisasmOptions& options) 
   }
   const auto reading = choose(options, ending, bytes);
   if (!reading) {
-    print_error(context, fmt::format("{} can be read both ways: commands alone (`--raw`), or with "
-                                     "id and flags before them (`--framed`); say which",
-                                     name));
+    print_error(context,
+                fmt::format("{} can be read in two ways: commands alone (`--raw`), or with "
+                            "id and flags before them (`--framed`); say which",
+                            name));
     return ExitCode::Usage;
   }
   const auto text = assembler::disassemble(bytes, *reading);
@@ -90,9 +91,8 @@ void add_disasm(const Command& orb, Context& context) {
                       "orb disasm capture.dat --framed");
   auto options = std::make_shared<DisasmOptions>();
   command.add_option("FILE", options->file, "bytes of a macro; - is stdin").required();
-  command.add_option("-o,--out", options->out, "where to write the source; stdout otherwise");
-  const auto raw =
-      command.add_flag("--raw", options->raw, "the bytes are commands alone (.sphero)");
+  command.add_option("-o,--out", options->out, "where to write the source; stdout by default");
+  const auto raw = command.add_flag("--raw", options->raw, "the bytes are commands only (.sphero)");
   command.add_flag("--framed", options->framed, "the bytes begin with id and flags (.bin)")
       .excludes(raw);
   command.callback([&context, options] { context.exit = disassemble_file(context, *options); });

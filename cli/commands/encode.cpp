@@ -36,7 +36,7 @@ void print_bytes(ByteView bytes) {
 }
 
 constexpr std::string_view numbers_taken =
-    "a v2 packet takes a name, or DID CID [HEX], two hex digits each for DID and CID; write "
+    "a v2 packet takes a name, or DID CID [HEX], with two hex digits each for DID and CID, as in "
     "`orb encode --v2 13 0D`";
 
 /// A command of the newer robots by its numbers; nothing where the words are not such.
@@ -113,13 +113,13 @@ void encode_v1(Context& context, const EncodeArguments& arguments) {
 
 void add_encode(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("encode", "make the bytes of a packet",
+      orb.add_command("encode", "print the bytes of a packet",
                       "orb encode ping\norb encode set-rgb-led 255 0 0 0\n"
                       "orb encode append-orbbasic-fragment ram '10 print \"hi\"\\n\\0'\n"
                       "orb encode configure-locator -- 1 -300 0 90\n"
                       "orb encode --v2 13 0D\norb encode --robot bolt drive-with-heading 60 90");
   auto arguments = std::make_shared<EncodeArguments>();
-  command.add_option("NAME", arguments->name, "a command of the API, or the DID of a v2 packet")
+  command.add_option("NAME", arguments->name, "an API command, or the DID of a v2 packet")
       .required();
   command.add_option("ARGS", arguments->operands,
                      "its operands: numbers, 0x hex, named values, text or hex bytes");
@@ -128,14 +128,14 @@ void add_encode(const Command& orb, Context& context) {
       .show_default();
   command.add_flag("--no-answer", arguments->no_answer, "ask for no answer");
   command.add_flag("--v2", arguments->v2,
-                   "a packet of the newer robots: a name and operands, or DID CID [HEX]");
+                   "a packet for the newer robots: a name and operands, or DID CID [HEX]");
   std::vector<std::string> robots;
   for (const auto& row : spec::robots)
     if (row.packets == spec::Packets::V2)
       robots.emplace_back(row.name);
   command
       .add_option("--robot", arguments->robot,
-                  "the newer robot that it is for, as some name a processor in each packet")
+                  "the newer robot that it is for; some robots name a processor in each packet")
       .check(one_of(std::move(robots)));
   command.callback([&context, arguments] {
     const bool only_v2 = spec::find_command(arguments->name) == nullptr &&

@@ -82,13 +82,13 @@ void print_explanation(Context& context, const reference::CommandLine& line,
 
 void add_explain(const Command& orb, Context& context) {
   const auto command = orb.add_command(
-      "explain", "explain a word: all that the tables know of it",
+      "explain", "explain a word: everything the tables say about it",
       "orb explain goroll\norb explain 08h\norb explain unknown-statement\norb explain -- --open");
   auto word = std::make_shared<std::string>();
   command
       .add_option(
           "WORD", *word,
-          "a statement, variable, colour, error, limit, rule, command or option; or a line of "
+          "a statement, variable, colour, error, limit, rule, command or option; or a line from "
           "another language")
       .required();
   command.callback([orb, &context, word] {

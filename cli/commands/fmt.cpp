@@ -164,7 +164,7 @@ void add_fmt(const Command& orb, Context& context) {
   write.excludes(diff);
   const auto renumber =
       command.add_option("--renumber", options->renumber,
-                         "new line numbers START, START+STEP…, and every jump with them (10:10)");
+                         "renumber the lines START, START+STEP…, and update every jump (10:10)");
   renumber.value_optional().type_name("START:STEP");
   command.callback([&context, options, renumber] {
     options->renumbers = renumber.given();

@@ -22,7 +22,7 @@ void lift(Context& context, const LiftOptions& options) {
                 {ExitCode::Usage,
                  fmt::format("{} is {}; `orb lift` takes programs with line numbers (`.bas`)",
                              disk::display_name(options.file),
-                             language == run::Language::Macro ? "a macro" : "structured already")});
+                             language == run::Language::Macro ? "a macro" : "already structured")});
   const auto file = read_source(options.file, "basic");
   if (!file)
     return fail(context, file.error());
@@ -45,7 +45,7 @@ void add_lift(const Command& orb, Context& context) {
   auto options = std::make_shared<LiftOptions>();
   command.add_option("FILE", options->file, "a numbered program; `-` is standard input").required();
   command.add_option("-o,--output", options->out,
-                     "where the structured program goes; standard output if missing");
+                     "where to write the structured program; standard output if omitted");
   command.callback([&context, options] { lift(context, *options); });
 }
 

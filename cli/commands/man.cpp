@@ -75,11 +75,11 @@ void add_man(const Command& orb, Context& context) {
   auto options = std::make_shared<ManOptions>();
   const auto page =
       command.add_option("PAGE", options->page,
-                         "a command, `orbbasic` or `orb-macro`; the page of orb itself "
+                         "a command, `orbbasic` or `orb-macro`; the page for orb itself "
                          "if none is given");
   command
       .add_option("--all", options->folder,
-                  "write every page below this folder, as `MANPATH` wants it")
+                  "write every page below this folder, laid out for `MANPATH`")
       .type_name("FOLDER")
       .excludes(page);
   command.callback([orb, &context, options] {

@@ -75,7 +75,7 @@ macrun wink
 )"};
 
 constexpr Starter test{"%.test",
-                       R"(# What % shall do: `orb test` says whether it does.
+                       R"(# What % should do: `orb test` says whether it does.
 with wink.macro
 for 30s
 at 10s shake
@@ -105,7 +105,7 @@ test "comes home"
 // A room of 2 m by 2 m in which the starters drive their square.
 constexpr Starter course{"course.svg",
                          R"(<?xml version="1.0" encoding="UTF-8"?>
-<!-- What the ball of % drives through, in centimetres; open it in Inkscape or a browser.
+<!-- The course for %, in centimetres; open it in Inkscape or a browser.
      A class says what an element is: wall, start, or zone with an id. `orb spec course-rules` has the rest. -->
 <svg xmlns="http://www.w3.org/2000/svg" width="200cm" height="200cm" viewBox="0 0 200 200">
   <style>
@@ -140,7 +140,7 @@ constexpr auto starters = std::to_array<Starter>({
      R"(# What happens to the ball while it runs (`orb spec stimuli` lists every line).
 at 10s shake
 )"},
-    {"orb.toml", R"(# Defaults for every orb command in this folder; flags are stronger.
+    {"orb.toml", R"(# Defaults for every orb command in this folder; flags override them.
 [check]
 target = "1.7"
 
@@ -182,7 +182,7 @@ void make(Context& context, const NewOptions& options) {
   fs::create_directories(path, error);
   if (error)
     return fail(context,
-                {ExitCode::File, fmt::format("cannot make `{}`: {}", folder, error.message())});
+                {ExitCode::File, fmt::format("cannot create `{}`: {}", folder, error.message())});
   auto name = fs::absolute(path, error).lexically_normal().filename().string();
   if (name.empty())
     name = fs::absolute(path, error).lexically_normal().parent_path().filename().string();
@@ -216,27 +216,26 @@ void make(Context& context, const NewOptions& options) {
 
 void add_new(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("new", "make a folder with a working starter project",
+      orb.add_command("new", "create a folder with a working starter project",
                       "orb new dance\norb new dance --course\norb new dance --numbered");
   auto options = std::make_shared<NewOptions>();
   command
       .add_option(
           "NAME", options->folder,
-          "the folder to make: a program, its test, a macro, a stimulus script and settings")
+          "the folder to create: a program, its test, a macro, a stimulus script and settings")
       .required()
       .check([](const std::string& name) {
         return name.empty() ? std::string("a name is needed") : std::string();
       });
-  const auto with_numbers =
-      command.add_flag("--numbered", options->numbered,
-                       "the program has line numbers (.bas), as the robot itself "
-                       "has them");
+  const auto with_numbers = command.add_flag("--numbered", options->numbered,
+                                             "the program has line numbers (.bas), as on the robot "
+                                             "itself");
   command
       .add_flag("--structured", options->structured,
                 "the program has names and blocks (.orb), which is the default")
       .excludes(with_numbers);
   command.add_flag("--course", options->course,
-                   "also a course: a drawing of walls, zones and a start");
+                   "also create a course: a drawing of walls, zones and a start");
   command.callback([&context, options] { make(context, *options); });
 }
 

@@ -59,8 +59,8 @@ void hint_at_guesses(const Context& context, const RunOptions& given, const run:
                      const Console& console) {
   const auto& [slowest, fastest] = console.speeds();
   if (fastest > profile.fastest || slowest < profile.slowest)
-    print_note(context, fmt::format("hint: it drove at {0}; `{1}` was measured from {2} to {3}, "
-                                    "beyond that its way is a guess",
+    print_note(context, fmt::format("hint: it drove at {0}; `{1}` was measured from {2} to {3}; "
+                                    "beyond that its path is a guess",
                                     fastest > profile.fastest ? fastest : slowest, given.ball,
                                     profile.slowest, profile.fastest));
 }
@@ -74,7 +74,7 @@ tl::expected<std::string, Failure> read_before(const RunOptions& options) {
     return refuse(ExitCode::File, page.error().message);
   auto run = report::run_of_page(*page);
   if (!run)
-    return refuse(ExitCode::Usage, fmt::format("{} is not a page of `orb run --report`",
+    return refuse(ExitCode::Usage, fmt::format("{} is not a page from `orb run --report`",
                                                disk::display_name(options.compare)));
   return *std::move(run);
 }
@@ -151,7 +151,7 @@ tl::expected<std::string, Failure> temporary_report(const std::string& program) 
   if (!own) {
     std::error_code ignored;
     const auto folder = std::filesystem::temp_directory_path(ignored);
-    return refuse(ExitCode::File, fmt::format("cannot make a folder for the report in {}; name a "
+    return refuse(ExitCode::File, fmt::format("cannot create a folder for the report in {}; name a "
                                               "file with `--report`",
                                               folder.empty() ? "/tmp" : folder.string()));
   }
@@ -317,8 +317,9 @@ void run_with_report(Context& context, RunOptions& options) {
   if (!options.replay.empty() && !options.port.port.empty())
     return fail(context, {ExitCode::Usage, "`--replay` needs no robot; leave `--port` out"});
   if (options.watch && !options.port.port.empty())
-    return fail(context, {ExitCode::Usage, "`--watch` would drive the robot at every change; leave "
-                                           "it out with `--port`"});
+    return fail(context,
+                {ExitCode::Usage, "`--watch` would drive the robot at every change; do not "
+                                  "use it with `--port`"});
   const bool temporary = options.open && options.report.empty();
   std::vector<std::string> made_up;
   if (temporary) {
@@ -356,11 +357,12 @@ void add_program_options(const Command& command, RunOptions& options) {
   command.add_option(
       "--input", options.input,
       "numbers for `input`, separated by commas; @stdin reads them as they are asked for");
-  command.add_flag("--disconnected", options.disconnected, "no client is connected");
-  command.add_option("--expect", options.run.expect,
-                     "text that must be printed; ends the run, exit 0; never printed: exit 1");
+  command.add_flag("--disconnected", options.disconnected, "run with no client connected");
+  command.add_option(
+      "--expect", options.run.expect,
+      "text that must be printed; it ends the run with exit 0; exit 1 if it is never printed");
   command.add_option("--fail-text", options.run.fail_text,
-                     "text that must not be printed; ends the run, exit 1");
+                     "text that must not be printed; it ends the run with exit 1");
 }
 
 void add_ball_options(const Command& command, RunOptions& options) {
@@ -372,7 +374,7 @@ void add_ball_options(const Command& command, RunOptions& options) {
             options.firmware = name;
             options.firmware_given = true;
           },
-          "the firmware that is simulated")
+          "the firmware to simulate")
       .show_default(options.firmware)
       .check(one_of(names_of(spec::firmwares)))
       .show_default();
@@ -403,7 +405,7 @@ void add_tether_options(const Command& command, RunOptions& options) {
                   "the virtual ball drives like the robot that `orb calibrate` measured");
   command.add_option("--record", options.record, "records all traffic with the robot in this file");
   command.add_option("--replay", options.replay,
-                     "repeats the run of such a recording, without a robot");
+                     "repeats the run from such a recording, without a robot");
   command.add_flag("--no-aim", options.keep_aim,
                    "keeps the robot's heading and position; otherwise both start at 0");
 }
@@ -411,21 +413,19 @@ void add_tether_options(const Command& command, RunOptions& options) {
 void add_output_options(const Command& command, RunOptions& options) {
   command.add_option("--trace", options.trace, "one event per line, instead of the output")
       .check(one_of({"json", "csv"}));
-  command.add_flag("--trace-lines", options.run.trace_lines,
-                   "the trace has every executed line, too");
+  command.add_flag("--trace-lines", options.run.trace_lines, "also traces every executed line");
   command.add_option("--trace-out", options.trace_out, "the file for the trace");
   command.add_option("--report", options.report, "writes a page that plays the run back");
   command.add_flag("--open", options.open,
                    "opens that page in a browser; without --report, a temporary one");
   command.add_option("--compare", options.compare,
-                     "shows the run of another such page beside this one");
+                     "shows the run from another such page beside this one");
   command.add_option("--svg", options.svg, "draws the path");
   command.add_flag("--watch", options.watch, "runs again whenever a file changes");
 }
 
 void add_room_options(const Command& command, RunOptions& options) {
-  command.add_flag("--together", options.together,
-                   "each FILE drives a ball of its own, in one room");
+  command.add_flag("--together", options.together, "each FILE drives its own ball, in one room");
 }
 
 } // namespace

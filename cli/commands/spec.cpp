@@ -94,7 +94,7 @@ void print_spec(Context& context, const SpecOptions& options) {
 
 void add_spec(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("spec", "print the tables of the robot and the tools",
+      orb.add_command("spec", "print the reference tables for the robot and the tools",
                       "orb spec\norb spec statements\norb spec --json > spec.json");
   auto options = std::make_shared<SpecOptions>();
   command.add_option("SECTION", options->section, "one table; all if none is given");

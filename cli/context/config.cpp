@@ -40,7 +40,7 @@ std::optional<fs::path> nearest_project_file() {
     if (fs::is_regular_file(file, error)) {
       if (is_trusted(file))
         return file;
-      print_err(fmt::format("orb: warning: {} belongs to another user and is not read\n",
+      print_err(fmt::format("orb: warning: {} belongs to another user and is ignored\n",
                             file.generic_string()));
       break;
     }
@@ -95,7 +95,7 @@ tl::expected<void, ConfigError> apply(const Setting& setting, const Command& orb
   if (!allowed)
     return tl::unexpected(
         problem(setting.place,
-                fmt::format("a project's file cannot set `{0}`; write `--{0}` on the command line, "
+                fmt::format("a project file cannot set `{0}`; write `--{0}` on the command line, "
                             "or `{0}` in {1}",
                             setting.option, user_file().value_or("config.toml").generic_string())));
   return {};
@@ -125,8 +125,9 @@ tl::expected<Config, ConfigError> read_roster(const std::string& file) {
                                                       : config.settings.front().section.place,
         "a file of robots has the sections `[balls]` and `[groups]`; settings belong in orb.toml"));
   if (config.balls.empty())
-    return tl::unexpected(problem(file, "there are no robots in it; write `[balls]` and under it a "
-                                        "line such as `red = \"ble://SK-1A2B\"`"));
+    return tl::unexpected(
+        problem(file, "there are no robots in this file; write `[balls]` and under it a "
+                      "line such as `red = \"ble://SK-1A2B\"`"));
   return config;
 }
 

@@ -80,11 +80,11 @@ tl::expected<KnownBall, ConfigError> ball_of(const std::string& file, std::strin
     if (key != keys[0] && key != keys[1])
       return tl::unexpected(
           problem(place_in(file, key.source().begin),
-                  fmt::format("ball `{}` has a `port` and a `robot`, no `{}`{}", name, key.str(),
+                  fmt::format("ball `{}` takes `port` and `robot`, not `{}`{}", name, key.str(),
                               meant_instead(std::string(key.str()), keys))));
     if (text == nullptr)
       return refuse(file, node,
-                    fmt::format("`{}` of ball `{}` is a text in quotes", key.str(), name));
+                    fmt::format("`{}` of ball `{}` must be text in quotes", key.str(), name));
     (key == keys[0] ? ball.url : ball.robot) = text->get();
     if (key == keys[1] && spec::find_robot(ball.robot) == nullptr)
       return refuse(file, node,
@@ -137,8 +137,9 @@ tl::expected<void, ConfigError> take_groups(Config& config, const std::string& f
     for (const auto& member : *list) {
       const auto* text = member.as_string();
       if (text == nullptr)
-        return refuse(file, member,
-                      fmt::format("the group `{}` is a list of names: {}", name.str(), example));
+        return refuse(
+            file, member,
+            fmt::format("the group `{}` must be a list of names: {}", name.str(), example));
       group.members.push_back({text->get(), place_in(file, member)});
     }
     config.groups[std::string(name.str())] = std::move(group);

@@ -110,15 +110,16 @@ bool is_ball_name(const std::string& name) {
 tl::expected<std::string, Failure> settings_folder() {
   const auto path = user_file();
   if (!path)
-    return unsaved(ExitCode::File, "there is no place for a configuration: neither "
+    return unsaved(ExitCode::File, "there is no place for a configuration file: neither "
                                    "XDG_CONFIG_HOME nor HOME is set");
   return path->parent_path().generic_string();
 }
 
 tl::expected<std::string, Failure> save_ball(const std::string& name, const std::string& url) {
   if (!is_ball_name(name))
-    return unsaved(ExitCode::Usage,
-                   fmt::format("`{}` is not a name for a ball: letters, digits, - and _", name));
+    return unsaved(
+        ExitCode::Usage,
+        fmt::format("`{}` is not a valid ball name: use letters, digits, - and _", name));
   if (url.find_first_of("\"\\\n\r") != url.npos)
     return unsaved(ExitCode::Usage,
                    fmt::format("`{}` is not allowed in a configuration file", url));
@@ -130,10 +131,10 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   std::error_code error;
   if (fs::create_directories(disk::as_path(*folder), error); error)
     return unsaved(ExitCode::File,
-                   fmt::format("cannot make the folder of {}: {}", file, error.message()));
+                   fmt::format("cannot create the folder for {}: {}", file, error.message()));
   // From reading it to writing it again nobody else may.
   constexpr Duration patience = 5s;
-  const auto lock = disk::Lock::take(file, patience, "wait until that has ended, and save again");
+  const auto lock = disk::Lock::take(file, patience, "wait until it has finished, then save again");
   if (!lock)
     return unsaved(ExitCode::File, lock.error().message);
   std::string text;

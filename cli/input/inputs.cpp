@@ -12,7 +12,7 @@
 namespace orb::cli {
 
 void add_language_option(const Command& command, std::string& lang) {
-  command.add_option("--lang", lang, "the language, if the file's ending does not tell")
+  command.add_option("--lang", lang, "the language, if the file's extension does not say")
       .check(one_of({"basic", "structured", "macro"}));
 }
 

@@ -47,7 +47,7 @@ Bytes decode_base64url(std::string_view text) {
   return bytes;
 }
 
-const std::string damaged = "is damaged: part of it is missing, or something else is in it";
+const std::string damaged = "is damaged: part of it is missing, or something was added";
 
 /// Data that was packed as deflate, without a header; else what is wrong, a sentence's end.
 tl::expected<std::string, std::string> inflate(const Bytes& packed) {
@@ -106,7 +106,7 @@ Shared read_packed(std::string_view packed) {
     if (is_file_name(name) && content.is_string() && shared.files.size() < most_files)
       shared.files.emplace(name, content.get<std::string>());
   if (shared.files.empty())
-    shared.trouble = "holds no file";
+    shared.trouble = "contains no files";
   return shared;
 }
 
@@ -169,8 +169,7 @@ tl::expected<std::vector<Shared>, std::string> read_links(std::string_view text)
     found.push_back(std::move(shared));
   }
   if (found.empty())
-    return tl::unexpected(
-        fmt::format("no address of the playground, `https://…{}…`, is in it", mark));
+    return tl::unexpected(fmt::format("it contains no playground address, `https://…{}…`", mark));
   return found;
 }
 
@@ -212,8 +211,8 @@ tl::expected<std::string, Failure> Links::read(const std::string& path) {
         found != shared.files.end())
       return found->second;
   }
-  return tl::unexpected(
-      Failure{ExitCode::File, fmt::format("cannot read {}: the address holds no such file", path)});
+  return tl::unexpected(Failure{
+      ExitCode::File, fmt::format("cannot read {}: the address contains no such file", path)});
 }
 
 } // namespace orb::cli

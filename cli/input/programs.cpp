@@ -214,9 +214,10 @@ tl::expected<HandedIn, Failure> read_programs(const std::vector<std::string>& pa
 
 tl::expected<std::vector<testing::GivenFile>, Failure> read_class_tests(const std::string& folder) {
   const auto refuse = [&](const std::string& what) {
-    return tl::unexpected(Failure{
-        ExitCode::Usage,
-        fmt::format("{}; name the lesson's: `orb test robot.test --class {}`", what, folder)});
+    return tl::unexpected(
+        Failure{ExitCode::Usage,
+                fmt::format("{}; name the lesson's test file: `orb test robot.test --class {}`",
+                            what, folder)});
   };
   std::optional<LinkFolder> first;
   std::map<std::string, std::string> tests;
@@ -239,7 +240,7 @@ tl::expected<std::vector<testing::GivenFile>, Failure> read_class_tests(const st
     }
   }
   if (tests.empty())
-    return refuse(fmt::format("there is no test in {}", folder));
+    return refuse(fmt::format("there are no tests in {}", folder));
   std::vector<testing::GivenFile> given;
   for (auto& [name, text] : tests)
     given.push_back({first->path + "/" + name, std::move(text)});

@@ -40,13 +40,13 @@ compiler::Target TargetOptions::target() const {
 void add_target_options(const Command& command, TargetOptions& options) {
   command
       .add_option("--target", options.version,
-                  fmt::format("the orbBasic version of the robot ({})",
+                  fmt::format("the robot's orbBasic version ({})",
                               spec::info(spec::default_basic_version).text))
       .check(one_of(versions()))
       .environment("ORB_TARGET");
-  command.add_option("--ram", options.ram, "bytes of the robot's RAM area")
+  command.add_option("--ram", options.ram, "size of the robot's RAM area in bytes")
       .check(one_of(ram_sizes()));
-  command.add_option("--area", options.area, "the area that the program goes to")
+  command.add_option("--area", options.area, "the area that the program is stored in")
       .check(one_of({"ram", "flash"}))
       .show_default();
 }

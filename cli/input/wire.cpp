@@ -17,7 +17,7 @@ bool client_speaks() {
 }
 
 void add_stdio_flag(const Command& command) {
-  command.add_flag("--stdio", "for editors that insist on it; it changes nothing");
+  command.add_flag("--stdio", "for editors that insist on it; has no effect");
 }
 
 } // namespace orb::cli

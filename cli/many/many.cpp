@@ -26,7 +26,7 @@ constexpr auto notice = std::chrono::milliseconds{20}; ///< how long an interrup
 /// What became of a robot.
 struct Outcome {
   ExitCode exit = ExitCode::Interrupted;
-  std::string verdict = "not begun";
+  std::string verdict = "not started";
   std::string out; ///< what was printed for it, where nobody saw it
   std::string signal;
   bool is_shown = true; ///< the verdict, among what was printed
@@ -292,9 +292,8 @@ void with_robots(Context& context, const RosterOptions& given, const ManyOptions
 }
 
 Failure listens_to_one() {
-  return {ExitCode::Usage,
-          "`--monitor` listens to one robot; leave it out, and write `orb monitor` "
-          "for one of them"};
+  return {ExitCode::Usage, "`--monitor` listens to one robot; leave it out, and use `orb monitor` "
+                           "for one of them"};
 }
 
 PortOptions port_of(PortOptions options, const Member& robot, const Row* row) {

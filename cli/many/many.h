@@ -14,7 +14,7 @@ namespace orb::cli {
 
 /// How many links a Bluetooth adapter holds, LIB: 4 to 7.
 inline constexpr int most_links = 4;
-inline constexpr auto links_at_once = "4, what every Bluetooth adapter holds";
+inline constexpr auto links_at_once = "4, which every Bluetooth adapter can handle";
 
 inline constexpr int all_at_once = 0;
 

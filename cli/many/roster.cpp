@@ -29,7 +29,8 @@ void add_rest(const Command& command, RosterOptions& options, const std::string&
       .check(whole_number(1, most_jobs))
       .type_name("N")
       .show_default(jobs);
-  command.add_option("--tries", options.tries, "how often to try a robot that cannot be reached")
+  command
+      .add_option("--tries", options.tries, "how many times to try a robot that cannot be reached")
       .check(whole_number(1, most_tries))
       .type_name("N")
       .show_default();
@@ -61,9 +62,10 @@ public:
 
   tl::expected<void, Failure> check_group(const std::string& name, const Group& group) const {
     if (roster_.config.balls.contains(name))
-      return refuse(ExitCode::Usage,
-                    fmt::format("{}: `{}` is already the name of a ball; give the group another",
-                                group.place, name));
+      return refuse(
+          ExitCode::Usage,
+          fmt::format("{}: `{}` is already the name of a ball; give the group another name",
+                      group.place, name));
     for (const auto& member : group.members)
       if (!roster_.config.balls.contains(member.name))
         return refuse(ExitCode::Usage, fmt::format("{}: {}", member.place, unknown(member.name)));
@@ -168,7 +170,7 @@ void add_roster_options(const Command& command, RosterOptions& options, const st
       .add_option(
           "-p,--port", options.ports,
           fmt::format(
-              "where the ball is: {}, replay://, @ball or @group; several for several robots",
+              "where the ball is: {}, replay://, @ball or @group; repeat it for several robots",
               uploader::port_kinds))
       .one_value_each()
       .environment("ORB_PORT")
@@ -182,7 +184,7 @@ void add_robot_roster_options(const Command& command, RosterOptions& options,
   command
       .add_option("-p,--port", options.ports,
                   fmt::format("a robot that the program drives from here: {}, @ball or @group; "
-                              "several for several robots",
+                              "repeat it for several robots",
                               uploader::port_kinds))
       .one_value_each()
       .type_name("URL");
@@ -204,7 +206,7 @@ tl::expected<Roster, Failure> find_roster(const Context& context, const RosterOp
       options.ports.front() == from_environment)
     return refuse(ExitCode::Usage,
                   fmt::format("ORB_PORT is {}, and `--ports` names {}: `unset ORB_PORT` for all "
-                              "robots of the file",
+                              "robots in the file",
                               from_environment, options.file));
   roster.is_one = false;
   Naming naming(roster);

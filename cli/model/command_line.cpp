@@ -52,9 +52,8 @@ std::string describe(CLI::App& app, const std::string& word) {
   if (command != nullptr)
     return fmt::format("unexpected argument `{}` for {}", word, whom);
   if (run::content_of(word, ""))
-    return fmt::format("`{0}` is not a command of orb; to run it, write `orb run {0}`", word);
-  return fmt::format("`{}` is not a command of orb{}", word,
-                     meant_instead(word, command_names(app)));
+    return fmt::format("`{0}` is not an orb command; to run it, write `orb run {0}`", word);
+  return fmt::format("`{}` is not an orb command{}", word, meant_instead(word, command_names(app)));
 }
 
 /// Moves each bare option whose value is optional after all others, where there is no file that it

@@ -16,10 +16,11 @@ tl::expected<std::string, Failure> profile_file(const std::string& name) {
   if (name.find_first_of("/\\") != name.npos || name.ends_with(".toml"))
     return name;
   if (!is_ball_name(name))
-    return tl::unexpected(Failure{
-        ExitCode::Usage, fmt::format("`{}` is not a name for a ball: letters, digits, - and _; or "
-                                     "a file such as ./red.toml",
-                                     name)});
+    return tl::unexpected(
+        Failure{ExitCode::Usage,
+                fmt::format("`{}` is not a valid ball name: use letters, digits, - and _; or "
+                            "a file such as ./red.toml",
+                            name)});
   auto folder = settings_folder();
   if (!folder)
     return tl::unexpected(folder.error());
@@ -34,7 +35,7 @@ tl::expected<run::Profile, Failure> read_profile(const std::string& name,
   const auto text = disk::read(*file);
   if (!text)
     return tl::unexpected(
-        Failure{ExitCode::File, fmt::format("{}; `orb calibrate --port URL -o {}` measures one",
+        Failure{ExitCode::File, fmt::format("{}; `orb calibrate --port URL -o {}` creates it",
                                             text.error().message, name)});
   auto profile = run::parse_profile(*text);
   if (!profile)
@@ -42,7 +43,7 @@ tl::expected<run::Profile, Failure> read_profile(const std::string& name,
         Failure{ExitCode::BadInput, fmt::format("{}: {}", *file, profile.error())});
   if (!robot.empty() && spec::find_robot(robot)->robot != profile->robot)
     return tl::unexpected(
-        Failure{ExitCode::Usage, fmt::format("the profile `{}` is of a {}; leave `--robot {}` out",
+        Failure{ExitCode::Usage, fmt::format("the profile `{}` is for a {}; leave `--robot {}` out",
                                              name, spec::info(profile->robot).title, robot)});
   return *profile;
 }

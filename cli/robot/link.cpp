@@ -50,7 +50,7 @@ void add_waits(const Command& command, PortOptions& options) {
       .show_default();
   command
       .add_option("--connect-timeout", options.step,
-                  "how long a step to a robot over Bluetooth LE may take")
+                  "how long each step of connecting over Bluetooth LE may take")
       .type_name("TIME")
       .check(is_time)
       .show_default();
@@ -69,7 +69,7 @@ void add_port_options(const Command& command, PortOptions& options) {
 }
 
 void add_link_options(const Command& command, PortOptions& options) {
-  command.add_option("--record", options.record, "write what passes over the link to this file")
+  command.add_option("--record", options.record, "record all traffic on the link in this file")
       .type_name("FILE");
   add_waits(command, options);
 }
@@ -86,8 +86,9 @@ void add_robot_port_options(const Command& command, PortOptions& options, std::s
 
 void add_robot_options(const Command& command, PortOptions& options, std::string& robot) {
   command
-      .add_option("--robot", robot,
-                  "which robot it is; the virtual one drives like it, a real one tells by its name")
+      .add_option(
+          "--robot", robot,
+          "which robot it is; the virtual one drives like it, and a real one says so by its name")
       .check(one_of(names_of(spec::robots)));
   add_waits(command, options);
 }

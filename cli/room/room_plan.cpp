@@ -83,7 +83,7 @@ public:
   std::uint64_t seed(const toml::node& node) {
     if (const auto* value = node.as_integer(); value != nullptr && value->get() >= 0)
       return static_cast<std::uint64_t>(value->get());
-    refuse(node, "`seed` takes a whole number from 0 on");
+    refuse(node, "`seed` takes a whole number, 0 or greater");
     return 0;
   }
   std::string robot(const toml::node& node) {
@@ -159,11 +159,11 @@ std::string same_name(const std::vector<PlannedBall>& balls) {
     if (const auto [at, fresh] = known.emplace(ball.name, &ball); !fresh)
       return ball.place.empty()
                  ? fmt::format(
-                       "{} and {} would both be named `{}`; give them names in a room file, "
+                       "{} and {} would both be named `{}`; give them names in a room file; "
                        "see docs/rooms.md",
                        at->second->files.front(), ball.files.front(), ball.name)
                  : fmt::format(
-                       "{}: the ball of {} is also called `{}`; give one of them another `name`",
+                       "{}: the ball at {} is also called `{}`; give one of them another `name`",
                        ball.place, at->second->place, ball.name);
   return {};
 }

@@ -121,7 +121,7 @@ tl::expected<void, Failure> check_places(const Furnished& room) {
                         : fmt::format("starts inside the wall {}", vm::to_string(*clash.wall));
   constexpr double digits = 10; // of a centimetre
   return refuse(ExitCode::Usage,
-                fmt::format("{}{}ball `{}` {}: {:g} cm from it, at least {:g} are needed",
+                fmt::format("{}{}ball `{}` {}: {:g} cm from it; at least {:g} cm is needed",
                             ball.place, ball.place.empty() ? "" : ": ", ball.name, what,
                             std::floor(clash.apart_cm * digits) / digits,
                             clash.other ? 2 * spec::ball::radius : spec::ball::radius));

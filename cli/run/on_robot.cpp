@@ -40,9 +40,10 @@ tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::
     return of_simulation("--disconnected");
   for (const auto& event : options.stimuli)
     if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
-      return refuse(ExitCode::Usage,
-                    "with a robot a stimulus can only be an `input`: shake and push it by hand, or "
-                    "leave `--port` out");
+      return refuse(
+          ExitCode::Usage,
+          "with a robot, a stimulus can only be an `input`: shake and push it by hand, or "
+          "leave `--port` out");
   return {};
 }
 

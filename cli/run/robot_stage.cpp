@@ -53,9 +53,10 @@ tl::expected<void, Failure> RobotStage::await_hands(const testing::Suite& suite,
   print_err(fmt::format("case {} of {}: {}, {}, seed {}\n", begun_, cases_, test.name.text,
                         suite.programs[group.program].name, options.seed));
   if (begun_ == 1 || home == run::Home::Missed)
-    print_err("  put the robot on its mark, facing the way it shall start\n");
+    print_err("  put the robot on its mark, facing the way it should start\n");
   if (options.course != nullptr && !options.course->walls.empty())
-    print_err(fmt::format("  the walls of the course {} stand around it\n", options.course->name));
+    print_err(
+        fmt::format("  the walls of the course {} should be around it\n", options.course->name));
   if (has(options, Doer::Hand)) {
     print_err("  after the start, by hand:\n");
     for (const auto& line : test.stimulus_lines)
@@ -72,7 +73,7 @@ tl::expected<void, Failure> RobotStage::ready(const testing::Suite& suite,
                                  "do; run it without `--port`"));
   if (attended_ == Attended::No && has(options, Doer::Hand))
     return tl::unexpected(
-        cannot("the test needs hands, to shake or push the robot; leave `--yes` out"));
+        cannot("the test needs someone to shake or push the robot; leave `--yes` out"));
   auto home = run::Home::Reached;
   if (begun_++ > 0) {
     auto came = run::drive_home(*robot_.link.transport, robot_.tether);

@@ -66,9 +66,9 @@ std::optional<std::int32_t> Console::ask_number() {
                                      word, std::numeric_limits<std::int32_t>::min(),
                                      std::numeric_limits<std::int32_t>::max());
     if (!is_terminal(Stream::In))
-      no_number_ = "on standard input " + message;
+      no_number_ = "on standard input, " + message;
     else
-      print_err(message + "; again\n");
+      print_err(message + "; try again\n");
   }
   return std::nullopt;
 }

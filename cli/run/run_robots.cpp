@@ -14,9 +14,9 @@ namespace {
 std::string_view for_one_robot(const RunOptions& options) {
   return options.open || options.report == "-"
              ? "`--open` and `--report -` show one robot; with several write `--report OUT.html`, "
-               "which is a page for each"
+               "which writes a page for each"
          : !options.trace.empty() && options.trace_out.empty()
-             ? "a trace is of one robot; with several write `--trace-out FILE`, which is a "
+             ? "a trace covers one robot; with several write `--trace-out FILE`, which writes a "
                "file for each"
          : !options.compare.empty()    ? "`--compare` shows one robot; with several leave it out"
          : options.input == from_stdin ? "numbers that are typed go to one robot; with several "

@@ -18,7 +18,7 @@ tl::expected<void, std::string> show_in_browser(const std::string& path) {
       ::ShellExecuteW(nullptr, L"open", file.c_str(), nullptr, nullptr, SW_SHOWNORMAL);
   if (reinterpret_cast<INT_PTR>(result) > least_success)
     return {};
-  return tl::unexpected(fmt::format("no browser could be started; the report is {}", path));
+  return tl::unexpected(fmt::format("no browser could be started; the report is in {}", path));
 }
 
 } // namespace orb::cli

@@ -76,7 +76,7 @@ void ProgressBar::on_status(const Status& status, Instant now) {
     told_quarter_ = 0;
     clear();
     if (!quiet_)
-      print_err(fmt::format("{}: an answer was lost or doubled; sending it again from the start "
+      print_err(fmt::format("{}: an answer was lost or duplicated; sending it again from the start "
                             "(attempt {})\n",
                             name_, attempt_));
   }

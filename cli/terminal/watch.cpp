@@ -62,7 +62,7 @@ public:
     std::fflush(nullptr);
     process_ = ::fork();
     if (process_ < 0)
-      print_error(context_, fmt::format("cannot start a run: {}; the next change starts another",
+      print_error(context_, fmt::format("cannot start a run: {}; the next change tries again",
                                         std::strerror(errno)));
     if (process_ != 0)
       return;

@@ -36,7 +36,7 @@ void watch_with(Runs&& runs, StampOf* stamp, Context& context,
       return;
     if (end == RunEnd::Finished) {
       ended();
-      print_note(context, "waiting for a change; Ctrl-C ends");
+      print_note(context, "waiting for a change; Ctrl-C to stop");
     }
     const auto now = look(files);
     if (now == seen)

@@ -109,7 +109,7 @@ public:
     const auto error = static_cast<int>(::GetLastError());
     ::SetEnvironmentVariableW(mark, nullptr);
     if (!begun) {
-      print_error(context_, fmt::format("cannot start a run: {}; the next change starts another",
+      print_error(context_, fmt::format("cannot start a run: {}; the next change tries again",
                                         std::system_category().message(error)));
       return;
     }

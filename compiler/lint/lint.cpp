@@ -35,8 +35,8 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
   if (size > room) {
     const auto line = line_at_byte(program, flow, room);
     findings.add(rules::ProgramTooLarge, program.lines[line].span,
-                 fmt::format("the program is {} bytes, {} more than the {} of the {} area", size,
-                             size - room, room, in_ram ? "RAM" : "flash"),
+                 fmt::format("the program is {} bytes, {} more than the {} that the {} area holds",
+                             size, size - room, room, in_ram ? "RAM" : "flash"),
                  "`orb build --pack` makes it smaller");
   } else if (in_ram && !target.ram_bytes && size > oldest) {
     const auto line = line_at_byte(program, flow, oldest);

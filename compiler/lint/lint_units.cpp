@@ -95,9 +95,9 @@ private:
     if (speed <= 0 || speed > spec::info(Statement::Goroll).parameters()[1].greatest)
       return;
     auto& d = findings_.add(rules::NeverRolls, items[1].span,
-                            "the ball never rolls: its speed is 0 here, and nowhere else more",
-                            fmt::format("write `goroll 0,{},1`; the heading stands first", speed));
-    d.fix = Fix{"exchange heading and speed",
+                            "the ball never rolls: its speed is 0 here and never set higher",
+                            fmt::format("write `goroll 0,{},1`; the heading comes first", speed));
+    d.fix = Fix{"swap heading and speed",
                 {{items[0].span, "0"}, {items[1].span, std::to_string(speed)}},
                 Safety::Unsafe};
   }
@@ -175,7 +175,7 @@ private:
       return;
     const auto& row = spec::variables[let.variable.value];
     add_time(let.expression, *ms,
-             fmt::format("`{}` is at 0 after {}", row.word, milliseconds_of(*ms)),
+             fmt::format("`{}` reaches 0 after {}", row.word, milliseconds_of(*ms)),
              fmt::format("{} = {}", row.word, *ms * in_second));
   }
 
@@ -213,7 +213,7 @@ private:
     const auto meant = *seconds / in_second;
     auto& d = findings_.add(
         rules::WrongUnit, time.span,
-        fmt::format("`sleep` counts in seconds: {} are {} minutes", *seconds, *seconds / 60),
+        fmt::format("`sleep` counts in seconds: {} is {} minutes", *seconds, *seconds / 60),
         fmt::format("for {} write `{}{}{}`", plural_seconds(meant),
                     text(statement, time, Part::Before), meant,
                     text(statement, time, Part::After)));
@@ -231,7 +231,7 @@ private:
       return;
     constexpr std::int32_t brisk = 100; // for a first try
     add_tiny(statement, speed,
-             fmt::format("speed {} of {} barely moves the ball", *value, spec::ball::greatest),
+             fmt::format("speed {} out of {} barely moves the ball", *value, spec::ball::greatest),
              brisk);
   }
 
@@ -239,7 +239,7 @@ private:
     const auto& value = program_.items_of(statement)[0];
     if (number(value) == 1)
       add_tiny(statement, value,
-               fmt::format("brightness 1 of {} is invisible", spec::ball::greatest),
+               fmt::format("brightness 1 out of {} is invisible", spec::ball::greatest),
                spec::ball::greatest);
   }
 
@@ -263,8 +263,9 @@ private:
     }
     if (sum == 0)
       return;
-    auto& d = findings_.add(rules::TinyValue, statement.span, "brightness 1 of 255 is invisible",
-                            fmt::format("write `{}`", line));
+    auto& d =
+        findings_.add(rules::TinyValue, statement.span, "brightness 1 out of 255 is invisible",
+                      fmt::format("write `{}`", line));
     d.fix = single_fix(d.help, statement.span, line, Safety::Unsafe);
   }
 

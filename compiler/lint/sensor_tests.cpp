@@ -26,7 +26,7 @@ SensorAnswer passed(const SensorQuestion& question, const spec::VariableInfo& ro
   const auto limit = equal ? question.number + (down ? 1 : -1) : question.number;
   const auto line = fmt::format("{} {} {}", row.word, symbol, limit);
   return {&rules::ExactTime,
-          fmt::format("`{}` is {} for one millisecond, which a loop can miss", row.word,
+          fmt::format("`{}` is {} for only one millisecond, so a loop can miss it", row.word,
                       question.number),
           fmt::format("write `{}`", line), line};
 }

@@ -61,7 +61,7 @@ inline Said one_answer(std::string_view test, bool answer, std::string_view mean
 inline Said lost_exchange(std::string_view a, std::string_view b, std::string_view kept) {
   return {
       fmt::format("the old value of `{0}` is lost: the next line sets `{1}` to itself", a, b),
-      fmt::format("keep it first: `{2} = {0}`, then `{0} = {1}`, then `{1} = {2}`", a, b, kept)};
+      fmt::format("save it first: `{2} = {0}`, then `{0} = {1}`, then `{1} = {2}`", a, b, kept)};
 }
 
 /// Of a share that is divided first, and the same multiplied first.

@@ -56,8 +56,9 @@ void TextPass::check_age_of_timer(const LetView& let) {
     return;
   auto& d = findings_.add(
       rules::NewerThanTarget, let.variable.span,
-      fmt::format("a timer that is set to 0 counts up since orbBasic {}; the target is {}",
-                  spec::info(row.since).text, spec::info(target_.version).text),
+      fmt::format(
+          "a timer that is set to 0 counts up only in orbBasic {} and later; the target is {}",
+          spec::info(row.since).text, spec::info(target_.version).text),
       "set it to a number and see how far it has counted down");
   d.severity = Severity::Warning;
 }

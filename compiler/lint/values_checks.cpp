@@ -111,7 +111,7 @@ void ValuesPass::check_may_leave(const Item& value, std::string_view word,
 void ValuesPass::add_may_leave(const Item& value, const std::string& allowed,
                                const std::string& help) {
   findings_.add(rules::MayLeaveRange, value.span,
-                fmt::format("{}, and `{}` can be {}", allowed, program_.text_of(value.span),
+                fmt::format("{}, but `{}` can be {}", allowed, program_.text_of(value.span),
                             shown(range_of(value))),
                 help);
 }
@@ -153,7 +153,7 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
     return false;
   const auto text = program_.text_of(value.span);
   auto& d = findings_.add(rules::LoopLeavesRange, value.span,
-                          fmt::format("`{}` takes {} {} to {}, and `{}` counts {} here", word,
+                          fmt::format("`{}` takes {} {} to {}, but `{}` counts {} here", word,
                                       parameter.name, parameter.least, parameter.greatest, text,
                                       shown(range_of(value))));
   const bool heading = parameter.greatest + 1 == full_turn && range_of(value).lo >= 0;
@@ -210,9 +210,9 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
       rules::ValueOutOfRange, arguments[1].span,
       fmt::format("`goroll` takes speed {} to {}, found {}", parameters[1].least,
                   parameters[1].greatest, speed.lo),
-      fmt::format("write `goroll {},{}{}`; the heading stands first", speed.lo, heading.lo,
+      fmt::format("write `goroll {},{}{}`; the heading comes first", speed.lo, heading.lo,
                   program_.text_of({arguments[1].span.end, arguments.back().span.end})));
-  d.fix = Fix{"exchange them",
+  d.fix = Fix{"swap them",
               {{arguments[0].span, std::string(program_.text_of(arguments[1].span))},
                {arguments[1].span, std::string(program_.text_of(arguments[0].span))}},
               Safety::Unsafe};
@@ -221,9 +221,10 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
 
 void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
   const auto speed = range_of(last);
-  auto& d = findings_.add(rules::MissingGo, statement.span,
-                          "`goroll` takes 3 values since orbBasic 1.2 (August 2012), found 2; the "
-                          "third is 1 to drive, 0 to brake");
+  auto& d =
+      findings_.add(rules::MissingGo, statement.span,
+                    "`goroll` has taken 3 values since orbBasic 1.2 (August 2012), found 2; the "
+                    "third is 1 to drive, 0 to brake");
   d.fix =
       single_fix("add the go value", last.span,
                  fmt::format("{},{}", program_.text_of(last.span), speed == Range::only(0) ? 0 : 1),
@@ -294,7 +295,7 @@ void ValuesPass::check_for(const ForView& loop) {
   }
   if (variable.kind == ItemKind::Indexed) {
     findings_.add(rules::IndexedLoop, variable.span, "`Z` as a loop variable",
-                  "count in one of A to X");
+                  "count with one of A to X");
     check_index(variable.span);
     return;
   }
@@ -328,10 +329,10 @@ void ValuesPass::check_index(Span span) {
     auto& d = findings_.add(
         rules::IndexRange, span,
         index.first_set == nullptr
-            ? "`Z` is used, but `Y` is never set and 0 names no element"
+            ? "`Z` is used, but `Y` is never set and 0 selects no element"
             : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
     if (index.first_set == nullptr)
-      d.help = "`Z` is the list element that `Y` names; use another letter";
+      d.help = "`Z` is the list element that `Y` selects; use another letter";
   } else if (index_begins_ && (*index_begins_ < 1 || *index_begins_ > most)) {
     auto& d = findings_.add(
         rules::MayLeaveRange, span,
@@ -441,11 +442,11 @@ void ValuesPass::check_print(const StatementNode& statement) {
   const auto limit = static_cast<std::uint64_t>(spec::value_of(spec::Limit::PrintBytes));
   if (least > limit)
     findings_.add(rules::PrintTooLong, statement.span,
-                  fmt::format("the print is at least {} bytes; the limit is {}", least, limit),
+                  fmt::format("the output is at least {} bytes; the limit is {}", least, limit),
                   "end the first part with `;` and print the rest on the next line");
   else if (most > limit)
     findings_.add(rules::PrintMayBeTooLong, statement.span,
-                  fmt::format("the print can be {} bytes; the limit is {}", most, limit));
+                  fmt::format("the output can be {} bytes; the limit is {}", most, limit));
 }
 
 void ValuesPass::check_input(const StatementNode& statement) {
@@ -482,7 +483,7 @@ void ValuesPass::check_read(const StatementNode& statement) {
                     "add a `data` line above");
   } else if (count > data_.left) {
     findings_.add(rules::ReadPastData, statement.span,
-                  fmt::format("{} value{} left in the data, {} read here", data_.left,
+                  fmt::format("{} value{} left in the data, but this reads {}", data_.left,
                               data_.left == 1 ? " is" : "s are", count));
     data_.left = DataSet::unknown;
   } else {

@@ -62,7 +62,7 @@ Json Session::set_breakpoint(const Json& json, std::optional<std::uint32_t> file
   if (!runs)
     return unverified("nothing runs from this line on");
   if (!debugs)
-    return unverified("it runs without a debugger");
+    return unverified("this run has no debugger");
   one.spots = {{*file, *runs}};
   one.text = debugger->sources().words(one.spots.front());
   return {{"id", debugger->add(std::move(one)).id},

@@ -27,8 +27,8 @@ Answer Session::initialize(const Json& arguments) {
     can[name] = true;
   can["exceptionBreakpointFilters"] =
       Json::array({{{"filter", fault_filter},
-                    {"label", "Errors of the robot"},
-                    {"description", "stops where an error of the robot ends the program"},
+                    {"label", "Robot errors"},
+                    {"description", "stops where a robot error ends the program"},
                     {"default", true}}});
   return can;
 }
@@ -56,14 +56,14 @@ std::optional<std::string> mistyped(const Json& arguments) {
   const auto expect = [&](std::initializer_list<const char*> names, auto is, const char* what) {
     for (const auto* name : names)
       if (const auto& json = member(arguments, name); !wrong && !json.is_null() && !is(json))
-        wrong = fmt::format("`{}` is {}", name, what);
+        wrong = fmt::format("`{}` must be {}", name, what);
   };
   expect({"program", "course", "test", "testName", "lang", "cwd", "port", "robot"}, is_text,
-         "a text");
-  expect({"files", "stimulus"}, text_or_texts, "a text or a list of texts");
+         "a string");
+  expect({"files", "stimulus"}, text_or_texts, "a string or a list of strings");
   expect({"disconnected", "stopOnEntry", "stopAtEnd", "noDebug", "optimize"}, is_flag,
          "true or false");
-  expect({"seed"}, is_count, "a whole number from 0");
+  expect({"seed"}, is_count, "a whole number, 0 or greater");
   expect({"input"}, numbers, "a list of whole numbers");
   return wrong;
 }
@@ -157,8 +157,9 @@ tl::expected<std::shared_ptr<run::HeldRobot>, Failure> Session::robot_at(const s
   if (auto fits = debug::check_for_robot(*launched); !fits)
     return tl::unexpected(fits.error());
   if (!open_robot)
-    return tl::unexpected(Failure{ExitCode::Usage, "robots are not reached from here: leave `port` "
-                                                   "out"});
+    return tl::unexpected(Failure{ExitCode::Usage,
+                                  "robots cannot be reached from here: leave `port` "
+                                  "out"});
   return open_robot(port, kind);
 }
 

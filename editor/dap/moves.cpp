@@ -77,7 +77,7 @@ Answer Session::go_to(const Json& arguments) {
   const auto file = static_cast<std::uint32_t>((id >> 24) & 0xFF);
   const auto line = static_cast<std::uint32_t>(id & 0xFFFFFF);
   if (id < 0 || file >= debugger->sources().files().size() || !debugger->jump({file, line}))
-    return refuse("the program cannot go on there");
+    return refuse("the program cannot continue there");
   afterwards = [this] { stopped("goto", {}); };
   return Json();
 }
@@ -122,14 +122,14 @@ void Session::take(const Stop& why) {
                                                    : "data breakpoint",
                    why);
   }
-  case Stop::Reason::Fault: return stopped("exception", why, "Error of the robot");
+  case Stop::Reason::Fault: return stopped("exception", why, "Robot error");
   case Stop::Reason::Time: return stopped("pause", why, "Time reached");
   case Stop::Reason::GivenUp: return stopped("pause", why);
   case Stop::Reason::Robot: output("stderr", fmt::format("error: {}\n", why.text)); return finish();
   case Stop::Reason::Begin: return stopped("entry", why, "Beginning of the run");
   case Stop::Reason::Input:
-    say("the program waits for a number; type `input 42` here");
-    return stopped("pause", why, "Waits for a number");
+    say("the program is waiting for a number; type `input 42` here");
+    return stopped("pause", why, "Waiting for a number");
   case Stop::Reason::End: break;
   }
   if (!why.text.empty())

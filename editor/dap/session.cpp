@@ -146,12 +146,12 @@ std::optional<std::string> obstacle(const Session& session, const std::string& c
   if (when == When::Always)
     return std::nullopt;
   if (!session.initialized)
-    return "the first request is `initialize`";
+    return "the first request must be `initialize`";
   if (when == When::Initialized)
     return std::nullopt;
   const auto shown = to_valid_utf8(command);
   if (session.debugger == nullptr)
-    return fmt::format("nothing is launched yet that `{}` could be about", shown);
+    return fmt::format("`{}` is not possible before a program is launched", shown);
   if (when == When::Launched)
     return std::nullopt;
   if (session.going)

@@ -157,7 +157,7 @@ void LanguageServer::State::answer(const Waiting& next) {
     return;
   }
   if (!good_id) {
-    fail(nullptr, {RpcError::InvalidRequest, "an id is a number or a string"});
+    fail(nullptr, {RpcError::InvalidRequest, "an id must be a number or a string"});
     return;
   }
   if (next.is_cancelled) {
@@ -201,7 +201,7 @@ Answer LanguageServer::State::request(const std::string& method, const Json& par
       {"callHierarchy/outgoingCalls", &State::outgoing_calls},
   };
   if (!initialized && method != "initialize")
-    return refuse(RpcError::ServerNotInitialized, "the first request is `initialize`");
+    return refuse(RpcError::ServerNotInitialized, "the first request must be `initialize`");
   if (shut_down && method != "initialize")
     return refuse(RpcError::InvalidRequest, "the server is shut down");
   for (const auto& row : rows)
@@ -223,13 +223,14 @@ Answer LanguageServer::State::ask_document(const std::string& method, const Json
   if (known->has_position)
     at = space.offset(document->source, member(params, "position"));
   if (!at)
-    return refuse(RpcError::InvalidParams, "a position is a line and a character, both from 0");
+    return refuse(RpcError::InvalidParams,
+                  "a position is a line and a character, both counted from 0");
   return known->answer(space, {uri, *document, params, *at});
 }
 
 Answer LanguageServer::State::initialize(const Json& params) {
   if (initialized)
-    return refuse(RpcError::InvalidRequest, "`initialize` comes once");
+    return refuse(RpcError::InvalidRequest, "`initialize` was already sent");
   initialized = true;
   const auto& offered =
       member(member(member(params, "capabilities"), "general"), "positionEncodings");
@@ -249,7 +250,7 @@ Answer LanguageServer::State::initialize(const Json& params) {
   if (const auto version = spec::find_version(target))
     space.options.target = *version;
   else if (!target.empty())
-    log(fmt::format("`{}` is not a version of orbBasic; checking for {}", to_valid_utf8(target),
+    log(fmt::format("`{}` is not an orbBasic version; checking for {}", to_valid_utf8(target),
                     spec::info(space.options.target).text));
   for (const auto& folder : member(params, "workspaceFolders"))
     space.roots.push_back(path_of_uri(text_of(member(folder, "uri"))));
@@ -284,7 +285,7 @@ void LanguageServer::State::did_open(const Json& params) {
   const auto& item = member(params, "textDocument");
   const auto uri = text_of(member(item, "uri"));
   if (uri.empty() || !member(item, "text").is_string()) {
-    log("a document was opened without a name or a text");
+    log("a document was opened without a name or text");
     return;
   }
   const auto& version = member(item, "version");
@@ -317,7 +318,7 @@ void LanguageServer::State::did_change(const Json& params) {
   }
   const auto& changes = member(params, "contentChanges");
   if (!changes.is_array()) {
-    log("a change without `contentChanges`");
+    log("ignored a change without `contentChanges`");
     return;
   }
   for (const auto& change : changes)

@@ -30,7 +30,8 @@ Answer selections(const Workspace& space, const Asked& asked) {
   for (const auto& one : positions) {
     const auto at = space.offset(source, one);
     if (!at)
-      return refuse(RpcError::InvalidParams, "a position is a line and a character, both from 0");
+      return refuse(RpcError::InvalidParams,
+                    "a position is a line and a character, both counted from 0");
     list.push_back(nest_ranges(space, source,
                                nested(source, *at, asked.document.shape().around(source, *at))));
   }

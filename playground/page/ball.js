@@ -95,7 +95,7 @@ export class Ball {
     const asked = request(this.workspace());
     if (!this.ready(asked)) return;
     this.set_busy("robot");
-    this.say("readies the robot");
+    this.say("getting the robot ready");
     this.on_begin();
     const { signal } = this.leash = new AbortController();
     this.told = "";
@@ -108,7 +108,7 @@ export class Ball {
         step = await this.machine.call("drive_step", { at: now(), ...await do_wish(link, step.wish, now) });
       }
       this.show(step.report, true);
-      this.say(this.running = `drives the ${step.robot}; Stop brakes it`);
+      this.say(this.running = `driving the ${step.robot}; Stop brakes it`);
       this.player.play();
       let done = {}, shown = 0;
       while (!step.over) {
@@ -121,7 +121,7 @@ export class Ball {
       }
       this.finish();
       this.conclude(step.over, false);
-      const stop = step.stopped ? "the robot has been stopped" : "the robot has not acknowledged the stop: see that it stands still";
+      const stop = step.stopped ? "the robot has been stopped" : "the robot has not acknowledged the stop: check that it has stopped";
       $("outcome").append(element("p", { class: step.stopped ? "hint" : "bad" }, [step.trouble, stop].filter(Boolean).join("; ")));
     } catch (error) {
       this.fail(error);
@@ -131,7 +131,7 @@ export class Ball {
   expect_frame() {
     clearTimeout(this.silence);
     this.silence = setTimeout(() => {
-      if (this.busy === "live") this.say("The engine has not answered for some seconds; Stop ends it.", true);
+      if (this.busy === "live") this.say("The engine has not answered for several seconds; Stop ends it.", true);
     }, silent_ms);
   }
   take_frame({ ms, waits_for, pose, prints, faults, ended, more }) {
@@ -144,14 +144,14 @@ export class Ball {
     if (fault) return this.tell_fault(fault, "The program has stopped");
     if (ended && !this.told) {
       this.told = ended;
-      this.say(`${ended}; the ball still rolls`);
+      this.say(`${ended}; the ball is still rolling`);
     }
     const waits = waits_for || "";
     if (waits === this.waits) return;
     this.waits = waits;
-    $("number-words").textContent = waits ? `It waits for ${waits}` : "Number";
+    $("number-words").textContent = waits ? `It is waiting for ${waits}` : "Number";
     $("number-form").classList.toggle("wanted", waits !== "");
-    if (!this.told) this.say(waits ? `waits for ${waits}` : this.running);
+    if (!this.told) this.say(waits ? `waiting for ${waits}` : this.running);
     if (waits && $("player").contains(document.activeElement)) $("number").focus();
   }
   /** All that is known of a fault: what happened where, with which values, and what helps. */
@@ -184,7 +184,7 @@ export class Ball {
     const [fault] = ending?.faults ?? [];
     // What it waited for is said with the option of a command line, which here is a button.
     if (fault) this.tell_fault(fault, words);
-    else this.say(words + (hint ? `. ${hint.split(";")[0]}: press Run and do it by hand, or put it under More` : ""));
+    else this.say(words + (hint ? `. ${hint.split(";")[0]}: press Run and do it by hand, or set it under More` : ""));
     if (plays) this.player.play();
     else this.player.seek(this.player.end());
   }
@@ -210,7 +210,7 @@ export class Ball {
   ready({ names }) {
     if (this.busy) return false;
     if (names[0]) return true;
-    this.say("There is no program yet: make a file that ends in .orb, .bas or .macro.", true);
+    this.say("There is no program yet: create a file that ends in .orb, .bas or .macro.", true);
     return false;
   }
   fail(error) {
@@ -218,14 +218,14 @@ export class Ball {
     this.finish();
     this.player.settle();
     if (error.findings) this.on_mistakes(error.findings);
-    this.say(error.findings ? "It has mistakes: see below the program." : error.message, true);
+    this.say(error.findings ? "It has mistakes; they are listed below the program." : error.message, true);
   }
   /** The engine is gone. */
   give_up() {
     if (!this.busy) return;
     this.finish();
     this.player.settle();
-    this.say("The engine of orb has stopped.", true);
+    this.say("orb's engine has stopped.", true);
   }
 
   /** At once, whatever the program does. */

@@ -13,15 +13,15 @@ export function set_up_class({ machine, workspace, on_change, share, address_of 
     const row = (words, ...what) => [element("dt", {}, words), element("dd", {}, ...what)];
     const verdict = element("span", { class: "hint" });
     $("lesson-parts").replaceChildren(
-      ...row("Pupils begin with", program ? element("code", {}, program) : "no program yet"),
-      ...row("“Am I done?” asks", ...tests.length ? [element("code", {}, tests.join(", ")), " ", verdict]
-        : ["nothing yet ", ...program ? [button("Make a test", () => make_test(program), { id: "lesson-make-test" })] : []]),
+      ...row("Pupils start with", program ? element("code", {}, program) : "no program yet"),
+      ...row("“Am I done?” runs", ...tests.length ? [element("code", {}, tests.join(", ")), " ", verdict]
+        : ["nothing yet ", ...program ? [button("Create a test", () => make_test(program), { id: "lesson-make-test" })] : []]),
       ...row("Around the ball", element("span", {}, [now.run.course, ...now.run.stimuli].filter(Boolean).join(", ") || "nothing"), element("span", { class: "hint" }, " (chosen under More)")));
     $("lesson-share").disabled = !program;
     if (!tests.length) return;
     const { results } = await machine.call("test", { files: now.files, names: tests }).catch(() => ({}));
     const summary = results?.summary;
-    verdict.textContent = !summary ? "It has mistakes." : summary.passed === summary.tests ? "The program passes already: what is left for pupils?"
+    verdict.textContent = !summary ? "It has mistakes." : summary.passed === summary.tests ? "The program already passes: what is left for pupils to do?"
       : `The program passes ${summary.passed} of ${summary.tests}.`;
   }
   function make_test(program) {
@@ -88,7 +88,7 @@ export function set_up_class({ machine, workspace, on_change, share, address_of 
   $("hand-in-save").addEventListener("click", () => {
     const name = `${$("pupil").value.trim().replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-|-$/g, "") || "result"}.link`;
     download(name, `${address}\n`);
-    $("hand-in-said").textContent = `${name} is among your downloads: give it to your teacher.`;
+    $("hand-in-said").textContent = `${name} is in your downloads: give it to your teacher.`;
   });
   return { write, hand_in };
 }

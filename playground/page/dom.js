@@ -41,7 +41,7 @@ export function on_demand(load) {
       part = await (loaded ??= load());
     } catch {
       loaded = null;
-      return say("This part of the page could not be loaded. Is there a network? Load the page again.", "bad");
+      return say("This part of the page could not be loaded. Check your network connection and reload the page.", "bad");
     }
     return deed(part);
   };

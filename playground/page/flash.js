@@ -21,15 +21,15 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   async function open() {
     const { names } = request(workspace());
     const serial = can_serial(), bluetooth = can_bluetooth();
-    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a robot that is awake and near.` : "There is no program to write yet.";
+    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a robot that is awake and nearby.` : "There is no program to write yet.";
     $("flash-serial").disabled = !serial || !names[0];
     $("flash-bluetooth").disabled = !bluetooth || !names[0];
     $("flash-file").disabled = !names[0];
     $("drive-serial").disabled = !serial || !names[0];
     $("drive-bluetooth").disabled = !bluetooth || !names[0];
-    $("flash-lacks").textContent = !serial && !bluetooth ? "This browser can reach no robot. Chrome and Edge can; or take the file and write it with `orb upload`."
-      : !serial ? "This browser knows no serial ports: classic balls need Chrome or Edge on a computer, or the file and `orb upload`."
-      : !bluetooth ? "This browser knows no Bluetooth LE." : "";
+    $("flash-lacks").textContent = !serial && !bluetooth ? "This browser cannot reach robots. Chrome and Edge can; or save the file and write it with `orb upload`."
+      : !serial ? "This browser does not support serial ports: classic balls need Chrome or Edge on a computer, or the file and `orb upload`."
+      : !bluetooth ? "This browser does not support Bluetooth LE." : "";
     if (!held) {
       $("flash-status").textContent = "";
       $("flash-progress").hidden = true;
@@ -60,7 +60,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     let link = null, stays = false;
     await let_go();
     set_running(controller);
-    say("Choose the ball in the window of the browser.");
+    say("Choose the ball in the browser's window.");
     try {
       link = await unless(controller.signal, open_link(), late => late.close());
       const area = document.querySelector("input[name=area]:checked").value;
@@ -94,7 +94,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     await let_go();
     set_running(controller);
     $("flash-progress").hidden = true;
-    say("Choose the robot in the window of the browser, and put it on the floor.");
+    say("Put the robot on the floor, and choose it in the browser's window.");
     try {
       link = await unless(controller.signal, open_link(), late => late.close());
       say("");
@@ -141,7 +141,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       const { bytes } = await machine.call("tell_robot", { ...held.asked, what, seq: held.seq });
       held.seq = (held.seq + 8) % 248;
       await held.link.write(bytes);
-      say(what === "run" ? "It runs." : "It stops.");
+      say(what === "run" ? "It is running." : "It is stopping.");
     } catch (error) {
       say(error.message ?? "The robot does not answer.", true);
     }

@@ -46,7 +46,7 @@ export async function show_library(on_pick) {
           ...others.map(other => button(`in ${languages[other.language]}`, open(other), { "data-id": other.id, class: "link" })));
       }))];
     }));
-    if (!list.children.length) list.append(element("p", { class: "empty" }, "Nothing has these words."));
+    if (!list.children.length) list.append(element("p", { class: "empty" }, "Nothing contains these words."));
   };
   $("search").value = "";
   $("search").oninput = show;

@@ -17,7 +17,7 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
   /** The earlier states of a document, looked up when somebody asks for them. */
   function earlier(id, title) {
     const list = element("ol");
-    const fold = element("details", {}, element("summary", {}, "Earlier states"), list);
+    const fold = element("details", {}, element("summary", {}, "Earlier versions"), list);
     fold.addEventListener("toggle", async () => {
       if (!fold.open || list.children.length) return;
       const rows = await store.versions(id);
@@ -39,7 +39,7 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
       $("mine-list").replaceChildren(element("ul", { class: "mine" }, ...rows.map(row => element("li", { "data-document": row.id },
         button(row.title || "program", () => open(row, row.id, row.title, `“${row.title}”, as you left it.`), { class: row.id === workspace().document ? "strong" : undefined }),
         element("span", { class: "hint" }, when.format(row.changed)), earlier(row.id, row.title)))));
-      if (!rows.length) $("mine-list").replaceChildren(element("p", { class: "empty" }, "Nothing is kept here yet."));
+      if (!rows.length) $("mine-list").replaceChildren(element("p", { class: "empty" }, "Nothing has been saved here yet."));
       if (!$("mine-dialog").open) $("mine-dialog").showModal();
     },
   };

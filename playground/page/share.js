@@ -10,7 +10,7 @@ const with_codes = on_demand(() => import("uqr"));
 function show_code(link) {
   const most = 2331; // bytes in the largest code with its damage repaired to a seventh
   $("share-code").hidden = link.length > most;
-  $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code; the address holds it." : "";
+  $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code, but it is in the address." : "";
   if (link.length <= most) with_codes(({ renderSVG }) => { $("share-code").innerHTML = renderSVG(link, { ecc: "M", border: 2 }); });
 }
 
@@ -24,7 +24,7 @@ export function set_up_share({ workspace }) {
       $("share-link").select();
       show_code(link);
     } catch (error) {
-      say(error instanceof AddressError ? error.message : `No address can be made: ${error.message}`, "bad");
+      say(error instanceof AddressError ? error.message : `Cannot create an address: ${error.message}`, "bad");
     }
   }
   $("share").addEventListener("click", share);

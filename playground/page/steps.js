@@ -2,7 +2,7 @@
 
 import { $, element, button } from "./dom.js";
 
-export const welcome = `' The ball drives a figure. How many corners shall it have?
+export const welcome = `' The ball drives a shape. How many corners should it have?
 const corners = 4
 
 for side = 1 to corners
@@ -22,7 +22,7 @@ print corners, "corners"
 export function first_steps({ on_next }) {
   let at = -1; // the step that is next; none
   const words = [["Press ", element("b", {}, "Run"), ": the ball drives a square."],
-    ["Change the ", element("code", {}, "4"), " behind ", element("code", {}, "corners"), " into a ", element("code", {}, "3"), "."],
+    ["Change the ", element("code", {}, "4"), " after ", element("code", {}, "corners"), " to a ", element("code", {}, "3"), "."],
     ["Run it again. What does it drive now?"]];
   function draw() {
     $("task").hidden = false;

@@ -13,7 +13,7 @@ export class Verdicts {
   /** `names`: the test files. */
   async run(names) {
     if (this.ball.busy) return;
-    if (!names.length) return this.ball.say("There is no test here: make a file that ends in .test.", true);
+    if (!names.length) return this.ball.say("There is no test here: create a file that ends in .test.", true);
     const { files } = this.workspace();
     this.ball.set_busy("test");
     this.ball.say("testing…");

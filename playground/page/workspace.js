@@ -4,8 +4,8 @@
 export const limits = { text: 256 * 1024, files: 24, shared: 1024 * 1024, link: 200 * 1024, task: 10_000 };
 const thousands = number => number.toLocaleString("en");
 export const limit_words = {
-  text: `A file holds at most ${thousands(limits.text)} letters`,
-  files: `A program has at most ${limits.files} files`,
+  text: `A file can have at most ${thousands(limits.text)} characters`,
+  files: `A program can have at most ${limits.files} files`,
 };
 
 /** What the ending of a name says; `start` is what a new file begins with. */
@@ -29,9 +29,9 @@ const stem_of = name => name.slice(0, name.lastIndexOf("."));
 
 /** Why a name cannot be a file's; "" where it can. */
 export function name_trouble(name) {
-  if (!/^[A-Za-z0-9][A-Za-z0-9 _.-]*$/.test(name)) return "A name has letters, digits, - and _.";
+  if (!/^[A-Za-z0-9][A-Za-z0-9 _.-]*$/.test(name)) return "A name can have only letters, digits, - and _.";
   if (name.length > 60) return "That name is too long.";
-  if (!kind_of(name) || !stem_of(name)) return `A name ends in ${Object.keys(kinds).map(kind => "." + kind).join(", ")}.`;
+  if (!kind_of(name) || !stem_of(name)) return `A name must end in ${Object.keys(kinds).map(kind => "." + kind).join(", ")}.`;
   return "";
 }
 
@@ -115,7 +115,7 @@ const through = (bytes, transform) => new Blob([bytes]).stream().pipeThrough(tra
 export class AddressError extends Error {}
 const packs = () => {
   if (typeof CompressionStream === "undefined")
-    throw new AddressError("This browser cannot pack programs into addresses: it is older than 2023. Save the files, or take another browser.");
+    throw new AddressError("This browser cannot pack programs into addresses: it is older than 2023. Save the files, or use another browser.");
 };
 
 /** The part of an address behind `#` that holds a workspace. */
@@ -131,7 +131,7 @@ export async function to_fragment(workspace) {
 /** The workspace that an address holds. Throws where it is broken or too long. */
 export async function from_fragment(fragment) {
   const found = /^#p=([\w-]+)$/.exec(fragment);
-  if (!found) throw new AddressError("The address is damaged: part of it is missing, or something else is in it. Ask for it again.");
+  if (!found) throw new AddressError("The address is damaged: part of it is missing, or something was added. Ask for it again.");
   packs();
   const bytes = await read_all(through(from_base64url(found[1]), new DecompressionStream("deflate-raw")), limits.shared);
   const { files, active, main, run, lesson, task, name } = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));

@@ -5,7 +5,7 @@ import { playback, seek, watch } from "./playback.js";
 
 const kinds = {
   __proto__: null,
-  print: { words: "prints", icon: "M1 3h12v7H6l-3 3v-3H1z" },
+  print: { words: "output", icon: "M1 3h12v7H6l-3 3v-3H1z" },
   error: { words: "errors", icon: "M7 1L14 13H0z" },
   marker: { words: "markers", icon: "M7 1l6 6-6 6-6-6z" },
   bump: { words: "bumps", icon: "M12 7a5 5 0 1 1-10 0 5 5 0 0 1 10 0z", stroked: true },

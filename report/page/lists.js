@@ -19,9 +19,9 @@ export function list_balls(take) {
   const whose = $("whose"), { room, main } = playback;
   whose.replaceChildren();
   whose.hidden = false;
-  whose.setAttribute("aria-label", "Ball that is looked at");
+  whose.setAttribute("aria-label", "Ball shown");
   if (room.length > most_buttons) {
-    const list = element("select", { "aria-label": "Ball that is looked at" });
+    const list = element("select", { "aria-label": "Ball shown" });
     room.forEach((one, i) => list.append(element("option", { value: i }, one.ball)));
     list.value = room.indexOf(main);
     list.addEventListener("change", () => take(room[Number(list.value)]));

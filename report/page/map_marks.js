@@ -90,7 +90,7 @@ export function list_signs() {
     if (!seen) continue;
     const item = element("li", { "data-sign": kind });
     mark_art[kind](shape("svg", { viewBox: "-10 -10 20 20", "aria-hidden": "true" }, item));
-    item.append(kind === "bump" && playback.room.length ? "met a wall or a ball" : words);
+    item.append(kind === "bump" && playback.room.length ? "ran into a wall or a ball" : words);
     $("legend").append(item);
   }
   for (const [sign, words, seen] of [["wall", "wall", playback.runs.some(one => one.run.walls.length)], ["zone", "zone", playback.runs.some(one => one.run.course?.zones.length)], ["run unlit", "LED off", playback.runs.some(one => one.stretches.some(stretch => !stretch.color))]]) {

@@ -24,7 +24,7 @@ export function list_variables() {
     });
     jumps.append(...buttons);
     row.append(name, value, jumps);
-    if (one.cut) row.title = "it changed more often than a report holds: some changes are left out";
+    if (one.cut) row.title = "it changed more often than a report can hold; some changes are left out";
     return { row, value, buttons, one };
   });
   $("variables").tBodies[0].replaceChildren(...variable_rows.map(({ row }) => row));

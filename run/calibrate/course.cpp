@@ -151,8 +151,9 @@ private:
           take(*sample);
       const auto here = from_middle();
       if (std::max(std::abs(here.x), std::abs(here.y)) > square_half_cm)
-        return refuse(ExitCode::Refused, "the robot left the 2 m x 2 m; put it in the middle of a "
-                                         "level floor, facing along one side, and begin again");
+        return refuse(ExitCode::Refused,
+                      "the robot left the 2 m x 2 m area; put it in the middle of a "
+                      "level floor, facing along one side, and begin again");
     }
     return {};
   }

@@ -187,15 +187,14 @@ tl::expected<void, Failure> believable(const Calibration& result, const Found& f
     if (found.at[at] > 0.99 * furthest || found.at[at] * furthest < 1 / 0.99)
       return refuse(
           ExitCode::Refused,
-          fmt::format("`{}` is off by a factor of more than {} from the model's {}: check that "
-                      "`--robot` names this robot, and that nothing holds it",
+          fmt::format("`{}` differs by a factor of more than {} from the model's {}: check that "
+                      "`--robot` names this robot, and that nothing is holding it back",
                       info.name, furthest, value_of(result.before, info)));
     if (found.spread[at] > open_share * found.at[at])
-      return refuse(
-          ExitCode::Refused,
-          fmt::format(
-              "this drive does not determine `{}`: {:.3g} ± {:.2g}; begin again on a level floor",
-              info.name, value_of(result.after, info), result.spread[row]));
+      return refuse(ExitCode::Refused,
+                    fmt::format("this drive is not enough to determine `{}`: {:.3g} ± {:.2g}; "
+                                "begin again on a level floor",
+                                info.name, value_of(result.after, info), result.spread[row]));
   }
   if (result.error_after_cm > misfit_cm &&
       result.error_after_cm > misfit_share * result.error_before_cm)
@@ -217,7 +216,7 @@ tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot ro
       used.push_back(&leg);
   const auto enough = [&] { return 4 * used.size() >= 3 * legs.size() && !used.empty(); };
   const auto too_few = [&] {
-    return refuse(ExitCode::Refused, fmt::format("only {} of {} legs are usable, the link lost the "
+    return refuse(ExitCode::Refused, fmt::format("only {} of {} legs are usable; the link lost the "
                                                  "others; move closer to the robot and try again",
                                                  used.size(), legs.size()));
   };

@@ -63,7 +63,7 @@ tl::expected<void, std::string> take_robot(const Line& line, Profile& profile) {
 tl::expected<double, std::string> read_number(const Line& line, double least, double most) {
   const auto number = parse_number<double>(line.value);
   if (!number || !(*number >= least && *number <= most))
-    return tl::unexpected(wrong(line, fmt::format("`{}` is a number from {} to {}, not {}",
+    return tl::unexpected(wrong(line, fmt::format("`{}` must be a number from {} to {}, not {}",
                                                   line.key, least, most, line.value)));
   return *number;
 }
@@ -87,7 +87,7 @@ tl::expected<void, std::string> take_number(const Line& line, Profile& profile) 
   for (const auto& row : driving_rows)
     names.push_back(row.name);
   return tl::unexpected(
-      wrong(line, fmt::format("`{}` is not a number of a profile; {}", line.key,
+      wrong(line, fmt::format("unknown profile entry `{}`; {}", line.key,
                               did_you_mean(line.key, names, "the first line names the robot"))));
 }
 
@@ -125,7 +125,7 @@ tl::expected<Profile, std::string> parse_profile(std::string_view text) {
   if (!lines)
     return tl::unexpected(lines.error());
   if (lines->empty() || lines->front().key != "robot")
-    return tl::unexpected(std::string("the first line of a profile is `robot = \"sphero\"`"));
+    return tl::unexpected(std::string("the first line of a profile must be `robot = \"sphero\"`"));
   Profile profile;
   if (auto taken = take_robot(lines->front(), profile); !taken)
     return tl::unexpected(taken.error());

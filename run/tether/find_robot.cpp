@@ -50,7 +50,7 @@ public:
       }
     }
     return tl::unexpected(Failure{
-        ExitCode::NoBall, "no robot answers; wake it, bring it nearer, and see `orb doctor`"});
+        ExitCode::NoBall, "no robot answers; wake it, bring it nearer, or run `orb doctor`"});
   }
 
 private:
@@ -100,8 +100,8 @@ tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Du
   }
   if (left.empty())
     return tl::unexpected(Failure{ExitCode::NoBall,
-                                  "the robot speaks packets v2, but knows other commands than any "
-                                  "that orb knows; name one that it resembles with `--robot`"});
+                                  "the robot speaks v2 packets, but its commands match no robot "
+                                  "that orb knows; name a similar one with `--robot`"});
   if (left.size() == 1)
     return left.front()->robot;
   std::string names;
@@ -109,7 +109,7 @@ tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Du
     names += fmt::format("{}`--robot {}`", names.empty() ? "" : " or ", row->name);
   return tl::unexpected(
       Failure{ExitCode::Usage,
-              fmt::format("the robot speaks packets v2 but does not say which model it is; add {}",
+              fmt::format("the robot speaks v2 packets but does not say which model it is; add {}",
                           names)});
 }
 

@@ -90,7 +90,7 @@ std::string Pilot::words() const {
                           std::hypot(sample_.velocity_cm_s.x, sample_.velocity_cm_s.y),
                           sample_.yaw_deg, on_circle(heading_ + ahead_), speed_);
   if (blows_ > 0)
-    text += fmt::format(", {} blow{}", blows_, blows_ == 1 ? "" : "s");
+    text += fmt::format(", {} bump{}", blows_, blows_ == 1 ? "" : "s");
   if (battery_)
     text += fmt::format(", {:.2f} V", battery_->volts);
   return text;

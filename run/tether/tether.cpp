@@ -103,7 +103,7 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
                                        what, wire_->describe(*refusal))});
   return tl::unexpected(
       Failure{ExitCode::LinkLost,
-              fmt::format("the robot does not answer command {}; wake it, bring it nearer, and see "
+              fmt::format("the robot does not answer command {}; wake it, bring it nearer, or run "
                           "`orb doctor`",
                           what)});
 }
@@ -113,7 +113,7 @@ tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
   const auto fail = [&](Failure failure) {
     const bool stopped = finish();
     if (!stopped)
-      failure.message += "; a stop was sent and not acknowledged";
+      failure.message += "; a stop was sent but not acknowledged";
     return tl::unexpected(std::move(failure));
   };
   const auto first = wire_->setup(aim);
@@ -164,7 +164,7 @@ tl::expected<vm::Sample, Failure> Tether::listen() {
     return tl::unexpected(
         Failure{ExitCode::LinkLost,
                 fmt::format("the robot answers, but no sensor data came for {} s; is it a {}? "
-                            "`--robot` names another",
+                            "if not, name it with `--robot`",
                             budgets_.first_sample / 1s, spec::info(robot_).title)});
   sample_at_ = now();
   stale_ = false;

@@ -21,7 +21,7 @@ inline constexpr std::string_view stop_lost =
     "the robot has not acknowledged the stop; it stops by itself 2 s after the last command: make "
     "sure that it does";
 inline constexpr std::string_view samples_gone =
-    "no sensor data: the robot was told to stop, and the program waits";
+    "no sensor data: the robot was told to stop, and the program is waiting";
 inline constexpr std::string_view samples_back = "sensor data is back: the program continues";
 
 /// Waits and repetitions of a run on a robot that is elsewhere.

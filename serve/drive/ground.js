@@ -26,7 +26,7 @@ export function addToGround(x, y, heading) {
     pen.lineTo(...at(reach, cm));
     pen.stroke();
   }
-  pen.fillText(`${step} cm a square`, 8, canvas.height - 10);
+  pen.fillText(`${step} cm per square`, 8, canvas.height - 10);
   pen.strokeStyle = colour("--line");
   pen.lineWidth = 4;
   pen.beginPath();

@@ -47,7 +47,7 @@ std::string listing(const Compiled& compiled, const compiler::Image& image) {
   text += '\n';
   for (const auto& [routine, size] : bytes)
     text += fmt::format("{:>8}  {}\n", size, part_name(compiled, routine));
-  return text + fmt::format("{:>8}  in all, with the final NUL\n", image.bytes.size());
+  return text + fmt::format("{:>8}  in total, including the final NUL\n", image.bytes.size());
 }
 
 } // namespace orb::structured

@@ -285,14 +285,14 @@ private:
     if (size > room)
       program.diagnostics.push_back(
           finding(robot::ProgramTooLarge, span,
-                  fmt::format("the program is {} bytes, {} more than the {} of the {} area", size,
-                              size - room, room, in_ram ? "RAM" : "flash"),
+                  fmt::format("the program is {} bytes, {} more than the {} that the {} area holds",
+                              size, size - room, room, in_ram ? "RAM" : "flash"),
                   parts(image)));
     else
-      program.diagnostics.push_back(
-          finding(robot::LargerThanOldRam, span,
-                  fmt::format("the program is {} bytes; older robots have {}", size, oldest),
-                  "give `--ram 4096` if yours has more"));
+      program.diagnostics.push_back(finding(
+          robot::LargerThanOldRam, span,
+          fmt::format("the program is {} bytes; older robots have room for {}", size, oldest),
+          "give `--ram 4096` if yours has more"));
   }
 
   /// The largest parts of the program, in bytes.

@@ -154,7 +154,7 @@ Lifted lift(const compiler::Checked& checked) {
     return lifted;
   auto ways = lifting::read_ways(program);
   if (ways.steps.empty())
-    ways.obstacle = lifting::obstacle({}, "the program has no statement");
+    ways.obstacle = lifting::obstacle({}, "the program has no statements");
   if (ways.obstacle) {
     lifted.findings.push_back(*ways.obstacle);
     return lifted;

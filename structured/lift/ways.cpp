@@ -134,7 +134,7 @@ private:
   void look_at(const State& state) {
     const auto& statement = statement_of(ways_.steps[state.step]);
     if (statement.kind == spec::Statement::Tron)
-      stop(state, "`tron` prints the numbers of lines, which a structured program does not have",
+      stop(state, "`tron` prints line numbers, which a structured program does not have",
            "take it out");
     else if (statement.kind == spec::Statement::For)
       look_at_loop(state, program_.as<compiler::ForView>(statement));
@@ -146,8 +146,8 @@ private:
 
   void look_at_loop(const State& state, const compiler::ForView& loop) {
     if (loop.variable.kind == compiler::ItemKind::Indexed)
-      return stop(state, "a structured loop counts in a variable, not in `Z`",
-                  "count in a letter and set `Z` in the loop");
+      return stop(state, "a structured loop counts with a variable, not with `Z`",
+                  "count with a letter and set `Z` in the loop");
     if (loop.step == nullptr)
       return;
     const auto& step = program_.nodes[loop.step->value];
@@ -165,8 +165,8 @@ private:
     const bool known = line.kind == compiler::NodeKind::Number &&
                        (line.value == 0 || static_cast<std::uint32_t>(line.value) == first);
     if (!known)
-      stop(state, "a structured program wakes into its first line, or not at all",
-           fmt::format("sleep until line 0 or line {}", first));
+      stop(state, "a structured program wakes up at its first line, or not at all",
+           fmt::format("give `sleep` line 0 or line {}", first));
   }
 
   void look_at_data(const State& state, const StatementNode& statement) {
@@ -177,7 +177,7 @@ private:
             kind == compiler::NodeKind::Number || kind == compiler::NodeKind::Group ||
             kind == compiler::NodeKind::Negate || kind == compiler::NodeKind::Binary;
         if (!constant)
-          return stop(state, "`data` of a structured program holds numbers, not computed values",
+          return stop(state, "`data` in a structured program takes numbers, not computed values",
                       "write the numbers");
       }
   }
@@ -262,11 +262,13 @@ private:
       return stop_at_next(state);
     if (step.loop != none && step.loop != loop) {
       const auto [first, second] = std::minmax(step.loop, loop);
-      return stop(state,
-                  fmt::format("this `next` belongs to the loop of line {} one time and to that of "
-                              "line {} another time",
-                              number_of(first), number_of(second)),
-                  "give each loop a `next` of its own");
+      return stop(
+          state,
+          fmt::format(
+              "this `next` sometimes belongs to the loop in line {} and sometimes to the one in "
+              "line {}",
+              number_of(first), number_of(second)),
+          "give each loop its own `next`");
     }
     step.loop = loop;
     go(state, ways_.steps[loop].next);
@@ -333,11 +335,12 @@ private:
   void blame_way_out(const State& state, std::uint32_t from, std::string_view then,
                      BasicError error) {
     const auto loop = state.loops[state.loop_depth - 1];
-    blame(from,
-          fmt::format("this jump leaves the loop of line {}, which stays open; at {} in line {} {}",
-                      number_of(loop), then, number_of(state.step), error_text(error)),
-          fmt::format("set `{}` to its last value and jump to line {}, its `next`",
-                      spec::letter_name(variable_of(loop)), number_of(next_below(loop))));
+    blame(
+        from,
+        fmt::format("this jump leaves the loop in line {}, which stays open; at {} in line {}, {}",
+                    number_of(loop), then, number_of(state.step), error_text(error)),
+        fmt::format("set `{}` to its last value and jump to its `next` in line {}",
+                    spec::letter_name(variable_of(loop)), number_of(next_below(loop))));
   }
 
   void stop_at_next(const State& state) {
@@ -355,14 +358,14 @@ private:
     } else if (is(loop, spec::Statement::For)) {
       if (const auto in = last_crossing(loop, state.step, true); in && in->to != loop)
         return blame(in->from,
-                     fmt::format("this jump goes into the loop of line {}, past its `for`; at "
-                                 "`next {}` in line {} {}",
+                     fmt::format("this jump enters the loop in line {}, skipping its `for`; at "
+                                 "`next {}` in line {}, {}",
                                  number_of(loop), name, number_of(state.step),
                                  error_text(BasicError::NextWithoutFor)),
                      fmt::format("jump to line {}, where the loop begins", number_of(loop)));
     }
     stop(state,
-         fmt::format("this `next` can be reached when the innermost loop does not count in `{}`; "
+         fmt::format("this `next` can be reached when the innermost loop does not count with `{}`; "
                      "{}",
                      name, error_text(BasicError::NextWithoutFor)),
          "do not jump into or out of loops");
@@ -373,9 +376,9 @@ private:
       return blame_way_out(state, out->from, fmt::format("the {}th open loop", most_loops + 1),
                            BasicError::ForDepthExceeded);
     stop(state,
-         fmt::format("this loop can be the {}th one open at once; {}", most_loops + 1,
+         fmt::format("this can be the {}th loop open at once; {}", most_loops + 1,
                      error_text(BasicError::ForDepthExceeded)),
-         "let each loop run to its `next`; do not leave it by `goto`");
+         "let each loop run to its `next`; do not leave it with `goto`");
   }
 
   /// The steps that some `gosub` calls.
@@ -401,7 +404,7 @@ private:
     const auto sub = number_of(*std::prev(above));
     const bool jumps = !ways_.steps[in->from].targets.empty();
     blame(in->from,
-          fmt::format("{} into the subroutine of line {} without a `gosub`; at its `return` in "
+          fmt::format("{} into the subroutine in line {} without a `gosub`; at its `return` in "
                       "line {} {}",
                       jumps ? "this jump goes" : "the program runs on from here", sub,
                       number_of(state.step), error_text(BasicError::ReturnWithoutGosub)),
@@ -417,15 +420,15 @@ private:
       if (is(from, spec::Statement::Goto) && !in_main_[from] && in_main_[states_[at].state.step])
         return blame(from,
                      fmt::format("this jump leaves a subroutine, whose call stays open; at the {} "
-                                 "open one in line {} {}",
+                                 "open call in line {}, {}",
                                  fifth, number_of(state.step),
                                  error_text(BasicError::GosubDepthExceeded)),
                      "let the subroutine run to its `return`");
     }
     stop(state,
-         fmt::format("this call can be the {} one open at once; {}", fifth,
+         fmt::format("this can be the {} call open at once; {}", fifth,
                      error_text(BasicError::GosubDepthExceeded)),
-         "let each subroutine run to its `return`; do not leave it by `goto`");
+         "let each subroutine run to its `return`; do not leave it with `goto`");
   }
 
   const compiler::Program& program_;

@@ -55,7 +55,8 @@ void Checker::report_bitwise(std::uint32_t n) {
   const auto sign = std::string_view(program_.text).substr(0, right).find_last_of(both ? '&' : '|');
   const auto at = static_cast<std::uint32_t>(sign);
   auto found = habit(program_, {at, at + 1}, both ? "and" : "or");
-  found.message = fmt::format("`{}` joins the bits of numbers, not conditions", both ? '&' : '|');
+  found.message =
+      fmt::format("`{}` combines the bits of numbers, not conditions", both ? '&' : '|');
   program_.diagnostics.push_back(std::move(found));
 }
 
@@ -245,7 +246,7 @@ void Checker::check_index(std::uint32_t n) {
   const auto value = evaluate(program_, names_, n - 1);
   if (value && symbol.value > 0 && (value->value < 1 || value->value > symbol.value))
     report(rules::ArrayIndex, program_.nodes[n - 1].span,
-           fmt::format("`{}` has the elements 1 to {}, found {}", program_.name(symbol.name),
+           fmt::format("`{}` has elements 1 to {}, found {}", program_.name(symbol.name),
                        symbol.value, value->value));
 }
 

@@ -318,7 +318,7 @@ void Checker::check_counter(std::uint32_t i) {
           continue;
         const auto name = program_.name(names_.symbols[counter].name);
         report(compiler::rules::LoopLeavesRange, program_.nodes[node - 1].span,
-               fmt::format("`{}` counts from {} to {}, and `{}` has the elements 1 to {}", name,
+               fmt::format("`{}` counts from {} to {}, but `{}` has elements 1 to {}", name,
                            first->value, last->value, program_.name(array.name), array.value),
                fmt::format("write `for {} = 1 to {}`", name, array.value));
         return;

@@ -109,15 +109,14 @@ void Checker::check_sleep(const Statement& statement) {
     if (node.kind == NodeKind::Duration) {
       written = true;
       if (node.value % 1000 != 0)
-        report(
-            rules::BadNumber, node.span,
-            fmt::format("`{}` is not an integral number of seconds", program_.text_of(node.span)),
-            "`sleep` counts in seconds");
+        report(rules::BadNumber, node.span,
+               fmt::format("`{}` is not a whole number of seconds", program_.text_of(node.span)),
+               "`sleep` counts in seconds");
     } else if (node.kind == NodeKind::Name && names_.of_node[n] != none &&
                names_.symbols[names_.of_node[n]].duration && !is_quotient(time.value)) {
       written = true;
       report(rules::SecondsExpected, node.span,
-             fmt::format("`{}` is in milliseconds, `sleep` counts in seconds",
+             fmt::format("`{}` is in milliseconds, but `sleep` counts in seconds",
                          program_.text_of(node.span)),
              "write the duration here, or divide by 1000");
     }
@@ -143,11 +142,11 @@ void Checker::check_for(const Statement& statement) {
   if (around != open_.rend()) {
     const auto name = program_.text_of(item(statement, 0).span);
     auto& d = report(rules::LoopVariable, item(statement, 0).span,
-                     fmt::format("the enclosing loop already counts in `{}`", name));
-    d.notes.push_back({at(*around).span, fmt::format("this loop counts in `{}`", name)});
+                     fmt::format("the enclosing loop already counts with `{}`", name));
+    d.notes.push_back({at(*around).span, fmt::format("this loop counts with `{}`", name)});
   }
   if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
-    report(rules::WrongUse, item(statement, 0).span, "a loop needs a variable to count in");
+    report(rules::WrongUse, item(statement, 0).span, "a loop needs a variable to count with");
   if (size(statement) < 4 || !require_constant(item(statement, 3)))
     return;
   if (value_of(item(statement, 3))->value == 0)
@@ -169,7 +168,7 @@ void Checker::check_next(const Statement& statement) {
     return; // the other `next` of the two said so
   crossed_ = {counter.value, named.value};
   report(rules::LoopVariable, item(statement, 0).span,
-         fmt::format("the innermost loop counts in `{}`", program_.text_of(counter.span)),
+         fmt::format("the innermost loop counts with `{}`", program_.text_of(counter.span)),
          fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
 }
 

@@ -123,8 +123,9 @@ void Checker::check_single_round(std::uint32_t i) {
   }
   if (last == none || at(last).kind != Kind::Exit || size(at(last)) > 0 || last == i + 1)
     return;
-  report(compiler::rules::LoopRunsOnce, at(last).span, "the loop always ends here, in its first round",
-         "leave it on a condition: `if speed = 0 then exit`");
+  report(compiler::rules::LoopRunsOnce, at(last).span,
+         "the loop always ends here, in its first round",
+         "make it conditional: `if speed = 0 then exit`");
 }
 
 void Checker::check_products() {

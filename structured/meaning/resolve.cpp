@@ -384,7 +384,7 @@ private:
       if (d != nullptr && symbol.kind == SymbolKind::Constant)
         make_variable(symbol, *d);
     } else if (element && (statement.kind == Kind::For)) {
-      report(rules::WrongUse, node.span, "a loop counts in a variable, not in an array element");
+      report(rules::WrongUse, node.span, "a loop counts with a variable, not an array element");
     }
     // A loop counts in its variable; of what changes by being read it is the reading that counts.
     if (statement.kind == Kind::For ||
@@ -467,7 +467,8 @@ private:
     const auto& declared = program_.statements[symbol.statement];
     const Span word{declared.span.begin, declared.name_span.begin};
     const auto rest = program_.text_of({word.end, declared.span.end});
-    d.help = fmt::format("what changes is a variable: write `{}` above, without `const`", rest);
+    d.help =
+        fmt::format("to change it, make it a variable: write `{}` above, without `const`", rest);
     d.fix = Fix{"make it a variable", {{word, ""}}, Safety::Unsafe};
   }
 

@@ -42,9 +42,10 @@ void Checker::check_values() {
     for (auto i = names_.routines[n].statement; i < begin.next && begin.next != none; ++i)
       if (at(i).kind == Kind::Assign)
         value = program_.text_of(item(at(i), 0).span);
-    report(rules::NoValue, symbol.span,
-           fmt::format("`{}` never gives a value: it has no `return`", program_.name(symbol.name)),
-           fmt::format("add `return {}` before `end function`", value));
+    report(
+        rules::NoValue, symbol.span,
+        fmt::format("`{}` never returns a value: it has no `return`", program_.name(symbol.name)),
+        fmt::format("add `return {}` before `end function`", value));
   }
 }
 

@@ -112,7 +112,7 @@ private:
     if (open_.size() == deepest && !too_deep_) {
       too_deep_ = true;
       report(rules::NestingDepth, i, fmt::format("more than {} nested blocks", deepest),
-             "move a part into a sub");
+             "move part of it into a sub");
     }
     open_.push_back(i);
     last_.push_back(i);
@@ -158,7 +158,7 @@ private:
         return; // it may be the end
       if (statement.role() == Kind::Robot && statement.robot == spec::Statement::End &&
           last != none) {
-        d.help = fmt::format("write `{}` for the `end` below", block.end_words);
+        d.help = fmt::format("write `{}` instead of the `end` below", block.end_words);
         d.fix = Fix{d.help, {{statement.span, std::string(block.end_words)}}, Safety::Unsafe};
         return;
       }
@@ -253,7 +253,7 @@ private:
     const bool until =
         statement.role() == Kind::Until && !open_.empty() && role(open_.back()) == Kind::Loop;
     if (until)
-      help = "write `repeat` for the `loop` above";
+      help = "write `repeat` instead of the `loop` above";
     if (open_.empty() && ends)
       help = "leave the line out";
     const bool told = report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word),

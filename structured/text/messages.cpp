@@ -81,7 +81,7 @@ constexpr auto structured_words = std::to_array<Habit>({
     {"randint", Where::Inside, "rnd", "write `rnd(6)` for 1 to 6"},
     {"sqr", Where::Inside, "sqrt", "write `sqrt(x)`"},
     {"is", Where::Inside, "",
-     "`case` names values: `case 6 to 100`; for other questions write `if`"},
+     "`case` lists values: `case 6 to 100`; for other conditions write `if`"},
     {"heading", Where::Inside, "yaw",
      "`heading` sets the heading; the direction of the ball is `yaw`"},
     {"mod", Where::Inside, "%", "write `a % b`"},
@@ -125,7 +125,7 @@ Diagnostic trailing(const Program& program, Span found) {
       (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
     return malformed(program, found, "a unit directly follows its number", "write `500ms`");
   if (equal_words(statement, "loop"))
-    return malformed(program, found, "`loop` goes on forever",
+    return malformed(program, found, "`loop` repeats forever",
                      "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
   const auto word = find_word(statement);
   if (word.kind == WordKind::Statement &&
@@ -225,7 +225,7 @@ Diagnostic foreign_character(const Program& program, Span found) {
 
 Diagnostic reserved(const Program& program, Span word) {
   return finding(rules::ReservedName, word,
-                 fmt::format("`{}` is a word of the language", program.text_of(word)),
+                 fmt::format("`{}` is a reserved word", program.text_of(word)),
                  "choose another name");
 }
 
@@ -246,7 +246,7 @@ std::string settable() {
   for (const auto& row : spec::variables)
     if (row.access == spec::Access::ReadWrite)
       all += fmt::format("{}`{}`", all.empty() ? "" : ", ", row.word);
-  return fmt::format("of the robot's variables only these can be set: {}", all);
+  return fmt::format("of the robot's variables, only these can be set: {}", all);
 }
 
 /// A sensor that is set. Where other lines read it, too, a variable was meant.
@@ -450,10 +450,10 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::BadNumber: return bad_number(found, text);
   case Reason::FractionOfMillisecond:
     return finding(rules::BadNumber, found,
-                   fmt::format("`{}` is not an integral number of milliseconds", text));
+                   fmt::format("`{}` is not a whole number of milliseconds", text));
   case Reason::TooDeep:
     return finding(rules::NestingDepth, found, "more than 64 nested brackets",
-                   "compute a part on a separate line");
+                   "compute part of it on a separate line");
   case Reason::NestedIf:
     return finding(rules::MisplacedStatement, found, "`if` inside a one-line `if`",
                    "write `if … then`, the inner `if` below it, and `end if`");

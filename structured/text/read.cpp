@@ -115,7 +115,7 @@ private:
       if (is_declaration(statement.kind))
         continue;
       program_.diagnostics.push_back(finding(rules::IncludedStatement, statement.span,
-                                             "an included file may only have declarations",
+                                             "an included file may only contain declarations",
                                              "move the statement into a sub"));
       return;
     }

@@ -21,19 +21,19 @@ void FileReader::read_ball(Cursor& cursor) {
   ball.name.span = cursor.peek_span();
   ball.name.text = std::string(cursor.word());
   if (cursor.at_end())
-    return cursor.fail(rules::Syntax, "a ball has a name and a program",
+    return cursor.fail(rules::Syntax, "a ball needs a name and a program",
                        "write it like `ball red red.orb at 60,0`");
   if (!is_name(ball.name.text))
     return cursor.fail_at(ball.name.span, rules::Value,
-                          "the name of a ball is letters, digits, `-` and `_`",
+                          "a ball name can only have letters, digits, `-` and `_`",
                           "write it like `ball red red.orb`");
   if (ball_called(ball.name.text))
     return cursor.fail_at(ball.name.span, rules::Name,
                           fmt::format("another ball is called `{}`", ball.name.text),
-                          "each ball has a name of its own");
+                          "each ball needs its own name");
   if (find_word<ExpectationInfo>(expectations, ball.name.text) != nullptr)
     return cursor.fail_at(ball.name.span, rules::Name,
-                          fmt::format("`{}` is a word of tests", ball.name.text),
+                          fmt::format("`{}` is a reserved word in tests", ball.name.text),
                           "give the ball another name");
   read_file(cursor, ball.program);
   if (cursor.take_word("at")) {
@@ -67,7 +67,7 @@ bool FileReader::read_whose(Cursor& cursor, Expectation& one) {
     names.push_back(ball.name.text);
   cursor.fail(rules::Word, fmt::format("`{}` is not a ball of this room", cursor.peek()),
               did_you_mean(cursor.peek(), names,
-                           fmt::format("say of which ball: {}", fmt::join(names, ", "))));
+                           fmt::format("say which ball: {}", fmt::join(names, ", "))));
   return false;
 }
 

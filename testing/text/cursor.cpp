@@ -166,7 +166,7 @@ std::string Cursor::file_name() {
     fail(rules::Syntax, "missing file name");
     return {};
   }
-  return peek_char() == '"' ? quoted("name of the file") : std::string(word());
+  return peek_char() == '"' ? quoted("file name") : std::string(word());
 }
 
 std::optional<double> Cursor::digits() {
@@ -246,7 +246,8 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   at_ += first_unit.size();
   if (!least || !text_.substr(at_).starts_with("..")) {
     at_ = from - begin_;
-    fail(rules::Value, fmt::format("the {} needs two values, a first and a last", what), help);
+    fail(rules::Value, fmt::format("the {} needs two values, a lower and an upper one", what),
+         help);
     return {};
   }
   at_ += 2;
@@ -255,8 +256,8 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   at_ += unit.size();
   const auto span = span_from(from);
   if (!most) {
-    fail_at(span, rules::Value, fmt::format("the {} needs two values, a first and a last", what),
-            help);
+    fail_at(span, rules::Value,
+            fmt::format("the {} needs two values, a lower and an upper one", what), help);
     return {};
   }
   const double second = factor(unit);
@@ -265,7 +266,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
     const auto wrong = first == 0 && !first_unit.empty() ? first_unit : unit;
     fail_at(span, rules::Value,
             wrong.empty() ? fmt::format("the {} needs a unit", what)
-                          : fmt::format("`{}` is not a unit for a {}", wrong, what),
+                          : fmt::format("`{}` is not a unit of {}", wrong, what),
             help);
     return {};
   }
@@ -303,7 +304,7 @@ double Cursor::length() {
   if (row == length_words.end()) {
     fail_at(span_from(from), rules::Value,
             unit.empty() ? std::string("the length needs a unit")
-                         : fmt::format("`{}` is not a unit for a length", unit),
+                         : fmt::format("`{}` is not a unit of length", unit),
             fmt::format("write `{}cm`",
                         text_.substr(from - begin_, at_ - unit.size() - (from - begin_))));
     return 0;
@@ -332,7 +333,7 @@ Cursor::Range Cursor::numbers(std::string_view what, std::int64_t least, std::in
   if (!failed_ &&
       (found.least < static_cast<double>(least) || found.most > static_cast<double>(greatest)))
     fail_at(span_from(from), rules::Value,
-            fmt::format("the {} is {} to {}", what, least, greatest));
+            fmt::format("the {} must be {} to {}", what, least, greatest));
   return found;
 }
 

@@ -147,7 +147,7 @@ private:
           !covers(other.when, one.when) || what_of(other).empty() || what_of(other) != what_of(one))
         continue;
       report(rules::Contradiction, one.span, "this cannot be met: another line forbids it then",
-             "change the time of one of the two")
+             "change the time in one of the two")
           .notes.push_back({other.span, "it is forbidden here"});
       return;
     }

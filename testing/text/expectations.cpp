@@ -111,11 +111,11 @@ void FileReader::read_print(Cursor& cursor, Expectation& one) {
     return;
   }
   const auto at = from + 1 + static_cast<std::uint32_t>(pattern.error().at);
-  cursor.fail_at({at, at + 1}, rules::Pattern,
-                 fmt::format("invalid pattern: {}", pattern.error().message),
-                 fmt::format("a part of a line as it is: write `~\"{}\"`; in a pattern `\\` stands "
-                             "before a sign that is meant",
-                             one.text));
+  cursor.fail_at(
+      {at, at + 1}, rules::Pattern, fmt::format("invalid pattern: {}", pattern.error().message),
+      fmt::format("to match part of a line as it is, write `~\"{}\"`; in a pattern, put `\\` "
+                  "before a special character",
+                  one.text));
 }
 
 void FileReader::read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most) {
@@ -235,7 +235,7 @@ void FileReader::read_error(Cursor& cursor, Expectation& one) {
     return;
   std::string text;
   if (cursor.peek_char() == '"')
-    text = cursor.quoted("name of the error");
+    text = cursor.quoted("error name");
   else
     while (!ends())
       text += fmt::format("{}{}", text.empty() ? "" : " ", cursor.word());
@@ -254,7 +254,7 @@ void FileReader::read_error(Cursor& cursor, Expectation& one) {
   if (one.error || cursor.failed())
     return;
   cursor.fail_at(
-      span, rules::Value, fmt::format("`{}` is not an error of the robot", text),
+      span, rules::Value, fmt::format("`{}` is not a robot error", text),
       did_you_mean(text, known, fmt::format("the errors are {}", fmt::join(known, ", "))));
   if (const auto meant = closest(text, known)) {
     auto& d = file_.diagnostics.back();

@@ -11,7 +11,7 @@ constexpr int most_points = 1000;
 void FileReader::read_file(Cursor& cursor, std::optional<Named>& into) {
   const auto span = cursor.peek_span();
   if (into)
-    return cursor.fail_at(span, rules::Place, "duplicate setting", "a test file has only one");
+    return cursor.fail_at(span, rules::Place, "duplicate setting", "a test file can have only one");
   Named file;
   read_file(cursor, file);
   into = std::move(file);
@@ -29,7 +29,7 @@ void FileReader::read_target(Cursor& cursor) {
   for (const auto& row : spec::basic_versions)
     known.push_back(row.text);
   if (!found)
-    return cursor.fail(rules::Value, "the target is a version of orbBasic",
+    return cursor.fail(rules::Value, "the target must be an orbBasic version",
                        fmt::format("the versions are {}", fmt::join(known, ", ")));
   file_.target.version = *found;
   file_.target_word = cursor.word();
@@ -43,7 +43,8 @@ void FileReader::read_firmware(Cursor& cursor) {
   if (found == nullptr)
     return cursor.fail(
         rules::Value, fmt::format("`{}` is not a firmware", cursor.peek()),
-        did_you_mean(cursor.peek(), known, fmt::format("there are {}", fmt::join(known, ", "))));
+        did_you_mean(cursor.peek(), known,
+                     fmt::format("the firmware versions are {}", fmt::join(known, ", "))));
   file_.firmware = found->firmware;
   cursor.word();
 }
@@ -52,7 +53,7 @@ void FileReader::read_area(Cursor& cursor) {
   if (cursor.take_word("flash"))
     file_.target.area = spec::Area::Flash;
   else if (!cursor.take_word("ram"))
-    cursor.fail(rules::Value, "the area is `ram` or `flash`");
+    cursor.fail(rules::Value, "the area must be `ram` or `flash`");
 }
 
 std::optional<Seeds> FileReader::read_seeds(Cursor& cursor) {
@@ -60,8 +61,8 @@ std::optional<Seeds> FileReader::read_seeds(Cursor& cursor) {
   if (!found)
     cursor.fail(rules::Value,
                 cursor.at_end() ? std::string("missing seeds")
-                                : fmt::format("`{}` are not seeds", cursor.peek()),
-                "write them like `1..20`");
+                                : fmt::format("`{}` is not a range of seeds", cursor.peek()),
+                "write it like `1..20`");
   else if (found->count() > most_seeds)
     cursor.fail(rules::Value, fmt::format("{} seeds are too many", found->count()),
                 fmt::format("a test takes up to {}; write `{}..{}`", most_seeds, found->first,
@@ -76,7 +77,7 @@ std::optional<Seeds> FileReader::read_seeds(Cursor& cursor) {
 std::optional<Duration> FileReader::read_bound(Cursor& cursor) {
   const auto time = cursor.time();
   if (!cursor.failed() && time == Duration{})
-    cursor.fail(rules::Value, "a run needs some time", "write it like `for 30s`");
+    cursor.fail(rules::Value, "a run needs a time greater than 0", "write it like `for 30s`");
   return time == Duration{} ? std::nullopt : std::optional(time);
 }
 

@@ -58,7 +58,7 @@ void FileReader::read_joined(Cursor& cursor, Expectation& one, const Said& said)
   cursor.word();
   if (said.when.size() > 0 || one.lasts > Duration{})
     return cursor.fail_at(span, rules::Syntax, "`and` after a time",
-                          "write everything that is joined first, then `for` and the time");
+                          "write everything joined by `and` first, then `for` and the time");
   if (info(one.word).kind != Kind::State && info(one.word).kind != Kind::Event)
     return cursor.fail_at(span, rules::When,
                           fmt::format("`{}` cannot be joined", info(one.word).word),
@@ -88,7 +88,7 @@ void FileReader::read_lasts(Cursor& cursor, Expectation& one) {
                           fmt::format("`{}` is an event and has no duration", row.word),
                           "remove `for` and its time");
   if (one.lasts > Duration{} || time == Duration{})
-    return cursor.fail_at(span, rules::Value, "`for` needs one time greater than 0",
+    return cursor.fail_at(span, rules::Value, "`for` takes a single time, greater than 0",
                           "write it like `for 2s`");
   one.lasts = time;
 }
@@ -164,13 +164,14 @@ void FileReader::check_order(Cursor& cursor, const Expectation& one, const Said&
   const auto& row = info(one.word);
   if (row.kind != Kind::State && row.kind != Kind::Event)
     return cursor.fail_at(said.order, rules::When,
-                          fmt::format("`{}` comes neither after nor before something", row.word),
+                          fmt::format("`{}` takes no `after` or `before`", row.word),
                           "leave that out");
   if (one.order == Order::Before && said.when.size() > 0)
     return cursor.fail_at(said.when, rules::When, "`before` takes no time",
                           "write that on a separate line");
   if (one.lag && (one.never || said.when.size() > 0 || one.order == Order::Before))
-    cursor.fail_at(said.order, rules::When, "an exact time after something is expected alone",
+    cursor.fail_at(said.order, rules::When,
+                   "an exact time takes no `never`, `before` or other time",
                    "write it like `expect print \"3\" 1s after print \"2\" by 200ms`");
 }
 
@@ -200,7 +201,7 @@ void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& 
   if (one.never && said.times.size() > 0)
     return wrong(said.times, "`never` takes no count", "write `expect … 0 times`, or remove it");
   if (one.never && when == Of::Within)
-    return wrong(said.when, "`never` covers the whole run, `within` a single moment",
+    return wrong(said.when, "`never` covers the whole run, but `within` covers a single moment",
                  "for a part of the run write `during 0s..10s`");
   switch (row.kind) {
   case Kind::State: return;

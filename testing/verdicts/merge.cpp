@@ -124,7 +124,7 @@ std::string missing(const Results& joined, std::uint64_t runs) {
 tl::expected<Part, Failure> read_results(std::string name, std::string_view text) {
   const auto wrong = [&] {
     return tl::unexpected(Failure{
-        ExitCode::File, fmt::format("{} holds no results of `orb test --format json`", name)});
+        ExitCode::File, fmt::format("{} contains no results from `orb test --format json`", name)});
   };
   const auto json = Value::parse(text, nullptr, false);
   if (!json.is_object() || json.value("schema", Value()) != "orb.test/1")
@@ -151,7 +151,7 @@ tl::expected<Results, Failure> merge(std::vector<Part> parts) {
     auto& part = parts[i].results;
     if (part.cases != joined.cases || part.groups.size() != joined.groups.size() ||
         !std::equal(part.groups.begin(), part.groups.end(), joined.groups.begin(), same_head))
-      return refuse(ExitCode::Usage, fmt::format("{} and {} are not parts of the same command",
+      return refuse(ExitCode::Usage, fmt::format("{} and {} do not come from the same command",
                                                  parts.front().name, parts[i].name));
     joined.shards.insert(joined.shards.end(), part.shards.begin(), part.shards.end());
     for (std::size_t g = 0; g < part.groups.size(); ++g)

@@ -28,7 +28,7 @@ std::string story(const GroupResult& group, const CaseResult& one) {
     out += fmt::format("{}:{}: {}: {}", group.file, miss.line, miss.expected, miss.seen);
     out += miss.where.empty() ? "\n" : fmt::format(" ({})\n", miss.where);
   }
-  return one.again.empty() ? out : out + fmt::format("again: {}\n", one.again);
+  return one.again.empty() ? out : out + fmt::format("rerun: {}\n", one.again);
 }
 
 std::string without_last_line_end(std::string text) {

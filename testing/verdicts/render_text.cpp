@@ -46,7 +46,7 @@ std::string details(const GroupResult& group, const CaseResult& one, Style style
       out += fmt::format("    ran:   {}\n", to_printable(miss.where));
   }
   if (!one.again.empty())
-    out += fmt::format("    again: {}\n", shown_name(one.again));
+    out += fmt::format("    rerun: {}\n", shown_name(one.again));
   return out;
 }
 
@@ -164,7 +164,7 @@ std::string render_text(const Results& results, Listing listing, Style style) {
 std::string render_summary(const Results& results) {
   const auto totals = totals_of(results);
   if (totals.cases == 0)
-    return results.cases == 0 ? "no tests" : "no case of this shard";
+    return results.cases == 0 ? "no tests" : "no cases in this shard";
   auto out = fmt::format("{} of {} passed", totals.tests_passed, plural(totals.tests, "test"));
   if (totals.points_of != static_cast<std::int64_t>(totals.tests))
     out += fmt::format(", {} of {} points", totals.points, totals.points_of);

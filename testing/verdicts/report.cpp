@@ -160,7 +160,7 @@ private:
       out += "<p class=\"none\">no run</p>";
     else
       out +=
-          fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"the way of {}\" loading=\"lazy\"></a>",
+          fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"the path of {}\" loading=\"lazy\"></a>",
                       pupil.page, pupil.picture, escape_markup(row.program));
     out += fmt::format("<p><b>{}</b> {}/{}</p><p class=\"marks\">", escape_markup(row.program),
                        row.points, row.points_of);
@@ -175,11 +175,11 @@ private:
   bool add_group(std::size_t index, std::string& body) {
     const auto& told = results_.groups[index];
     const auto word = to_string(told.verdict());
-    body +=
-        fmt::format("<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
-                    "</span></h2>\n",
-                    told.first, word, word, escape_markup(told.test), escape_markup(subject(suite_.groups[index], told)),
-                    escape_markup(told.file), told.line);
+    body += fmt::format(
+        "<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
+        "</span></h2>\n",
+        told.first, word, word, escape_markup(told.test),
+        escape_markup(subject(suite_.groups[index], told)), escape_markup(told.file), told.line);
     // Each run of a program that cannot run would say the same.
     const auto* failure = first_failure(told);
     if (failure != nullptr && failure->verdict == Verdict::Error) {
@@ -199,7 +199,7 @@ private:
       }
     body += "</div>\n";
     if (omitted > 0)
-      body += fmt::format("<p class=\"dim\">{} more failed.</p>\n", plural(omitted, "run"));
+      body += fmt::format("<p class=\"dim\">{} also failed.</p>\n", plural(omitted, "run"));
     return true;
   }
 
@@ -243,7 +243,7 @@ private:
     if (!replay.empty())
       out += fmt::format("<a href=\"{}\">", replay);
     if (!picture.empty())
-      out += fmt::format("<img src=\"{}\" alt=\"the way of the ball\" loading=\"lazy\">", picture);
+      out += fmt::format("<img src=\"{}\" alt=\"the path of the ball\" loading=\"lazy\">", picture);
     if (!replay.empty())
       out += "</a>";
     out += fmt::format("<p><b class=\"{0}\">{0}</b> seed {1}, {2}", to_string(one.verdict),

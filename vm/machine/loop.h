@@ -1,5 +1,5 @@
 // The loop that runs orbBasic: one block per instruction of bytecode/op.def. Included once by
-// machine_threaded.cpp and once by machine_switch.cpp, inside a function that has a Core& core;
+// threaded.cpp and once by switch.cpp, inside a function that has a Core& core;
 // they define
 //   OP(name)       begins the block of an instruction
 //   OP_LINE(name)  begins its block where it ends the line, for those that may or may not

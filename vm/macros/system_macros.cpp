@@ -43,9 +43,9 @@ constexpr std::uint8_t heartbeat[] = {4, byte(spec::MacroFlag::Unkillable),
                                       byte(Delay), high(half_second), low(half_second), byte(End)};
 
 constexpr SystemMacro macros[] = {
-    {1, "stops without a turn",                    stop},
+    {1, "stops without turning",                    stop},
     {2, "blinks white three times",                blink},
-    {3, "turns round once in a second",            spin},
+    {3, "turns round once in one second",            spin},
     {4, "fades red in and out; cannot be aborted", heartbeat},
 };
 // clang-format on

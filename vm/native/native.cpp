@@ -74,7 +74,7 @@ bool has_native_code() {
 tl::expected<std::unique_ptr<NativeCode>, std::string_view>
 NativeCode::compile(const Chunk& chunk) {
   namespace memory = asmjit::VirtMem;
-  constexpr std::string_view denied = "this system does not let memory become executable";
+  constexpr std::string_view denied = "this system does not allow executable memory";
   if (chunk.code.size() > most_instructions)
     return tl::unexpected(too_large);
   Draft draft(chunk);
@@ -129,7 +129,7 @@ bool has_native_code() {
   return false;
 }
 tl::expected<std::unique_ptr<NativeCode>, std::string_view> NativeCode::compile(const Chunk&) {
-  return tl::unexpected(std::string_view("this build knows no machine code"));
+  return tl::unexpected(std::string_view("this build cannot generate machine code"));
 }
 NativeCode::~NativeCode() = default;
 void NativeCode::run(Core&) const {}

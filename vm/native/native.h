@@ -22,7 +22,7 @@ enum class Native : std::uint8_t { Auto, On, Off };
 bool has_native_code();
 
 /// A program as machine code. It knows arithmetic, Z, tests, loops, jumps and subroutines; it
-/// leaves every other line, and every rare case such as an error, to the loop of machine_loop.h. It
+/// leaves every other line, and every rare case such as an error, to the loop of machine/loop.h. It
 /// may stop before every line and begin with every line.
 class NativeCode {
 public:

@@ -38,7 +38,8 @@ ExitCode abort_all(Context& context, uploader::Session& session,
       print_error(context, done.error().message);
       return exit_code(done.error().kind);
     }
-  const auto program = std::string(greeting.firmware.has_basic ? "the program was stopped, " : "");
+  const auto program =
+      std::string(greeting.firmware.has_basic ? "the program was stopped, but " : "");
   const auto macro = request(
       session, ApiCommand::AbortMacro, {},
       {program + "the macro may still be running; abort again", program + "the macro was not"});
@@ -54,18 +55,18 @@ ExitCode abort_all(Context& context, uploader::Session& session,
     return ExitCode::Refused;
   }
   const auto of_macro = id == spec::macro_id_none
-                            ? std::string("no macro runs")
-                            : fmt::format("macro {} was stopped in command {}", id, command);
-  print_note(context, line ? fmt::format("the program was stopped in line {}; {}", *line, of_macro)
-                      : id != spec::macro_id_none ? of_macro + "; no program runs"
-                                                  : "no program and no macro runs");
+                            ? std::string("no macro was running")
+                            : fmt::format("macro {} was stopped at command {}", id, command);
+  print_note(context, line ? fmt::format("the program was stopped at line {}; {}", *line, of_macro)
+                      : id != spec::macro_id_none ? of_macro + "; no program was running"
+                                                  : "no program or macro was running");
   return ExitCode::Done;
 }
 
 } // namespace
 
 void add_abort(const Command& orb, Context& context) {
-  const auto command = orb.add_command("abort", "stop the program and the macro that run on a ball",
+  const auto command = orb.add_command("abort", "stop the program and the macro running on a ball",
                                        "orb abort --port /dev/rfcomm0\norb abort --port @red");
   auto options = std::make_shared<PortOptions>();
   add_port_options(command, *options);

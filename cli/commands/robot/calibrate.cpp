@@ -46,8 +46,9 @@ void print_result(const run::Calibration& found, const run::Speeds& speeds) {
   print_out(fmt::format(
       "position error {:.1f} cm with the model, {:.1f} cm with these numbers, over {} of {} legs\n",
       found.error_before_cm, found.error_after_cm, found.used, found.legs));
-  print_out(fmt::format("not measured: speeds below {} and above {}; they stay the model's guess\n",
-                        speeds.slowest, speeds.fastest));
+  print_out(fmt::format(
+      "not measured: speeds below {} and above {}; for those the model's guess is kept\n",
+      speeds.slowest, speeds.fastest));
 }
 
 tl::expected<void, Failure> save_profile(const Context& context, const std::string& name,
@@ -58,11 +59,11 @@ tl::expected<void, Failure> save_profile(const Context& context, const std::stri
   const auto folder = disk::as_path(*file).parent_path();
   if (std::error_code error; !folder.empty() && !std::filesystem::create_directories(folder, error))
     if (error)
-      return refuse(ExitCode::File,
-                    fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+      return refuse(ExitCode::File, fmt::format("cannot create the folder {}: {}", folder.string(),
+                                                error.message()));
   if (const auto written = disk::write(*file, as_bytes(run::to_text(profile))); !written)
     return refuse(ExitCode::File, written.error().message);
-  print_note(context, fmt::format("saved; `orb run --ball {}` drives like it", name));
+  print_note(context, fmt::format("saved; `orb run --ball {}` drives like this robot", name));
   return {};
 }
 
@@ -143,7 +144,7 @@ void add_calibrate(const Command& orb, Context& context) {
       .add_option("-o,--output", options->output,
                   "save the measured numbers under this name, or in a file such as ./red.toml")
       .type_name("NAME");
-  command.add_flag("--yes", options->yes, "drives at once: the floor is clear");
+  command.add_flag("--yes", options->yes, "start driving at once: the floor is clear");
   add_ball_option(command, options->ball,
                   "how the virtual robot of `--port sim:` drives: a profile");
   command.callback([&context, options] {

@@ -67,7 +67,7 @@ bool check_node(Checkup& checkup, const Endpoint& endpoint) {
                 endpoint.scheme == Scheme::Pty
                     ? "start a virtual ball: `orb ball --pty`"
                     : "`orb ports` lists what there is; `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1` "
-                      "makes one for a paired ball");
+                      "creates one for a paired ball");
     return false;
   }
   if (!S_ISCHR(status.st_mode)) {
@@ -82,7 +82,7 @@ bool check_node(Checkup& checkup, const Endpoint& endpoint) {
                 "`sudo usermod -aG dialout $USER`, then log in again");
     return false;
   }
-  checkup.good("you may read and write it");
+  checkup.good("you have permission to read and write it");
   return true;
 }
 

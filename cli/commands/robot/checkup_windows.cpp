@@ -16,8 +16,8 @@ void check_bluetooth(Checkup& checkup) {
   else
     checkup.bad(
         "no Bluetooth device has a COM port",
-        "shake the ball awake and pair it in the Bluetooth settings of Windows; robots over "
-        "Bluetooth LE are reached by the playground in Edge or Chrome");
+        "shake the ball awake and pair it in the Windows Bluetooth settings; for robots over "
+        "Bluetooth LE use the playground in Edge or Chrome");
 }
 
 bool check_node(Checkup& checkup, const uploader::Endpoint& endpoint) {
@@ -34,7 +34,7 @@ bool check_node(Checkup& checkup, const uploader::Endpoint& endpoint) {
     checkup.good(fmt::format("{} is a port of this computer", name));
   else
     checkup.bad(fmt::format("{} is not a port of this computer", endpoint.path),
-                "`orb ports` lists what there is; a paired ball has a port, in the Bluetooth "
+                "`orb ports` lists what there is; find the port of a paired ball in the Bluetooth "
                 "settings under \"More Bluetooth options\", \"COM Ports\"");
   return is_there;
 }

@@ -25,7 +25,7 @@ constexpr Pattern patterns[] = {
 } // namespace
 
 const std::string_view no_device_help =
-    "for a paired Sphero make one with `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1`, or use its "
+    "for a paired Sphero, create one with `sudo rfcomm bind 0 AA:BB:CC:DD:EE:FF 1`, or use its "
     "address: rfcomm://AA:BB:CC:DD:EE:FF";
 
 std::vector<Port> find_devices() {

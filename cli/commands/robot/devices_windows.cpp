@@ -109,7 +109,7 @@ std::string describe_port(const Device& port) {
 } // namespace
 
 const std::string_view no_device_help =
-    "shake the ball awake and pair it in the Bluetooth settings of Windows, which gives it one";
+    "shake the ball awake and pair it in the Windows Bluetooth settings, which gives it a port";
 
 /// Windows keeps the names of all ports, with the driver's name of the device behind each; many of
 /// them stand in the device manager, too.

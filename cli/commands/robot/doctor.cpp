@@ -72,7 +72,7 @@ bool is_newer(Checkup& checkup, Link& link) {
     return true;
   }
   if (!found && found.error().code == ExitCode::Usage) { // it answers, and several are like it
-    checkup.bad("a newer robot answers but does not say which it is", found.error().message);
+    checkup.bad("a newer robot answers but does not say which model it is", found.error().message);
     return true;
   }
   return false;
@@ -103,7 +103,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
     return;
   }
   if (!link->is_sim)
-    checkup.good(fmt::format("{} opens", link->name));
+    checkup.good(fmt::format("{} can be opened", link->name));
   if (newer != nullptr) {
     if (const auto done = check_newer(checkup, *link, *newer); !done)
       checkup.bad("no robot answers", done.error().message);
@@ -122,7 +122,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
   }
   checkup.good(link->is_sim ? "the built-in virtual ball answers" : "a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
-    checkup.good(fmt::format("{} stray bytes came first, as real balls send them", noise));
+    checkup.good(fmt::format("{} stray bytes came first, as is normal with real balls", noise));
   if (greeting->firmware.in_bootloader)
     checkup.bad("it is in its bootloader, where nothing runs",
                 uploader::bootloader_remedy(link->name));

@@ -52,7 +52,7 @@ constexpr KeyRow key_rows[] = {
     {"a", Key::LeftArrow, Pilot::Key::Left, "a or left: 15° to the left"},
     {"d", Key::RightArrow, Pilot::Key::Right, "d or right: 15° to the right"},
     {" x", Key::None, Pilot::Key::Stop, "space: stop"},
-    {"z", Key::None, Pilot::Key::Ahead, "z: it faces ahead now"},
+    {"z", Key::None, Pilot::Key::Ahead, "z: this way is ahead now"},
     {"c", Key::None, Pilot::Key::Color, "c: next colour"},
     {"b", Key::None, Pilot::Key::Lamp, "b: back lamp"},
 };
@@ -61,7 +61,7 @@ std::string key_help() {
   std::string text;
   for (const auto& row : key_rows)
     text += fmt::format("{}{}", text.empty() ? "" : ", ", row.words);
-  return text + ", q: end";
+  return text + ", q: quit";
 }
 
 const KeyRow* find_row(const Pressed& pressed) {
@@ -276,7 +276,7 @@ void add_drive(const Command& orb, Context& context) {
   command.add_flag("--no-aim", options->keep_aim, "keep the robot's heading and position");
   command.add_flag("--page", options->page,
                    "serves a page with a joystick and live curves, on this computer only");
-  command.add_flag("--open", options->open, "the same, and opens it");
+  command.add_flag("--open", options->open, "the same, and opens it in a browser");
   command.footer("Keys: " + key_help());
   command.callback([&context, options] {
     if (const auto done = drive_by_hand(context, *options); !done)

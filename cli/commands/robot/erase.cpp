@@ -27,11 +27,11 @@ ExitCode erase(Context& context, uploader::Session& session, const std::string& 
       // A running program holds its area.
       {ApiCommand::AbortOrbbasicProgram,
        {},
-       {unchanged + ", what ran may have been stopped; erase again", unchanged}},
+       {unchanged + ", but what was running may have been stopped; erase again", unchanged}},
       {ApiCommand::EraseOrbbasicStorage,
        {static_cast<std::uint8_t>(number)},
        {fmt::format("the program in {} is erased or unchanged; erase again", area),
-        unchanged + ", what ran was stopped"}}};
+        unchanged + ", but what was running has been stopped"}}};
   for (const auto& step : steps)
     if (const auto done = request(session, step.command, step.data, step.known); !done) {
       print_error(context, done.error().message);

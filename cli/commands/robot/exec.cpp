@@ -67,7 +67,7 @@ Failure unknown_command(const std::string& name) {
   for (const auto& row : spec::api_commands)
     names.push_back(row.name);
   return {ExitCode::Usage,
-          fmt::format("`{}` is not a command of the API; {}", name,
+          fmt::format("`{}` is not an API command; {}", name,
                       did_you_mean(name, names, "`orb spec commands` lists them"))};
 }
 
@@ -162,7 +162,7 @@ void execute(Context& context, const ExecOptions& options) {
   if (spec::find_command(options.name) == nullptr && spec::find_v2_command(options.name) != nullptr)
     return fail(context, {ExitCode::Usage,
                           fmt::format("`{}` is a command of the newer robots; say which one "
-                                      "answers, as in `--robot mini`",
+                                      "it is, as in `--robot mini`",
                                       options.name)});
   const auto* row = spec::find_command(options.name);
   if (row == nullptr)
@@ -197,15 +197,15 @@ std::optional<std::string> lacking_command(const ExecOptions& options, const Mem
                          : v2 != nullptr && spec::knows(robot, *v2);
   if (knows)
     return std::nullopt;
-  return fmt::format("is a {}, which has no command `{}`; leave it out, or write another command "
-                     "for it",
+  return fmt::format("is a {}, which has no command `{}`; leave it out, or send another command "
+                     "to it",
                      robot.title, options.name);
 }
 
 } // namespace
 
 void add_exec(const Command& orb, Context& context) {
-  const auto command = orb.add_command("exec", "send one command of the API and print the answer",
+  const auto command = orb.add_command("exec", "send one API command and print the answer",
                                        "orb exec --port /dev/rfcomm0 set-rgb-led 255 0 0\n"
                                        "orb exec --port @red get-power-state\n"
                                        "orb exec perform-level-1-diagnostics\n"

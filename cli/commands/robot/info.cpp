@@ -55,7 +55,7 @@ std::string versions_text(const std::string& port, const uploader::Greeting& gre
   auto text = fmt::format("model     {:02X}h, hardware {}\n", fields.number("model").value_or(0),
                           fields.number("hardware").value_or(0));
   if (greeting.firmware.in_bootloader)
-    return text + fmt::format("firmware  none runs: the ball is in its bootloader, {}\n"
+    return text + fmt::format("firmware  not running: the ball is in its bootloader, {}\n"
                               "help      {}\n",
                               fields.nibbles("bootloader"), uploader::bootloader_remedy(port));
   text +=
@@ -140,7 +140,7 @@ std::optional<bool> takes(uploader::Session& session, ApiCommand command, const 
 }
 
 std::string_view yes_or_no(std::optional<bool> answer) {
-  return !answer ? "not said" : *answer ? "yes" : "no";
+  return !answer ? "unknown" : *answer ? "yes" : "no";
 }
 
 /// What the firmware of a robot over Bluetooth LE can do is written down nowhere, so it is asked.

@@ -218,8 +218,8 @@ private:
           session_.ask(static_cast<spec::ApiCommand>(one.did << 8 | one.cid), one.data);
       if (!answer)
         return tl::unexpected(Failure{ExitCode::LinkLost,
-                                      "the ball does not answer when it is asked for its "
-                                      "sensors; bring it nearer, and try again"});
+                                      "the ball does not answer when asked for its "
+                                      "sensors; bring it closer, and try again"});
       if (answer->code != 0)
         return tl::unexpected(
             Failure{ExitCode::Refused, fmt::format("the ball does not stream its sensors: {}",
@@ -237,7 +237,7 @@ private:
 /// The report and the drawing of what was seen.
 tl::expected<void, IoError> write_seen(const MonitorOptions& options, report::Journey& journey,
                                        Duration time) {
-  journey.finish(time, "abort", "was watched");
+  journey.finish(time, "abort", "watched");
   if (!options.report.empty())
     if (auto done =
             disk::write(options.report, as_bytes(report::report_page(journey, options.port.port, {},
@@ -258,7 +258,7 @@ ExitCode watch(Context& context, const MonitorOptions& options, Duration lasts,
     print_error(context, begun.error().message);
     return begun.error().code;
   }
-  print_note(context, lasts == Duration{} ? "listening; Ctrl-C ends" : "listening");
+  print_note(context, lasts == Duration{} ? "listening; Ctrl-C to stop" : "listening");
   const auto watched = monitor(context, link, session, lookup, options.format, &camera);
   camera.end();
   if (options.draws())
@@ -276,7 +276,7 @@ tl::expected<run::LineMap, Failure> read_map(const std::string& path) {
   auto map = run::parse_line_map(*text);
   if (!map)
     return tl::unexpected(
-        Failure{ExitCode::File, fmt::format("{} is not a map that `orb build --map` wrote", path)});
+        Failure{ExitCode::File, fmt::format("{} is not a map written by `orb build --map`", path)});
   return *std::move(map);
 }
 
@@ -315,7 +315,7 @@ void listen(Context& context, const MonitorOptions& options) {
 
 void add_monitor(const Command& orb, Context& context) {
   const auto command =
-      orb.add_command("monitor", "print what a ball says: prints, errors, markers, collisions",
+      orb.add_command("monitor", "print what a ball says: output, errors, markers, collisions",
                       "orb monitor --port /dev/rfcomm0\n"
                       "orb monitor --port @red --map square.json\n"
                       "orb monitor --port @red --report drive.html --for 30s");
@@ -329,7 +329,7 @@ void add_monitor(const Command& orb, Context& context) {
   command.add_option("--report", options->report, "a page with the ball's path and its sensors")
       .type_name("OUT.html");
   command.add_option("--svg", options->svg, "a drawing of the path").type_name("OUT.svg");
-  command.add_option("--for", options->time, "for how long; by default until Ctrl-C")
+  command.add_option("--for", options->time, "how long to listen; by default until Ctrl-C")
       .type_name("TIME");
   command.callback([&context, options] { listen(context, *options); });
 }

@@ -42,7 +42,7 @@ Json describe(const Config& config, const uploader::SeenDevice& device,
   const auto* robot = spec::find_ble_name(device.name);
   const auto same = std::ranges::count(all, device.name, &uploader::SeenDevice::name);
   const auto by_name = robot != nullptr && same == 1;
-  auto what = robot != nullptr ? std::string(robot->robot) : std::string("no robot");
+  auto what = robot != nullptr ? std::string(robot->robot) : std::string("not a robot");
   if (device.rssi)
     what += fmt::format(", {} dBm", *device.rssi);
   what += by_name ? ", " + device.address : device.name.empty() ? "" : ", " + device.name;
@@ -94,13 +94,14 @@ void add_robots(const Context& context, const std::vector<uploader::SeenDevice>&
     else
       ++others;
   if (others == devices.size())
-    print_note(context, fmt::format("no robot was heard within {}; take it off the charger, shake "
-                                    "it awake, hold it near, and close any app that may hold it",
-                                    listened));
+    print_note(context,
+               fmt::format("no robot was heard within {}; take it off the charger, shake "
+                           "it awake, bring it closer, and close any app that may be using it",
+                           listened));
   if (others == 0)
     return;
   if (context.verbosity == 0)
-    return print_note(context, fmt::format("{} that no robot is named like; -v lists them",
+    return print_note(context, fmt::format("{} not named like a robot; -v lists them",
                                            plural(others, "other device")));
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) == nullptr)
@@ -117,7 +118,7 @@ void list(Context& context, const PortsOptions& options) {
   if (*devices)
     add_robots(context, **devices, options.scan, ports);
   const bool none = ports.empty();
-  ports.push_back({{"url", "sim:"}, {"what", "a ball in this process"}});
+  ports.push_back({{"url", "sim:"}, {"what", "a virtual ball in this process"}});
   if (options.format == "json")
     return print_json({{"schema", "orb.ports/1"}, {"ports", ports}});
   for (const auto& port : ports)
@@ -141,15 +142,16 @@ void save_port(Context& context, const std::string& assignment) {
   const auto file = save_ball(name, url);
   if (!file)
     return fail(context, file.error());
-  print_note(context, fmt::format("@{} is {} from now on: {}", name, url, *file));
+  print_note(context, fmt::format("@{} is {} from now on; saved in {}", name, url, *file));
 }
 
 } // namespace
 
 void add_ports(const Command& orb, Context& context) {
-  const auto command = orb.add_command("ports", "list where a ball could be, and give it a name",
-                                       "orb ports\norb ports --scan 20s\norb ports --format json\n"
-                                       "orb ports --save red=ble://SK-1A2B");
+  const auto command =
+      orb.add_command("ports", "list the ports where a ball could be, and name them",
+                      "orb ports\norb ports --scan 20s\norb ports --format json\n"
+                      "orb ports --save red=ble://SK-1A2B");
   auto options = std::make_shared<PortsOptions>();
   add_format_option(command, options->format);
   command

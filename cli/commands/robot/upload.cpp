@@ -136,8 +136,8 @@ Lookup lookup_of(const std::vector<run::Input>& inputs) {
 std::string uncounted_note(std::size_t pieces) {
   constexpr double assumed = 0.01; // of packets duplicated, and of packets lost
   return fmt::format(
-      "note: this ball does not count packets, so a duplicate of a piece stays unseen "
-      "if an answer is lost, too: in at most {1:.2f} % of uploads of {2} piece{3} on "
+      "note: this ball does not count packets, so a duplicate piece goes unnoticed "
+      "if an answer is lost as well: in at most {1:.2f} % of uploads of {2} piece{3} on "
       "a link that duplicates {0:.0f} % and loses {0:.0f} %; Bluetooth duplicates none",
       assumed * 100, uploader::unseen_bound(pieces, assumed, assumed) * 100, pieces,
       pieces == 1 ? "" : "s");
@@ -246,7 +246,7 @@ void upload(Context& context, UploadOptions& options) {
 
 void add_upload(const Command& orb, Context& context) {
   const auto command = orb.add_command(
-      "upload", "put programs and macros into a ball",
+      "upload", "put programs and macros on a ball",
       "orb upload square.bas --port /dev/rfcomm0 --run\n"
       "orb upload dance.macro square.bas --port rfcomm://68:86:E7:00:11:22 --area flash\n"
       "orb upload square.bas --dry-run\n"
@@ -268,7 +268,7 @@ void add_upload(const Command& orb, Context& context) {
             if (!line.empty())
               options->run_line = std::stoi(line);
           },
-          "run it; a program at its first line, or at LINE")
+          "run it; a program starts at its first line, or at LINE")
       .value_optional()
       .type_name("LINE")
       .check([](const std::string& text) {
@@ -284,15 +284,16 @@ void add_upload(const Command& orb, Context& context) {
       .check(whole_number(spec::macro_id_user_first, spec::macro_id_user_last))
       .type_name("N");
   command.add_flag("--clear-macros", options->clear_macros,
-                   "make the ball forget all its user macros first");
+                   "clear all user macros from the ball first");
   command.add_flag("--force", options->force, "write to flash even if the battery is low");
   command.add_flag("--monitor", options->monitor, "then print what the ball sends, until Ctrl-C");
   command.add_flag("--dry-run", options->dry_run,
-                   "print the packets and send nothing; with -v also when it would give up");
+                   "print the packets and send nothing; with -v, also when it would give up");
   command.add_flag("--no-check", options->no_check, "send it even if it has errors");
   constexpr int most_attempts = 1000;
   command
-      .add_option("--attempts", options->attempts, "how often a program is sent before giving up")
+      .add_option("--attempts", options->attempts,
+                  "how many times to send a program before giving up")
       .check(whole_number(1, most_attempts))
       .type_name("N")
       .show_default();

@@ -156,7 +156,7 @@ std::string letter_markdown(const Source& source, const Program& program,
       letter == indexed_letter
           ? std::string(
                 "**`Z`** (variable): the element of the indexed set that `Y` names, 1 to 25")
-          : fmt::format("**`{}`** (variable): a whole number of 32 bits, 0 when the program begins",
+          : fmt::format("**`{}`** (variable): a 32-bit integer, 0 when the program begins",
                         spec::letter_name(letter));
   return fmt::format("{}\n\n- set: {}\n- read: {}\n", what, set, read);
 }
@@ -255,7 +255,7 @@ tl::expected<std::vector<Edit>, std::string>
 rename_letter(const std::vector<LetterName>& names, std::uint8_t letter, std::string_view name) {
   if (letter == indexed_letter)
     return tl::unexpected(
-        std::string("`Z` names an element of the indexed set; it has no other name"));
+        std::string("`Z` names an element of the indexed set; it cannot be renamed"));
   if (name.size() != 1 || !is_letter(name.front()) || (name.front() & ~0x20) == 'Z')
     return tl::unexpected(std::string("a variable is one letter from `A` to `Y`"));
   const auto wanted = compiler::find_word(name).index;
@@ -275,9 +275,9 @@ tl::expected<std::vector<Edit>, std::string> rename_line(const Program& program,
                                                          std::string_view name) {
   const auto number = parse_number<std::uint32_t>(name).value_or(0);
   if (number < 1 || number > most_line_number)
-    return tl::unexpected(fmt::format("a line number is 1 to {}", most_line_number));
+    return tl::unexpected(fmt::format("a line number must be 1 to {}", most_line_number));
   if (number != here.number && find_line(program, number) != nullptr)
-    return tl::unexpected(fmt::format("there is a line {} already", number));
+    return tl::unexpected(fmt::format("line {} already exists", number));
   const auto* first = find_line(program, here.number);
   if (first == nullptr)
     return tl::unexpected(fmt::format("there is no line {}", here.number));
@@ -303,7 +303,7 @@ edits_of_renaming(const Source& source, std::uint32_t offset, std::string_view n
   const auto letters = letter_names(program);
   if (const auto* here = name_at(letters, offset))
     return rename_letter(letters, here->letter, name);
-  return tl::unexpected(std::string("here is neither a line number nor a variable"));
+  return tl::unexpected(std::string("this is neither a line number nor a variable"));
 }
 
 tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t offset,

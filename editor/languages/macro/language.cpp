@@ -93,7 +93,7 @@ tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t o
   const auto names = names_in(source, program);
   const auto* here = name_at(names, offset);
   if (here == nullptr)
-    return tl::unexpected(std::string("there is no name of a macro or constant here"));
+    return tl::unexpected(std::string("there is no macro or constant name here"));
   if (!is_name(name))
     return tl::unexpected(
         std::string("a name is letters, digits and `_`, and does not begin with a digit"));
@@ -110,7 +110,7 @@ tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t o
     edits.push_back({one.span, std::string(name)});
   }
   if (!defined)
-    return tl::unexpected(fmt::format("`{}` is defined nowhere in this file", old));
+    return tl::unexpected(fmt::format("`{}` is not defined in this file", old));
   return Renaming{std::move(edits), {}};
 }
 

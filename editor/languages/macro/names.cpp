@@ -72,7 +72,7 @@ std::vector<MacroName> names_in(const Source& source, const Program& program) {
 
 std::string range_text(const spec::MacroOperand& operand) {
   if (operand.kind == spec::MacroOperandKind::Text)
-    return "a text in quotes";
+    return "text in quotes";
   const auto unit = [&]() -> std::string_view {
     switch (operand.unit) {
     case spec::MacroUnit::None: return "";

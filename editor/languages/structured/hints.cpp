@@ -87,7 +87,7 @@ std::vector<Hint> structured_hints(const Source& source, const LanguageOptions& 
         {end_of_line(source, header.span.begin),
          own == bytes.end() ? "no bytes of its own" : fmt::format("{} bytes", own->second),
          own == bytes.end() ? "it is inlined into its callers, or never called"
-                            : "of the packed image"});
+                            : "in the packed image"});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Hint& a, const Hint& b) { return a.at < b.at; });

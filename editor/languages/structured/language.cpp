@@ -192,8 +192,8 @@ std::string declaration_markdown(const Part& part, const structured::Symbol& sym
 std::string name_markdown(const Source& source, const Part& part, const LanguageOptions& options) {
   const auto& meaning = part.here->meaning;
   if (meaning.symbol == none)
-    return fmt::format("**`{}`** (label): jumped to {}\n", part.reading.program.name(meaning.name),
-                       lines_where(part, false));
+    return fmt::format("**`{}`** (label): jumps to it: {}\n",
+                       part.reading.program.name(meaning.name), lines_where(part, false));
   const auto& symbol = part.reading.names.symbols[meaning.symbol];
   switch (symbol.kind) {
   case SymbolKind::Variable:
@@ -310,10 +310,10 @@ std::optional<std::string> why_no_name(std::string_view name) {
                            name.size() <= structured::longest_name;
   if (!well_formed)
     return fmt::format(
-        "a name is a letter or `_`, then letters, digits and `_`, at most {} of them",
+        "a name is a letter or `_`, then letters, digits and `_`, at most {} characters in all",
         structured::longest_name);
   if (structured::find_word(name).kind != structured::WordKind::Name)
-    return fmt::format("`{}` is a word of the language", name);
+    return fmt::format("`{}` is a reserved word", name);
   return std::nullopt;
 }
 
@@ -336,7 +336,7 @@ tl::expected<Renaming, std::string> rename(const Source& source, std::uint32_t o
                                            std::string_view name, const LanguageOptions& options) {
   const auto parts = parts_with(source, offset, options);
   if (parts.empty())
-    return tl::unexpected(std::string("this is not a name of the program"));
+    return tl::unexpected(std::string("this is not a name in the program"));
   if (auto why = why_no_name(name))
     return tl::unexpected(*std::move(why));
   for (const auto& part : parts)

@@ -84,7 +84,7 @@ export function define_blocks(Blockly, words) {
   kinds.string = { style: "print", ...output(["String"]),
     build: block => row(block, "ROW", "“", ["TEXT", new CheckedField("", text => !/["\n\r]/.test(text))], "”"),
     print: block => `"${text_of(block, "TEXT")}"` };
-  kinds.character = { style: "print", ...output(["String"]), tip: "the character of that number",
+  kinds.character = { style: "print", ...output(["String"]), tip: "the character with that number",
     build: block => value(block, "A0", anything, "character"),
     print: (block, part) => `$${part("A0")}` };
   kinds.name = { style: "names", ...output(["Number", "Any", "Place"]),
@@ -347,10 +347,10 @@ export function define_blocks(Blockly, words) {
   // ---- what is no statement ----
   kinds.program = { style: "start", hat: true, tip: "What hangs below runs from top to bottom when the program starts.",
     build: block => row(block, "ROW", "when the program starts"), print: () => "" };
-  kinds.comment = { style: "note", statement: true, tip: "a comment: for people, the robot does not see it",
+  kinds.comment = { style: "note", statement: true, tip: "a comment for people; the robot does not see it",
     build: block => row(block, "ROW", ["TEXT", new LongField("what this is for")]),
     print: (block, part, { sign = "' " }) => `${sign}${text_of(block, "TEXT")}`.trimEnd() };
-  kinds.text = { style: "grey", statement: true, tip: "There is no block for this, so it stands here as it is written.",
+  kinds.text = { style: "grey", statement: true, tip: "There is no block for this, so it is shown as it is written.",
     build(block, { lines = [""] }) {
       lines.forEach((line, i) => row(block, `ROW${i}`, [`TEXT${i}`, new LongField(line.trim())]));
       block.setInputsInline(false);

@@ -17,7 +17,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
   const switches = element("div", { class: "row forms", role: "group", "aria-label": "Show the program as" }, choice("Blocks", true), choice("Text", false));
   before.before(switches);
   const canvas = element("div", { id: "blocks-canvas", class: "blocks-canvas" });
-  const zooms = element("div", { class: "blocks-zoom", role: "group", "aria-label": "Size of the blocks" }, button("−", () => view?.zoom(-1), { "aria-label": "Smaller" }), button("+", () => view?.zoom(1), { "aria-label": "Larger" }));
+  const zooms = element("div", { class: "blocks-zoom", role: "group", "aria-label": "Block size" }, button("−", () => view?.zoom(-1), { "aria-label": "Smaller" }), button("+", () => view?.zoom(1), { "aria-label": "Larger" }));
   const words = element("div", { class: "blocks-words", hidden: true });
   const pane = element("div", { id: "blocks", class: "blocks", role: "tabpanel", "aria-label": "Program as blocks", hidden: true }, canvas, zooms, words);
   editor_pane.after(pane);
@@ -61,17 +61,17 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     const { name, text } = active(), question = ++asked;
     if (!is_structured(name)) {
       explain(element("p", {}, "Blocks show structured programs. This one has line numbers, and jumps from line to line, for which there are no blocks."),
-        element("p", {}, button("Make a structured program of it", lift, { class: "strong", id: "lift" }), " in a file of its own; this one stays as it is."));
+        element("p", {}, button("Turn it into a structured program", lift, { class: "strong", id: "lift" }), " in a separate file; this one stays as it is."));
       return;
     }
     try {
       if (!view) {
-        explain(element("p", {}, "The blocks are being loaded…"));
+        explain(element("p", {}, "Loading the blocks…"));
         await (loading ??= load());
       }
       const { rows } = await language.call("tree", { files: { [name]: text } });
       if (question !== asked) return; // it has changed meanwhile
-      if (rows.length > view.most_rows) return explain(element("p", {}, `This program has ${rows.length} lines, which is too much for blocks. It is under Text.`));
+      if (rows.length > view.most_rows) return explain(element("p", {}, `This program has ${rows.length} lines, which is too many for blocks. It is under Text.`));
       words.hidden = true;
       canvas.hidden = zooms.hidden = false;
       view.resize();
@@ -90,7 +90,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
       const { text: lifted } = await language.call("lift", { files: { [name]: text } });
       add_file(name.replace(/\.bas$/, ".orb"), lifted);
     } catch (error) {
-      explain(element("p", {}, error.findings ? "It has mistakes, which are listed below. Mend them under Text first." : `It cannot be made into one: ${error.message}.`));
+      explain(element("p", {}, error.findings ? "It has mistakes, which are listed below. Fix them under Text first." : `It cannot be turned into one: ${error.message}.`));
     }
   }
   function choose(blocks) {

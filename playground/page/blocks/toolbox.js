@@ -29,7 +29,7 @@ export function drawers(words, { made, routines, labels }) {
       robot("end"), robot("reset")]],
     ["Drive", "drive", [label("heading 0 is ahead, 90 to the right"), robot("goroll", "0", "80", "1"), label("brake"), robot("goroll", "0", "0", "0"),
       label("both motors"), robot("raw", "1", "128", "1", "128"), robot("basflg", "1")]],
-    ["Turn", "turn", [label("turn on the spot"), robot("goroll", "90", "0", "1"), label("this is ahead from now on"), robot("heading", "0"), label("this is the place"), robot("locate", "0", "0"), sensor("yaw")]],
+    ["Turn", "turn", [label("turn on the spot"), robot("goroll", "90", "0", "1"), label("this is ahead from now on"), robot("heading", "0"), label("set the position"), robot("locate", "0", "0"), sensor("yaw")]],
     ["Light", "light", [colour("red"), block("colour", { fields: { TEXT: "#00FF80" }, memory: { mixed: true } }), robot("RGB", "255", "128", "0"), robot("LEDC", "3"), robot("backLED", "255")]],
     ["Wait", "wait", [robot("delay", "1s"), label("until it is shaken"), block("repeat", { inputs: { DO: inside(robot("delay", "50ms")), COND: shaken } }),
       block("while", { inputs: { COND: asked(value("sensor", { fields: { TEXT: "speed" } }), ">", "5"), DO: inside(robot("delay", "50ms")) } }), robot("sleep", "60s")]],
@@ -58,7 +58,7 @@ export function drawers(words, { made, routines, labels }) {
       block("builtin", { fields: { TEXT: "max" }, memory: { n: 2 }, inputs: { A0: number("1"), A1: number("2") } })]],
     ["Names", "names", () => {
       const own = made(["variable", "constant", "parameter"]), some = made(["variable"])[0] ?? "count";
-      return [...own.length ? [label("of this program"), ...own.map(name)] : [],
+      return [...own.length ? [label("in this program"), ...own.map(name)] : [],
         block("assign", { fields: { NAME: some, SIGN: "=" }, inputs: { VALUE: number("0") } }), block("assign", { fields: { NAME: some, SIGN: "+=" }, inputs: { VALUE: number("1") } }),
         ...own.length ? [] : [name(some)], block("const", { fields: { NAME: "side" }, inputs: { VALUE: number("80") } }), block("local", { fields: { NAMES: "n" } }),
         label("many under one name"), block("array", { fields: { NAME: "list" }, inputs: { VALUE: number("5") } }),

@@ -34,7 +34,7 @@ TEST(Run, SaysThatTheSystemForbidsMachineCode) {
   const auto file = folder.path() / "run_test.bas";
   ASSERT_TRUE(disk::write(file, as_bytes("10 A = 1\n")));
   EXPECT_EXIT(run_where_forbidden(file), ::testing::ExitedWithCode(0),
-              "only interpreted: this system does not let memory become executable|" +
+              "only interpreted: this system does not allow executable memory|" +
                   std::string(cannot_forbid));
 }
 

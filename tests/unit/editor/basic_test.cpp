@@ -117,11 +117,11 @@ TEST(LspBasicNames, RenameChangesALineAndItsJumps) {
   EXPECT_EQ(session.at("prepareRename", 1, 10)["placeholder"], "100");
   EXPECT_TRUE(session.at("prepareRename", 4, 3).is_null());
   EXPECT_EQ(session.renamed(1, 10, "200"), "1:9-12 5:0-3 7:15-18");
-  EXPECT_EQ(session.renamed(1, 10, "40"), "there is a line 40 already");
-  EXPECT_EQ(session.renamed(1, 10, "0"), "a line number is 1 to 65535");
-  EXPECT_EQ(session.renamed(1, 10, "65536"), "a line number is 1 to 65535");
-  EXPECT_EQ(session.renamed(1, 10, "ten"), "a line number is 1 to 65535");
-  EXPECT_EQ(session.renamed(3, 4, "x"), "here is neither a line number nor a variable");
+  EXPECT_EQ(session.renamed(1, 10, "40"), "line 40 already exists");
+  EXPECT_EQ(session.renamed(1, 10, "0"), "a line number must be 1 to 65535");
+  EXPECT_EQ(session.renamed(1, 10, "65536"), "a line number must be 1 to 65535");
+  EXPECT_EQ(session.renamed(1, 10, "ten"), "a line number must be 1 to 65535");
+  EXPECT_EQ(session.renamed(3, 4, "x"), "this is neither a line number nor a variable");
 }
 
 TEST(LspBasicNames, RenameChangesAVariable) {

@@ -83,7 +83,7 @@ TEST(LspMacro, RenameChangesANameEverywhere) {
   EXPECT_EQ(session.renamed(4, 9, "fast"), "`fast` is already in use");
   EXPECT_EQ(session.renamed(4, 9, "4th"),
             "a name is letters, digits and `_`, and does not begin with a digit");
-  EXPECT_EQ(session.renamed(5, 8, "spin"), "there is no name of a macro or constant here");
+  EXPECT_EQ(session.renamed(5, 8, "spin"), "there is no macro or constant name here");
 }
 
 TEST(LspMacro, OutlineListsTheMacros) {

@@ -66,7 +66,7 @@ TEST(Structured, HoverSaysWhatANameStandsFor) {
   EXPECT_NE(session.hover(5, 9).find("the number 1500 (ms)"), std::string::npos);
   EXPECT_NE(session.hover(6, 4).find("elements 1 to 4"), std::string::npos);
   EXPECT_NE(session.hover(4, 10).find("(parameter)"), std::string::npos);
-  EXPECT_NE(session.hover(19, 24).find("(label): jumped to in line 20"), std::string::npos);
+  EXPECT_NE(session.hover(19, 24).find("(label): jumps to it: in line 20"), std::string::npos);
   EXPECT_NE(session.hover(4, 4).find("goroll"), std::string::npos);
   EXPECT_NE(session.hover(4, 4).find("```orbstructured\ngoroll 90,128,1\n"), std::string::npos);
   EXPECT_NE(session.hover(3, 1).find("sub"), std::string::npos);
@@ -90,11 +90,12 @@ TEST(Structured, RenameKeepsToOneMeaning) {
   EXPECT_EQ(session.renamed(12, 4, "lap"), "12:4-5 13:6-7 14:12-13 15:5-6");
   EXPECT_EQ(session.renamed(3, 8, "which"), "3:8-9 4:9-10 6:9-10");
   EXPECT_EQ(session.renamed(14, 7, "doubled"), "8:9-14 14:6-11");
-  EXPECT_EQ(session.renamed(12, 4, "delay"), "`delay` is a word of the language");
+  EXPECT_EQ(session.renamed(12, 4, "delay"), "`delay` is a reserved word");
   EXPECT_EQ(session.renamed(12, 4, "Turns"), "`Turns` is already in use");
-  EXPECT_EQ(session.renamed(12, 4, "2nd"),
-            "a name is a letter or `_`, then letters, digits and `_`, at most 31 of them");
-  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name of the program");
+  EXPECT_EQ(
+      session.renamed(12, 4, "2nd"),
+      "a name is a letter or `_`, then letters, digits and `_`, at most 31 characters in all");
+  EXPECT_EQ(session.renamed(4, 3, "x"), "this is not a name in the program");
 }
 
 TEST(Structured, CompletionKnowsWhatIsVisible) {

@@ -98,8 +98,8 @@ TEST(Macro, ACommandCutAnywhereSaysWhichOperandIsMissing) {
   }
   const auto cut = read_macro_command(*from_hex("05 7F 01"), 0);
   EXPECT_EQ(to_string(cut.error()),
-            "offset 2 (02h): the bytes end inside `roll` (05h); expected its operand `heading`, 3 "
-            "of the 5 bytes that the command takes are there");
+            "offset 2 (02h): the bytes end inside `roll` (05h); expected its operand `heading`, "
+            "found 3 of the 5 bytes that the command takes");
 }
 
 TEST(Macro, UnassignedCodesAreNoCommands) {

@@ -134,8 +134,8 @@ TEST(Payload, SaysWhatIsWrong) {
     const auto payload = encode_operands(command, words(text));
     return payload ? std::string() : payload.error().message;
   };
-  EXPECT_EQ(message(ApiCommand::Roll, "300 0"), "`speed` is 0 to 255, found 300");
-  EXPECT_EQ(message(ApiCommand::Roll, "fast 0"), "`speed` is a number, found `fast`");
+  EXPECT_EQ(message(ApiCommand::Roll, "300 0"), "`speed` takes 0 to 255, found 300");
+  EXPECT_EQ(message(ApiCommand::Roll, "fast 0"), "`speed` takes a number, found `fast`");
   EXPECT_EQ(message(ApiCommand::Roll, "1"),
             "`roll` takes 2 to 4 operands, found 1; write `roll SPEED HEADING [GO] [PADDING]`");
   EXPECT_EQ(message(ApiCommand::SaveMacro, "20 01 zz"), "`macro` takes hex bytes, found `zz`");

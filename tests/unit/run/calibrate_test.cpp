@@ -150,11 +150,12 @@ TEST(Calibrate, RefusesWhatADriveDoesNotTell) {
   Hidden silent(spec::driving(spec::Robot::Sphero), 30ms, 0.95);
   EXPECT_EQ(
       refusal(silent, spec::Robot::Sphero),
-      "only 0 of 24 legs are usable, the link lost the others; move closer to the robot and try "
+      "only 0 of 24 legs are usable; the link lost the others; move closer to the robot and try "
       "again");
   Hidden still(spec::driving(spec::Robot::Sphero));
   still.held_fast = true;
-  EXPECT_NE(refusal(still, spec::Robot::Sphero).find("nothing holds it"), std::string::npos);
+  EXPECT_NE(refusal(still, spec::Robot::Sphero).find("nothing is holding it back"),
+            std::string::npos);
   Hidden another(spec::driving(spec::Robot::Ollie));
   EXPECT_NE(refusal(another, spec::Robot::Sphero).find("the robot left the 2 m x 2 m"),
             std::string::npos);

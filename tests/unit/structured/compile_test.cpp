@@ -139,7 +139,7 @@ TEST(Lines, AnIndexThatCanOnlyBeWrongIsAnError) {
   EXPECT_EQ(lines("array a[4]\ni = 7\na[i] = 3\nprint a[1]\n"),
             "array-index: `a` has elements 1 to 4, found 7\n");
   EXPECT_EQ(lines("array a[4]\narray b[3]\nfor i = 5 to 9\n  b[i] = 1\nnext i\nprint a[1], b[1]\n"),
-            "array-index: `b` has elements 1 to 3, and the index is never one of them\n");
+            "array-index: `b` has elements 1 to 3, but the index is never one of them\n");
   EXPECT_EQ(lines("array a[4]\narray b[3]\ni = 0\nb[i] = 1\nprint a[1], b[1]\n"),
             "array-index: `b` has elements 1 to 3, found 0\n");
 }

@@ -141,7 +141,7 @@ TEST(Ble, ARemedyNamesTheRobotByItsAddress) {
   plan.held = true;
   const Robot robot(plan);
   ASSERT_TRUE(robot.error);
-  EXPECT_EQ(remedy(*robot.error), "end that program; `bluetoothctl disconnect 68:86:E7:00:00:01` "
+  EXPECT_EQ(remedy(*robot.error), "close that program; `bluetoothctl disconnect 68:86:E7:00:00:01` "
                                   "disconnects it");
 }
 

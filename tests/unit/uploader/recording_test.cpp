@@ -49,7 +49,7 @@ TEST(Recording, FailsAtTheFirstOtherByte) {
   ReplayTransport replay(*pieces);
   const auto report = upload_over(replay, 0x78);
   EXPECT_NE(report.kind, Report::Kind::Done);
-  EXPECT_NE(report.message.find("sent byte 5 is 78h, the recording has 77h"), std::string::npos)
+  EXPECT_NE(report.message.find("sent byte 5 is 78h, but the recording has 77h"), std::string::npos)
       << report.message;
 }
 

@@ -53,7 +53,7 @@ bool forbid_by_filter() {
 }
 
 constexpr const char* forbidden_or_skipped =
-    "^(this system does not let memory become executable|this kernel cannot forbid it)$";
+    "^(this system does not allow executable memory|this kernel cannot forbid it)$";
 
 TEST(NativeCode, IsDoneWithoutWhereTheKernelForbidsIt) {
   if (!has_native_code())
