@@ -425,7 +425,8 @@ Cause wrong_index(const structured::Compiled& compiled, const structured::Statem
   if (array == nullptr)
     return {.seen = "array index out of bounds"};
   const auto name = compiled.program.name(array->name);
-  return {.seen = fmt::format("the index is outside `{0}[1]` to `{0}[{1}]`", name, array->value)};
+  return {.seen = fmt::format("the index is outside `{0}`, which has elements 1 to {1}", name,
+                              array->value)};
 }
 
 /// The cause of a fault in the words of a structured program: with its names, and without lines of

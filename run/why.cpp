@@ -86,7 +86,7 @@ std::string missing_macro(const Program& program, const Load& load) {
       if (!there)
         return sentence(program.where(line.number),
                         fmt::format("there is no macro {} on the ball", *id),
-                        fmt::format("add the file that has it: `.macro NAME id={}`", *id));
+                        fmt::format("add the file that defines it, with `.macro NAME id={}`", *id));
     }
   }
   return {};

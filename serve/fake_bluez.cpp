@@ -238,7 +238,7 @@ tl::expected<void, IoError> Computer::open() {
       publish();
     socket_.assign(connection_->getEventLoopPollData().fd);
   } catch (const sdbus::Error& error) {
-    return tl::unexpected(IoError{"cannot be bluetoothd: " + error.getMessage()});
+    return tl::unexpected(IoError{"cannot act as bluetoothd: " + error.getMessage()});
   }
   pump();
   return {};

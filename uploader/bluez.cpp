@@ -274,7 +274,7 @@ private:
       if (!before)
         static_cast<void>(
             bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
-      return failed(BleFailure::NotConnected, "the robot does not connect", called.error());
+      return failed(BleFailure::NotConnected, "the connection failed", called.error());
     }
     // The answer can come before the property says so, and the link be gone again by then.
     auto risen = before;
@@ -285,7 +285,7 @@ private:
     if (patience.stopped())
       return tl::unexpected(ble_interrupted());
     if (!risen)
-      return failed(BleFailure::NotConnected, "the robot does not connect", {});
+      return failed(BleFailure::NotConnected, "the connection failed", {});
     ours_ = ours_ || !before;
     return std::string(before ? "it was already connected" : "it is connected");
   }

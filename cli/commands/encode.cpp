@@ -126,7 +126,7 @@ void add_encode(const Command& orb, Context& context) {
   command.add_option("--seq", arguments->seq, "the sequence number")
       .check(whole_number(0, std::numeric_limits<std::uint8_t>::max()))
       .show_default();
-  command.add_flag("--no-answer", arguments->no_answer, "ask for no answer");
+  command.add_flag("--no-answer", arguments->no_answer, "do not ask for an answer");
   command.add_flag("--v2", arguments->v2,
                    "a packet for the newer robots: a name and operands, or DID CID [HEX]");
   std::vector<std::string> robots;

@@ -90,7 +90,7 @@ public:
     for (const auto& file : listing.addresses)
       add_addresses(file);
     for (const auto& loop : listing.loops)
-      add_trouble(loop, fmt::format("cannot read {}: the link leads nowhere", loop));
+      add_trouble(loop, fmt::format("cannot read {}: broken symbolic link", loop));
     for (const auto& folder : listing.folders)
       add_pupil(folder);
     if (found_.programs.size() == before)

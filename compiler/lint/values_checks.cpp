@@ -380,17 +380,17 @@ void ValuesPass::check_on(const OnView& on) {
   const auto count = static_cast<std::int32_t>(targets.size());
   const auto range = range_of(selector);
   if (range.misses(1, count))
-    findings_.add(
-        rules::SelectorRange, selector.span,
-        fmt::format("the list has {}, found {}", plural(targets.size(), "line"), shown(range)));
+    findings_.add(rules::SelectorRange, selector.span,
+                  fmt::format("the list has {}, found {}", plural(targets.size(), "line number"),
+                              shown(range)));
   else if (exact_[selector.value] == 0)
     doubt(selector, 1, count);
   else if (range.lo < 1 || range.hi > count)
-    add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line")),
-                  range.hi > count ? fmt::format("write {} more",
-                                                 plural(static_cast<std::size_t>(range.hi - count),
-                                                        "line number"))
-                                   : "");
+    add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line number")),
+                  range.hi > count
+                      ? fmt::format("write {}", plural(static_cast<std::size_t>(range.hi - count),
+                                                       "more line number"))
+                      : "");
 }
 
 void ValuesPass::check_condition(const IfView& condition) {

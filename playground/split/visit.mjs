@@ -1,4 +1,4 @@
-// What somebody does on the page who does not reach for a robot, as calls of the engine: what is called here
+// What somebody does on the page who does not reach for a robot, as calls of the engine: what is called here by many
 // becomes the part of orb.wasm that is loaded at once.
 import { readFileSync } from "node:fs";
 import { welcome } from "../page/steps.js";
@@ -61,25 +61,32 @@ function test(engine, files, name) {
   if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
 }
 
-/** `examples`: the file that the page loads. Lessons and examples in the structured language, with the
- *  mistakes of a first hour. Who makes others, edits numbered programs, macros or tests, or drives through a course, loads the
- *  rest, as for a robot. */
-export function visit(engine, examples) {
-  engine.call("version");
-  const items = JSON.parse(readFileSync(examples, "utf8")).groups.flatMap(group => group.items)
-    .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")));
-  const solved = items.filter(item => item.solution).map(item => ({ ...item, files: { ...item.files, [item.main]: item.solution } }));
-  const run_all = (files, main, run = {}) => {
+/** What visitors do, each part as a call with an engine. `first`: the first program and mistakes; `lessons` and
+ *  `examples`: those in the structured language, of which somebody opens some. Who edits numbered programs, macros or tests, or drives through a
+ *  course, loads the rest, as for a robot. `list`: the file that the page loads. */
+export function visits(list) {
+  const run_all = (engine, files, main, run = {}) => {
     const given = { files, ...run, names: run.names ?? [main], for: "10s" };
     attempt(() => engine.call("run", { ...given, report: true }));
     play(engine, given);
     for (const name of Object.keys(files).filter(one => one.endsWith(".test"))) test(engine, files, name);
   };
-  for (const { files, main, run } of [...items, ...solved]) {
-    edit(engine, files);
-    run_all(files, main, run);
-  }
-  for (const text of slips) edit(engine, { "robot.orb": text });
-  for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
-    run_all({ "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
+  const tried = ({ files, main, run, solution }) => engine => {
+    for (const given of solution ? [files, { ...files, [main]: solution }] : [files]) {
+      edit(engine, given);
+      run_all(engine, given, main, run);
+    }
+  };
+  const [lessons, examples] = JSON.parse(readFileSync(list, "utf8")).groups.map(({ items }) => items
+    .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")))
+    .map(tried));
+  return {
+    first(engine) {
+      engine.call("version");
+      for (const text of slips) edit(engine, { "robot.orb": text });
+      for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
+        run_all(engine, { "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
+    },
+    lessons, examples,
+  };
 }

@@ -18,7 +18,7 @@ void Checker::check_place(std::uint32_t i, const Statement& statement) {
               routine == 0 ? "`local` outside a sub or function" : "`local` inside a block",
               routine != 0 ? "move it to the beginning of the sub"
               : sets       ? fmt::format("write `{}`", program_.text_of(at(i + 1).span))
-                           : "variables of the main program need no declaration");
+                           : "variables in the main program need no declaration");
   if (statement.kind == Kind::Return)
     check_return(routine, statement);
   if (!open_.empty() && at(open_.back()).kind == Kind::Select &&

@@ -246,8 +246,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   at_ += first_unit.size();
   if (!least || !text_.substr(at_).starts_with("..")) {
     at_ = from - begin_;
-    fail(rules::Value, fmt::format("the {} needs two values, a lower and an upper one", what),
-         help);
+    fail(rules::Value, fmt::format("the {} needs a lower and an upper bound", what), help);
     return {};
   }
   at_ += 2;
@@ -256,8 +255,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
   at_ += unit.size();
   const auto span = span_from(from);
   if (!most) {
-    fail_at(span, rules::Value,
-            fmt::format("the {} needs two values, a lower and an upper one", what), help);
+    fail_at(span, rules::Value, fmt::format("the {} needs a lower and an upper bound", what), help);
     return {};
   }
   const double second = factor(unit);

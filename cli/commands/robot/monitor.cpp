@@ -326,7 +326,7 @@ void add_monitor(const Command& orb, Context& context) {
       .add_option("--map", options->map,
                   "a map written by `orb build --map`: errors then point into the source")
       .type_name("FILE");
-  command.add_option("--report", options->report, "a page with the ball's path and its sensors")
+  command.add_option("--report", options->report, "a page with the ball's path and sensor readings")
       .type_name("OUT.html");
   command.add_option("--svg", options->svg, "a drawing of the path").type_name("OUT.svg");
   command.add_option("--for", options->time, "how long to listen; by default until Ctrl-C")
