@@ -168,10 +168,29 @@ bool parts_line(const Token& token) {
   return false;
 }
 
+/// What all patterns ask of the tokens of a line, told once.
+struct Line {
+  explicit Line(const Tokens& given) : tokens(given), depth{0} {
+    for (const auto& token : tokens) {
+      const int step = token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
+      depth.push_back(depth.back() + step);
+      ends_value.push_back(token.is_text() || parts_line(token) || token.is(";") || token.is("{") ||
+                           token.is("}") || token.is(":"));
+      ends_condition.push_back(token.is("then") || token.is("else") || token.is_text() ||
+                               token.is("goto") || token.is("{"));
+    }
+  }
+
+  const Tokens& tokens;
+  std::vector<int> depth; ///< of brackets, before each token and after the last one
+  std::vector<bool> ends_value;
+  std::vector<bool> ends_condition;
+};
+
 class Matcher {
 public:
-  Matcher(const Tokens& tokens, std::size_t end, bool whole)
-      : tokens_(tokens), end_(end), whole_(whole) {}
+  Matcher(const Line& line, std::size_t end, bool whole)
+      : line_(line), tokens_(line.tokens), end_(end), whole_(whole) {}
 
   /// Where the pattern ends that begins at `at`; 0 where it does not fit.
   std::size_t match(const Pattern& pattern, std::size_t at) {
@@ -250,29 +269,26 @@ private:
     return stop;
   }
 
-  /// How far a hole can go.
+  /// How far a hole can go: nothing that is longer is balanced and fits.
   std::size_t extent(char hole, std::size_t at) const {
-    const auto at_most = [&](std::size_t n) { return std::min(end_, at + n); };
-    switch (hole) {
-    case 'n':
-    case 'm':
-    case 'w':
-    case 't':
-    case 'k': return at_most(1);
-    case 'q': return end_;
-    default: return end_;
-    }
+    if (holds("nmwtk", hole))
+      return std::min(end_, at + 1);
+    const bool condition = holds("cd", hole);
+    const bool value = !condition && !holds("rljopv", hole);
+    auto end = at;
+    while (end < end_ && line_.depth[end + 1] >= line_.depth[at] &&
+           !(condition && line_.ends_condition[end]) && !(value && line_.ends_value[end]))
+      ++end;
+    return end;
   }
 
+  static bool holds(std::string_view holes, char hole) {
+    return holes.find(hole) != std::string_view::npos;
+  }
+
+  /// Within extent().
   bool balanced(std::size_t begin, std::size_t end) const {
-    int depth = 0;
-    for (auto i = begin; i < end; ++i) {
-      const auto& token = tokens_[i];
-      depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-      if (depth < 0)
-        return false;
-    }
-    return depth == 0;
+    return line_.depth[begin] == line_.depth[end];
   }
 
   bool is_operand(std::size_t begin, std::size_t end) const {
@@ -291,8 +307,7 @@ private:
     for (auto i = begin; i < end; ++i) {
       const auto& token = tokens_[i];
       depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-      if (token.is_text() || parts_line(token) || token.is(";") || token.is("{") || token.is("}") ||
-          token.is(":"))
+      if (line_.ends_value[i])
         return false;
       if (depth == 0 && (token.is(",") || token.is_relation()))
         return false;
@@ -324,8 +339,7 @@ private:
     case 'c':
     case 'd':
       for (auto i = begin; i < end; ++i)
-        if (tokens_[i].is("then") || tokens_[i].is("else") || tokens_[i].is_text() ||
-            tokens_[i].is("goto") || tokens_[i].is("{"))
+        if (line_.ends_condition[i])
           return false;
       return true;
     case 'l': return true;
@@ -346,6 +360,7 @@ private:
     return at == end || (at + 1 == end && tokens_[at].is_word());
   }
 
+  const Line& line_;
   const Tokens& tokens_;
   std::size_t end_;
   bool whole_;
@@ -404,6 +419,7 @@ void rewrite(const Tokens& line, const Surroundings& around,
     bits |= bit[i];
   }
   const auto here = join(line);
+  const Line all(line);
   const auto statements = statements_of(line);
   for (const auto& pattern : patterns_of(around.language)) {
     if (std::any_of(pattern.needs.begin(), pattern.needs.end(),
@@ -430,14 +446,14 @@ void rewrite(const Tokens& line, const Surroundings& around,
     };
     if (pattern.idiom != nullptr && pattern.idiom->where == Where::Line) {
       for (const auto& [begin, end] : statements) {
-        Matcher matcher(line, end, true);
+        Matcher matcher(all, end, true);
         if (end > begin && begins(begin) && matcher.match(pattern, begin) == end &&
             use(matcher, begin, end))
           return;
       }
       continue;
     }
-    Matcher matcher(line, line.size(), false);
+    Matcher matcher(all, line.size(), false);
     for (std::size_t begin = 0; begin < line.size(); ++begin) {
       const auto end = begins(begin) ? matcher.match(pattern, begin) : 0;
       if (end > begin && use(matcher, begin, end))
@@ -471,7 +487,8 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
 }
 
 std::string word_at(const Tokens& line, std::size_t at) {
-  Matcher matcher(line, line.size(), false);
+  const Line all(line);
+  Matcher matcher(all, line.size(), false);
   std::size_t farthest = at;
   std::string_view meaning = line[at].text;
   for (const auto& pattern : patterns_of(Language::Structured)) {
@@ -501,8 +518,9 @@ bool is_known_word(std::string_view word, Where where) {
 }
 
 std::string advise(const Tokens& line, const Surroundings& around) {
+  const Line all(line);
   for (const auto& pattern : hints_of(around.language)) {
-    Matcher matcher(line, line.size(), true);
+    Matcher matcher(all, line.size(), true);
     if (line.empty() || matcher.match(pattern, 0) != line.size())
       continue;
     if (auto text = fill(pattern.meaning, matcher.holes(), around))
