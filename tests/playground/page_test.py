@@ -163,7 +163,7 @@ class Playground(unittest.TestCase):
         page.wait("location.hash === ''")
         page.evaluate(wait(200))
         self.assertIn("mine", page.evaluate(text))
-        page.evaluate("[...document.querySelectorAll('#came button')].find(one => one.textContent === 'Begin it again').click()")
+        page.evaluate("[...document.querySelectorAll('#came button')].find(one => one.textContent === 'Start over').click()")
         page.wait(f"({text}).includes('delay 2s') || !({text}).includes('mine')")
 
     def test_back_is_there_after_the_page_is_loaded_again(self):
@@ -216,11 +216,11 @@ class Playground(unittest.TestCase):
         blocked = "Object.defineProperty(window, 'indexedDB', { get() { throw new DOMException('denied', 'SecurityError'); } });"
         page = self.open(fragment({"a.bas": "10 end\n"}), before=blocked)
         self.type(page, "10 print 1\n")
-        page.wait(f"!{by_id('storage')}.hidden && {by_id('storage')}.textContent.includes('keeps nothing')")
+        page.wait(f"!{by_id('storage')}.hidden && {by_id('storage')}.textContent.includes('stores nothing')")
         full = "IDBObjectStore.prototype.put = () => { throw new DOMException('full', 'QuotaExceededError'); };"
         page = self.open(fragment({"a.bas": "10 end\n"}), before=full)
         self.type(page, "10 print 1\n")
-        page.wait(f"!{by_id('storage')}.hidden && {by_id('storage')}.textContent.includes('no room left')")
+        page.wait(f"!{by_id('storage')}.hidden && {by_id('storage')}.textContent.includes('no space left')")
 
     # -- an engine that does not answer --
     def test_an_engine_that_is_missing_is_named_and_tried_again(self):
@@ -230,7 +230,7 @@ class Playground(unittest.TestCase):
             self.addCleanup(page.close)
             page.go(server.url + fragment({"a.bas": "10 rgb 1\n"}))
             page.wait(f"!{by_id('engine')}.hidden", 30)
-            self.assertIn("does not run", page.evaluate(f"{by_id('engine')}.textContent"), missing)
+            self.assertIn("is not running", page.evaluate(f"{by_id('engine')}.textContent"), missing)
             self.assertEqual(page.evaluate(f"{by_id('count')}.textContent"), "not checked")
             page.evaluate(click("run"))
             page.wait(f"{idle} && {by_id('outcome')}.classList.contains('bad')")
@@ -254,12 +254,12 @@ class Playground(unittest.TestCase):
     def test_a_program_that_leaves_the_ball_driving_ends(self):
         page = self.open(fragment({"a.bas": "10 goroll 0,60,1\n20 delay 500\n"}))
         page.evaluate(click("run"))
-        page.wait(f"{outcome}.includes('still rolls')", 10)
+        page.wait(f"{outcome}.includes('is still rolling')", 10)
         page.wait(idle, 20)
         self.assertIn("ended after 0.5", page.evaluate(outcome))
         self.assertIn("still driving", page.evaluate(outcome))
         page.evaluate(click("run"))
-        page.wait(f"{outcome}.includes('still rolls')", 10)
+        page.wait(f"{outcome}.includes('is still rolling')", 10)
         page.evaluate(stop)
         page.wait(idle, 10)
         self.assertIn("ended after 0.5", page.evaluate(outcome))
@@ -377,10 +377,10 @@ class Playground(unittest.TestCase):
 
     def test_a_new_file_says_what_it_is_for(self):
         page = self.open(fragment({"a.bas": "10 end\n"}))
-        for name, words in (("b.orb", "a program of its own"), ("a.test", "a.bas is tested"), ("c.svg", "under More")):
+        for name, words in (("b.orb", "a separate structured program"), ("a.test", "a.bas is tested"), ("c.svg", "under More")):
             page.evaluate(click("new-file"))
             page.evaluate(f"{by_id('name')}.value = '{name}'; document.querySelector('#name-form [value=ok]').click()")
-            page.wait(f"{by_id('status')}.textContent.includes('{words.replace('a program', 'program')}')" if name == "b.orb" else f"{by_id('status')}.textContent.includes('{words}')")
+            page.wait(f"{by_id('status')}.textContent.includes('{words}')")
 
     # -- phones and paper --
     def test_run_and_test_are_in_reach_on_a_phone(self):
@@ -512,7 +512,7 @@ class Playground(unittest.TestCase):
         page.evaluate("""document.querySelector('.cm-content').focus();
           const data = new DataTransfer(); data.setData('text/plain', '20 print 2\\n'.repeat(200000));
           document.querySelector('.cm-content').dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true, cancelable: true }))""")
-        page.wait(f"{by_id('status')}.textContent.includes('262,144 letters')")
+        page.wait(f"{by_id('status')}.textContent.includes('262,144 characters')")
         self.assertEqual(page.evaluate(text).strip(), "10 print 1")
         self.type(page, "10 print 3\n")
         page.wait(f"({text}).includes('print 3')")
@@ -685,7 +685,7 @@ class Playground(unittest.TestCase):
         drop = lambda content: page.evaluate(f"""(() => {{ const data = new DataTransfer(); data.items.add(new File([{json.dumps(content)}], 'ben.link'));
           document.dispatchEvent(new DragEvent('drop', {{ dataTransfer: data, bubbles: true, cancelable: true }})); }})()""")
         drop("nothing\n")
-        page.wait(f"{by_id('status')}.textContent.includes('holds no address')")
+        page.wait(f"{by_id('status')}.textContent.includes('contains no address')")
         drop(f"https://orb.example/{fragment(self.lesson_files, name='Ben', task='# Hello')}\n")
         page.wait(f"{by_id('came')}.textContent.includes('Ben')")
         page.wait(f"{by_id('task-title')}.textContent === 'Hello'")
@@ -838,7 +838,7 @@ class Playground(unittest.TestCase):
             page.evaluate("document.querySelector('#name-form [value=ok]').click()")
             self.assertEqual(page.evaluate("document.getElementById('name-dialog').open"), not fits, name)
             if not fits:
-                self.assertIn("ends in", page.evaluate("document.getElementById('name-trouble').textContent"))
+                self.assertIn("must end in", page.evaluate("document.getElementById('name-trouble').textContent"))
                 page.evaluate("document.getElementById('name-dialog').close()")
 
     def test_damaged_addresses_are_told(self):
@@ -932,7 +932,7 @@ class Playground(unittest.TestCase):
     def test_stop_brakes_the_robot_that_is_driven(self):
         newer = mock_bluetooth.replace("BB-1234", "SM-1234")
         page, wire = self.drive("bluetooth", newer, "--robot", "mini", program="10 goroll 0,60,1\n20 delay 100\n30 goto 10\n")
-        page.wait(f"{by_id('outcome')}.textContent.includes('drives the Sphero Mini')", 20)
+        page.wait(f"{by_id('outcome')}.textContent.includes('driving the Sphero Mini')", 20)
         page.evaluate(wait(800))
         page.evaluate(click("run"))
         page.wait(f"{by_id('outcome')}.textContent.includes('has been stopped')", 20)
@@ -963,7 +963,7 @@ class Playground(unittest.TestCase):
     def test_where_no_ball_can_be_reached_there_is_the_file(self):
         page = self.open(before="delete Navigator.prototype.serial; delete Navigator.prototype.bluetooth;")
         open_flash(page)
-        self.assertIn("can reach no robot", page.evaluate(f"{by_id('flash-lacks')}.textContent"))
+        self.assertIn("cannot reach robots", page.evaluate(f"{by_id('flash-lacks')}.textContent"))
         self.assertTrue(page.evaluate(f"{by_id('flash-serial')}.disabled"))
         page.evaluate(click("flash-file"))
         page.wait(f"{by_id('flash-status')}.textContent.includes('orb upload')", 30)

@@ -153,8 +153,8 @@ std::string section(int runs, bool& bad) {
 {} runs each of a square (`orb run square.bas --port …`) on virtual robots, over [links with
 faults](uploading.md#trying-bad-links). *Whole*: the program ended and the robot acknowledged the stop.
 *Reported*: it could not, and the run says why. *Wrong*: the stop was reported as acknowledged, but the robot drives.
-*Left driving*: it still drives 2.1 s after the last command. Counts of 0 are left out;
-the time is that of the longest run. `driven --runs 1000` repeats it.
+*Left driving*: it still drives 2.1 s after the last command.
+The time is that of the longest run. `driven --runs 1000` repeats it.
 
 )",
                           runs);

@@ -265,7 +265,7 @@ void add_profiles(Page& page, int uploads, int ble_uploads) {
   page.add(fmt::format(R"(## Fault profiles
 
 {} uploads each of a {}-line program ({} bytes, 5 fragments), seeds 1 to {}; every other one into flash through RAM.
-Rates are per packet and direction. Over Bluetooth LE the same packets travel in [pieces](#bluetooth-le).
+Over Bluetooth LE the same packets travel in [pieces](#bluetooth-le).
 
 | profile | orb | longest | orb over Bluetooth LE | longest | sphero.js 0.9.2 | sphero-pwn 0.5.3 |
 |---|---|---|---|---|---|---|
@@ -303,8 +303,8 @@ void add_ble(Page& page, int uploads) {
 
 The same program, {} uploads each, through all of orb but D-Bus ([see there](#over-d-bus)): a fake of the robot's
 characteristics replaces BlueZ, so time is virtual. Written pieces have 20 bytes and are acknowledged after 30 ms;
-notifications have 1 to 20 bytes. `lose`: notifications are lost; `refuse`: written pieces are not acknowledged, though
-every other one arrives; `drop-once`: the link is lost in that step of the connection, the first time.
+notifications have 1 to 20 bytes. The faults are [those of
+`orb ball`](uploading.md#virtual-robots-over-bluetooth-le).
 
 | profile | orb | longest |
 |---|---|---|
@@ -378,9 +378,8 @@ void add_doubled_requests(Page& page, int uploads) {
 
 If a link delivers a *request* twice and loses the second answer, no answer shows the duplicate, and nothing can be read
 back. `orb upload` then gives an upper bound on wrong successes, 1 − (1 − r)^pieces, where r is the share of duplicate
-pieces with one answer among those that look right. A ball that counts packets (Level 2 Diagnostics) is asked before and
-after: if it received more than were answered, a program is resent, a macro reported as unknown and aborted. Bluetooth
-does not duplicate requests.
+pieces with one answer among those that look right. If a ball that [counts packets](uploading.md#what-is-sent) received
+more than were answered, a program is resent, a macro reported as unknown and aborted.
 
 | profile | the ball counts | program, 5 pieces | bound | macro in 4 chunks | macro streamed in 4 pieces | bound |
 |---|---|---|---|---|---|---|
@@ -593,11 +592,10 @@ int main(int argc, char** argv) {
 
 Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`, from
 [Writes that fail](#writes-that-fail) on by the commands named there; do not edit. Time is virtual and every upload has
-its own seed, so the numbers repeat exactly. The ball is the built-in one as `sphero-3.73`, which like both recorded
-robots does not tell how many packets it has received. After each upload its storage is compared with the report: *ok*
-is a true success, *reported* a failure whose message describes the ball truly, *wrong* everything else. Counts of 0 are
-left out. Other libraries: 2000 runs of each against a ball with the same faults (a duplicate there is a duplicate
-answer); – was not measured.
+its own seed, so the numbers repeat exactly. The ball is the built-in `sphero-3.73`, which like both recorded robots
+tells no count of packets. After each upload its storage is compared with the report: *ok* is a true success, *reported*
+a failure whose message describes the ball truly, *wrong* everything else. Counts of 0 are left out. Other libraries:
+2000 runs of each against a ball with the same faults (a duplicate there is a duplicate answer); – was not measured.
 
 )",
                        uploads));
