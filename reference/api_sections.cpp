@@ -15,7 +15,7 @@ std::string_view describe(spec::Status status) {
   case spec::Status::Factory: return "refused with 05h: works only at the factory";
   case spec::Status::Unsupported: return "refused with 05h: no firmware supports it";
   case spec::Status::Password: return "refused with 0Bh: the password is not public";
-  case spec::Status::Bootloader: return "refused with 09h outside the bootloader";
+  case spec::Status::Bootloader: return "refused with 09h";
   }
   return "";
 }
