@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr std::size_t most_runs = 3;
   for (auto& test : file.tests)
     test.bound = std::min<Duration>(test.bound, 50ms);
-  testing::Results results{suite->cases, {}, {}};
+  testing::Results results{.cases = suite->cases, .shards = {}, .groups = {}, .missing = {}};
   for (const auto& group : suite->groups) {
     const auto& test = suite->test_of(group);
     if (results.groups.size() == most_runs || test.stimuli.size() > most_walls)
