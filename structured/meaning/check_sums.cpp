@@ -7,8 +7,10 @@ namespace orb::structured {
 // numbered programs.
 
 std::optional<compiler::Bound> Checker::bound_of(std::uint32_t relation) const {
+  if (program_.nodes[relation].kind != NodeKind::Relation) // else there may be nothing before it
+    return std::nullopt;
   const auto number = evaluate(program_, names_, relation - 1);
-  if (program_.nodes[relation].kind != NodeKind::Relation || !number)
+  if (!number)
     return std::nullopt;
   const std::int64_t value = number->value;
   switch (static_cast<Comparison>(program_.nodes[relation].what)) {
