@@ -42,8 +42,6 @@ const at_once = new Set(["start.js", "page.js"]);
 for (const name of at_once) for (const one of parts[name]) at_once.add(one); // a set goes on to what is added
 const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => !at_once.has(name))]);
 const styled = (...paths) => esbuild.transformSync(paths.map(read).join("\n"), { loader: "css", minify: true }).code;
-// What the first frame needs is in the page itself: a file of its own would come after the scripts that are asked for first.
-const page_style = styled("report/page.css", "playground/page.css", "playground/page/blocks/toggle.css");
 writeFileSync(join(out, "blocks.css"), styled("playground/page/blocks/blocks.css"));
 // The page in each language: the texts of all its parts in one file.
 mkdirSync(join(out, "languages"), { recursive: true });
@@ -65,6 +63,8 @@ function composed() {
     return found[0];
   };
   const parts = {
+    // In the page itself: a file of its own would come after the scripts, and the first frame waits for it.
+    style: styled("report/page.css", "playground/page.css", "playground/page/blocks/toggle.css"),
     stage: part("stage", /<section class="stage"[^]*?<\/section>/),
     variables: part("variables", /<section id="variables-pane"[^]*?<\/section>/),
     events: part("events", /<section class="pane events"[^]*?<\/section>/),
@@ -72,7 +72,6 @@ function composed() {
     transport: part("transport", /<footer class="transport"[^]*?<\/footer>/).replaceAll("footer", "div"),
   };
   return read("playground/page.html").replace(/<!--\{(\w+)\}-->/g, (_, name) => parts[name])
-    .replace(/<link rel="stylesheet" href="page.css">/, () => `<style nonce="orb-editor">${page_style}</style>`)
     .replace(/.*"modulepreload".*\n/, [...at_once].map(name => `<link rel="modulepreload" href="${name}">\n`).join(""));
 }
 const icons = ["icon-192.png", "icon-512.png", "icon-maskable.png"]; // of the installed page (tests/playground/pictures.py draws them)

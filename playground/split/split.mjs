@@ -31,9 +31,9 @@ async function profile_of(visit) {
 
 const { first, ...some } = visits(list);
 const profile = await profile_of(first), head = 2;
-for (const [kind, visits] of Object.entries(some)) {
+for (const [kind, all] of Object.entries(some)) {
   const calls = new Uint32Array(profile.length);
-  for (const visit of visits) (await profile_of(visit)).forEach((time, i) => { calls[i] += time !== 0; });
+  for (const visit of all) (await profile_of(visit)).forEach((time, i) => { calls[i] += time !== 0; });
   for (let i = head; i < profile.length; ++i) profile[i] ||= calls[i] >= enough[kind] ? 1 : 0;
 }
 writeFileSync(file("visit.profile"), new Uint8Array(profile.buffer));
