@@ -269,12 +269,12 @@ private:
     return stop;
   }
 
-  /// How far a hole can go: nothing that is longer is balanced and fits.
+  /// How far a hole can go: not past what closes more than it opens, nor what ends its kind.
   std::size_t extent(char hole, std::size_t at) const {
-    if (holds("nmwtk", hole))
+    if (is_among("nmwtk", hole))
       return std::min(end_, at + 1);
-    const bool condition = holds("cd", hole);
-    const bool value = !condition && !holds("rljopv", hole);
+    const bool condition = is_among("cd", hole);
+    const bool value = !condition && !is_among("rljopv", hole);
     auto end = at;
     while (end < end_ && line_.depth[end + 1] >= line_.depth[at] &&
            !(condition && line_.ends_condition[end]) && !(value && line_.ends_value[end]))
@@ -282,7 +282,7 @@ private:
     return end;
   }
 
-  static bool holds(std::string_view holes, char hole) {
+  static bool is_among(std::string_view holes, char hole) {
     return holes.find(hole) != std::string_view::npos;
   }
 
@@ -300,15 +300,13 @@ private:
            (tokens_[end - 1].is(")") || tokens_[end - 1].is("]"));
   }
 
-  /// A value: neither commas nor comparisons outside of its parentheses, no two values side by
-  /// side.
+  /// A value, within extent(): neither commas nor comparisons outside of its parentheses, no two
+  /// values side by side.
   bool is_value(std::size_t begin, std::size_t end) const {
     int depth = 0;
     for (auto i = begin; i < end; ++i) {
       const auto& token = tokens_[i];
       depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-      if (line_.ends_value[i])
-        return false;
       if (depth == 0 && (token.is(",") || token.is_relation()))
         return false;
       const bool value = token.is_word() || token.is_number();
@@ -320,6 +318,7 @@ private:
     return last.kind != Token::Kind::Sign || last.is(")") || last.is("]");
   }
 
+  /// Whether a hole can hold what lies within its extent().
   bool fits(char hole, std::size_t begin, std::size_t end) const {
     if (hole == 'r')
       return true;
@@ -338,10 +337,6 @@ private:
              (end == begin + 1 || (tokens_[begin + 1].is("[") && tokens_[end - 1].is("]")));
     case 'c':
     case 'd':
-      for (auto i = begin; i < end; ++i)
-        if (line_.ends_condition[i])
-          return false;
-      return true;
     case 'l': return true;
     case 'j': // one word is a label
       return end > begin + 1 && !parts_line(first) && !first.is("for") && !first.is("while") &&
