@@ -8,10 +8,6 @@ namespace {
 constexpr std::uint32_t most_lines = 2048; ///< no area of the robot holds as many
 constexpr std::size_t most_routines = 64;
 
-constexpr std::uint32_t bit_of(std::size_t letter) {
-  return std::uint32_t{1} << letter;
-}
-
 /// Whether a bit of one of two joined letters is one of the result.
 std::uint32_t joined_bit(std::uint32_t a, std::uint32_t b, const Range& left, const Range& right,
                          const Range& joined, std::uint32_t mask) {
@@ -26,7 +22,7 @@ std::uint32_t joined_bit(std::uint32_t a, std::uint32_t b, const Range& left, co
 bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
   const auto old = into.ranges[letter];
   const auto& other = from.ranges[letter];
-  const auto mask = bit_of(letter);
+  const auto mask = bit(letter);
   if (old == other && (into.exact & mask) == (from.exact & mask) &&
       (into.dense & mask) == (from.dense & mask))
     return false;
@@ -136,7 +132,7 @@ std::uint32_t LetterFlow::written_by(std::uint32_t code) const {
       return ~std::uint32_t{0};
     for (const auto& item : program_.items_of(statement))
       if (item.kind == ItemKind::Letter)
-        written |= bit_of(item.value);
+        written |= bit(item.value);
   }
   return written;
 }
@@ -190,8 +186,8 @@ void LetterFlow::enter(std::uint32_t code, const Letters& letters) {
       if (range == before.ranges[i])
         continue;
       range = block.visits > limit ? Range{} : widen(landmarks_, before.ranges[i], range);
-      block.letters.exact &= ~bit_of(i);
-      block.letters.dense &= ~bit_of(i);
+      block.letters.exact &= ~bit(i);
+      block.letters.dense &= ~bit(i);
     }
   wait(block_of_[code]);
 }
@@ -208,7 +204,7 @@ bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters)
   if (!routine->returned)
     return false;
   for (std::size_t i = 0; i < spec::letter_count; ++i)
-    if ((routine->written & bit_of(i)) != 0)
+    if ((routine->written & bit(i)) != 0)
       letters.ranges[i] = routine->letters.ranges[i];
   letters.exact = (letters.exact & ~routine->written) | (routine->letters.exact & routine->written);
   letters.dense = (letters.dense & ~routine->written) | (routine->letters.dense & routine->written);

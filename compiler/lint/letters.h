@@ -5,10 +5,16 @@
 #include "spec/limits.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace orb::compiler {
+
+/// The bit of a letter in a set of them.
+constexpr std::uint32_t bit(std::size_t letter) {
+  return std::uint32_t{1} << letter;
+}
 
 /// What is known of A to Y at a place of a program.
 struct Letters {

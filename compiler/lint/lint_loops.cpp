@@ -1,3 +1,4 @@
+#include "compiler/lint/letters.h"
 #include "compiler/lint/lint_passes.h"
 
 #include "compiler/text/rules.h"
@@ -108,9 +109,6 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t bit(std::uint32_t variable) {
-    return std::uint32_t{1} << variable;
-  }
   const StatementNode& statement(std::uint32_t code) const {
     return program_.statements[flow_.code[code].statement];
   }

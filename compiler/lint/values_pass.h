@@ -17,10 +17,6 @@ namespace orb::compiler {
 inline constexpr auto letters = spec::letter_count;
 inline constexpr std::uint32_t index_letter = letters - 1; // Y
 
-constexpr std::uint32_t bit(std::uint32_t n) {
-  return std::uint32_t{1} << n;
-}
-
 inline std::string shown(Range range) {
   return range.constant() ? fmt::format("{}", range.lo)
                           : fmt::format("{} to {}", range.lo, range.hi);
