@@ -23,16 +23,12 @@ class Assembler {
 public:
   Assembler(const Source& source, Folding folding)
       : folding_(folding), program_(parse(source.text())),
-        findings_(source.text(), std::move(program_.diagnostics)), names_(program_, findings_),
+        findings_(std::move(program_.diagnostics)), names_(program_, findings_),
         operands_(program_, names_, findings_), macros_(names_.macros()) {}
 
   Assembly run();
 
 private:
-  const Value* values(const Statement& statement) const {
-    return program_.values.data() + statement.first;
-  }
-
   AssembledMacro& macro() { return macros_[current_]; }
 
   void begin_unnamed();
@@ -77,10 +73,11 @@ Assembly Assembler::run() {
   const bool says_nothing =
       std::all_of(program_.statements.begin(), program_.statements.end(),
                   [](const Statement& one) { return one.kind == Statement::Kind::Const; });
-  if (says_nothing && findings_.empty())
-    findings_.report(rules::EmptyFile, {0, 0}, "the file has no macro commands",
-                     "write one, such as `marker 20`");
-  return {std::move(macros_), std::move(findings_).sorted()};
+  if (says_nothing && findings_.all().empty())
+    findings_.add(rules::EmptyFile, {0, 0}, "the file has no macro commands",
+                  "write one, such as `marker 20`");
+  sort_by_place(findings_.all());
+  return {std::move(macros_), std::move(findings_.all())};
 }
 
 void Assembler::begin_unnamed() {
@@ -112,8 +109,8 @@ void Assembler::add(const Statement& statement) {
   }
   if (!inside_) {
     if (!outside_reported_)
-      findings_.report(rules::OutsideMacro, statement.span, "this is above the first `.macro` line",
-                       "move it below a `.macro` line, or add one above it");
+      findings_.add(rules::OutsideMacro, statement.span, "this is above the first `.macro` line",
+                    "move it below a `.macro` line, or add one above it");
     outside_reported_ = true;
     return;
   }
@@ -140,13 +137,12 @@ void Assembler::end_macro() {
 void Assembler::add_raw(const Statement& statement) {
   auto& out = macro();
   const auto begin = static_cast<std::uint32_t>(out.body.size());
-  for (const auto* value = values(statement); value != values(statement) + statement.count;
-       ++value) {
+  for (const auto& value : program_.values_of(statement)) {
     static constexpr auto byte =
         spec::macro_detail::number("byte", spec::MacroUnit::None, 1, 0, UINT8_MAX);
-    if (value->name.size() != 0)
-      findings_.report(rules::UnknownOperand, value->name, "`.raw` takes bytes, not names");
-    else if (const auto number = operands_.resolve(*value, byte, ".raw"))
+    if (value.name.size() != 0)
+      findings_.add(rules::UnknownOperand, value.name, "`.raw` takes bytes, not names");
+    else if (const auto number = operands_.resolve(value, byte, ".raw"))
       out.body.push_back(static_cast<std::uint8_t>(*number));
   }
   const ByteView raw = ByteView(out.body).subspan(begin);
@@ -170,8 +166,8 @@ void Assembler::add_command(const Statement& statement) {
   auto& out = macro();
   if (out.has_end && out.id != spec::macro_id_stream) {
     if (!after_end_reported_)
-      findings_.report(rules::AfterEnd, statement.span, "this is after `end`",
-                       "remove `end`, or start another macro with `.macro`");
+      findings_.add(rules::AfterEnd, statement.span, "this is after `end`",
+                    "remove `end`, or start another macro with `.macro`");
     after_end_reported_ = true;
     return;
   }
@@ -191,7 +187,8 @@ void Assembler::add_command(const Statement& statement) {
       value[i] = number.value_or(0);
     }
   }
-  const auto operand = statement.count > 0 ? values(statement)->span : Span{};
+  const auto values = program_.values_of(statement);
+  const auto operand = values.empty() ? Span{} : values[0].span;
   if (info->variable_length) {
     const auto comment = good ? operands_.read_text(*bound->front()) : std::string();
     place(*info, statement.span, operand, good ? Origin::Written : Origin::Broken, value, comment);

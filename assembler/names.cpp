@@ -38,64 +38,61 @@ const Value* Names::number(const Value& value) const {
     return &value;
   if (value.kind == Value::Kind::Text)
     return nullptr;
-  const auto* name = find(findings_.text(value.span));
+  const auto* name = find(program_.text_of(value.span));
   return name != nullptr && name->kind == Name::Kind::Constant &&
                  name->value.kind == Value::Kind::Number
              ? &name->value
              : nullptr;
 }
 
-const Value* Names::values(const Statement& statement) const {
-  return program_.values.data() + statement.first;
-}
-
 void Names::define(Span span, Name name) {
   name.span = span;
-  const auto [old, is_new] = names_.emplace(findings_.text(span), name);
+  const auto [old, is_new] = names_.emplace(program_.text_of(span), name);
   if (!is_new)
     findings_
-        .report(rules::DuplicateName, span,
-                fmt::format("`{}` is defined twice", findings_.text(span)))
+        .add(rules::DuplicateName, span,
+             fmt::format("`{}` is defined twice", program_.text_of(span)))
         .notes.push_back({old->second.span, "first defined here"});
 }
 
 void Names::define_constant(const Statement& statement) {
-  const auto* value = values(statement);
-  if (statement.count != 1 || value->name.size() == 0) {
-    findings_.report(rules::Syntax, statement.span, "`.const` takes a name and a value",
-                     "write `.const NAME = 100`");
+  const auto values = program_.values_of(statement);
+  if (values.size() != 1 || values[0].name.size() == 0) {
+    findings_.add(rules::Syntax, statement.span, "`.const` takes a name and a value",
+                  "write `.const NAME = 100`");
     return;
   }
+  const auto& value = values[0];
   Name name;
-  name.value = *value;
-  if (value->kind == Value::Kind::Word)
-    if (const auto* other = find(findings_.text(value->span));
+  name.value = value;
+  if (value.kind == Value::Kind::Word)
+    if (const auto* other = find(program_.text_of(value.span));
         other != nullptr && other->kind == Name::Kind::Constant)
       name.value = other->value;
-  define(value->name, name);
+  define(value.name, name);
 }
 
 void Names::define_macro(const Statement& statement) {
   AssembledMacro defined;
-  const auto* value = values(statement);
-  if (statement.count == 0 || value->kind != Value::Kind::Word || value->name.size() != 0) {
-    findings_.report(rules::Header, statement.head, "`.macro` needs a name",
-                     "write `.macro NAME id=40 flags=motor_control`");
+  const auto values = program_.values_of(statement);
+  if (values.empty() || values[0].kind != Value::Kind::Word || values[0].name.size() != 0) {
+    findings_.add(rules::Header, statement.head, "`.macro` needs a name",
+                  "write `.macro NAME id=40 flags=motor_control`");
     defined.span = statement.head;
     macros_.push_back(std::move(defined));
     return;
   }
-  defined.name = findings_.text(value->span);
-  defined.span = value->span;
+  defined.name = program_.text_of(values[0].span);
+  defined.span = values[0].span;
   Name name;
   name.kind = Name::Kind::Macro;
   name.macro = macros_.size();
-  define(value->span, name);
+  define(values[0].span, name);
   std::string_view attribute;
-  for (const auto* at = value + 1; at != value + statement.count; ++at) {
-    if (at->name.size() != 0)
-      attribute = findings_.text(at->name);
-    read_attribute(defined, attribute, *at);
+  for (const auto& value : values.subspan(1)) {
+    if (value.name.size() != 0)
+      attribute = program_.text_of(value.name);
+    read_attribute(defined, attribute, value);
   }
   if (defined.extended_flags)
     set_flags(defined, defined.flags.value_or(spec::macro_default_flags) |
@@ -116,45 +113,40 @@ void Names::read_attribute(AssembledMacro& defined, std::string_view attribute,
     return;
   }
   constexpr std::string_view attributes[] = {"id", "flags", "ext"};
-  findings_.report(rules::Header, value.name.size() != 0 ? value.name : value.span,
-                   attribute.empty() ? "unexpected second name"
-                                     : fmt::format("`.macro` has no `{}=`", attribute),
-                   did_you_mean(attribute, attributes, "use `id=`, `flags=` or `ext=`"));
+  findings_.add(rules::Header, value.name.size() != 0 ? value.name : value.span,
+                attribute.empty() ? "unexpected second name"
+                                  : fmt::format("`.macro` has no `{}=`", attribute),
+                did_you_mean(attribute, attributes, "use `id=`, `flags=` or `ext=`"));
 }
 
 std::optional<std::uint8_t> Names::header_byte(const Value& value, int minimum,
                                                std::string_view what) {
-  const auto* number = &value;
-  if (value.kind == Value::Kind::Word)
-    if (const auto* name = find(findings_.text(value.span));
-        name != nullptr && name->kind == Name::Kind::Constant)
-      number = &name->value;
-  if (number->kind == Value::Kind::Number && number->unit == Unit::None &&
-      number->thousandths % whole == 0 && number->thousandths >= minimum * whole &&
-      number->thousandths <= UINT8_MAX * whole)
-    return static_cast<std::uint8_t>(number->thousandths / whole);
-  findings_.report(
-      rules::Header, value.span,
-      fmt::format("{} {} to {}, found `{}`", what, minimum, UINT8_MAX, findings_.text(value.span)));
+  const auto* found = number(value);
+  if (found != nullptr && found->unit == Unit::None && found->thousandths % whole == 0 &&
+      found->thousandths >= minimum * whole && found->thousandths <= UINT8_MAX * whole)
+    return static_cast<std::uint8_t>(found->thousandths / whole);
+  findings_.add(rules::Header, value.span,
+                fmt::format("{} {} to {}, found `{}`", what, minimum, UINT8_MAX,
+                            program_.text_of(value.span)));
   return std::nullopt;
 }
 
 void Names::read_id(AssembledMacro& defined, const Value& value) {
   const auto id = header_byte(value, spec::macro_id_none, "an id must be");
   if (!id)
-    return offer_id(findings_.last(), value.span, spec::macro_id_user_first);
+    return offer_id(findings_.all().back(), value.span, spec::macro_id_user_first);
   const auto kind = spec::macro_id_kind(*id);
   if (kind == spec::MacroIdKind::None)
-    offer_id(findings_.report(rules::Header, value.span, "id 0 means that no macro is running",
-                              fmt::format("write an id from {} to {}", spec::macro_id_user_first,
-                                          spec::macro_id_user_last)),
+    offer_id(findings_.add(rules::Header, value.span, "id 0 means that no macro is running",
+                           fmt::format("write an id from {} to {}", spec::macro_id_user_first,
+                                       spec::macro_id_user_last)),
              value.span, spec::macro_id_user_first);
   if (kind == spec::MacroIdKind::System) {
-    auto& d = findings_.report(rules::Header, value.span,
-                               fmt::format("ids {} to {} are reserved for the ball's own macros",
-                                           spec::macro_id_system_first, spec::macro_id_system_last),
-                               fmt::format("write an id from {} to {}", spec::macro_id_user_first,
-                                           spec::macro_id_user_last));
+    auto& d = findings_.add(rules::Header, value.span,
+                            fmt::format("ids {} to {} are reserved for the ball's own macros",
+                                        spec::macro_id_system_first, spec::macro_id_system_last),
+                            fmt::format("write an id from {} to {}", spec::macro_id_user_first,
+                                        spec::macro_id_user_last));
     d.severity = Severity::Warning;
     offer_id(d, value.span, spec::macro_id_user_first);
   }
@@ -180,7 +172,7 @@ void Names::read_flag(AssembledMacro& defined, const Value& value) {
   defined.flags_span = value.span;
   const auto old = defined.flags.value_or(0);
   if (value.kind == Value::Kind::Word) {
-    const auto word = findings_.text(value.span);
+    const auto word = program_.text_of(value.span);
     if (word == "none") {
       defined.flags = old;
       return;
@@ -196,8 +188,8 @@ void Names::read_flag(AssembledMacro& defined, const Value& value) {
         words[i] = spec::macro_flags[i].word;
         all += fmt::format("{}`{}`", i == 0 ? "" : ", ", words[i]);
       }
-      findings_.report(rules::Header, value.span, fmt::format("`{}` is not a macro flag", word),
-                       did_you_mean(word, words, fmt::format("the flags are {}", all)));
+      findings_.add(rules::Header, value.span, fmt::format("`{}` is not a macro flag", word),
+                    did_you_mean(word, words, fmt::format("the flags are {}", all)));
       return;
     }
   }
@@ -210,7 +202,7 @@ void Names::check_id_is_free(const AssembledMacro& defined) {
     return;
   for (const auto& other : macros_)
     if (other.id == defined.id) {
-      auto& d = findings_.report(
+      auto& d = findings_.add(
           rules::DuplicateId, defined.span,
           fmt::format("`{}` and `{}` have the same id {}", other.name, defined.name, *defined.id));
       d.notes.push_back({other.span, fmt::format("`{}` is here", other.name)});

@@ -3,8 +3,8 @@
 // Private to assembler/: what a file names, its constants and macros.
 
 #include "assembler/assemble.h"
-#include "assembler/findings.h"
 #include "assembler/program.h"
+#include "base/findings.h"
 
 #include <optional>
 #include <string_view>
@@ -41,8 +41,6 @@ public:
   const std::vector<AssembledMacro>& macros() const { return macros_; }
 
 private:
-  const Value* values(const Statement& statement) const;
-
   void define(Span span, Name name);
 
   void define_constant(const Statement& statement);

@@ -82,46 +82,45 @@ std::string waits_for(std::int64_t ms) {
 std::optional<Bound> Operands::bind(const Statement& statement,
                                     const spec::MacroCommandInfo& info) {
   Bound bound{};
-  const auto* const begin = program_.values.data() + statement.first;
   std::size_t position = 0;
   bool named = false;
-  for (const auto* value = begin; value != begin + statement.count; ++value) {
+  for (const auto& value : program_.values_of(statement)) {
     std::size_t i = position;
-    if (value->name.size() != 0) {
+    if (value.name.size() != 0) {
       named = true;
       i = 0;
-      while (i < info.operand_count && info.operand[i].name != findings_.text(value->name))
+      while (i < info.operand_count && info.operand[i].name != program_.text_of(value.name))
         ++i;
       if (i == info.operand_count) {
-        unknown_operand(info, value->name);
+        unknown_operand(info, value.name);
         return std::nullopt;
       }
     } else if (named) {
-      findings_.report(rules::OperandCount, value->span, "positional operand after a named one",
-                       fmt::format("`{}` takes {}", info.mnemonic, operand_list(info)));
+      findings_.add(rules::OperandCount, value.span, "positional operand after a named one",
+                    fmt::format("`{}` takes {}", info.mnemonic, operand_list(info)));
       return std::nullopt;
     } else if (position == info.operand_count) {
-      findings_.report(rules::OperandCount, value->span,
-                       info.operand_count == 0
-                           ? fmt::format("`{}` takes no operands", info.mnemonic)
-                           : fmt::format("`{}` takes {}, found {}", info.mnemonic,
-                                         plural(info.operand_count, "operand"), statement.count),
-                       info.operand_count == 0
-                           ? std::string()
-                           : fmt::format("its operands are {}", operand_list(info)));
+      findings_.add(rules::OperandCount, value.span,
+                    info.operand_count == 0
+                        ? fmt::format("`{}` takes no operands", info.mnemonic)
+                        : fmt::format("`{}` takes {}, found {}", info.mnemonic,
+                                      plural(info.operand_count, "operand"), statement.count),
+                    info.operand_count == 0
+                        ? std::string()
+                        : fmt::format("its operands are {}", operand_list(info)));
       return std::nullopt;
     }
     if (bound[i] != nullptr) {
-      findings_.report(rules::OperandCount, value->span,
-                       fmt::format("duplicate operand `{}`", info.operand[i].name));
+      findings_.add(rules::OperandCount, value.span,
+                    fmt::format("duplicate operand `{}`", info.operand[i].name));
       return std::nullopt;
     }
-    bound[i] = value;
+    bound[i] = &value;
     ++position;
   }
   for (std::size_t i = 0; i < info.operand_count; ++i)
     if (bound[i] == nullptr && info.operand[i].kind != MacroOperandKind::Delay) {
-      findings_.report(
+      findings_.add(
           rules::OperandCount, statement.span,
           fmt::format("`{}` is missing its operand `{}`", info.mnemonic, info.operand[i].name),
           fmt::format("it takes {}, as in `{}`", operand_list(info), info.example));
@@ -134,10 +133,10 @@ void Operands::unknown_operand(const spec::MacroCommandInfo& info, Span span) {
   std::array<std::string_view, spec::macro_max_operands> names;
   for (std::size_t i = 0; i < info.operand_count; ++i)
     names[i] = info.operand[i].name;
-  const auto meant = closest(findings_.text(span), std::span(names).first(info.operand_count));
-  auto& diagnostic = findings_.report(
+  const auto meant = closest(program_.text_of(span), std::span(names).first(info.operand_count));
+  auto& diagnostic = findings_.add(
       rules::UnknownOperand, span,
-      fmt::format("`{}` has no operand `{}`", info.mnemonic, findings_.text(span)),
+      fmt::format("`{}` has no operand `{}`", info.mnemonic, program_.text_of(span)),
       meant                     ? fmt::format("did you mean `{}`?", *meant)
       : info.operand_count == 0 ? "it has none"
                                 : fmt::format("its operands are {}", operand_list(info)));
@@ -161,12 +160,11 @@ std::optional<std::int32_t> Operands::resolve(const Value& value, const MacroOpe
   if (value.kind == Value::Kind::Number)
     return to_number(value, value.span, operand, command);
   if (value.kind == Value::Kind::Text) {
-    findings_.report(
-        rules::OutOfRange, value.span,
-        fmt::format("`{}` of `{}` must be a number, found text", operand.name, command));
+    findings_.add(rules::OutOfRange, value.span,
+                  fmt::format("`{}` of `{}` must be a number, found text", operand.name, command));
     return std::nullopt;
   }
-  const auto word = findings_.text(value.span);
+  const auto word = program_.text_of(value.span);
   for (const auto* known = operand.begin_words(); known != operand.end_words(); ++known)
     if (known->word == word)
       return known->value;
@@ -178,7 +176,7 @@ std::optional<std::int32_t> Operands::resolve(const Value& value, const MacroOpe
   if (name->value.kind == Value::Kind::Number)
     return to_number(name->value, value.span, operand, command);
   if (name->value.kind == Value::Kind::Word) {
-    const auto meaning = findings_.text(name->value.span);
+    const auto meaning = program_.text_of(name->value.span);
     for (const auto* known = operand.begin_words(); known != operand.end_words(); ++known)
       if (known->word == meaning)
         return known->value;
@@ -189,9 +187,9 @@ std::optional<std::int32_t> Operands::resolve(const Value& value, const MacroOpe
 std::optional<std::int32_t> Operands::macro_id(Span span, const Name& name,
                                                const MacroOperand& operand) {
   if (operand.kind != MacroOperandKind::MacroId) {
-    findings_.report(rules::UnknownName, span,
-                     fmt::format("`{}` is a macro, but `{}` takes a number", findings_.text(span),
-                                 operand.name));
+    findings_.add(rules::UnknownName, span,
+                  fmt::format("`{}` is a macro, but `{}` takes a number", program_.text_of(span),
+                              operand.name));
     return std::nullopt;
   }
   const auto& target = names_.macros()[name.macro];
@@ -200,9 +198,10 @@ std::optional<std::int32_t> Operands::macro_id(Span span, const Name& name,
   if (names_.macros().size() == 1)
     return spec::macro_id_temporary;
   findings_
-      .report(
-          rules::UnknownName, span, fmt::format("`{}` has no id to jump to", findings_.text(span)),
-          fmt::format("write `.macro {} id={}`", findings_.text(span), spec::macro_id_user_first))
+      .add(
+          rules::UnknownName, span,
+          fmt::format("`{}` has no id to jump to", program_.text_of(span)),
+          fmt::format("write `.macro {} id={}`", program_.text_of(span), spec::macro_id_user_first))
       .notes.push_back({target.span, "defined here"});
   return std::nullopt;
 }
@@ -216,7 +215,7 @@ std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand
     if (meaning.kind == Name::Kind::Constant || operand.kind == MacroOperandKind::MacroId)
       known.push_back(name);
   std::sort(known.begin() + operand.word_count, known.end());
-  const auto meant = closest(findings_.text(span), known);
+  const auto meant = closest(program_.text_of(span), known);
   std::string help;
   if (meant)
     help = fmt::format("did you mean `{}`?", *meant);
@@ -224,15 +223,15 @@ std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand
     for (std::size_t i = 0; i < operand.word_count; ++i)
       help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
   else if (operand.kind == MacroOperandKind::MacroId)
-    help = fmt::format("`.macro {} id={}` defines it, or write an id", findings_.text(span),
+    help = fmt::format("`.macro {} id={}` defines it, or write an id", program_.text_of(span),
                        spec::macro_id_user_first);
   else
     help = fmt::format("`{}` is {}; `.const {} = {}` gives the name a value", operand.name,
-                       range_of(operand), findings_.text(span), operand.maximum);
-  auto& diagnostic = findings_.report(
-      rules::UnknownName, span,
-      fmt::format("`{}` is not a valid `{}` for `{}`", findings_.text(span), operand.name, command),
-      help);
+                       range_of(operand), program_.text_of(span), operand.maximum);
+  auto& diagnostic = findings_.add(rules::UnknownName, span,
+                                   fmt::format("`{}` is not a valid `{}` for `{}`",
+                                               program_.text_of(span), operand.name, command),
+                                   help);
   if (meant)
     diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
   return std::nullopt;
@@ -249,11 +248,11 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
   // Thousandths of a number times thousandths of the own unit: bounded far below 2^63.
   const auto millionths = number.thousandths * per;
   if (millionths % (whole * whole) != 0) {
-    findings_.report(
+    findings_.add(
         rules::OutOfRange, span,
         fmt::format("`{}` of `{}` takes whole {}, found `{}`", operand.name, command,
                     operand.unit == MacroUnit::None ? "numbers" : spec::to_string(operand.unit),
-                    findings_.text(span)));
+                    program_.text_of(span)));
     return std::nullopt;
   }
   const auto value = millionths / (whole * whole);
@@ -266,18 +265,17 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
 void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& operand,
                           std::string_view command) {
   if (number.unit == Unit::Unknown) {
-    const auto word = findings_.text(number.span);
+    const auto word = program_.text_of(number.span);
     const bool hex = word.ends_with('h') || word.ends_with('H');
-    findings_.report(
-        rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
-        hex ? fmt::format("write hexadecimal as `0x{}`", word.substr(0, word.size() - 1))
-            : "the units are `ms`, `s` and `deg`; a number has at most three decimals");
+    findings_.add(rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
+                  hex ? fmt::format("write hexadecimal as `0x{}`", word.substr(0, word.size() - 1))
+                      : "the units are `ms`, `s` and `deg`; a number has at most three decimals");
     return;
   }
-  findings_.report(rules::WrongUnit, span,
-                   fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
-                               unit_word(number.unit)),
-                   fmt::format("it must be {}", range_of(operand)));
+  findings_.add(rules::WrongUnit, span,
+                fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
+                            unit_word(number.unit)),
+                fmt::format("it must be {}", range_of(operand)));
 }
 
 void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
@@ -291,10 +289,10 @@ void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
   else if (operand.word_count > 0)
     for (std::size_t i = 0; i < operand.word_count; ++i)
       help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
-  auto& d = findings_.report(
+  auto& d = findings_.add(
       rules::OutOfRange, span,
       fmt::format("`{}` of `{}` must be {}, found {}", operand.name, command, range_of(operand),
-                  is_exact ? std::to_string(value) : fmt::format("`{}`", findings_.text(span))),
+                  is_exact ? std::to_string(value) : fmt::format("`{}`", program_.text_of(span))),
       help);
   const bool brightness = operand.name == "red" || operand.name == "green" ||
                           operand.name == "blue" || operand.name == "value";
@@ -311,11 +309,11 @@ void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
 
 std::string Operands::read_text(const Value& value) {
   if (value.kind != Value::Kind::Text) {
-    findings_.report(rules::OutOfRange, value.span, "a comment needs text in quotes",
-                     fmt::format("write `comment \"{}\"`", findings_.text(value.span)));
+    findings_.add(rules::OutOfRange, value.span, "a comment needs text in quotes",
+                  fmt::format("write `comment \"{}\"`", program_.text_of(value.span)));
     return {};
   }
-  const auto quoted = findings_.text(value.span);
+  const auto quoted = program_.text_of(value.span);
   std::string out;
   for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
     if (quoted[i] != '\\') {

@@ -246,6 +246,7 @@ const char* find(const char* at, const char* end, char c) {
 
 Program parse(std::string_view text) {
   Program program;
+  program.text = text;
   // A short command with its operands takes about this much source.
   program.statements.reserve(text.size() / 16);
   program.values.reserve(text.size() / 8);

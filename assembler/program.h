@@ -4,6 +4,8 @@
 #include "spec/macro.h"
 
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace orb::assembler {
@@ -41,9 +43,17 @@ struct Statement {
 /// A file of macro source, in flat arrays. Lines that do not parse are left out of it and explained
 /// in `diagnostics`, one finding a line.
 struct Program {
+  std::string_view text; ///< the source, which must outlive this
   std::vector<Statement> statements;
   std::vector<Value> values;
   std::vector<Diagnostic> diagnostics;
+
+  /// What stands there.
+  std::string_view text_of(Span span) const { return text.substr(span.begin, span.size()); }
+
+  std::span<const Value> values_of(const Statement& statement) const {
+    return std::span(values).subspan(statement.first, statement.count);
+  }
 };
 
 } // namespace orb::assembler

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
+#include "base/findings.h"
 #include "compiler/lint/flow.h"
 #include "compiler/lint/lint.h"
 #include "compiler/text/program.h"
@@ -11,21 +12,6 @@
 #include <vector>
 
 namespace orb::compiler {
-
-/// Collects what the passes of the linter find. Private to compiler/.
-class Findings {
-public:
-  /// Adds a finding; the reference is good until the next call.
-  Diagnostic& add(const Rule& rule, Span span, std::string message, std::string help = {}) {
-    return all_.emplace_back(finding(rule, span, std::move(message), std::move(help)));
-  }
-  void add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
-
-  std::vector<Diagnostic>& all() { return all_; }
-
-private:
-  std::vector<Diagnostic> all_;
-};
 
 /// Adds a place that belongs to a finding.
 void add_note(Diagnostic& diagnostic, Span where, std::string_view what);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "base/diagnostic.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace orb {
+
+/// Collects the findings on a source, in the order in which they are made.
+class Findings {
+public:
+  Findings() = default;
+  /// `first` come first, such as those of the parser.
+  explicit Findings(std::vector<Diagnostic> first) : all_(std::move(first)) {}
+
+  /// Adds a finding; the reference is good until the next call.
+  Diagnostic& add(const Rule& rule, Span span, std::string message, std::string help = {}) {
+    return all_.emplace_back(finding(rule, span, std::move(message), std::move(help)));
+  }
+  void add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
+
+  std::vector<Diagnostic>& all() { return all_; }
+
+private:
+  std::vector<Diagnostic> all_;
+};
+
+} // namespace orb
