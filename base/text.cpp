@@ -56,19 +56,6 @@ std::optional<double> parse_real(std::string_view text, std::chars_format form) 
   return fits ? std::optional(number) : std::nullopt;
 }
 
-std::string shell_word(std::string_view word) {
-  const auto is_plain = [](char c) {
-    return is_letter(c) || is_digit(c) ||
-           std::string_view("/._-+=:,@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain))
-    return std::string(word);
-  std::string out = "'";
-  for (const char c : word)
-    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string plural(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

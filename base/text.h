@@ -59,10 +59,6 @@ constexpr std::string_view trim(std::string_view text) {
 /// `1 byte`, `2 bytes`: a count and its noun, whose plural ends in an s.
 std::string plural(std::uint64_t count, std::string_view noun);
 
-/// `word` as a POSIX shell takes it: in quotes where it holds more than letters, digits and the
-/// characters that mean nothing to a shell.
-std::string shell_word(std::string_view word);
-
 /// `text` as a text or an attribute of HTML, SVG and XML: valid UTF-8, without the characters that
 /// XML 1.0 forbids.
 std::string escape_markup(std::string_view text);

@@ -89,8 +89,8 @@ std::optional<Want> sensor(const Program& of, const Options& options) {
     const auto lack = fmt::format("{} reads `{}`, but {}", of.where(line),
                                   program.text_of(node.span), read->lack);
     constexpr std::string_view time = "at 2s ";
-    return Want{line, read->what, fmt::format("{}; add `--stimulus '{}'`", lack, read->line), lack,
-                read->line.substr(time.size())};
+    return Want{line, read->what, fmt::format("{}; add `--stimulus \"{}\"`", lack, read->line),
+                lack, read->line.substr(time.size())};
   }
   return std::nullopt;
 }

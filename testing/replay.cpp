@@ -1,6 +1,7 @@
 #include "testing/replay.h"
 
 #include "base/duration.h"
+#include "base/shell.h"
 #include "base/text.h"
 
 #include <algorithm>

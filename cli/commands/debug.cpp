@@ -150,10 +150,10 @@ void add_debug(const Command& orb, Context& context) {
   const auto command = orb.add_command(
       "debug", "run a program line by line on a virtual ball, forwards and backwards",
       "orb debug patrol.orb\n"
-      "orb debug square.bas --stimulus 'at 2s shake'\n"
-      "orb debug --test corner.test --only 'stops at the wall'\n"
+      "orb debug square.bas --stimulus \"at 2s shake\"\n"
+      "orb debug --test corner.test --only \"stops at the wall\"\n"
       "orb debug square.bas --port ble://SB-1A2B\n"
-      "orb debug square.bas --do 'b 40' --do c --do 'p X'");
+      "orb debug square.bas --do \"b 40\" --do c --do \"p X\"");
   auto options = std::make_shared<DebugOptions>();
   auto& launch = options->launch;
   command.add_option("FILE", launch.files, "a program, and any macros to load with it");

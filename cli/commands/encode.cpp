@@ -115,7 +115,7 @@ void add_encode(const Command& orb, Context& context) {
   const auto command =
       orb.add_command("encode", "print the bytes of a packet",
                       "orb encode ping\norb encode set-rgb-led 255 0 0 0\n"
-                      "orb encode append-orbbasic-fragment ram '10 print \"hi\"\\n\\0'\n"
+                      "orb encode append-orbbasic-fragment ram \"10 end\\n\\0\"\n"
                       "orb encode configure-locator -- 1 -300 0 90\n"
                       "orb encode --v2 13 0D\norb encode --robot bolt drive-with-heading 60 90");
   auto arguments = std::make_shared<EncodeArguments>();

@@ -1,3 +1,4 @@
+#include "base/shell.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "disk/disk.h"

@@ -435,7 +435,7 @@ void add_run(const Command& orb, Context& context) {
       "run", "run programs and macros on a virtual ball, in virtual time",
       "orb run square.bas\norb run square.bas --trace json | head\norb run guess.bas "
       "--input 50,25,37 --for 2min\norb run square.bas --open\norb run dice.bas "
-      "--stimulus 'at 2s shake'\norb run maze.bas --stimulus maze.stimulus --svg "
+      "--stimulus \"at 2s shake\"\norb run maze.bas --stimulus maze.stimulus --svg "
       "maze.svg\norb run parking.bas --course parking.svg --open\norb run dance.bas "
       "waltz.sphero --expect done\norb run red.orb blue.orb --together --open\norb "
       "run square.orb --port ble://SB-1A2B\norb run square.orb --ports class.toml\norb run "
