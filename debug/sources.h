@@ -1,6 +1,6 @@
 #pragma once
 
-#include "debug/holders.h"
+#include "debug/letter_holders.h"
 #include "run/input.h"
 #include "run/run.h"
 

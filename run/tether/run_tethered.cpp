@@ -65,8 +65,8 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
                                                    protocol::Transport& transport,
                                                    const TetherOptions& tether) {
   // A report has lanes for all sensors.
-  const auto wants = journey == nullptr ? wants_of(inputs) : Wants{};
-  Tether robot(transport, tether.robot, tether.budgets, wants);
+  const auto streamed = journey == nullptr ? read_by(inputs) : Streamed{};
+  Tether robot(transport, tether.robot, tether.budgets, streamed);
   const auto first = robot.begin(tether.aim);
   if (!first)
     return tl::unexpected(first.error());

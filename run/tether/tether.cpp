@@ -26,9 +26,9 @@ bool is_driving(const vm::Motion& motion) {
 } // namespace
 
 Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
-               const Wants& wants)
+               const Streamed& streamed)
     : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot)),
-      wants_(wants) {}
+      streamed_(streamed) {}
 
 Tether::~Tether() {
   if (began_ && !finished_)
@@ -147,7 +147,7 @@ tl::expected<void, Failure> Tether::ask_all(const std::vector<Request>& requests
 
 /// Lets the robot speak, and waits for what it says first.
 tl::expected<vm::Sample, Failure> Tether::listen() {
-  if (auto asked = ask_all(wire_->stream(wants_)); !asked)
+  if (auto asked = ask_all(wire_->stream(streamed_)); !asked)
     return tl::unexpected(asked.error());
   std::optional<vm::Sample> sample;
   const auto until = now() + budgets_.first_sample;

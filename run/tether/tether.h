@@ -45,9 +45,9 @@ struct TetherBudgets {
 /// stop.
 class Tether final : public vm::Elsewhere {
 public:
-  /// `wants`: what it streams besides where it is.
+  /// `streamed`: what it streams besides where it is.
   Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
-         const Wants& wants = {});
+         const Streamed& streamed = {});
   /// Stops the robot where finish() has not been called.
   ~Tether() override;
   Tether(const Tether&) = delete;
@@ -131,7 +131,7 @@ private:
   spec::Robot robot_;
   TetherBudgets budgets_;
   std::unique_ptr<RobotWire> wire_;
-  Wants wants_;
+  Streamed streamed_;
   std::uint8_t seq_ = 0;
 
   std::array<std::optional<Request>, kinds> waiting_; ///< to leave

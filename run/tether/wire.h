@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/bytes.h"
-#include "run/tether/wants.h"
+#include "run/tether/streamed.h"
 #include "spec/robots.h"
 #include "vm/body/elsewhere.h"
 #include "vm/observer.h"
@@ -59,7 +59,7 @@ public:
   /// What is sent once setup() has been answered and depends on the answers.
   virtual std::vector<Request> setup_more() const { return {}; }
   /// What lets it say what it feels, and what silences it.
-  virtual std::vector<Request> stream(const Wants& wants) = 0;
+  virtual std::vector<Request> stream(const Streamed& streamed) = 0;
   virtual std::vector<Request> silence() const = 0;
   /// What undoes setup(), after the robot has been stopped and silenced.
   virtual std::vector<Request> teardown() const = 0;

@@ -58,35 +58,35 @@ double* place_of(vm::Sample& sample, spec::StreamSource source) {
   return nullptr;
 }
 
-bool is_wanted(spec::StreamSource source, const Wants& wants) {
+bool is_streamed(spec::StreamSource source, const Streamed& streamed) {
   using enum spec::StreamSource;
   const auto is_one_of = [&](auto... all) { return ((source == all) || ...); };
   if (is_one_of(AccelX, AccelY, AccelZ))
-    return wants.acceleration;
+    return streamed.acceleration;
   if (is_one_of(GyroX, GyroY, GyroZ))
-    return wants.rotation;
+    return streamed.rotation;
   if (is_one_of(Q0, Q1, Q2, Q3))
-    return wants.attitude;
+    return streamed.attitude;
   vm::Sample sample;
   return place_of(sample, source) != nullptr;
 }
 
 /// MASK and MASK2 of all that is wanted.
-std::uint64_t mask_of(const Wants& wants) {
+std::uint64_t mask_of(const Streamed& streamed) {
   std::uint64_t mask = 0;
   for (const auto& row : spec::streams)
-    if (is_wanted(row.source, wants))
+    if (is_streamed(row.source, streamed))
       mask |= row.mask;
   return mask;
 }
 
 /// A frame of the stream; nothing where it is another's.
-std::optional<vm::Sample> read_frame(ByteView data, const Wants& wants) {
+std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed) {
   constexpr std::size_t value = 2; // bytes
   vm::Sample sample;
   std::size_t at = 0;
   for (const auto& row : spec::streams) {
-    if (!is_wanted(row.source, wants))
+    if (!is_streamed(row.source, streamed))
       continue;
     auto* const place = place_of(sample, row.source);
     if (data.size() < at + value)
@@ -124,7 +124,7 @@ public:
   std::vector<Request> setup_more() const override {
     return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag), collisions(1)};
   }
-  std::vector<Request> stream(const Wants& wants) override;
+  std::vector<Request> stream(const Streamed& streamed) override;
   std::vector<Request> silence() const override;
   std::vector<Request> teardown() const override;
 
@@ -180,7 +180,7 @@ private:
 
   protocol::Decoder decoder_{protocol::Direction::FromBall};
   std::optional<std::uint32_t> flags_; ///< as the robot had them
-  Wants wants_;                        ///< what it streams
+  Streamed streamed_;                  ///< what it streams
 };
 
 std::optional<Said> WireV1::next() {
@@ -190,7 +190,7 @@ std::optional<Said> WireV1::next() {
     if (item->kind != protocol::Item::Kind::Async)
       continue;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData))
-      if (const auto sample = read_frame(item->data, wants_))
+      if (const auto sample = read_frame(item->data, streamed_))
         return Said{*sample};
     constexpr std::size_t collision_size = 16;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
@@ -220,15 +220,15 @@ std::vector<Request> WireV1::setup(Aim aim) const {
   return all;
 }
 
-std::vector<Request> WireV1::stream(const Wants& wants) {
-  wants_ = wants;
+std::vector<Request> WireV1::stream(const Streamed& streamed) {
+  streamed_ = streamed;
   constexpr unsigned samples_per_second = 33;
   Bytes stream;
   append_u16(stream, spec::ball::control_rate / samples_per_second);
   append_u16(stream, 1);
-  append_u32(stream, static_cast<std::uint32_t>(mask_of(wants)));
+  append_u32(stream, static_cast<std::uint32_t>(mask_of(streamed)));
   stream.push_back(0);
-  append_u32(stream, static_cast<std::uint32_t>(mask_of(wants) >> 32));
+  append_u32(stream, static_cast<std::uint32_t>(mask_of(streamed) >> 32));
   return {request(ApiCommand::SetDataStreaming, std::move(stream))};
 }
 

@@ -25,20 +25,20 @@ constexpr V2Service useful_services[] = {V2Service::Attitude, V2Service::Accel, 
 constexpr std::uint8_t token = 1;
 constexpr unsigned sample_interval_ms = 50;
 
-bool is_wanted(V2Sensor sensor, const Wants& wants) {
+bool is_streamed(V2Sensor sensor, const Streamed& streamed) {
   using enum V2Sensor;
   const auto is_one_of = [&](auto... all) { return ((sensor == all) || ...); };
   if (is_one_of(AccelX, AccelY, AccelZ))
-    return wants.acceleration;
+    return streamed.acceleration;
   if (is_one_of(GyroX, GyroY, GyroZ))
-    return wants.rotation;
+    return streamed.rotation;
   return is_one_of(Pitch, Roll, Yaw, LocatorX, LocatorY, VelocityX, VelocityY);
 }
 
-std::uint32_t mask_of(spec::V2Mask mask, const Wants& wants) {
+std::uint32_t mask_of(spec::V2Mask mask, const Streamed& streamed) {
   std::uint32_t bits = 0;
   for (const auto& row : spec::v2_sensors)
-    if (row.mask == mask && is_wanted(row.sensor, wants))
+    if (row.mask == mask && is_streamed(row.sensor, streamed))
       bits |= row.bit;
   return bits;
 }
@@ -89,10 +89,10 @@ std::vector<V2Sensor> values_of(V2Service service) {
   return {};
 }
 
-std::vector<V2Service> services_of(const Wants& wants) {
+std::vector<V2Service> services_of(const Streamed& streamed) {
   std::vector<V2Service> all;
   for (const auto service : useful_services)
-    if (is_wanted(values_of(service).front(), wants))
+    if (is_streamed(values_of(service).front(), streamed))
       all.push_back(service);
   return all;
 }
@@ -122,7 +122,7 @@ public:
   std::optional<Said> next() override;
 
   std::vector<Request> setup(Aim aim) const override;
-  std::vector<Request> stream(const Wants& wants) override;
+  std::vector<Request> stream(const Streamed& streamed) override;
   std::vector<Request> silence() const override;
   std::vector<Request> teardown() const override;
 
@@ -167,7 +167,7 @@ private:
 
   const spec::RobotInfo& robot_;
   protocol::DecoderV2 decoder_;
-  Wants wants_; ///< what it streams
+  Streamed streamed_; ///< what it streams
 };
 
 Bytes WireV2::encode(const Request& request, std::uint8_t seq) const {
@@ -190,7 +190,7 @@ std::optional<vm::Sample> WireV2::sample(const Bytes& data) const {
   vm::Sample sample;
   std::size_t at = 0;
   for (const auto& row : spec::v2_sensors) {
-    if (!is_wanted(row.sensor, wants_))
+    if (!is_streamed(row.sensor, streamed_))
       continue;
     if (data.size() < at + sizeof(float)) {
       if (row.mask == spec::V2Mask::Extended)
@@ -210,7 +210,7 @@ std::optional<vm::Sample> WireV2::services(const Bytes& data) const {
   if (data.empty() || data[0] != token)
     return std::nullopt;
   std::size_t at = 1;
-  for (const auto service : services_of(wants_)) {
+  for (const auto service : services_of(streamed_)) {
     const auto& row = *spec::find_v2_service(static_cast<std::uint16_t>(service));
     const auto sensors = values_of(service);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
@@ -286,11 +286,11 @@ std::optional<Request> WireV2::collisions(std::uint8_t method) const {
   return configured;
 }
 
-std::vector<Request> WireV2::stream(const Wants& wants) {
-  wants_ = wants;
+std::vector<Request> WireV2::stream(const Streamed& streamed) {
+  streamed_ = streamed;
   if (robot_.sensors == spec::RobotSensors::Services) {
     Bytes list{token};
-    for (const auto service : services_of(wants)) {
+    for (const auto service : services_of(streamed)) {
       append_u16(list, static_cast<std::uint32_t>(service));
       list.push_back(2); // 32 bits
     }
@@ -300,11 +300,11 @@ std::vector<Request> WireV2::stream(const Wants& wants) {
             request(V2Command::StreamStart, std::move(period))};
   }
   Bytes extended;
-  append_u32(extended, mask_of(spec::V2Mask::Extended, wants));
+  append_u32(extended, mask_of(spec::V2Mask::Extended, streamed));
   Bytes mask;
   append_u16(mask, sample_interval_ms);
   mask.push_back(0);
-  append_u32(mask, mask_of(spec::V2Mask::Base, wants));
+  append_u32(mask, mask_of(spec::V2Mask::Base, streamed));
   return {request(V2Command::StreamExtended, std::move(extended)),
           request(V2Command::StreamMask, std::move(mask))};
 }

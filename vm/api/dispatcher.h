@@ -7,8 +7,8 @@
 #include "spec/api.h"
 #include "spec/firmware.h"
 #include "vm/api/api_host.h"
+#include "vm/api/profile.h"
 #include "vm/api/self_level.h"
-#include "vm/machine/profile.h"
 
 #include <cstdint>
 #include <string>

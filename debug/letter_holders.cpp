@@ -1,4 +1,4 @@
-#include "debug/holders.h"
+#include "debug/letter_holders.h"
 
 #include <algorithm>
 #include <optional>

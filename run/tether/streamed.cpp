@@ -1,29 +1,29 @@
-#include "run/tether/wants.h"
+#include "run/tether/streamed.h"
 
 namespace orb::run {
 namespace {
 
-void note(Wants& wants, spec::Variable variable) {
+void note(Streamed& streamed, spec::Variable variable) {
   using enum spec::Variable;
   if (variable == AccelX || variable == AccelY || variable == AccelZ || variable == Accelone ||
       variable == Dshake)
-    wants.acceleration = true;
+    streamed.acceleration = true;
   else if (variable == GyroX || variable == GyroY || variable == GyroZ)
-    wants.rotation = true;
+    streamed.rotation = true;
   else if (variable == Qzero || variable == Qone || variable == Qtwo || variable == Qthree)
-    wants.attitude = true;
+    streamed.attitude = true;
 }
 
 } // namespace
 
-Wants wants_of(std::span<const Input> inputs) {
-  Wants wants{false, false, false};
+Streamed read_by(std::span<const Input> inputs) {
+  Streamed streamed{false, false, false};
   for (const auto& input : inputs)
     if (input.program)
       for (const auto& node : input.program->parsed.nodes)
         if (node.kind == compiler::NodeKind::System)
-          note(wants, static_cast<spec::Variable>(node.what));
-  return wants;
+          note(streamed, static_cast<spec::Variable>(node.what));
+  return streamed;
 }
 
 } // namespace orb::run

@@ -1,4 +1,4 @@
-#include "vm/machine/profile.h"
+#include "vm/api/profile.h"
 
 #include "base/utf8.h"
 #include "protocol/payload.h"
@@ -8,7 +8,7 @@
 namespace orb::vm {
 namespace {
 
-constexpr std::uint8_t block_version = 1;
+constexpr std::uint8_t config_version = 1;
 
 /// The range of an operand, so that a block cannot bring in what a command would refuse.
 bool in_range(spec::ApiCommand command, std::size_t operand, std::int64_t value) {
@@ -31,7 +31,7 @@ std::string_view clip_utf8(std::string_view text, std::size_t most) {
 
 Bytes config_block(const Settings& settings, const Profile& profile) {
   const auto& color = settings.user_color;
-  const protocol::FieldContent contents[] = {block_version,
+  const protocol::FieldContent contents[] = {config_version,
                                              color.red,
                                              color.green,
                                              color.blue,
@@ -55,7 +55,7 @@ bool load_config_block(ByteView block, Settings& settings, Profile& profile) {
   const auto fields = protocol::read_fields(spec::config_fields(), block);
   const auto number = [&](std::size_t field) { return fields[field].number; };
   const auto byte = [&](std::size_t field) { return static_cast<std::uint8_t>(number(field)); };
-  if (byte(at::Version) != block_version ||
+  if (byte(at::Version) != config_version ||
       !in_range(ApiCommand::SetVoltageTripPoints, 0, number(at::LowBattery)) ||
       !in_range(ApiCommand::SetVoltageTripPoints, 1, number(at::CriticalBattery)) ||
       !in_range(ApiCommand::SetInactivityTimeout, 0, number(at::InactivityTimeout)) ||

@@ -8,13 +8,13 @@ namespace orb::run {
 
 /// What a robot is asked to stream besides where it is, how fast and how it lies: a link carries
 /// the more samples, the smaller they are.
-struct Wants {
+struct Streamed {
   bool acceleration = true;
   bool rotation = true; ///< the rates of turning
   bool attitude = true; ///< as a quaternion, where the robot has one to tell
 };
 
 /// What the programs among the inputs read.
-Wants wants_of(std::span<const Input> inputs);
+Streamed read_by(std::span<const Input> inputs);
 
 } // namespace orb::run
