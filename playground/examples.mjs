@@ -32,8 +32,8 @@ function gather(files, name, text) {
 
 /** The options of the first command that runs something in a text: the first lines of a program, or a task. */
 function run_of(text, main) {
-  const words = (text.match(/orb run (.*)/)?.[1].match(/'[^']*'|\S+/g) ?? [])
-    .map(word => word.replace(/^'(.*)'$/, "$1").replace(/^(examples|\.\.\/\.\.)\/(\w+\/)?/, ""));
+  const words = (text.match(/orb run (.*)/)?.[1].match(/"[^"]*"|'[^']*'|\S+/g) ?? [])
+    .map(word => word.replace(/^(["'])(.*)\1$/, "$2").replace(/^(examples|\.\.\/\.\.)\/(\w+\/)?/, ""));
   const value = option => words.includes(option) ? words[words.indexOf(option) + 1] : undefined;
   const options = {
     stimuli: value("--stimulus") && [value("--stimulus")],
