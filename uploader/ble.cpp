@@ -189,7 +189,7 @@ private:
     protocol_ = is_v2 ? spec::BleProtocol::V2 : spec::BleProtocol::V1;
     if (is_v2 && accepts_ == Accepts::V1)
       return tl::unexpected(
-          BleError{BleFailure::Newer, "this robot keeps no programs and speaks v2 packets"});
+          BleError{BleFailure::Newer, "this robot stores no programs and speaks v2 packets"});
     for (const auto& row : spec::ble_characteristics)
       if (!is_v2 && spec::protocol_of(row.characteristic) == spec::BleProtocol::V1 &&
           !gatt_.has(row.characteristic))

@@ -230,7 +230,7 @@ void read_stimulus_line(const Source& source, std::uint32_t line, StimulusScript
   if (arguments.taken() + 1 < rest.size()) {
     script.diagnostics.push_back(
         finding(rules::StimulusArgument, rest[arguments.taken() + 1].span,
-                fmt::format("`{}` takes {} values", row->word, arguments.taken())));
+                fmt::format("`{}` takes {}", row->word, plural(arguments.taken(), "value"))));
     return;
   }
   script.events.push_back({at, stimulus});

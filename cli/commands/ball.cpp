@@ -77,7 +77,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   }
   const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
   if (is_v2 && !arguments.state.empty())
-    return fail(context, {ExitCode::Usage, fmt::format("a {} keeps no programs or settings; "
+    return fail(context, {ExitCode::Usage, fmt::format("a {} stores no programs or settings; "
                                                        "leave `--state` out",
                                                        spec::info(options.robot).title)});
   options.ball.seed = arguments.seed;

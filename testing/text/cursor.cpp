@@ -308,7 +308,9 @@ double Cursor::length() {
     return 0;
   }
   if (*value < 0 || *value * row->second > most_number)
-    fail_at(span_from(from), rules::Value, "a length cannot be negative");
+    fail_at(span_from(from), rules::Value,
+            *value < 0 ? std::string("a length cannot be negative")
+                       : std::string("the length is too large"));
   return *value * row->second;
 }
 

@@ -65,7 +65,7 @@ std::string replay_page(const Footage& footage, std::string_view title) {
 
 /// What was tested: a program, or all those of a room.
 std::string subject(const Group& group, const GroupResult& told) {
-  return group.room.empty() ? told.program : fmt::format("a room of {}", group.room.size());
+  return group.room.empty() ? told.program : fmt::format("a room of {} balls", group.room.size());
 }
 
 /// How a program did in all of its tests.

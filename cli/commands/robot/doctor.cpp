@@ -57,7 +57,7 @@ tl::expected<void, Failure> check_newer(Checkup& checkup, Link& link,
                 "put it on the charger");
   else if (state == Ok)
     checkup.good("its battery is OK");
-  checkup.good(fmt::format("it keeps no programs: `orb run PROGRAM --port {}` drives it from here",
+  checkup.good(fmt::format("it stores no programs: `orb run PROGRAM --port {}` drives it from here",
                            link.name));
   return {};
 }

@@ -53,7 +53,7 @@ Json describe(const Config& config, const uploader::SeenDevice& device,
   if (device.connected)
     what += ", connected to this computer";
   if (robot != nullptr && robot->protocol == spec::BleProtocol::V2)
-    what += ": keeps no programs; `orb run PROGRAM --port` drives it from here";
+    what += ": stores no programs; `orb run PROGRAM --port` drives it from here";
   Json json{{"url", "ble://" + (by_name ? device.name : device.address)}, {"what", what}};
   if (device.rssi)
     json["rssi"] = *device.rssi;

@@ -46,7 +46,7 @@ struct Spot {
 std::optional<Spot> value_at(const Program& program, std::uint32_t offset) {
   for (const auto& statement : program.statements)
     for (std::uint32_t i = 0; i < statement.count; ++i)
-      if (touches(program.values[statement.first + i].span, offset))
+      if (touches(program.values_of(statement)[i].span, offset))
         return Spot{&statement, i};
   return std::nullopt;
 }
@@ -58,7 +58,7 @@ std::optional<Span> macro_of_id(const Source& source, const Program& program,
   if (!spot)
     return std::nullopt;
   const auto* operand = operand_of(source, program, *spot->statement, spot->index);
-  const auto& value = program.values[spot->statement->first + spot->index];
+  const auto& value = program.values_of(*spot->statement)[spot->index];
   if (operand == nullptr || operand->kind != spec::MacroOperandKind::MacroId ||
       value.kind != Value::Kind::Number)
     return std::nullopt;
@@ -153,7 +153,7 @@ std::optional<Hover> hover(const Source& source, std::uint32_t offset, const Lan
   const auto spot = value_at(program, offset);
   if (!spot)
     return std::nullopt;
-  const auto& value = program.values[spot->statement->first + spot->index];
+  const auto& value = program.values_of(*spot->statement)[spot->index];
   if (const auto* operand = operand_of(source, program, *spot->statement, spot->index))
     return Hover{value.span, fmt::format("**`{}`** (operand of `{}`): {}\n", operand->name,
                                          source.text(spot->statement->head), range_text(*operand))};
@@ -205,7 +205,7 @@ void suggest_values(Suggestions& out, const Source& source, const Program& progr
   for (const auto& statement : program.statements) {
     if (statement.count == 0)
       continue;
-    const auto& value = program.values[statement.first];
+    const auto& value = program.values_of(statement).front();
     const auto line = std::string(line_text(source, value.span.begin));
     if (statement.kind == Statement::Kind::Macro && wants_macro && value.name.size() == 0)
       out.items.push_back({std::string(source.text(value.span)), SuggestionKind::Name, line, ""});
@@ -347,7 +347,7 @@ std::vector<Hint> hints(const Source& source, const LanguageOptions&) {
   std::vector<Hint> found;
   for (const auto& statement : program.statements)
     for (std::uint32_t i = 0; i < statement.count; ++i) {
-      const auto& value = program.values[statement.first + i];
+      const auto& value = program.values_of(statement)[i];
       const auto* operand = operand_of(source, program, statement, i);
       if (operand == nullptr || value.kind != Value::Kind::Number)
         continue;

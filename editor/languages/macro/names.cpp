@@ -29,7 +29,7 @@ const spec::MacroOperand* operand_of(const Source& source, const Program& progra
                                      const Statement& statement, std::uint32_t index) {
   if (statement.info == nullptr)
     return nullptr;
-  const auto& value = program.values[statement.first + index];
+  const auto& value = program.values_of(statement)[index];
   if (value.name.size() > 0) {
     for (const auto& operand : *statement.info)
       if (operand.name == source.text(value.name))
@@ -43,7 +43,7 @@ std::vector<MacroName> names_in(const Source& source, const Program& program) {
   std::vector<MacroName> names;
   for (const auto& statement : program.statements)
     for (std::uint32_t i = 0; i < statement.count; ++i) {
-      const auto& value = program.values[statement.first + i];
+      const auto& value = program.values_of(statement)[i];
       const bool is_word = value.kind == Value::Kind::Word;
       const auto text = source.text(value.span);
       switch (statement.kind) {

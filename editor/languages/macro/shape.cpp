@@ -37,7 +37,7 @@ std::vector<Body> bodies_of(const Source& source, const Program& program) {
     if (!bodies.empty())
       bodies.back().span.end = start;
     bodies.push_back({&statement,
-                      program.values[statement.first].span,
+                      program.values_of(statement).front().span,
                       {start, static_cast<std::uint32_t>(source.text().size())}});
   }
   return bodies;
@@ -51,7 +51,7 @@ std::vector<Colored> colors(const Source& source, const LanguageOptions&) {
     palette.add(statement.head, commands ? Color::Function : Color::Keyword,
                 commands ? Robots : Plain);
     for (std::uint32_t i = 0; i < statement.count; ++i) {
-      const auto& value = program.values[statement.first + i];
+      const auto& value = program.values_of(statement)[i];
       const bool names_constant = statement.kind == Statement::Kind::Const;
       palette.add(value.name, names_constant ? Color::Variable : Color::Parameter,
                   names_constant ? Declared | Fixed : Plain);
@@ -61,7 +61,7 @@ std::vector<Colored> colors(const Source& source, const LanguageOptions&) {
     const bool is_macro = std::any_of(
         program.statements.begin(), program.statements.end(), [&](const Statement& one) {
           return begins_macro(one) &&
-                 source.text(program.values[one.first].span) == source.text(name.span);
+                 source.text(program.values_of(one).front().span) == source.text(name.span);
         });
     palette.add(name.span, is_macro ? Color::Function : Color::Variable,
                 (is_macro ? Plain : Fixed) | (name.is_definition ? Declared : Plain));
@@ -109,7 +109,7 @@ std::vector<Span> around(const Source& source, std::uint32_t offset) {
     add(statement.head);
     add(statement.span);
     for (std::uint32_t i = 0; i < statement.count; ++i) {
-      const auto& value = program.values[statement.first + i];
+      const auto& value = program.values_of(statement)[i];
       add(value.span);
       if (value.name.size() > 0)
         add({value.name.begin, value.span.end});
