@@ -337,7 +337,7 @@ double Reader::number(const pugi::xml_node& node, const char* attribute) {
 void Reader::refuse(const Element& element) {
   const bool clone = element.name == "use";
   say(rules::CourseShape, place(element.node),
-      clone ? "a clone is not read"
+      clone ? "a clone cannot be read"
             : fmt::format("`{}` cannot be a {}", element.name, name_of(element.role)),
       clone                         ? "in Inkscape: Edit > Clone > Unlink Clone (Shift+Alt+D)"
       : element.role == Role::Start ? "a start is a circle, or an arrow: a line or an open path"

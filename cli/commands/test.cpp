@@ -330,7 +330,9 @@ tl::expected<void, Failure> check_programs(const TestOptions& options) {
   for (const auto& path : options.programs)
     if (testing::is_test(path))
       return tl::unexpected(Failure{
-          ExitCode::Usage, fmt::format("`--program` takes programs; put {} before it", path)});
+          ExitCode::Usage,
+          fmt::format("`--program` takes programs, but {} is a test; put it before `--program`",
+                      path)});
   return {};
 }
 
