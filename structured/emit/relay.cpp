@@ -200,15 +200,19 @@ private:
         heading = is_digit(first[0]) ? first : heading;
         place = only_wait_below(roll, statement);
       }
-    const auto line = fmt::format("goroll {}, 0, 0", heading);
+    auto line = fmt::format("goroll {}, 0, 0", heading);
+    const std::string end(line_end_of(program.text));
+    const bool waits = found.help.find("delay") == std::string::npos; // somewhere
     const auto& last = *place;
     const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
-    told.help = fmt::format("add `{}` {}", line, ends ? "above" : "below");
-    if (&last != &statement)
+    told.help = waits ? fmt::format("add `{}` {}", line, ends ? "above" : "below")
+                      : fmt::format("add `delay 1s`, then `{}`", line);
+    if (!waits)
+      line = "delay 1s" + end + line;
+    else if (&last != &statement)
       told.help += fmt::format(" `{}`", program.text_of(last.span));
     if (last.depth > 0 || last.one_line)
       return;
-    const std::string end(line_end_of(program.text));
     const auto begin = last.span.begin;
     const auto rest = program.text.find_first_of("\r\n", last.span.end);
     const auto at = static_cast<std::uint32_t>(std::min(rest, program.text.size()));
@@ -262,9 +266,13 @@ private:
     if (statement.operation != Statement::none_operation)
       sum = fmt::format("{} {} {}", name,
                         spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
+    // What the robot's own line adds keeps what becomes smaller at 0 or more.
     const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
-    told.message = fmt::format("`{}` is a heading and grows without limit; headings end at {}",
-                               name, turn - 1);
+    const bool shrinks = told.message.find("shrinks") != std::string::npos;
+    const auto added = told.help.find(" + ");
+    if (shrinks && added != std::string::npos)
+      sum = fmt::format("{}{}", name, told.help.substr(added, told.help.find(')') - added));
+    told.message.replace(0, told.message.find(" is "), fmt::format("`{}`", name));
     told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
   }
 
