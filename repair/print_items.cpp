@@ -138,6 +138,9 @@ std::optional<std::string> print_items(const Tokens& tokens) {
 std::optional<std::string> quoted(const Tokens& tokens) {
   std::string text;
   constexpr std::string_view plain = ".!?:,";
+  if (std::none_of(tokens.begin(), tokens.end(),
+                   [](const Token& token) { return token.text.size() > 1; }))
+    return std::nullopt; // `A, B` are values
   for (const auto& token : tokens) {
     if (!token.is_word() &&
         (text.empty() || !(token.is_number() || plain.find(token.text) != std::string_view::npos)))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 namespace orb::repair {
 namespace {
@@ -217,6 +218,8 @@ private:
     token.gap = kind == Token::Kind::Word || text == "=";
     if (at < changed.size() && (token.gap || text == ","))
       changed[at].gap = true;
+    else if (at < changed.size() && text == "(")
+      std::swap(token.gap, changed[at].gap);
     changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(at), token);
     add(changed, cost);
   }
