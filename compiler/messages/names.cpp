@@ -68,7 +68,6 @@ private:
     if (below == 0 && !numbered)
       return std::nullopt;
     const auto number = below == 0 ? line_.number : below;
-    d.help = fmt::format("jump to the line by its number: `goto {}`", number);
     if (jumps.empty()) {
       if (alone)
         offer(d, "make it a comment", {{{begin(), begin()}, "' "}});
