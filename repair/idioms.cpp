@@ -396,8 +396,8 @@ bool is_sure(std::string_view form, const Holes& holes) {
   const auto& time = holes['q'];
   if (form.find("{wait:") != std::string_view::npos && time.size() == 1 && time[0].text.size() < 3)
     return false;
-  for (const auto* guess :
-       {"{known:", "comment {", "{still}", "{nought}", "{second}", "{free}", "yaw", "100"})
+  for (const auto* guess : {"{known:", "comment {", "{still}", "{nought}", "{second}", "{free}",
+                            "{brake}", "yaw", "100"})
     if (form.find(guess) != std::string_view::npos)
       return false;
   return true;

@@ -3,6 +3,7 @@
 #include "base/fixes.h"
 #include "base/text.h"
 #include "repair/blocks.h"
+#include "repair/fill.h"
 #include "repair/line_repair.h"
 
 #include <algorithm>
@@ -121,6 +122,9 @@ public:
   void make() {
     if (judge_.language == Language::Basic)
       blocks();
+    if (judge_.language == Language::Structured)
+      for (auto& finding : findings_)
+        close_block(finding);
     // From the last line up: what ends a block is mended before what begins it is judged.
     std::vector<Diagnostic*> first;
     for (auto& finding : findings_)
@@ -296,7 +300,84 @@ private:
     return true;
   }
 
+  /// Whether a word is unknown because the line that sets or names it is wrong itself.
+  bool is_consequence(const Diagnostic& finding) const {
+    constexpr auto unknown = std::to_array<std::string_view>({"unknown-name", "foreign-word"});
+    if (judge_.language != Language::Structured ||
+        std::find(unknown.begin(), unknown.end(), finding.rule->id) == unknown.end())
+      return false;
+    const auto word = source_.text(finding.span);
+    const auto at = line_of(finding);
+    return std::any_of(before_.begin(), before_.end(), [&](const Diagnostic& other) {
+      if (!is_error(other) || line_of(other) == at)
+        return false;
+      if (other.rule->id == "reserved-name")
+        return equal_words(source_.text(other.span), word);
+      const auto tokens = tokens_at(line_of(other));
+      return other.rule->id == "malformed-line" && tokens.size() > 1 && tokens[0].is_word() &&
+             equal_words(tokens[0].text, word) && tokens[1].is("=");
+    });
+  }
+
+  /// `while` or `loop` as the last line of a block, as other languages have it: the innermost open
+  /// block begins above, and nothing stands deeper below.
+  void close_block(Diagnostic& finding) {
+    const auto line = line_of(finding);
+    const auto next = below(line);
+    if (finding.rule->id != "unclosed-block" || (next != 0 && indent(next) > indent(line)))
+      return;
+    Diagnostic* open = nullptr;
+    for (auto& other : findings_)
+      if (other.rule->id == "unclosed-block" && line_of(other) < line)
+        open = &other;
+    if (open == nullptr)
+      return;
+    const auto begin = source_.line(line_of(*open));
+    const auto tokens = tokens_at(line);
+    const auto word = word_at(tokens_at(line_of(*open)), 0);
+    const bool tests = tokens.size() > 1 && tokens[0].is("while");
+    std::string text;
+    if (tokens.size() == 1 && tokens[0].is("loop") && word == "while")
+      text = "end while";
+    else if (tests && (word == "repeat" || word == "do"))
+      text = "until " + until(Tokens(tokens.begin() + 1, tokens.end()));
+    const auto blanks = begin.substr(0, begin.find_first_not_of(" \t"));
+    if (text.empty())
+      return;
+    lines_.insert(line);
+    finding.help = fmt::format("write `{}`", text);
+    finding.fix =
+        Fix{finding.help, {{source_.line_span(line), std::string(blanks) + text}}, Safety::Unsafe};
+    mended_.insert(&finding);
+    texts_[line] = std::string(blanks) + text;
+    open->help = fmt::format("{} in line {}", finding.help, line);
+    open->fix = finding.fix;
+    if (word == "do") {
+      open->help = "write `repeat`";
+      open->fix = Fix{open->help,
+                      {{source_.line_span(line_of(*open)), std::string(blanks) + "repeat"}},
+                      Safety::Unsafe};
+      texts_[line_of(*open)] = std::string(blanks) + "repeat";
+      lines_.insert(line_of(*open));
+      mended_.insert(open);
+    }
+  }
+
+  std::size_t indent(std::uint32_t line) const {
+    const auto text = source_.line(line);
+    return std::min(text.find_first_not_of(" \t"), text.size());
+  }
+
+  /// What a loop ends with that goes on while a condition holds.
+  std::string until(const Tokens& condition) const {
+    if (condition.size() > 1 && condition[0].is("not"))
+      return repair::join(Tokens(condition.begin() + 1, condition.end()));
+    return opposite(condition, judge_.language).value_or("");
+  }
+
   void offer(Diagnostic& finding) {
+    if (is_consequence(finding))
+      return;
     if (join_if(finding)) {
       mended_.insert(&finding);
       return;

@@ -123,7 +123,9 @@ private:
     if (after(fault_.span.end) == '=')
       return unknown_variable(name);
     const auto words = statement_words();
-    const auto best = closest(name, words);
+    auto best = closest(name, words);
+    if (best && !equal_words(*best, name) && repair::is_known_word(name, repair::Where::Line))
+      best.reset(); // what people write elsewhere is not misspelt: `wend`
     if (best && equal_words(*best, name))
       return make(rules::UnknownStatement,
                   fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
@@ -153,8 +155,8 @@ private:
     constexpr std::size_t least = 4;
     auto others = statement_words();
     std::erase(others, best);
-    return name.size() >= least && !repair::is_known_word(name, repair::Where::Line) &&
-           equal_words(name.substr(0, 1), best.substr(0, 1)) && !closest(name, others);
+    return name.size() >= least && equal_words(name.substr(0, 1), best.substr(0, 1)) &&
+           !closest(name, others);
   }
 
   /// `name = …`: a variable that does not exist.
