@@ -162,10 +162,11 @@ std::string lower(std::string_view word) {
 
 /// Words that part a line, and so are in no value.
 bool parts_line(const Token& token) {
-  for (const auto* word : {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"})
-    if (token.is_word() && equal_words(token.text, word))
-      return true;
-  return false;
+  constexpr auto words = std::to_array<std::string_view>(
+      {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"});
+  return token.is_word() && std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+           return word.size() == token.text.size() && equal_words(token.text, word);
+         });
 }
 
 /// What all patterns ask of the tokens of a line, told once.
