@@ -162,9 +162,9 @@ std::string lower(std::string_view word) {
 
 /// Words that part a line, and so are in no value.
 bool parts_line(const Token& token) {
-  constexpr auto words = std::to_array<std::string_view>(
+  constexpr auto parting = std::to_array<std::string_view>(
       {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"});
-  return token.is_word() && std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+  return token.is_word() && std::any_of(parting.begin(), parting.end(), [&](std::string_view word) {
            return word.size() == token.text.size() && equal_words(token.text, word);
          });
 }

@@ -100,6 +100,11 @@ private:
     auto& program = compiled_.program;
     const auto& statement = statement_at(found.span.begin);
     const auto* argument = argument_of(found.span, statement);
+    if (found.rule == &robot::WrongUnit && argument != nullptr) {
+      const auto text = program.text_of(argument->span);
+      if (is_digit(text.front()) && is_letter(text.back()))
+        return; // it has its unit
+    }
     const bool said = std::any_of(
         program.diagnostics.begin(), program.diagnostics.end(), [&](const Diagnostic& other) {
           return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
@@ -230,9 +235,12 @@ private:
                                            : same_number(plain_.text_of(edit.span), statement);
     if (!there)
       return;
+    auto text = edit.text;
+    for (auto comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1))
+      text.insert(comma + 1, text.compare(comma + 1, 1, " ") == 0 ? "" : " ");
     told.help = fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, there->begin}),
-                            edit.text, program.text_of({there->end, statement.span.end}));
-    told.fix = Fix{told.help, {{*there, edit.text}}, Safety::Unsafe};
+                            text, program.text_of({there->end, statement.span.end}));
+    told.fix = Fix{told.help, {{*there, std::move(text)}}, Safety::Unsafe};
   }
 
   /// The only number of a statement that is written like one of its line.
