@@ -261,6 +261,8 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return whole(a).value_or(UINT8_MAX + 1) > UINT8_MAX
                ? written_time(a, Assume::Milliseconds, language)
                : std::nullopt;
+  if (function == "operand") // and no unit
+    return a.size() == 1 && milliseconds_of(a[0].text) == 0 ? Text(a[0].text) : std::nullopt;
   if (function == "percent") {
     const auto value = whole(a);
     return value && *value <= 100 ? Text(std::to_string((*value * UINT8_MAX + 50) / 100))
