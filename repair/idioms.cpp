@@ -404,6 +404,13 @@ bool is_sure(std::string_view form, const Holes& holes) {
   return true;
 }
 
+/// Whether what a row says is about what it writes: a macro drives without `goroll`.
+bool fits(std::string_view note, std::string_view form) {
+  const bool drives = note.find("goroll") != std::string_view::npos ||
+                      note.find("1 to drive") != std::string_view::npos;
+  return !drives || form.find("goroll") != std::string_view::npos;
+}
+
 } // namespace
 
 void rewrite(const Tokens& line, const Surroundings& around,
@@ -432,10 +439,9 @@ void rewrite(const Tokens& line, const Surroundings& around,
       if (!whole && filled->find('\n') != std::string::npos)
         return false; // several lines stand by themselves
       auto text = replaced(line, begin, end, *filled);
-      return text != here &&
-             take({std::move(text),
-                   pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note,
-                   is_sure(form, holes)});
+      const auto note = pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note;
+      return text != here && take({std::move(text), fits(note, form) ? note : std::string_view(),
+                                   is_sure(form, holes)});
     };
     const auto begins = [&](std::size_t i) {
       return pattern.first == 0 || (pattern.first & bit[i]) != 0;
