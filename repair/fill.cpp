@@ -496,7 +496,8 @@ Tokens bared(Tokens tokens) {
 
 std::optional<std::string> opposite(Tokens condition, Language language) {
   if (language != Language::Basic)
-    return fmt::format("not ({})", join(condition));
+    return condition.size() == 1 ? "not " + join(condition)
+                                 : fmt::format("not ({})", join(condition));
   condition = bared(std::move(condition));
   if (condition.size() > 1 && (condition[0].is("not") || condition[0].is("!")))
     return join(bared(Tokens(condition.begin() + 1, condition.end())));

@@ -123,8 +123,10 @@ public:
     if (judge_.language == Language::Basic)
       blocks();
     if (judge_.language == Language::Structured)
-      for (auto& finding : findings_)
+      for (auto& finding : findings_) {
         close_block(finding);
+        open_block(finding);
+      }
     // From the last line up: what ends a block is mended before what begins it is judged.
     std::vector<Diagnostic*> first;
     for (auto& finding : findings_)
@@ -361,6 +363,23 @@ private:
       lines_.insert(line_of(*open));
       mended_.insert(open);
     }
+  }
+
+  /// `until` as the first line of a block: what stands below it is deeper.
+  void open_block(Diagnostic& finding) {
+    const auto line = line_of(finding);
+    const auto tokens = tokens_at(line);
+    const auto next = below(line);
+    if (finding.rule->id != "block-end" || tokens.size() < 2 || !tokens[0].is("until") ||
+        next == 0 || indent(next) <= indent(line))
+      return;
+    lines_.insert(line);
+    const auto text = "while " + until(Tokens(tokens.begin() + 1, tokens.end()));
+    finding.help = fmt::format("write `{}`", text);
+    const auto begin = source_.line_start(line) + static_cast<std::uint32_t>(indent(line));
+    finding.fix = Fix{finding.help, {{{begin, source_.line_span(line).end}, text}}, Safety::Unsafe};
+    mended_.insert(&finding);
+    texts_[line] = std::string(source_.line(line).substr(0, indent(line))) + text;
   }
 
   std::size_t indent(std::uint32_t line) const {
