@@ -266,7 +266,8 @@ private:
   /// Offers the first of some lines with what is in the others, which are left out.
   bool join(const std::vector<std::uint32_t>& lines, Diagnostic& finding) const {
     if (std::any_of(lines.begin(), lines.end(), [&](std::uint32_t line) {
-          return line == 0 || source_.line(line).size() > longest_line;
+          return line == 0 || source_.line(line).size() > longest_line ||
+                 scenery_.number(line).empty();
         }))
       return false;
     auto first = split(source_.line(lines[0]), judge_.language);

@@ -65,8 +65,8 @@ private:
       return one.span.begin == place.begin || !follows_jump(one.span.begin);
     });
     const auto below = alone ? number_below() : line_.number;
-    if (below == 0 && !numbered)
-      return std::nullopt;
+    if (!numbered && (below == 0 || jumps.empty()))
+      return std::nullopt; // it takes a number first, whatever it is
     const auto number = below == 0 ? line_.number : below;
     if (jumps.empty()) {
       if (alone)
