@@ -42,19 +42,22 @@ std::uint32_t offset_of(const Source& source, TextPosition position, PositionEnc
   return start + at;
 }
 
-TextPosition position_of(const Source& source, std::uint32_t offset, PositionEncoding encoding) {
-  const auto place = source.position(offset);
-  const auto line = source.line(place.line);
+TextPosition Ruler::operator()(std::uint32_t offset) {
+  const auto place = source_->position(offset);
+  const auto line = source_->line(place.line);
   const auto end = std::min<std::size_t>(place.column - 1, line.size());
-  TextPosition position{place.line - 1, 0};
-  for (std::size_t at = 0; at < end;) {
-    const auto length = std::max<std::size_t>(1, utf8_length(line.substr(at)));
-    if (at + length > end)
-      break;
-    position.character += units(length, encoding);
-    at += length;
+  if (last_.line != place.line - 1 || at_ > end) {
+    last_ = {place.line - 1, 0};
+    at_ = 0;
   }
-  return position;
+  while (at_ < end) {
+    const auto length = std::max<std::size_t>(1, utf8_length(line.substr(at_)));
+    if (at_ + length > end)
+      break;
+    last_.character += units(length, encoding_);
+    at_ += length;
+  }
+  return last_;
 }
 
 std::string path_of_uri(std::string_view uri) {

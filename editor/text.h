@@ -2,6 +2,7 @@
 
 #include "base/source.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -23,8 +24,20 @@ struct TextPosition {
 /// the end of the text; one inside a code point is its beginning.
 std::uint32_t offset_of(const Source& source, TextPosition position, PositionEncoding encoding);
 
-/// The place of byte `offset`; after the end of the text it is the end.
-TextPosition position_of(const Source& source, std::uint32_t offset, PositionEncoding encoding);
+/// Finds places: one after the other in a line without going back to its beginning.
+class Ruler {
+public:
+  Ruler(const Source& source, PositionEncoding encoding) : source_(&source), encoding_(encoding) {}
+
+  /// The place of byte `offset`; after the end of the text it is the end.
+  TextPosition operator()(std::uint32_t offset);
+
+private:
+  const Source* source_;
+  PositionEncoding encoding_;
+  std::size_t at_ = 0; ///< the byte of its line that `last_` is
+  TextPosition last_;
+};
 
 /// The path in a `file:` URI; anything else stays as it is.
 std::string path_of_uri(std::string_view uri);

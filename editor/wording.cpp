@@ -1,6 +1,7 @@
 #include "editor/wording.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace orb::editor {
 namespace {
@@ -12,6 +13,10 @@ std::optional<std::uint32_t> count_of(const Json& json) {
   if (!json.is_number_unsigned() && json.get<std::int64_t>() < 0)
     return std::nullopt;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(json.get<std::uint64_t>(), 0x7FFFFFFF));
+}
+
+Json in_json(TextPosition place) {
+  return {{"line", place.line}, {"character", place.character}};
 }
 
 } // namespace
@@ -29,12 +34,12 @@ std::string text_of(const Json& json) {
 }
 
 Json Wording::position(const Source& source, std::uint32_t offset) const {
-  const auto place = position_of(source, offset, encoding);
-  return {{"line", place.line}, {"character", place.character}};
+  return in_json(ruler(source)(offset));
 }
 
-Json Wording::range(const Source& source, Span span) const {
-  return {{"start", position(source, span.begin)}, {"end", position(source, span.end)}};
+Json Wording::range(Ruler& ruler, Span span) {
+  auto begin = in_json(ruler(span.begin)); // the first of the two
+  return {{"start", std::move(begin)}, {"end", in_json(ruler(span.end))}};
 }
 
 Json Wording::edit(const Source& source, const Edit& one) const {
@@ -43,8 +48,9 @@ Json Wording::edit(const Source& source, const Edit& one) const {
 
 Json Wording::edits(const Source& source, const std::vector<Edit>& many) const {
   auto list = Json::array();
+  auto places = ruler(source);
   for (const auto& one : many)
-    list.push_back(edit(source, one));
+    list.push_back({{"range", range(places, one.span)}, {"newText", one.text}});
   return list;
 }
 

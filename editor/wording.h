@@ -30,8 +30,11 @@ std::string text_of(const Json& json);
 struct Wording {
   PositionEncoding encoding = PositionEncoding::Utf16;
 
+  Ruler ruler(const Source& source) const { return {source, encoding}; }
   Json position(const Source& source, std::uint32_t offset) const;
-  Json range(const Source& source, Span span) const;
+  Json range(const Source& source, Span span) const { return range(ruler(source), span); }
+  static Json range(Ruler&& ruler, Span span) { return range(ruler, span); }
+  static Json range(Ruler& ruler, Span span);
   Json edit(const Source& source, const Edit& one) const;
   Json edits(const Source& source, const std::vector<Edit>& many) const;
   /// The edits that make `text` of all of it; none where it is that already.

@@ -2,6 +2,7 @@
 
 #include "base/duration.h"
 #include "base/text.h"
+#include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/print_items.h"
 
@@ -256,6 +257,23 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
     return written_time(a, Assume::Either, language);
   if (function == "ms")
     return written_time(a, Assume::Milliseconds, language);
+  if (function == "later") // no part of a colour
+    return whole(a).value_or(UINT8_MAX + 1) > UINT8_MAX
+               ? written_time(a, Assume::Milliseconds, language)
+               : std::nullopt;
+  if (function == "operand") // and no unit
+    return a.size() == 1 && milliseconds_of(a[0].text) == 0 ? Text(a[0].text) : std::nullopt;
+  if (function == "percent") {
+    const auto value = whole(a);
+    return value && *value <= 100 ? Text(std::to_string((*value * UINT8_MAX + 50) / 100))
+                                  : std::nullopt;
+  }
+  if (function == "bearing") {
+    for (const auto* heading : {"0", "90", "180", "270"})
+      if (a.size() == 1 && is_called(heading, a[0].text))
+        return heading;
+    return std::nullopt;
+  }
   if (function == "clock")
     return clock(a);
   if (function == "length")
@@ -385,6 +403,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return join(holes.rest);
   if (name == "right" || name == "left")
     return std::to_string((around.heading + (name == "right" ? 90 : 270)) % 360);
+  if (name == "brake") // what drives
+    return around.pace.empty() ? std::nullopt : Text(fmt::format("goroll {},0,0", around.heading));
   if (name == "still" && !around.pace.empty())
     return around.pace;
   if (name == "still")
@@ -476,7 +496,8 @@ Tokens bared(Tokens tokens) {
 
 std::optional<std::string> opposite(Tokens condition, Language language) {
   if (language != Language::Basic)
-    return fmt::format("not ({})", join(condition));
+    return condition.size() == 1 ? "not " + join(condition)
+                                 : fmt::format("not ({})", join(condition));
   condition = bared(std::move(condition));
   if (condition.size() > 1 && (condition[0].is("not") || condition[0].is("!")))
     return join(bared(Tokens(condition.begin() + 1, condition.end())));

@@ -162,10 +162,11 @@ std::string lower(std::string_view word) {
 
 /// Words that part a line, and so are in no value.
 bool parts_line(const Token& token) {
-  for (const auto* word : {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"})
-    if (token.is_word() && equal_words(token.text, word))
-      return true;
-  return false;
+  constexpr auto parting = std::to_array<std::string_view>(
+      {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"});
+  return token.is_word() && std::any_of(parting.begin(), parting.end(), [&](std::string_view word) {
+           return word.size() == token.text.size() && equal_words(token.text, word);
+         });
 }
 
 /// What all patterns ask of the tokens of a line, told once.
@@ -396,11 +397,18 @@ bool is_sure(std::string_view form, const Holes& holes) {
   const auto& time = holes['q'];
   if (form.find("{wait:") != std::string_view::npos && time.size() == 1 && time[0].text.size() < 3)
     return false;
-  for (const auto* guess :
-       {"{known:", "comment {", "{still}", "{nought}", "{second}", "{free}", "yaw", "100"})
+  for (const auto* guess : {"{known:", "comment {", "{still}", "{nought}", "{second}", "{free}",
+                            "{brake}", "yaw", "100"})
     if (form.find(guess) != std::string_view::npos)
       return false;
   return true;
+}
+
+/// Whether what a row says is about what it writes: a macro drives without `goroll`.
+bool fits(std::string_view note, std::string_view form) {
+  const bool drives = note.find("goroll") != std::string_view::npos ||
+                      note.find("1 to drive") != std::string_view::npos;
+  return !drives || form.find("goroll") != std::string_view::npos;
 }
 
 } // namespace
@@ -431,10 +439,9 @@ void rewrite(const Tokens& line, const Surroundings& around,
       if (!whole && filled->find('\n') != std::string::npos)
         return false; // several lines stand by themselves
       auto text = replaced(line, begin, end, *filled);
-      return text != here &&
-             take({std::move(text),
-                   pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note,
-                   is_sure(form, holes)});
+      const auto note = pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note;
+      return text != here && take({std::move(text), fits(note, form) ? note : std::string_view(),
+                                   is_sure(form, holes)});
     };
     const auto begins = [&](std::size_t i) {
       return pattern.first == 0 || (pattern.first & bit[i]) != 0;

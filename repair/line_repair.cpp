@@ -72,11 +72,13 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   if (!own || leaves_out || finding.fix->safety != Safety::Safe)
     several_lines(start);
-  if (!best_ && !leaves_out &&
+  if (!best_ && !leaves_out && own && !is_foreign(*own) &&
       (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
     by_fix(finding); // it knows the names and the blocks
   if (!best_ && whole(start) != line_)
     attempt(start, {}, true);
+  if (const auto earlier = closed_earlier(); best_ && !earlier.empty())
+    other_ = attempt_line(whole(earlier), {}, false, false);
   if (!best_ && !is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line))
     by_changes(surely);
   if (!best_ || !best_->settles())
@@ -260,6 +262,38 @@ bool LineRepair::begins_alike(std::string_view lines) const {
   const auto& word = parts_.tokens.front().text;
   const auto begin = lines.substr(std::min(parts_.head.size(), lines.size()));
   return begin.starts_with(word) && begin.substr(word.size()).starts_with(' ');
+}
+
+/// A text without its end, closed before the last values that stand in it: `print "A is, A`. Empty
+/// where none do.
+std::string LineRepair::closed_earlier() const {
+  if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
+    return {};
+  const auto& text = parts_.tokens.back().text;
+  const auto comma = text.rfind(',');
+  if (comma == std::string::npos || comma == 0)
+    return {};
+  const auto values = tokens_of(text.substr(comma + 1), judge_.language);
+  const bool one = values.size() == 1 && values[0].is_word();
+  if (!one || is_foreign(values[0].text))
+    return {};
+  auto tokens = parts_.tokens;
+  tokens.back().text = text.substr(0, comma);
+  tokens.back().closed = true;
+  return join(tokens) + ", " + values[0].text;
+}
+
+/// Whether a line has a word that means nothing to the language and that no other line has.
+bool LineRepair::is_foreign(std::string_view line) const {
+  const auto tokens = split(line, judge_.language).tokens;
+  const auto holds = [](const std::vector<std::string_view>& all, const Token& token) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](std::string_view one) { return equal_words(one, token.text); });
+  };
+  return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
+    return token.is_word() && token.text.size() > 1 && !holds(judge_.words, token) &&
+           !holds(around_.elsewhere, token);
+  });
 }
 
 /// Tries what the language makes of the line's values; true when that cannot be better.

@@ -138,6 +138,13 @@ std::optional<std::string> print_items(const Tokens& tokens) {
 std::optional<std::string> quoted(const Tokens& tokens) {
   std::string text;
   constexpr std::string_view plain = ".!?:,";
+  const auto is_value = [](const Token& token) { // `A` and `x`; `a` and `I` are said, too
+    return token.is_word() && token.text.size() == 1 && !token.is("a") && !token.is("I");
+  };
+  if (std::any_of(tokens.begin(), tokens.end(), is_value) ||
+      std::none_of(tokens.begin(), tokens.end(),
+                   [](const Token& token) { return token.text.size() > 1; }))
+    return std::nullopt;
   for (const auto& token : tokens) {
     if (!token.is_word() &&
         (text.empty() || !(token.is_number() || plain.find(token.text) != std::string_view::npos)))

@@ -3,6 +3,7 @@
 #include "base/fixes.h"
 #include "base/text.h"
 #include "repair/blocks.h"
+#include "repair/fill.h"
 #include "repair/line_repair.h"
 
 #include <algorithm>
@@ -121,6 +122,11 @@ public:
   void make() {
     if (judge_.language == Language::Basic)
       blocks();
+    if (judge_.language == Language::Structured)
+      for (auto& finding : findings_) {
+        close_block(finding);
+        open_block(finding);
+      }
     // From the last line up: what ends a block is mended before what begins it is judged.
     std::vector<Diagnostic*> first;
     for (auto& finding : findings_)
@@ -132,8 +138,10 @@ public:
     });
     for (auto* finding : first)
       offer(*finding);
-    if (judge_.language == Language::Structured)
+    if (judge_.language == Language::Structured) {
       offer_again(first);
+      close_mended();
+    }
     drop_consequences();
   }
 
@@ -196,55 +204,200 @@ private:
     return source_.line(line).find_first_not_of(" \t") == std::string_view::npos;
   }
 
-  /// An `if` of several lines that is one here: `else` below it, or its statement where nothing
-  /// ends the block.
+  /// An `if` of several lines that is one here: with its statement, and with its `else`, where
+  /// nothing ends the block.
   bool join_if(Diagnostic& finding) const {
     const auto line = line_of(finding);
-    const auto tokens = split(source_.line(line), judge_.language).tokens;
-    if (judge_.language != Language::Basic || tokens.empty())
+    if (judge_.language != Language::Basic)
+      return false;
+    const auto tokens = tokens_at(line);
+    if (tokens.empty())
       return false;
     if (tokens[0].is("else"))
-      return join(above(line), line, finding);
-    const auto next = tokens[0].is("if") && tokens.back().is("then") ? below(line) : 0;
-    return next != 0 && !ends_an_if() && join(line, next, finding);
+      return join({above(line), line}, finding) ||
+             (above(line) != 0 && join_else(above(above(line)), finding));
+    if (!begins_if(tokens))
+      return false;
+    return ends_an_if() ? join_else(line, finding) : join({line, below(line)}, finding);
   }
 
-  bool ends_an_if() const {
+  Tokens tokens_at(std::uint32_t line) const {
+    const auto text = line == 0 ? std::string_view() : source_.line(line);
+    return text.size() > longest_line ? Tokens() : split(text, judge_.language).tokens;
+  }
+
+  static bool begins_if(const Tokens& tokens) {
+    return tokens.size() > 2 && tokens[0].is("if") &&
+           (tokens.back().is("then") || tokens.back().is(":"));
+  }
+
+  static bool is_else(const Tokens& tokens) {
+    return !tokens.empty() && tokens[0].is("else") &&
+           (tokens.size() == 1 || (tokens.size() == 2 && tokens[1].is(":")));
+  }
+
+  /// `if … then`, a statement, `else`, and a statement that is the last one before the program ends
+  /// or jumps.
+  bool join_else(std::uint32_t line, Diagnostic& finding) const {
+    if (line == 0 || !begins_if(tokens_at(line)))
+      return false;
+    const auto yes = below(line);
+    const auto other = yes == 0 ? 0 : below(yes);
+    const auto no = other == 0 ? 0 : below(other);
+    const auto after = no == 0 ? Tokens() : tokens_at(below(no));
+    const bool last = after.empty() || after[0].is("end") || after[0].is("goto") ||
+                      after[0].is("next") || after[0].is("return");
+    return no != 0 && last && is_else(tokens_at(other)) && !ends_an_if(other) &&
+           join({line, yes, other, no}, finding);
+  }
+
+  /// Whether a line but `but` ends an `if` or its first part.
+  bool ends_an_if(std::uint32_t but = 0) const {
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
       const auto tokens = split(source_.line(n).substr(0, longest_line), judge_.language).tokens;
-      if (!tokens.empty() && (tokens[0].is("endif") || tokens[0].is("else") || tokens[0].is("}") ||
-                              (tokens.size() > 1 && tokens[0].is("end"))))
+      if (n != but && !tokens.empty() &&
+          (tokens[0].is("endif") || tokens[0].is("else") || tokens[0].is("}") ||
+           (tokens.size() > 1 && tokens[0].is("end"))))
         return true;
     }
     return false;
   }
 
-  bool join(std::uint32_t upper, std::uint32_t lower, Diagnostic& finding) const {
-    if (upper == 0 || source_.line(upper).size() > longest_line ||
-        source_.line(lower).size() > longest_line)
+  /// Offers the first of some lines with what is in the others, which are left out.
+  bool join(const std::vector<std::uint32_t>& lines, Diagnostic& finding) const {
+    if (std::any_of(lines.begin(), lines.end(), [&](std::uint32_t line) {
+          return line == 0 || source_.line(line).size() > longest_line ||
+                 scenery_.number(line).empty();
+        }))
       return false;
-    const auto first = split(source_.line(upper), judge_.language);
-    const auto tokens = split(source_.line(lower), judge_.language).tokens;
-    const auto joined = first.head + repair::join(first.tokens) + " " + repair::join(tokens);
-    if (first.tokens.empty() || !first.tokens[0].is("if") || !first.comment.empty() ||
-        !judge_.parses(joined))
+    auto first = split(source_.line(lines[0]), judge_.language);
+    if (first.tokens.empty() || !first.tokens[0].is("if") || !first.comment.empty())
       return false;
-    auto fix = remove(lower, Safety::Unsafe);
-    if (!fix)
+    if (first.tokens.back().is(":"))
+      first.tokens.back() = tokens_of("then", judge_.language)[0];
+    first.tokens.back().gap = true;
+    auto joined = first.head + repair::join(first.tokens);
+    Fix fix{"remove the line", {}, Safety::Unsafe};
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      auto tokens = tokens_at(lines[i]);
+      if (is_else(tokens))
+        tokens.resize(1);
+      joined += " " + repair::join(tokens);
+      auto removed = remove(lines[i], Safety::Unsafe);
+      if (!removed)
+        return false;
+      fix.edits.insert(fix.edits.end(), removed->edits.begin(), removed->edits.end());
+    }
+    if (!judge_.parses(joined))
       return false;
-    const auto span = source_.line_span(upper);
-    fix->edits.push_back({span, joined});
-    std::sort(fix->edits.begin(), fix->edits.end(),
+    fix.edits.push_back({source_.line_span(lines[0]), joined});
+    std::sort(fix.edits.begin(), fix.edits.end(),
               [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
     finding.help =
-        line_of(finding) == lower
-            ? fmt::format("write `{}`, and leave this line out", joined)
-            : fmt::format("write `{}`, and leave line {} out", joined, scenery_.number(lower));
+        fmt::format("write `{}`, and leave ", joined) +
+        (lines.size() > 2 ? fmt::format("lines {} to {} out", scenery_.number(lines[1]),
+                                        scenery_.number(lines.back()))
+         : line_of(finding) == lines[1] ? std::string("this line out")
+                                        : fmt::format("line {} out", scenery_.number(lines[1])));
     finding.fix = std::move(fix);
     return true;
   }
 
+  /// Whether a word is unknown because the line that sets or names it is wrong itself.
+  bool is_consequence(const Diagnostic& finding) const {
+    constexpr auto unknown = std::to_array<std::string_view>({"unknown-name", "foreign-word"});
+    if (judge_.language != Language::Structured ||
+        std::find(unknown.begin(), unknown.end(), finding.rule->id) == unknown.end())
+      return false;
+    const auto word = source_.text(finding.span);
+    const auto at = line_of(finding);
+    return std::any_of(before_.begin(), before_.end(), [&](const Diagnostic& other) {
+      if (!is_error(other) || line_of(other) == at)
+        return false;
+      if (other.rule->id == "reserved-name")
+        return equal_words(source_.text(other.span), word);
+      const auto tokens = tokens_at(line_of(other));
+      return other.rule->id == "malformed-line" && tokens.size() > 1 && tokens[0].is_word() &&
+             equal_words(tokens[0].text, word) && tokens[1].is("=");
+    });
+  }
+
+  /// `while` or `loop` as the last line of a block, as other languages have it: the innermost open
+  /// block begins above, and nothing stands deeper below.
+  void close_block(Diagnostic& finding) {
+    const auto line = line_of(finding);
+    const auto next = below(line);
+    if (finding.rule->id != "unclosed-block" || (next != 0 && indent(next) > indent(line)))
+      return;
+    Diagnostic* open = nullptr;
+    for (auto& other : findings_)
+      if (other.rule->id == "unclosed-block" && line_of(other) < line)
+        open = &other;
+    if (open == nullptr)
+      return;
+    const auto begin = source_.line(line_of(*open));
+    const auto tokens = tokens_at(line);
+    const auto word = word_at(tokens_at(line_of(*open)), 0);
+    const bool tests = tokens.size() > 1 && tokens[0].is("while");
+    std::string text;
+    if (tokens.size() == 1 && tokens[0].is("loop") && word == "while")
+      text = "end while";
+    else if (tests && (word == "repeat" || word == "do"))
+      text = "until " + until(Tokens(tokens.begin() + 1, tokens.end()));
+    const auto blanks = begin.substr(0, begin.find_first_not_of(" \t"));
+    if (text.empty())
+      return;
+    lines_.insert(line);
+    finding.help = fmt::format("write `{}`", text);
+    finding.fix =
+        Fix{finding.help, {{source_.line_span(line), std::string(blanks) + text}}, Safety::Unsafe};
+    mended_.insert(&finding);
+    texts_[line] = std::string(blanks) + text;
+    open->help = fmt::format("{} in line {}", finding.help, line);
+    open->fix = finding.fix;
+    if (word == "do") {
+      open->help = "write `repeat`";
+      open->fix = Fix{open->help,
+                      {{source_.line_span(line_of(*open)), std::string(blanks) + "repeat"}},
+                      Safety::Unsafe};
+      texts_[line_of(*open)] = std::string(blanks) + "repeat";
+      lines_.insert(line_of(*open));
+      mended_.insert(open);
+    }
+  }
+
+  /// `until` as the first line of a block: what stands below it is deeper.
+  void open_block(Diagnostic& finding) {
+    const auto line = line_of(finding);
+    const auto tokens = tokens_at(line);
+    const auto next = below(line);
+    if (finding.rule->id != "block-end" || tokens.size() < 2 || !tokens[0].is("until") ||
+        next == 0 || indent(next) <= indent(line))
+      return;
+    lines_.insert(line);
+    const auto text = "while " + until(Tokens(tokens.begin() + 1, tokens.end()));
+    finding.help = fmt::format("write `{}`", text);
+    const auto begin = source_.line_start(line) + static_cast<std::uint32_t>(indent(line));
+    finding.fix = Fix{finding.help, {{{begin, source_.line_span(line).end}, text}}, Safety::Unsafe};
+    mended_.insert(&finding);
+    texts_[line] = std::string(source_.line(line).substr(0, indent(line))) + text;
+  }
+
+  std::size_t indent(std::uint32_t line) const {
+    const auto text = source_.line(line);
+    return std::min(text.find_first_not_of(" \t"), text.size());
+  }
+
+  /// What a loop ends with that goes on while a condition holds.
+  std::string until(const Tokens& condition) const {
+    if (condition.size() > 1 && condition[0].is("not"))
+      return repair::join(Tokens(condition.begin() + 1, condition.end()));
+    return opposite(condition, judge_.language).value_or("");
+  }
+
   void offer(Diagnostic& finding) {
+    if (is_consequence(finding))
+      return;
     if (join_if(finding)) {
       mended_.insert(&finding);
       return;
@@ -306,6 +459,19 @@ private:
       write(**finding, repair, at, found);
       mended_.insert(*finding);
       texts_[at] = found[0].text;
+    }
+  }
+
+  /// A block without its end, whose first line will be another one: so is its end.
+  void close_mended() {
+    for (auto& finding : findings_) {
+      const auto mended = texts_.find(line_of(finding));
+      if (finding.rule->id != "unclosed-block" || mended == texts_.end())
+        continue;
+      const auto word = word_at(split(mended->second, judge_.language).tokens, 0);
+      const auto was = fmt::format("`end {}`", source_.text(finding.span));
+      if (const auto at = finding.help.find(was); at != std::string::npos && !word.empty())
+        finding.help.replace(at, was.size(), fmt::format("`end {}`", word));
     }
   }
 

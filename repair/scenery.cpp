@@ -86,8 +86,13 @@ std::string Scenery::number_of(std::string_view name) const {
     auto rest = line.substr(parts.head.size());
     rest.remove_prefix(std::min(rest.find_first_not_of("' \t"), rest.size()));
     if (rest.size() > name.size() && equal_words(rest.substr(0, name.size()), name) &&
-        rest[name.size()] == ':')
-      return digits_of(parts.head);
+        rest[name.size()] == ':') {
+      // A label alone on its line stands for the line below, which stays when it is left out.
+      rest.remove_prefix(name.size() + 1);
+      const bool alone = parts.tokens.empty() || rest.find_first_not_of(" \t'") == rest.npos;
+      const auto below = alone ? number_below(n) : std::string();
+      return below.empty() ? digits_of(parts.head) : below;
+    }
   }
   return {};
 }
@@ -201,7 +206,7 @@ void Scenery::open_or_close(const Tokens& line) {
              is("function") || is("for"))
     open_.push_back(is("for") ? "next" : "end " + first);
   else if (is("def") || is("void"))
-    open_.emplace_back("end sub");
+    open_.emplace_back(line.size() > 1 && line[1].is("loop") ? "end loop" : "end sub");
   else if (is("forever") || is("do"))
     open_.emplace_back("end loop");
   else if (is("if") &&

@@ -33,7 +33,8 @@ public:
   std::optional<std::string> misspelt(std::string_view word,
                                       const std::vector<std::string_view>& known) const;
 
-  /// The number of the line that begins with `name:`, as a label or in a comment; empty without.
+  /// The number of the line that begins with `name:`, as a label or in a comment, or of the one
+  /// below it where that is all; empty without.
   std::string number_of(std::string_view name) const;
 
   /// The number of an orbBasic line, and of the first one below that has a number and a statement;

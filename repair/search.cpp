@@ -2,10 +2,12 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "repair/idioms.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 namespace orb::repair {
 namespace {
@@ -60,6 +62,8 @@ private:
     const auto& word = line_[i];
     if (!word.is_word() || word.text.size() < 2 || word.text.size() > 31 || is_known(word.text))
       return;
+    const bool elsewhere = i == 0 && language_ == Language::Basic && // not misspelt: `wend`
+                           is_known_word(word.text, Where::Line);
     const auto letters = letters_of(word.text);
     for (const auto& list : {words_, names_})
       for (const auto other : list) {
@@ -69,7 +73,8 @@ private:
           continue;
         const auto distance = edit_distance(word.text, other);
         const auto size = std::max(word.text.size(), other.size());
-        if (distance > 2 || distance * 3 > size + (size == 2 ? 1 : 0))
+        if ((elsewhere && distance > 0 && list.data() == words_.data()) || distance > 2 ||
+            distance * 3 > size + (size == 2 ? 1 : 0))
           continue;
         const bool initial = to_lower(word.text[0]) == to_lower(other[0]);
         auto changed = line_;
@@ -86,6 +91,13 @@ private:
       return text;
     };
     const bool number = line_[i].is_number();
+    if (const auto point = line_[i].text.find('.');
+        number && point != std::string::npos &&
+        line_[i].text.find_first_not_of('0', point + 1) == std::string::npos) {
+      auto changed = line_; // `3.0`, which of times is in seconds
+      changed[i].text.resize(point);
+      add(changed, 8);
+    }
     const bool goes_on = i + 1 < line_.size() && line_[i + 1].is_word() && !line_[i + 1].gap;
     if (number ? !goes_on : !line_[i].is_word() || line_[i].text.size() < 2)
       return;
@@ -169,9 +181,14 @@ private:
     constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs that compute nothing
     const bool is_idle = token.kind == Token::Kind::Sign && token.text.size() == 1 &&
                          idle.find(token.text[0]) != std::string_view::npos;
+    // Fewer values are not what was meant: a comma goes where no value follows it.
+    const bool parts_values = token.is(",") && i > 1 && i + 1 < line_.size() &&
+                              (line_[i + 1].is_number() || line_[i + 1].text.size() == 1) &&
+                              !line_[i - 1].is(",") && !line_[i + 1].is(",") &&
+                              !line_[i + 1].is(")");
     const bool parts_numbers = !token.is("(") && !token.is(")") && i > 0 && i + 1 < line_.size() &&
                                line_[i - 1].is_number() && line_[i + 1].is_number();
-    if (token.is_text() || parts_numbers || (!twice && !is_idle))
+    if (token.is_text() || parts_numbers || parts_values || (!twice && !is_idle))
       return;
     auto changed = line_;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i));
@@ -198,8 +215,9 @@ private:
   }
 
   void swapped(std::size_t i) {
-    if (line_[i].is_number() && line_[i + 1].is_number())
-      return;
+    if ((line_[i].is_number() && line_[i + 1].is_number()) || line_[i].is("$") ||
+        line_[i + 1].is("$"))
+      return; // `A$` is a text elsewhere
     if (!(line_[i].kind == Token::Kind::Sign) == !(line_[i + 1].kind == Token::Kind::Sign) &&
         line_[i].kind != Token::Kind::Sign)
       return;
@@ -217,6 +235,8 @@ private:
     token.gap = kind == Token::Kind::Word || text == "=";
     if (at < changed.size() && (token.gap || text == ","))
       changed[at].gap = true;
+    else if (at < changed.size() && text == "(")
+      std::swap(token.gap, changed[at].gap);
     changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(at), token);
     add(changed, cost);
   }

@@ -5,6 +5,7 @@
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "run/start.h"
+#include "structured/compile.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -30,8 +31,8 @@ std::vector<const Rule*> suspects(const Ending& ending) {
   if (ending.reason != Reason::End)
     return {};
   if (sight.told_to_move && sight.way_cm < hardly_cm)
-    return {&rules::WrongUnit, &rules::TinyValue, &rules::GoZero, &rules::MissingDelay,
-            &rules::InvertedWait};
+    return {&rules::WrongUnit,    &rules::TinyValue,    &rules::GoZero,
+            &rules::MissingDelay, &rules::InvertedWait, &rules::DrivesOn};
   return {&rules::WrongUnit, &rules::MissingDelay, &rules::InvertedWait,
           &rules::TinyValue, &rules::DrivesOn,     &rules::WeakBrake};
 }
@@ -58,9 +59,10 @@ std::string from_linter(const Input& input, const Options& options, const Ending
   const auto wanted = suspects(ending);
   if (wanted.empty())
     return {};
-  const bool numbered = input.program->compiled == nullptr;
-  const auto checked =
-      numbered ? compiler::check(input.source->text(), options.target).diagnostics : input.findings;
+  const auto* compiled = input.program->compiled.get();
+  const auto checked = compiled == nullptr
+                           ? compiler::check(input.source->text(), options.target).diagnostics
+                           : structured::findings_by_file(compiled->program).front();
   const auto* found = find(checked, wanted);
   if (found == nullptr)
     return {};

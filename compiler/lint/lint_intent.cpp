@@ -92,7 +92,7 @@ private:
     if (shows(statement.kind) != Shows::Nothing)
       check_shown(statement, code);
     else if (statement.kind == Statement::Let)
-      grows_ = grows_ || is_sum(statement);
+      note_sum(program_.nodes[program_.as<LetView>(statement).expression.value]);
     if (spec::info(statement.kind).form == spec::Form::Arguments)
       note_letters(statement, code);
   }
@@ -390,15 +390,23 @@ private:
                                     [](const Line& one) { return one.has_number(); });
     constexpr std::uint32_t step = 10;
     const auto from = !ends ? line->number : above == program_.lines.rend() ? 0 : above->number;
+    const bool waits = std::any_of(flow_.code.begin(), flow_.code.end(),
+                                   [](const Flow::Code& code) { return code.waits; });
+    const std::uint32_t parts = waits ? 2 : 3; // without a wait, one is added, too
     const auto to = ends                            ? line->number
                     : below != program_.lines.end() ? below->number
-                                                    : line->number + 2 * step;
-    if (to <= from + 1 ||
+                                                    : line->number + parts * step;
+    if (to < from + parts ||
         to > static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)))
       return;
-    const auto text = fmt::format("{} {}", from + (to - from) / 2, stop);
     const auto end = std::string(line_end_of(program_.text));
+    auto text = fmt::format("{} {}", from + (to - from) / parts * (parts - 1), stop);
     d.help = fmt::format("add `{}`", text);
+    if (!waits) {
+      const auto wait = fmt::format("{} delay 1000", from + (to - from) / parts);
+      d.help = fmt::format("add `{}`, then `{}`", wait, text);
+      text = wait + end + text;
+    }
     d.fix =
         ends ? single_fix(d.help, {line->span.begin, line->span.begin}, text + end, Safety::Unsafe)
              : single_fix(d.help, {line->span.end, line->span.end}, end + text, Safety::Unsafe);
@@ -421,15 +429,17 @@ private:
 
   // ---- what grows
 
-  bool is_sum(const StatementNode& let) const {
-    const auto& root = program_.nodes[program_.as<LetView>(let).expression.value];
-    return root.kind == NodeKind::Binary &&
-           static_cast<spec::Operator>(root.what) == spec::Operator::Add;
+  static bool is(const Node& root, spec::Operator sign) {
+    return root.kind == NodeKind::Binary && static_cast<spec::Operator>(root.what) == sign;
   }
+  static bool is_sum(const Node& root) { return is(root, spec::Operator::Add); }
+  static bool is_difference(const Node& root) { return is(root, spec::Operator::Subtract); }
+  void note_sum(const Node& root) { grows_ = grows_ || is_sum(root) || is_difference(root); }
 
   struct Growth {
     std::uint32_t code = none;         ///< the line that adds to the letter; none where none does
     const Item* sum = nullptr;         ///< what it is set to there
+    std::int32_t step = 0;             ///< what is added; below 0: taken away
     std::vector<std::uint32_t> resets; ///< lines that set it to a number
     bool bounded = false;              ///< it is looked at, or set in another way
   };
@@ -469,7 +479,9 @@ private:
         if (!within(given.code) || !within(grown.code) || grown.bounded ||
             std::any_of(grown.resets.begin(), grown.resets.end(), within))
           continue;
-        add_growth(*grown.sum, given);
+        if (grown.step < 0 && given.parameter->unit != "deg")
+          continue; // what becomes too small has no line to write
+        add_growth(grown, given);
         grown.bounded = true; // said once
       }
     }
@@ -500,34 +512,38 @@ private:
     if (root.kind == NodeKind::Number) {
       grown.resets.push_back(code);
     } else if (root.kind == NodeKind::Binary && sum.value - root.first == 2 &&
-               static_cast<spec::Operator>(root.what) == spec::Operator::Add &&
+               (is_sum(root) || is_difference(root)) &&
                program_.nodes[root.first].kind == NodeKind::Letter &&
                program_.nodes[root.first].what == letter && right.kind == NodeKind::Number &&
                right.value > 0 && grown.code == none) {
       grown.code = code;
       grown.sum = &sum;
+      grown.step = is_sum(root) ? right.value : -right.value;
     } else {
       grown.bounded = true;
     }
   }
 
-  void add_growth(const Item& sum, const Given& given) {
-    const auto text = program_.text_of(sum.span);
+  void add_growth(const Growth& grown, const Given& given) {
+    const auto& sum = *grown.sum;
     const auto letter = spec::letter_name(given.letter);
     const auto turn = given.parameter->greatest + 1;
     const bool heading = given.parameter->unit == "deg";
-    const auto bounded = fmt::format("({}) % {}", text, turn);
+    // The remainder of a value below 0 is below 0, too.
+    const auto inner = grown.step > 0 ? std::string(program_.text_of(sum.span))
+                                      : fmt::format("{} + {}", letter, turn + grown.step % turn);
+    const auto bounded = fmt::format("({}) % {}", inner, turn);
     auto& d = findings_.add(
         heading ? rules::HeadingGrows : rules::ValueGrows, sum.span,
-        heading ? fmt::format("`{}` is a heading and grows without limit; headings end at {}",
-                              letter, turn - 1)
-                : fmt::format("`{}` grows without limit; the {} of `{}` ends at {}", letter,
-                              given.parameter->name, given.row->word, turn - 1),
+        !heading ? fmt::format("`{}` grows without limit; the {} of `{}` ends at {}", letter,
+                               given.parameter->name, given.row->word, turn - 1)
+        : grown.step > 0
+            ? fmt::format("`{}` is a heading and grows without limit; headings end at {}", letter,
+                          turn - 1)
+            : fmt::format("`{}` is a heading and shrinks without limit; headings begin at 0",
+                          letter),
         fmt::format("write `{}`", bounded));
-    d.fix = Fix{d.help,
-                {{{sum.span.begin, sum.span.begin}, "("},
-                 {{sum.span.end, sum.span.end}, fmt::format(") % {}", turn)}},
-                heading ? Safety::Safe : Safety::Unsafe};
+    d.fix = single_fix(d.help, sum.span, bounded, heading ? Safety::Safe : Safety::Unsafe);
   }
 
   const Program& program_;

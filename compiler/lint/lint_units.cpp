@@ -152,11 +152,12 @@ private:
     return next != nullptr && (next->kind == Statement::Goroll || next->kind == Statement::End);
   }
 
-  /// Whoever asks for a number by print wants a person to answer; a client can be faster.
+  /// Whoever asks for a number once, or by print, wants a person to answer; a client can be faster.
   void check_input(const StatementNode& statement, std::uint32_t code) {
     const auto input = program_.as<InputView>(statement);
     const auto* asked = above(code);
-    if (input.milliseconds == nullptr || asked == nullptr || asked->kind != Statement::Print)
+    const bool polls = (asked == nullptr || asked->kind != Statement::Print) && in_loop(code);
+    if (input.milliseconds == nullptr || polls)
       return;
     const auto ms = number(*input.milliseconds);
     if (ms && *ms > 0 && *ms < least_meant)

@@ -171,6 +171,8 @@ std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, st
   }
   if (parameter.least != speed.least || parameter.greatest != speed.greatest)
     return std::nullopt;
+  if (value < 0 && parameter.name == "speed")
+    return std::nullopt; // who writes that wants to drive back, not to stop
   return std::clamp(value, parameter.least, parameter.greatest);
 }
 

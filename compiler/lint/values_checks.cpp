@@ -182,8 +182,9 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
   const auto& row = spec::info(statement.kind);
   const auto parameters = row.parameters();
   const auto arguments = program_.items_of(statement);
-  const bool swapped = statement.kind == spec::Statement::Goroll && check_swapped(arguments);
-  for (std::size_t i = swapped ? 2 : 0; i < arguments.size(); ++i)
+  const bool mended = statement.kind == spec::Statement::Goroll &&
+                      (check_swapped(arguments) || check_backward(arguments));
+  for (std::size_t i = mended ? 2 : 0; i < arguments.size(); ++i)
     check_range(arguments[i], row.word, parameters[i]);
   if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
       target_.version >= spec::info(spec::BasicGrowth::GoValue).since)
@@ -216,6 +217,27 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
               {{arguments[0].span, std::string(program_.text_of(arguments[1].span))},
                {arguments[1].span, std::string(program_.text_of(arguments[0].span))}},
               Safety::Unsafe};
+  return true;
+}
+
+/// A speed below 0: the ball drives back when it is headed the other way.
+bool ValuesPass::check_backward(std::span<const Item> arguments) {
+  const auto parameters = spec::info(spec::Statement::Goroll).parameters();
+  const auto heading = range_of(arguments[0]);
+  const auto speed = range_of(arguments[1]);
+  if (!heading.constant() || heading.misses(parameters[0].least, parameters[0].greatest) ||
+      !speed.constant() || speed.lo >= 0 || speed.lo < -parameters[1].greatest)
+    return false;
+  const auto line =
+      fmt::format("goroll {},{}{}", (heading.lo + full_turn / 2) % full_turn, -speed.lo,
+                  program_.text_of({arguments[1].span.end, arguments.back().span.end}));
+  auto& d = findings_.add(rules::ValueOutOfRange, arguments[1].span,
+                          fmt::format("`goroll` takes speed {} to {}, found {}",
+                                      parameters[1].least, parameters[1].greatest, speed.lo),
+                          fmt::format("write `{}` to drive back", line));
+  const auto statement = program_.text.rfind("goroll", arguments[0].span.begin);
+  d.fix = single_fix(d.help, {static_cast<std::uint32_t>(statement), arguments.back().span.end},
+                     line, Safety::Unsafe);
   return true;
 }
 

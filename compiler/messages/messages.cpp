@@ -123,7 +123,9 @@ private:
     if (after(fault_.span.end) == '=')
       return unknown_variable(name);
     const auto words = statement_words();
-    const auto best = closest(name, words);
+    auto best = closest(name, words);
+    if (best && !equal_words(*best, name) && repair::is_known_word(name, repair::Where::Line))
+      best.reset(); // what people write elsewhere is not misspelt: `wend`
     if (best && equal_words(*best, name))
       return make(rules::UnknownStatement,
                   fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
@@ -153,8 +155,8 @@ private:
     constexpr std::size_t least = 4;
     auto others = statement_words();
     std::erase(others, best);
-    return name.size() >= least && !repair::is_known_word(name, repair::Where::Line) &&
-           equal_words(name.substr(0, 1), best.substr(0, 1)) && !closest(name, others);
+    return name.size() >= least && equal_words(name.substr(0, 1), best.substr(0, 1)) &&
+           !closest(name, others);
   }
 
   /// `name = …`: a variable that does not exist.
@@ -297,11 +299,46 @@ private:
   }
 
   Diagnostic non_literal() const {
-    return make(rules::NonLiteralTarget,
-                fmt::format("`{}` takes a plain line number, found {}", word(), found()),
-                is_letter(token()[0]) && token().size() > 1
-                    ? "jump to a line by its number: `goto 100`"
-                    : "to choose between lines use `on A goto 100,200`");
+    auto d = make(rules::NonLiteralTarget,
+                  fmt::format("`{}` takes a plain line number, found {}", word(), found()),
+                  is_letter(token()[0]) && token().size() > 1
+                      ? fmt::format("jump to a line by its number: `{} 100`", word())
+                      : "to choose between lines use `on A goto 100,200`");
+    const auto number =
+        fault_.statement == spec::Statement::Gosub && is_letter(token()[0]) ? only_subroutine() : 0;
+    if (number > 0 && skip_blanks(fault_.span.end) == code_end()) {
+      d.help = fmt::format("write `{}{}`", program_.text_of({line_.span.begin, fault_.span.begin}),
+                           number);
+      set_fix(d, d.help, fault_.span, std::to_string(number), Safety::Unsafe);
+    }
+    return d;
+  }
+
+  /// The number of the only subroutine that nothing calls: it stands below what does not go on
+  /// there, and ends with `return`. 0 where there is none, or another one.
+  std::uint32_t only_subroutine() const {
+    std::uint32_t only = 0;
+    std::uint32_t begin = 0; // of what may be one
+    bool falls = true;
+    for (const auto& line : program_.lines) {
+      if (!line.has_number() || !line.has_statement())
+        continue;
+      const auto& statement = program_.statements[line.statement];
+      begin = falls ? begin : line.number;
+      falls = statement.error || (statement.kind != spec::Statement::End &&
+                                  statement.kind != spec::Statement::Return &&
+                                  statement.kind != spec::Statement::Goto);
+      const bool called =
+          std::any_of(program_.items.begin(), program_.items.end(), [&](const Item& item) {
+            return item.kind == ItemKind::Target && item.value == begin;
+          });
+      if (statement.error || statement.kind != spec::Statement::Return || begin == 0 || called)
+        continue;
+      if (only != 0)
+        return 0;
+      only = begin;
+    }
+    return only;
   }
 
   Diagnostic expected_then() const {

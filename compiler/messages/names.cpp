@@ -49,19 +49,75 @@ private:
 
   /// `start:`, a label.
   std::optional<Diagnostic> label() const {
-    if (!is(Reason::UnknownWord) || after(end()) != ':')
+    const bool numbered = is(Reason::UnknownWord);
+    const auto place = numbered ? Span{begin(), end()} : word_at(begin());
+    if (!(numbered || is(Reason::MissingNumber)) || place.size() == 0 || after(place.end) != ':')
       return std::nullopt;
-    const auto colon = skip_blanks(end());
-    auto d = finding(rules::UnknownStatement, {begin(), colon + 1},
-                     fmt::format("`{}:` is a label; orbBasic has no labels", token()),
-                     fmt::format("jump to the line by its number: `goto {}`", line_.number));
-    if (edits_of_name(token(), {}).size() > 1)
-      return d; // the jumps to it come first
-    if (skip_blanks(colon + 1) == code_end())
-      offer(d, "make it a comment", {{{begin(), begin()}, "' "}});
-    else
-      offer(d, "remove the label", {{{begin(), skip_blanks(colon + 1)}, ""}});
+    const auto colon = skip_blanks(place.end);
+    const auto name = program_.text_of(place);
+    const bool alone = skip_blanks(colon + 1) >= code_end();
+    if (!numbered && !alone)
+      return std::nullopt;
+    auto d = finding(rules::UnknownStatement, {place.begin, colon + 1},
+                     fmt::format("`{}:` is a label; orbBasic has no labels", name));
+    auto jumps = edits_of_name(name, {});
+    std::erase_if(jumps, [&](const Edit& one) {
+      return one.span.begin == place.begin || !follows_jump(one.span.begin);
+    });
+    const auto below = alone ? number_below() : line_.number;
+    if (!numbered && (below == 0 || jumps.empty()))
+      return std::nullopt; // it takes a number first, whatever it is
+    const auto number = below == 0 ? line_.number : below;
+    if (jumps.empty()) {
+      if (alone)
+        offer(d, "make it a comment", {{{begin(), begin()}, "' "}});
+      else
+        offer(d, "remove the label", {{{begin(), skip_blanks(colon + 1)}, ""}});
+      return d;
+    }
+    d.help =
+        fmt::format("leave {} out, and jump to line {}", alone ? "the line" : "the label", number);
+    for (auto& jump : jumps)
+      jump.text = std::to_string(number);
+    if (below == 0) { // what jumps there ends
+      d.help = fmt::format("write `{} end`", number);
+      jumps.push_back({{begin(), colon + 1}, "end"});
+    } else {
+      const Span line{line_.span.begin, next_line()};
+      jumps.push_back({alone ? line : Span{begin(), skip_blanks(colon + 1)}, ""});
+    }
+    std::sort(jumps.begin(), jumps.end(),
+              [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
+    d.fix = Fix{d.help, std::move(jumps), Safety::Safe};
     return d;
+  }
+
+  /// Whether a place is behind `goto` or `gosub`.
+  bool follows_jump(std::uint32_t at) const {
+    auto before = at;
+    while (before > 0 && is_blank(text_[before - 1]))
+      --before;
+    const auto line = text_.substr(0, before);
+    return line.ends_with("goto") || line.ends_with("gosub");
+  }
+
+  /// The number of the first statement below; 0 without one.
+  std::uint32_t number_below() const {
+    for (auto i = fault_.line + 1; i < program_.lines.size(); ++i) {
+      const auto& line = program_.lines[i];
+      auto at = line.number_span.end;
+      while (at < line.span.end && is_blank(text_[at]))
+        ++at;
+      if (line.has_number() && at < line.span.end && text_[at] != '\'')
+        return line.number;
+    }
+    return 0;
+  }
+
+  /// Where the line below begins.
+  std::uint32_t next_line() const {
+    return fault_.line + 1 < program_.lines.size() ? program_.lines[fault_.line + 1].span.begin
+                                                   : static_cast<std::uint32_t>(text_.size());
   }
 
   /// A variable with a name of more than one letter: the first of a program gets a free letter.
@@ -136,7 +192,8 @@ private:
     const auto word = find_word(name);
     if (word.kind == WordKind::Unknown) {
       for (const auto& row : spec::variables)
-        if (row.access == spec::Access::ReadWrite && equal_words(row.word, name))
+        if (row.access == spec::Access::ReadWrite &&
+            (equal_words(row.word, name) || (begins(row.word, name) && !counts(name))))
           return std::nullopt;
       return span;
     }
@@ -146,6 +203,20 @@ private:
                        *sensor != spec::Variable::Yaw && *sensor != spec::Variable::Xpos &&
                        *sensor != spec::Variable::Ypos;
     return plain && stands_elsewhere(name) ? std::optional(span) : std::nullopt;
+  }
+
+  /// Whether a name is a word of the robot without its last letter: `timer` of `timerA`.
+  static bool begins(std::string_view word, std::string_view name) {
+    return equal_words(word.substr(0, word.size() - 1), name);
+  }
+
+  /// Whether a line sets a name to what it was and more.
+  bool counts(std::string_view name) const {
+    return std::any_of(program_.lines.begin(), program_.lines.end(), [&](const Line& line) {
+      std::vector<Edit> edits;
+      add_edits(edits, line, name, {});
+      return edits.size() > 1;
+    });
   }
 
   bool stands_elsewhere(std::string_view name) const {
@@ -268,60 +339,101 @@ private:
     }
   }
 
-  /// Where a `:` stands between two statements: `print "a" : end`.
-  std::optional<std::uint32_t> colon_between() const {
+  /// Where `:` stand between statements from `from` on: `print "a" : end`.
+  std::vector<std::uint32_t> colons(std::uint32_t from) const {
+    std::vector<std::uint32_t> found;
     const auto line = text_.substr(0, code_end());
     bool quoted = false;
-    for (auto at = skip_blanks(line_.number_span.end); at < line.size(); ++at) {
+    for (auto at = from; at < line.size(); ++at) {
       quoted = quoted != (line[at] == '"');
-      if (quoted || line[at] != ':')
-        continue;
       const bool braces =
           line.substr(line_.span.begin, at - line_.span.begin).find('{') != std::string_view::npos;
-      if (!braces && is_letter(after(at + 1)))
-        return at;
+      if (!quoted && line[at] == ':' && !braces && is_letter(after(at + 1)))
+        found.push_back(at);
     }
-    return std::nullopt;
+    return found;
   }
 
   std::optional<Diagnostic> colon() const {
     const bool here = token() == ":" && (is(Reason::Trailing) || is(Reason::ExpectedStatement));
-    const auto at = here ? std::optional(begin()) : colon_between();
-    if (!at || is(Reason::MissingNumber))
+    const auto all = colons(skip_blanks(line_.number_span.end));
+    if ((!here && all.empty()) || is(Reason::MissingNumber))
       return std::nullopt;
-    auto d = finding(rules::Colon, {*at, *at + 1},
+    const auto at = here ? begin() : all.front();
+    auto d = finding(rules::Colon, {at, at + 1},
                      "one statement per line; `:` does not separate statements",
                      "put the rest on a separate line");
+    if (!line_.has_number() || line_.number_span.size() == 0 || all.empty() || all.front() != at)
+      return d;
+    const auto first = skip_blanks(line_.number_span.end);
+    std::vector<std::string> statements;
+    for (auto from = first; const auto end : all) {
+      statements.emplace_back(program_.text_of({from, skip_back(end)}));
+      from = skip_blanks(end + 1);
+    }
+    statements.emplace_back(program_.text_of({skip_blanks(all.back() + 1), code_end()}));
     // After `then` the rest belongs to the branch, which holds one statement.
-    const bool branch = program_.text_of(word_at(skip_blanks(line_.number_span.end))) == "if";
-    if (!line_.has_number() || line_.number_span.size() == 0 || branch)
+    if (program_.text_of(word_at(first)) == "if" && !repeat_condition(statements))
       return d;
-    const auto number = free_number_below();
-    const auto rest = skip_blanks(*at + 1);
-    if (!number || rest == code_end())
+    const auto step = step_below(statements.size());
+    if (step == 0)
       return d;
-    d.help = fmt::format("put the rest on a separate line: `{} {}`", *number,
-                         text_.substr(rest, code_end() - rest));
-    d.fix = Fix{fmt::format("make it line {}", *number),
-                {{{skip_back(*at), rest}, fmt::format("\n{} ", *number)}},
-                Safety::Safe};
+    std::string lines;
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+      const auto line =
+          fmt::format("{} {}", line_.number + static_cast<std::uint32_t>(i) * step, statements[i]);
+      d.help =
+          i == 0 ? fmt::format("write `{}`", line) : fmt::format("{}, then `{}`", d.help, line);
+      lines += i == 0 ? "" : line_end_of(text_);
+      lines += line;
+    }
+    d.fix = Fix{d.help, {{{line_.number_span.begin, code_end()}, lines}}, Safety::Safe};
     return d;
   }
 
-  /// A number between this line's and the next one's.
-  std::optional<std::uint32_t> free_number_below() const {
+  /// Puts the condition of the first statement before the others; false where that says something
+  /// else: they set something, or asking twice is not asking once.
+  static bool repeat_condition(std::vector<std::string>& statements) {
+    const auto then = statements[0].find(" then ");
+    if (then == std::string::npos)
+      return false;
+    const auto condition = statements[0].substr(0, then);
+    const auto tokens = repair::tokens_of(condition, repair::Language::Basic);
+    const bool plain = std::all_of(tokens.begin() + 1, tokens.end(), [](const auto& token) {
+      return !token.is_word() || token.text.size() == 1 || token.is("and") || token.is("or");
+    });
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+      const auto branch = i == 0 ? statements[0].substr(then + 6) : statements[i];
+      if (!plain || branch.find_first_of("=") != std::string::npos ||
+          branch.find("else") != std::string::npos || branch.starts_with("if ") ||
+          branch.starts_with("gosub") || branch.starts_with("input") || branch.starts_with("read"))
+        return false;
+      if (i > 0)
+        statements[i] = fmt::format("{} then {}", condition, branch);
+    }
+    return true;
+  }
+
+  /// By how much the numbers of so many lines, this one among them, can grow without reaching the
+  /// next one's or one that something jumps to; 0 where they cannot.
+  std::uint32_t step_below(std::size_t lines) const {
     auto above = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)) + 1;
     for (auto i = fault_.line + 1; i < program_.lines.size(); ++i)
       if (program_.lines[i].has_number()) {
         above = program_.lines[i].number;
         break;
       }
-    const auto number = above > line_.number + 10 ? line_.number + 5 : line_.number + 1;
+    const auto count = static_cast<std::uint32_t>(lines);
+    if (above <= line_.number)
+      return 0;
+    const auto step = std::min((above - line_.number) / count, std::uint32_t{10});
     const bool named =
         std::any_of(program_.items.begin(), program_.items.end(), [&](const Item& item) {
-          return item.kind == ItemKind::Target && item.value == number;
+          return item.kind == ItemKind::Target && step > 0 && item.value > line_.number &&
+                 (item.value - line_.number) % step == 0 &&
+                 (item.value - line_.number) / step < count;
         });
-    return number < above && !named ? std::optional(number) : std::nullopt;
+    return named ? 0 : step;
   }
 };
 

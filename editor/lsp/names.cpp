@@ -10,10 +10,11 @@ namespace {
 Json locations(const Workspace& space, const Asked& asked, const Occurrences& names,
                bool definitions, bool uses) {
   auto list = Json::array();
+  auto places = space.ruler(asked.document.source);
   const auto add = [&](bool wanted, const std::vector<Span>& spans) {
     if (wanted)
       for (const auto span : spans)
-        list.push_back({{"uri", asked.uri}, {"range", space.range(asked.document.source, span)}});
+        list.push_back({{"uri", asked.uri}, {"range", space.range(places, span)}});
   };
   add(definitions, names.definitions);
   add(uses, names.uses);
@@ -49,10 +50,11 @@ Answer highlight(const Workspace& space, const Asked& asked) {
   const auto names =
       document.language->occurrences(document.source, asked.at, space.surroundings());
   auto list = Json::array();
+  auto places = space.ruler(document.source);
   for (const auto span : names.definitions)
-    list.push_back({{"range", space.range(document.source, span)}, {"kind", write}});
+    list.push_back({{"range", space.range(places, span)}, {"kind", write}});
   for (const auto span : names.uses)
-    list.push_back({{"range", space.range(document.source, span)}, {"kind", read}});
+    list.push_back({{"range", space.range(places, span)}, {"kind", read}});
   return list;
 }
 

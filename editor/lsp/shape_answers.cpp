@@ -39,12 +39,13 @@ Json shape_capabilities() {
 Json pack_colors(const Wording& words, const Source& source, const std::vector<Colored>& colors,
                  Span within) {
   auto data = Json::array();
+  auto places = words.ruler(source);
   TextPosition last;
   for (const auto& one : colors) {
     if (one.span.end < within.begin || within.end < one.span.begin)
       continue;
-    const auto begin = position_of(source, one.span.begin, words.encoding);
-    const auto end = position_of(source, one.span.end, words.encoding);
+    const auto begin = places(one.span.begin);
+    const auto end = places(one.span.end);
     if (end.line != begin.line || end.character <= begin.character)
       continue;
     const bool same_line = begin.line == last.line;

@@ -104,6 +104,9 @@ Answer code_actions(const Workspace& space, const Asked& asked) {
                     {"diagnostics", Json::array({diagnostic(space, uri, document, one)})},
                     {"edit", workspace_edit(uri, space.edits(document.source, one.fix->edits))}});
   }
+  constexpr std::size_t most = 65536; // bytes; no robot holds more, and nobody waits that long
+  if (document.source.text().size() > most)
+    return list;
   for (const auto& rewrite : document.language->rewrites(document.source, space.options))
     if (wanted(rewrite.kind))
       list.push_back(

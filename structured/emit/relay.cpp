@@ -100,6 +100,11 @@ private:
     auto& program = compiled_.program;
     const auto& statement = statement_at(found.span.begin);
     const auto* argument = argument_of(found.span, statement);
+    if (found.rule == &robot::WrongUnit && argument != nullptr) {
+      const auto text = program.text_of(argument->span);
+      if (is_digit(text.front()) && is_letter(text.back()))
+        return; // it has its unit
+    }
     const bool said = std::any_of(
         program.diagnostics.begin(), program.diagnostics.end(), [&](const Diagnostic& other) {
           return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
@@ -200,15 +205,19 @@ private:
         heading = is_digit(first[0]) ? first : heading;
         place = only_wait_below(roll, statement);
       }
-    const auto line = fmt::format("goroll {}, 0, 0", heading);
+    auto line = fmt::format("goroll {}, 0, 0", heading);
+    const std::string end(line_end_of(program.text));
+    const bool waits = found.help.find("delay") == std::string::npos; // somewhere
     const auto& last = *place;
     const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
-    told.help = fmt::format("add `{}` {}", line, ends ? "above" : "below");
-    if (&last != &statement)
+    told.help = waits ? fmt::format("add `{}` {}", line, ends ? "above" : "below")
+                      : fmt::format("add `delay 1s`, then `{}`", line);
+    if (!waits)
+      line = "delay 1s" + end + line;
+    else if (&last != &statement)
       told.help += fmt::format(" `{}`", program.text_of(last.span));
     if (last.depth > 0 || last.one_line)
       return;
-    const std::string end(line_end_of(program.text));
     const auto begin = last.span.begin;
     const auto rest = program.text.find_first_of("\r\n", last.span.end);
     const auto at = static_cast<std::uint32_t>(std::min(rest, program.text.size()));
@@ -226,9 +235,12 @@ private:
                                            : same_number(plain_.text_of(edit.span), statement);
     if (!there)
       return;
+    auto text = edit.text;
+    for (auto comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1))
+      text.insert(comma + 1, text.compare(comma + 1, 1, " ") == 0 ? "" : " ");
     told.help = fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, there->begin}),
-                            edit.text, program.text_of({there->end, statement.span.end}));
-    told.fix = Fix{told.help, {{*there, edit.text}}, Safety::Unsafe};
+                            text, program.text_of({there->end, statement.span.end}));
+    told.fix = Fix{told.help, {{*there, std::move(text)}}, Safety::Unsafe};
   }
 
   /// The only number of a statement that is written like one of its line.
@@ -262,9 +274,13 @@ private:
     if (statement.operation != Statement::none_operation)
       sum = fmt::format("{} {} {}", name,
                         spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
+    // What the robot's own line adds keeps what becomes smaller at 0 or more.
     const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
-    told.message = fmt::format("`{}` is a heading and grows without limit; headings end at {}",
-                               name, turn - 1);
+    const bool shrinks = told.message.find("shrinks") != std::string::npos;
+    const auto added = told.help.find(" + ");
+    if (shrinks && added != std::string::npos)
+      sum = fmt::format("{}{}", name, told.help.substr(added, told.help.find(')') - added));
+    told.message.replace(0, told.message.find(" is "), fmt::format("`{}`", name));
     told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
   }
 

@@ -112,9 +112,15 @@ Diagnostic trailing(const Program& program, Span found) {
   if (before == ',' && begins_line(program.text, found.begin))
     return malformed(program, found, "the comma above continues its line",
                      "to print a trailing space write `, ;`");
-  if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name)
+  if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name) {
+    const std::string_view all = program.text;
+    const auto end = std::min(all.find_first_of("'\r\n", found.end), all.size());
+    const auto index = all.find('(', static_cast<std::size_t>(statement.data() - all.data())) + 1;
     return malformed(program, found, "an array index is written in brackets",
-                     fmt::format("write `{}[1] = 2`", statement));
+                     fmt::format("write `{}[{}] = {}`", statement,
+                                 trim(all.substr(index, all.rfind(')', found.begin) - index)),
+                                 trim(all.substr(found.end, end - found.end))));
+  }
   if (text == ":")
     return finding(rules::ForeignWord, found, "`:` does not separate statements",
                    "write one statement per line");
@@ -226,7 +232,7 @@ Diagnostic foreign_character(const Program& program, Span found) {
 Diagnostic reserved(const Program& program, Span word) {
   return finding(rules::ReservedName, word,
                  fmt::format("`{}` is a reserved word", program.text_of(word)),
-                 "choose another name");
+                 fmt::format("write `my_{}` in all these lines", program.text_of(word)));
 }
 
 /// How the functions are written.

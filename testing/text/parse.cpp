@@ -233,7 +233,11 @@ void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
   judge.language = repair::Language::Test;
   judge.words = all_words();
   const auto elsewhere = look_elsewhere(source);
-  judge.parses = [elsewhere](std::string_view line) {
+  judge.parses = [elsewhere, words = judge.words](std::string_view line) {
+    const auto tokens = repair::tokens_of(line, repair::Language::Test);
+    if (!tokens.empty() && tokens[0].is_word() &&
+        std::find(words.begin(), words.end(), tokens[0].text) == words.end())
+      return false;
     if (!elsewhere.may_have_zones && (line.find(info(Word::Inside).word) != std::string::npos ||
                                       line.find(info(LineWord::Reach).word) != std::string::npos))
       return false;

@@ -200,7 +200,7 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
     const auto& token = values[i];
     if (token.is(",") || token.is(";") || token.is("(") || token.is(")") || token.is("[") ||
         token.is("]") || token.is("=") || token.is(":") || token.is("x") || token.is("y") ||
-        token.is("by") || token.is("at"))
+        token.is("by") || token.is("at") || token.is("within")) // a length is no time
       continue;
     const bool sign = token.is("-") && i + 1 < values.size() && values[i + 1].is_number();
     if (!token.is_number() && !sign)

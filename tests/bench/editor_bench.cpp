@@ -53,6 +53,27 @@ std::string test_file() {
   return text;
 }
 
+/// 200 lines, every 16th of them broken in one of the ways that beginners break them.
+std::string broken(const std::string& ending) {
+  constexpr int lines = 200;
+  std::string text;
+  for (int n = 1; n <= lines; ++n) {
+    const bool wrong = n % 16 == 0;
+    if (ending == "bas")
+      text += wrong ? fmt::format("{} wait {} sec\n", n * 10, n)
+                    : fmt::format("{} goroll {},{},1\n", n * 10, n, 50 + n % 100);
+    else if (ending == "orb")
+      text += wrong ? fmt::format("if x == {}: print(\"a\")\n", n)
+                    : fmt::format("goroll {}, {}, 1\n", n, 50 + n % 100);
+    else if (ending == "macro")
+      text += wrong ? fmt::format("wait({} sec)\n", n) : fmt::format("rgb {}, 0, 0, 200ms\n", n);
+    else
+      text += wrong ? fmt::format("expct colour is red in {} seconds\n", n)
+                    : fmt::format("expect print \"{}\" within 10s\n", n);
+  }
+  return text;
+}
+
 void keystroke(benchmark::State& state, const std::string& name, const std::string& text) {
   orb::editor::LanguageServer server;
   const auto tell = [&](const char* method, Json params) {
@@ -83,3 +104,9 @@ BENCHMARK_CAPTURE(keystroke, structured, "a.orb", structured_program())
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(keystroke, macro, "a.macro", macro_source())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(keystroke, test, "a.test", test_file())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(keystroke, broken_basic, "b.bas", broken("bas"))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(keystroke, broken_structured, "b.orb", broken("orb"))
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(keystroke, broken_macro, "b.macro", broken("macro"))
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(keystroke, broken_test, "b.test", broken("test"))->Unit(benchmark::kMillisecond);
