@@ -267,10 +267,25 @@ private:
     return good;
   }
 
+  /// `a <= b` of two values that may be any: `a < b or a = b`.
+  void spell_out(Condition& condition) const {
+    auto& first = condition.first;
+    if (condition.glue != Glue::None || can_say(code_, condition) || !code_.is_leaf(first.left) ||
+        !code_.is_leaf(first.right))
+      return;
+    condition.second = first;
+    condition.second.comparison = Comparison::Equal;
+    condition.glue = Glue::Or;
+    first.comparison =
+        first.comparison == Comparison::LessEqual ? Comparison::Less : Comparison::Greater;
+  }
+
   /// Makes line `i` a choice: `taken` where its condition holds, `passed` where it does not.
   bool choose(std::uint32_t i, std::uint32_t taken, std::uint32_t passed) {
     auto& line = code_.lines[i];
     auto condition = code_.conditions[line.condition];
+    if (passed == none)
+      spell_out(condition);
     // Without an `else` the condition must be the one that holds; with one either will do, and the
     // comparison that the robot has reads better.
     const bool turned = is_missing(condition.first.comparison) && passed != none &&
@@ -279,6 +294,7 @@ private:
       condition = opposite_of(condition);
       std::swap(taken, passed);
     }
+    spell_out(condition);
     if (taken == none || !can_say(code_, condition) || !name_origin(line, taken, passed))
       return false;
     code_.conditions.push_back(condition);
@@ -421,10 +437,8 @@ private:
         continue;
       const auto last = static_cast<std::uint32_t>(code_.lines.size()) - 1;
       const auto target = add_branch(jump(lines[i], lines[i].label));
-      if (can_say(code_, code_.conditions[lines[i].condition])) {
-        choose(last, target, none);
+      if (choose(last, target, none))
         continue;
-      }
       const auto next = code_.labels++;
       choose(last, target, add_branch(jump(lines[i], next)));
       CodeLine label;

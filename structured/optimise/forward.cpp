@@ -3,6 +3,7 @@
 #include "spec/limits.h"
 #include "structured/analyse/flow.h"
 #include "structured/analyse/line_facts.h"
+#include "structured/optimise/jumps.h"
 
 #include <algorithm>
 #include <optional>
@@ -26,8 +27,8 @@ bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64
 class Forwarder {
 public:
   explicit Forwarder(Code& code)
-      : code_(code), flow_(read_flow(code)), facts_(code_, flow_),
-        liveness_(read_liveness(code, flow_)) {}
+      : code_(code), named_(tidy(code)), at_(lines_of_labels(code)), flow_(read_flow(code)),
+        facts_(code_, flow_), liveness_(read_liveness(code, flow_)) {}
 
   bool run() {
     constexpr int most_copies = 8;
@@ -261,7 +262,9 @@ private:
     auto last = i + 1;
     for (auto j = i + 1; j < code_.lines.size() && j < i + reach && found < reads_[variable]; ++j) {
       auto& line = code_.lines[j];
-      if (line.kind == LineKind::Label || line.kind == LineKind::For)
+      if (line.kind == LineKind::Label ||
+          (line.kind == LineKind::For && // sets it, then reads on
+           (line.variable == variable || facts_.reads(term, line.variable))))
         return;
       // What a statement is given keeps the name that a fault speaks of.
       bool deep = false;
@@ -327,20 +330,38 @@ private:
     constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
     if ((code_.terms[term].effects & moving) != 0 || facts_.reads(term, variable))
       return;
-    const auto last =
-        std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
-    for (auto j = i + 1; j < last; ++j) {
+    drop_repeated(i, i + 1, none);
+  }
+
+  /// The same below line `from`, to which line `jump` leads, or which is the one below.
+  void drop_repeated(std::uint32_t i, std::uint32_t from, std::uint32_t jump) {
+    const auto variable = code_.lines[i].variable;
+    const auto term = code_.lines[i].term;
+    const auto size = static_cast<std::uint32_t>(code_.lines.size());
+    for (auto j = from; j < std::min(size, from + reach); ++j) {
       auto& line = code_.lines[j];
       if (line.kind == LineKind::Let && line.variable == variable && same(code_, line.term, term)) {
         drop(line);
-        for (auto k = i; k <= j; ++k) // the value is read on
+        for (auto k = i; jump != none && k <= jump; ++k) // the value is read on
           remove(last_reads_[k], variable);
+        for (auto k = jump == none ? i : from; k <= j; ++k)
+          remove(last_reads_[k], variable);
+        if (jump != none)
+          insert(liveness_.in[flow_.block_of_label[code_.lines[jump].label]], variable);
         continue;
       }
       if (line.kind == LineKind::Label || facts_.ends_text(line) || facts_.writes(line, variable) ||
           facts_.disturbs(line, term))
         return;
+      if (line.kind == LineKind::If && jump == none && only_jumps_lead_to(line.label))
+        drop_repeated(i, at_[line.label] + 1, j);
     }
+  }
+
+  /// Whether one line of the program leads to a label, and that is a jump.
+  bool only_jumps_lead_to(std::uint32_t label) const {
+    const auto at = at_[label];
+    return named_[label] == 1 && at != none && at > 0 && !falls_through(code_.lines[at - 1]);
   }
 
   /// Reads the original all through the program where a copy, once made, is never another value
@@ -565,6 +586,8 @@ private:
   }
 
   Code& code_;
+  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> at_;    ///< of each label: its line
   Flow flow_;
   LineFacts facts_;
   Liveness liveness_;

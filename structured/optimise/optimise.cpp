@@ -1,6 +1,7 @@
 #include "structured/optimise/optimise.h"
 
 #include "structured/optimise/copies.h"
+#include "structured/optimise/counted.h"
 #include "structured/optimise/elements.h"
 #include "structured/optimise/forward.h"
 #include "structured/optimise/hoist.h"
@@ -49,6 +50,7 @@ void settle(Code& code, std::span<Pass> passes, std::uint32_t& changes) {
 void shorten(Code& code) {
   Pass passes[] = {
       {clean_jumps},
+      {count_loops},
       {split_variables},
       {forward_values},
       {[](Code& one) { return merge_tails(one, itself); }},
