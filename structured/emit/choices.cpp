@@ -1,6 +1,7 @@
 #include "structured/emit/choices.h"
 
 #include "structured/analyse/flow.h"
+#include "structured/emit/fall.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/tails.h"
 #include "structured/text/words.h"
@@ -54,11 +55,13 @@ unsigned orders_of(Comparison comparison) {
 
 class ChoiceWriter {
 public:
-  ChoiceWriter(Code& code, const Program& program) : code_(code), program_(program) {}
+  ChoiceWriter(Code& code, const Program& program, const Identity& identity)
+      : code_(code), program_(program), identity_(identity) {}
 
   void run() {
     while (join_tests())
       ;
+    join_heads();
     return_at_once();
     turn_branches();
     fold_branches();
@@ -196,6 +199,44 @@ private:
       ++i;
     }
     return changed;
+  }
+
+  /// Two ways from a test that begin with the same do it before the test.
+  void join_heads() {
+    named_ = tidy(code_);
+    at_ = lines_of_labels(code_);
+    auto& lines = code_.lines;
+    for (auto i = static_cast<std::uint32_t>(lines.size()); i-- > 0;) {
+      const auto at = lines[i].kind == LineKind::If ? at_[lines[i].label] : none;
+      if (at == none || at == 0 || named_[lines[i].label] != 1 || falls(lines[at - 1]))
+        continue;
+      for (auto test = i, other = at + 1; test + 1 < lines.size() && other < lines.size();
+           ++test, ++other) {
+        if (!does_same(code_, lines[test + 1], lines[other], identity_) ||
+            !passes(lines[test], lines[test + 1]))
+          break;
+        join_knowledge(code_, lines[test + 1], lines[other]);
+        lines[other].kind = LineKind::Nothing;
+        std::swap(lines[test], lines[test + 1]);
+      }
+    }
+    tidy(code_);
+  }
+
+  /// Whether a line can run before a test instead of after it. Variables that share a letter are
+  /// one.
+  bool passes(const CodeLine& test, const CodeLine& line) const {
+    const auto effects = structured::effects_of(code_, test);
+    const auto still = line.kind == LineKind::Let          ? 0
+                       : line.kind == LineKind::SetElement ? effect::elements
+                                                           : effect::elements | effect::senses;
+    bool good = !test.guard && structured::is_pure(effects) && (effects & still) == 0 &&
+                line.kind != LineKind::Gosub;
+    each_write(code_, line, [&](std::uint32_t set) {
+      each_line_read(code_, test,
+                     [&](std::uint32_t read) { good = good && identity_(read) != identity_(set); });
+    });
+    return good;
   }
 
   /// Whether a line may stand after `then` and `else`.
@@ -491,6 +532,7 @@ private:
 
   Code& code_;
   const Program& program_;
+  const Identity& identity_;
   std::vector<std::uint32_t> at_;    ///< of each label: its line, while branches are folded
   std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
 };
@@ -503,10 +545,14 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
         letters.of[code.terms[line.term].left] == letters.of[line.variable])
       line.kind = LineKind::Nothing;
   clean_jumps(code);
-  merge_tails(code, [&](std::uint32_t variable) { return std::uint32_t{letters.of[variable]}; });
+  const Identity letter = [&](std::uint32_t variable) {
+    return std::uint32_t{letters.of[variable]};
+  };
+  merge_tails(code, letter);
   straighten(code);
   clean_jumps(code);
-  ChoiceWriter(code, program).run();
+  fall_through_tests(code);
+  ChoiceWriter(code, program, letter).run();
 }
 
 } // namespace orb::structured
