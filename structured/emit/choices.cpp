@@ -311,8 +311,11 @@ private:
   /// `a <= b` of two values that may be any: `a < b or a = b`.
   void spell_out(Condition& condition) const {
     auto& first = condition.first;
-    if (condition.glue != Glue::None || can_say(code_, condition) || !code_.is_leaf(first.left) ||
-        !code_.is_leaf(first.right))
+    const auto& left = code_.terms[first.left];
+    const auto& right = code_.terms[first.right];
+    constexpr int longest = 6; // else a jump to the next line is shorter
+    if (condition.glue != Glue::None || can_say(code_, condition) ||
+        (left.effects | right.effects) != 0 || left.size + right.size > longest)
       return;
     condition.second = first;
     condition.second.comparison = Comparison::Equal;
