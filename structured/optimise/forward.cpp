@@ -454,8 +454,12 @@ private:
   /// What an element is known to be is read from the variable that holds it.
   void reuse_elements() {
     std::uint32_t index = none; // what the index was set to, while that is still so
+    std::uint32_t since = 0;    // this line
     held_.clear();
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      if (index != none && swap_stores(i, index))
+        for (auto k = since; k < i; ++k) // it is read on
+          remove(last_reads_[k], index_variable);
       auto& line = code_.lines[i];
       if (line.kind == LineKind::Label || line.kind == LineKind::Gosub ||
           line.kind == LineKind::OnGosub) {
@@ -490,15 +494,52 @@ private:
       constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
       if (line.kind == LineKind::Let && line.variable == index_variable &&
           (code_.terms[line.term].effects & moving) == 0 &&
-          !facts_.reads(line.term, index_variable))
+          !facts_.reads(line.term, index_variable)) {
         index = line.term;
-      else if (loads && index != none && line.variable != index_variable)
+        since = i;
+      } else if (loads && index != none && line.variable != index_variable) {
         held_.push_back({at, line.variable, i});
-      else if (line.kind == LineKind::SetElement && index != none &&
-               code_.terms[line.term].kind == TermKind::Variable &&
-               code_.terms[line.term].left != index_variable)
+      } else if (line.kind == LineKind::SetElement && index != none &&
+                 code_.terms[line.term].kind == TermKind::Variable &&
+                 code_.terms[line.term].left != index_variable) {
         held_.push_back({at, code_.terms[line.term].left, i});
+      }
     }
+  }
+
+  /// `Y=I; Z=A; Y=J; Z=B` where the index is J already: `Z=B; Y=I; Z=A`, if the elements are not
+  /// one, or each gets what the other holds.
+  bool swap_stores(std::uint32_t i, std::uint32_t index) {
+    if (i + 3 >= code_.lines.size() || !contains(last_reads_[i + 3], index_variable) ||
+        !stores(i) || !stores(i + 2) || !same(code_, code_.lines[i + 2].term, index))
+      return false;
+    const auto first = code_.lines[i].term;
+    const auto value = code_.lines[i + 1].term;
+    const auto other = code_.lines[i + 3].term;
+    const auto is_held = [&](std::uint32_t at, std::uint32_t term) {
+      return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
+        return same(code_, held.index, at) && code_.terms[term].kind == TermKind::Variable &&
+               code_.terms[term].left == held.variable;
+      });
+    };
+    if (!facts_.differ(first, index) && !(is_held(first, other) && is_held(index, value)))
+      return false;
+    std::swap(code_.lines[i], code_.lines[i + 2]);
+    std::swap(code_.lines[i + 1], code_.lines[i + 3]);
+    drop(code_.lines[i]);
+    for (auto k = i; k <= i + 3; ++k)
+      each_member(last_reads_[k], [&](std::uint32_t v) { remove(last_reads_[k], v); });
+    return true;
+  }
+
+  /// Whether two lines set an element, and nothing else matters to them.
+  bool stores(std::uint32_t i) const {
+    const auto& set = code_.lines[i];
+    const auto& store = code_.lines[i + 1];
+    return set.kind == LineKind::Let && set.variable == index_variable &&
+           store.kind == LineKind::SetElement && store.proven && !set.guard && !store.guard &&
+           code_.terms[set.term].effects == 0 && code_.terms[store.term].effects == 0 &&
+           !facts_.reads(set.term, index_variable) && !facts_.reads(store.term, index_variable);
   }
 
   // ---- values that a variable holds
