@@ -451,65 +451,169 @@ private:
     std::uint32_t since; ///< this line
   };
 
-  /// What an element is known to be is read from the variable that holds it.
+  /// What is known at a place: what the index was set to, while that is still so, and elements.
+  struct Known {
+    std::uint32_t index = none;
+    std::uint32_t since = 0;     ///< this line
+    std::uint32_t tested = none; ///< the same where its tests follow: it is 0 where they fail
+    std::vector<Held> held;
+  };
+
+  void read_on(std::uint32_t variable, std::uint32_t since, std::uint32_t until) {
+    for (auto k = since; k < until; ++k)
+      remove(last_reads_[k], variable);
+  }
+
+  /// The label after the tests of an index that is set in line `i`, or none where it has none.
+  std::uint32_t end_of_tests(std::uint32_t i) const {
+    const auto& lines = code_.lines;
+    const auto is_test = [&](std::uint32_t n) {
+      return n < lines.size() && lines[n].kind == LineKind::If && lines[n].guard;
+    };
+    if (lines[i].kind != LineKind::Let || lines[i].variable != index_variable || !is_test(i + 1))
+      return none;
+    auto n = is_test(i + 2) ? i + 3 : i + 2;
+    if (n < lines.size() && lines[n].kind == LineKind::Label &&
+        lines[n].label == lines[i + 1].label)
+      ++n;
+    return n + 1 < lines.size() && lines[n].guard && lines[n].kind == LineKind::Let &&
+                   lines[n + 1].kind == LineKind::Label && named_[lines[n + 1].label] == 1
+               ? n + 1
+               : none;
+  }
+
+  /// Whether the tests after two lines that set the index let the same pass.
+  bool test_alike(std::uint32_t a, std::uint32_t b, std::uint32_t end_of_b) const {
+    for (++a, ++b; b < end_of_b; ++a, ++b) {
+      const auto& one = code_.lines[a];
+      const auto& other = code_.lines[b];
+      if (one.kind != other.kind || one.guard != other.guard)
+        return false;
+      if (one.kind != LineKind::If)
+        continue;
+      const auto& first = code_.conditions[one.condition].first;
+      const auto& second = code_.conditions[other.condition].first;
+      if (first.comparison != second.comparison || !same(code_, first.right, second.right))
+        return false;
+    }
+    return code_.lines[a].kind == LineKind::Label;
+  }
+
+  /// What an element is known to be is read from the variable that holds it; an index is not set
+  /// and tested again.
   void reuse_elements() {
-    std::uint32_t index = none; // what the index was set to, while that is still so
-    std::uint32_t since = 0;    // this line
-    held_.clear();
+    std::vector<Known> at_label(code_.labels); // where only a jump leads to it
+    Known known;
+    auto& [index, since, tested, elements] = known;
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
-      if (index != none && swap_stores(i, index))
-        for (auto k = since; k < i; ++k) // it is read on
-          remove(last_reads_[k], index_variable);
+      if (index != none && swap_stores(i, index, elements))
+        read_on(index_variable, since, i);
       auto& line = code_.lines[i];
-      if (line.kind == LineKind::Label || line.kind == LineKind::Gosub ||
-          line.kind == LineKind::OnGosub) {
-        index = none;
-        held_.clear();
+      if (const auto end = end_of_tests(i); end != none) {
+        if (index != none && tested != none && same(code_, line.term, index) &&
+            test_alike(tested, i, end)) {
+          read_on(index_variable, since, i);
+          for (; i < end; ++i)
+            drop(code_.lines[i]);
+          continue;
+        }
+        known = {is_still(line.term) ? line.term : none, i, i, {}};
+        i = end;
         continue;
       }
+      if (line.kind == LineKind::Label && only_jumps_lead_to(line.label)) {
+        known = at_label[line.label];
+        auto live = liveness_.in[flow_.block_of_label[line.label]];
+        insert(live, index_variable);
+        for (const auto& held : elements)
+          insert(live, held.variable);
+        continue;
+      }
+      if (line.kind == LineKind::Label || line.kind == LineKind::Gosub ||
+          line.kind == LineKind::OnGosub) {
+        known = {};
+        continue;
+      }
+      if (line.kind == LineKind::If && only_jumps_lead_to(line.label))
+        at_label[line.label] = known;
       const bool loads = line.kind == LineKind::Let && index != none &&
                          code_.terms[line.term].kind == TermKind::Element;
       const auto at = index;
       if (loads)
-        for (const auto& held : held_)
+        for (const auto& held : elements)
           if (same(code_, held.index, index)) {
             line.term = code_.read(held.variable);
             ++reads_[held.variable];
-            for (auto k = held.since; k < i; ++k) // it is read on
-              remove(last_reads_[k], held.variable);
+            read_on(held.variable, held.since, i);
             changed_ = true;
             break;
           }
+      if (index != none && line.kind != LineKind::For && line.kind != LineKind::Do)
+        for (const auto& held : elements)
+          if (held.since < since && is_element(held.variable, held.since) &&
+              same(code_, held.index, index))
+            read_there(line, held.variable, since, i);
       if (facts_.sets_elements(line))
-        std::erase_if(held_, [&](const Held& held) {
+        std::erase_if(elements, [&](const Held& held) {
           return index == none || !facts_.differ(held.index, index);
         });
       each_write(code_, line, [&](std::uint32_t v) {
-        std::erase_if(held_, [&](const Held& held) {
+        std::erase_if(elements, [&](const Held& held) {
           return held.variable == v || facts_.reads(held.index, v);
         });
         if (v == index_variable || (index != none && facts_.reads(index, v)))
           index = none;
       });
-      constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
-      if (line.kind == LineKind::Let && line.variable == index_variable &&
-          (code_.terms[line.term].effects & moving) == 0 &&
-          !facts_.reads(line.term, index_variable)) {
-        index = line.term;
+      if (line.kind == LineKind::Let && line.variable == index_variable) {
+        index = is_still(line.term) ? line.term : none;
         since = i;
+        tested = none;
       } else if (loads && index != none && line.variable != index_variable) {
-        held_.push_back({at, line.variable, i});
+        elements.push_back({at, line.variable, i});
       } else if (line.kind == LineKind::SetElement && index != none &&
                  code_.terms[line.term].kind == TermKind::Variable &&
                  code_.terms[line.term].left != index_variable) {
-        held_.push_back({at, code_.terms[line.term].left, i});
+        elements.push_back({at, code_.terms[line.term].left, i});
       }
     }
   }
 
+  /// Whether a term stays the same while its variables do.
+  bool is_still(std::uint32_t term) const {
+    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
+    return (code_.terms[term].effects & moving) == 0 && !facts_.reads(term, index_variable);
+  }
+
+  /// Whether line `since` reads an element into a variable that is read once.
+  bool is_element(std::uint32_t variable, std::uint32_t since) const {
+    const auto& line = code_.lines[since];
+    return line.kind == LineKind::Let && line.variable == variable && reads_[variable] == 1 &&
+           !code_.variables[variable].kept && code_.terms[line.term].effects == effect::elements;
+  }
+
+  /// Reads the element itself in place of the only reading of the variable that holds it, where
+  /// the index, set in line `since`, stands there again.
+  void read_there(CodeLine& line, std::uint32_t variable, std::uint32_t since, std::uint32_t i) {
+    each_root(code_, line, [&](std::uint32_t& root) {
+      const auto better = with_variables(code_, root, [&](std::uint32_t term) {
+        if (code_.terms[term].left != variable)
+          return term;
+        const auto element = code_.element();
+        code_.terms[element].effects = effect::elements;
+        return element;
+      });
+      if (better == root)
+        return;
+      root = better;
+      reads_[variable] = 0;
+      read_on(index_variable, since, i);
+      changed_ = true;
+    });
+  }
+
   /// `Y=I; Z=A; Y=J; Z=B` where the index is J already: `Z=B; Y=I; Z=A`, if the elements are not
   /// one, or each gets what the other holds.
-  bool swap_stores(std::uint32_t i, std::uint32_t index) {
+  bool swap_stores(std::uint32_t i, std::uint32_t index, std::span<const Held> all) {
     if (i + 3 >= code_.lines.size() || !contains(last_reads_[i + 3], index_variable) ||
         !stores(i) || !stores(i + 2) || !same(code_, code_.lines[i + 2].term, index))
       return false;
@@ -517,7 +621,7 @@ private:
     const auto value = code_.lines[i + 1].term;
     const auto other = code_.lines[i + 3].term;
     const auto is_held = [&](std::uint32_t at, std::uint32_t term) {
-      return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
+      return std::any_of(all.begin(), all.end(), [&](const Held& held) {
         return same(code_, held.index, at) && code_.terms[term].kind == TermKind::Variable &&
                code_.terms[term].left == held.variable;
       });
@@ -632,7 +736,6 @@ private:
   Flow flow_;
   LineFacts facts_;
   Liveness liveness_;
-  std::vector<Held> held_;
   std::vector<HeldValue> values_;
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
