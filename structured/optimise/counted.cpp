@@ -142,29 +142,22 @@ private:
     return !facts.reads(loop.last, loop.variable);
   }
 
-  /// How many loops of the robot can be open at once in it, with those around it.
+  /// How many loops of the robot are open at once at most, with this one.
   std::int64_t depth_with(const Loop& loop) const {
-    const auto routines = code_.routines.size();
-    std::vector<std::int64_t> above(routines, 0); // open where each routine is called
-    std::vector<std::int64_t> below(routines, 0); // opened in it
+    std::vector<std::int64_t> above(code_.routines.size(), 0); // open where a routine is called
     std::int64_t deepest = 0;
-    for (std::size_t round = 0; round <= routines; ++round) {
-      std::vector<std::int64_t> open(routines, 0);
+    for (std::size_t round = 0; round < above.size(); ++round) {
+      std::vector<std::int64_t> open = above;
       for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
         const auto& line = code_.lines[i];
         auto& here = open[line.routine];
         here += line.kind == LineKind::For || i == loop.begin ? 1 : 0;
-        below[line.routine] = std::max(below[line.routine], here);
-        each_callee(code_, line, [&](std::uint32_t callee) {
-          above[callee] = std::max(above[callee], above[line.routine] + here);
-          below[line.routine] = std::max(below[line.routine], here + below[callee]);
-        });
+        deepest = std::max(deepest, here);
+        each_callee(code_, line,
+                    [&](std::uint32_t callee) { above[callee] = std::max(above[callee], here); });
         here -= line.kind == LineKind::Next || i == loop.test ? 1 : 0;
-        deepest = std::max(deepest, above[line.routine] + here);
       }
     }
-    for (std::size_t routine = 0; routine < routines; ++routine)
-      deepest = std::max(deepest, above[routine] + below[routine]);
     return deepest;
   }
 
