@@ -459,6 +459,32 @@ private:
     std::vector<Held> held;
   };
 
+  /// What is known on all ways to a label that have been seen, all of them from above.
+  struct Arrival {
+    std::uint32_t ways = 0;
+    Known known;
+  };
+
+  void arrive(Arrival& arrival, const Known& known) const {
+    auto& all = arrival.known;
+    if (arrival.ways++ == 0) {
+      all = known;
+      return;
+    }
+    if (all.index != none &&
+        (known.index == none || known.tested != all.tested || !same(code_, all.index, known.index)))
+      all.index = none;
+    all.since = std::min(all.since, known.since);
+    std::erase_if(all.held, [&](Held& held) {
+      const auto other = std::find_if(known.held.begin(), known.held.end(), [&](const Held& one) {
+        return one.variable == held.variable && same(code_, one.index, held.index);
+      });
+      if (other != known.held.end())
+        held.since = std::min(held.since, other->since);
+      return other == known.held.end();
+    });
+  }
+
   void read_on(std::uint32_t variable, std::uint32_t since, std::uint32_t until) {
     for (auto k = since; k < until; ++k)
       remove(last_reads_[k], variable);
@@ -472,12 +498,16 @@ private:
     };
     if (lines[i].kind != LineKind::Let || lines[i].variable != index_variable || !is_test(i + 1))
       return none;
-    auto n = is_test(i + 2) ? i + 3 : i + 2;
-    if (n < lines.size() && lines[n].kind == LineKind::Label &&
-        lines[n].label == lines[i + 1].label)
+    const auto last = is_test(i + 2) ? i + 2 : i + 1;
+    auto n = last + 1;
+    if (n < lines.size() && lines[n].kind == LineKind::Label && last > i + 1 &&
+        lines[n].label == lines[i + 1].label && named_[lines[n].label] == 1)
       ++n;
+    else if (last > i + 1)
+      return none;
     return n + 1 < lines.size() && lines[n].guard && lines[n].kind == LineKind::Let &&
-                   lines[n + 1].kind == LineKind::Label && named_[lines[n + 1].label] == 1
+                   lines[n + 1].kind == LineKind::Label && named_[lines[n + 1].label] == 1 &&
+                   lines[last].label == lines[n + 1].label
                ? n + 1
                : none;
   }
@@ -502,7 +532,7 @@ private:
   /// What an element is known to be is read from the variable that holds it; an index is not set
   /// and tested again.
   void reuse_elements() {
-    std::vector<Known> at_label(code_.labels); // where only a jump leads to it
+    std::vector<Arrival> arrivals(code_.labels);
     Known known;
     auto& [index, since, tested, elements] = known;
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
@@ -521,21 +551,30 @@ private:
         i = end;
         continue;
       }
-      if (line.kind == LineKind::Label && only_jumps_lead_to(line.label)) {
-        known = at_label[line.label];
+      each_target(code_, line, [&](std::uint32_t label) { arrive(arrivals[label], known); });
+      if (line.kind == LineKind::Label) {
+        auto& arrival = arrivals[line.label];
+        if (i > 0 && falls_through(code_.lines[i - 1]))
+          arrive(arrival, known);
+        else
+          ++arrival.ways;
+        known = arrival.ways == named_[line.label] + 1 ? arrival.known : Known{};
         auto live = liveness_.in[flow_.block_of_label[line.label]];
         insert(live, index_variable);
         for (const auto& held : elements)
           insert(live, held.variable);
         continue;
       }
-      if (line.kind == LineKind::Label || line.kind == LineKind::Gosub ||
-          line.kind == LineKind::OnGosub) {
+      if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub) {
         known = {};
         continue;
       }
-      if (line.kind == LineKind::If && only_jumps_lead_to(line.label))
-        at_label[line.label] = known;
+      if (line.kind == LineKind::Let && line.variable == index_variable && index != none &&
+          tested == none && same(code_, line.term, index)) {
+        read_on(index_variable, since, i);
+        drop(line);
+        continue;
+      }
       const bool loads = line.kind == LineKind::Let && index != none &&
                          code_.terms[line.term].kind == TermKind::Element;
       const auto at = index;
