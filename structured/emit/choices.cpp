@@ -315,7 +315,8 @@ private:
     const auto& right = code_.terms[first.right];
     constexpr int longest = 6; // else a jump to the next line is shorter
     if (condition.glue != Glue::None || can_say(code_, condition) ||
-        ((left.effects | right.effects) & ~effect::elements) != 0 || left.size + right.size > longest)
+        ((left.effects | right.effects) & ~effect::elements) != 0 ||
+        left.size + right.size > longest)
       return;
     condition.second = first;
     condition.second.comparison = Comparison::Equal;

@@ -1,19 +1,18 @@
 #include "structured/emit/fall.h"
 
-#include "structured/analyse/line_facts.h"
+#include "structured/analyse/flow.h"
 #include "structured/analyse/ranges.h"
 #include "structured/analyse/sizes.h"
 #include "structured/optimise/jumps.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace orb::structured {
 namespace {
 
 class Faller {
 public:
-  explicit Faller(Code& code)
-      : code_(code), at_(lines_of_labels(code)), flow_(read_flow(code)), facts_(code, flow_) {}
+  explicit Faller(Code& code) : code_(code), at_(lines_of_labels(code)) {}
 
   void run() {
     for (std::uint32_t i = 1; i < code_.lines.size(); ++i)
@@ -65,7 +64,8 @@ private:
   /// What the lines right above a jump test and set, as long as it stays so.
   void find_known(std::uint32_t jump) {
     known_.clear();
-    for (auto i = jump; i-- > 0 && falls_through(code_.lines[i]) && !is(i, LineKind::Label);) {
+    for (auto i = jump; i-- > 0 && falls_through(code_.lines[i]) && !is(i, LineKind::Label) &&
+                        !is(i, LineKind::Gosub) && !is(i, LineKind::OnGosub);) {
       const auto& line = code_.lines[i];
       Relation relation;
       if (line.kind == LineKind::Let && code_.is_number(line.term)) {
@@ -74,26 +74,26 @@ private:
       } else if (line.kind == LineKind::If && code_.conditions[line.condition].glue == Glue::None) {
         relation = code_.conditions[line.condition].first;
         relation.comparison = opposite(relation.comparison);
-      } else {
-        continue;
       }
-      const auto effects = code_.terms[relation.left].effects | code_.terms[relation.right].effects;
-      const bool stays =
-          effects == 0 && std::none_of(code_.lines.begin() + i + 1, code_.lines.begin() + jump,
-                                       [&](const CodeLine& below) {
-                                         return facts_.disturbs(below, relation.left) ||
-                                                facts_.disturbs(below, relation.right);
-                                       });
-      if (stays)
+      if (relation.left != none && code_.terms[relation.left].effects == 0 &&
+          code_.is_number(relation.right) && stays(relation.left, i + 1, jump))
         known_.push_back(relation);
     }
+  }
+
+  bool stays(std::uint32_t term, std::uint32_t from, std::uint32_t to) const {
+    bool good = true;
+    for (auto i = from; i < to; ++i)
+      each_write(code_, code_.lines[i], [&](std::uint32_t set) {
+        each_read(code_, term, [&](std::uint32_t read) { good = good && read != set; });
+      });
+    return good;
   }
 
   /// How a test ends by what is known; only of what has been computed there without a fault.
   Outcome outcome_of(const Relation& test) const {
     for (const auto& known : known_) {
-      if (!same(code_, known.left, test.left) || !code_.is_number(known.right) ||
-          !code_.is_number(test.right))
+      if (!same(code_, known.left, test.left) || !code_.is_number(test.right))
         continue;
       const auto number = [&](std::uint32_t term) {
         return compiler::Range::only(code_.terms[term].value);
@@ -109,8 +109,6 @@ private:
 
   Code& code_;
   std::vector<std::uint32_t> at_; ///< of each label: its line
-  Flow flow_;
-  LineFacts facts_;
   std::vector<Relation> known_;
 };
 

@@ -39,7 +39,6 @@ private:
   bool once() {
     named_ = tidy(code_);
     at_ = lines_of_labels(code_);
-    flow_ = read_flow(code_);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
       if (auto loop = counted_by(i); loop && only_left_at_end(*loop) && counts_alone(*loop) &&
                                      depth_with(*loop) <= spec::value_of(spec::Limit::ForDepth)) {
@@ -134,7 +133,8 @@ private:
 
   /// Whether only line `count` sets the variable and the last value stays what it is.
   bool counts_alone(const Loop& loop) const {
-    const LineFacts facts(code_, flow_);
+    const auto flow = read_flow(code_);
+    const LineFacts facts(code_, flow);
     for (auto i = loop.begin + 1; i < loop.test; ++i)
       if (const auto& line = code_.lines[i];
           facts.disturbs(line, loop.last) || (i != loop.count && facts.writes(line, loop.variable)))
@@ -196,7 +196,6 @@ private:
   }
 
   Code& code_;
-  Flow flow_;
   std::vector<std::uint32_t> named_; ///< of each label: how often
   std::vector<std::uint32_t> at_;    ///< of each label: its line
 };

@@ -42,7 +42,8 @@ public:
     for (std::uint32_t i = 0; i < size; ++i)
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
-    reuse_elements();
+    if (reads_[index_variable] > 0)
+      reuse_elements();
     reuse_values();
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
@@ -368,10 +369,13 @@ private:
   /// while it is needed; computes a sum where it is read, if that is one place.
   bool copy_everywhere() {
     count_reads();
-    std::vector<std::uint32_t> writes(code_.variables.size(), 0);
-    for (const auto& line : code_.lines)
-      each_write(code_, line, [&](std::uint32_t v) { ++writes[v]; });
+    writes_.assign(code_.variables.size(), {});
+    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
+      for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i)
+        each_write(code_, code_.lines[i], [&](std::uint32_t v) { writes_[v].push_back(b); });
     const auto first = liveness_.in[0];
+    std::vector<bool> moved(code_.variables.size(), false); // they live elsewhere now
+    bool any = false;
     for (auto& line : code_.lines) {
       if (line.kind != LineKind::Let)
         continue;
@@ -382,16 +386,21 @@ private:
       const bool is_sum = (term.kind == TermKind::Binary || term.kind == TermKind::Call) &&
                           term.effects == 0 && term.size <= small && reads_[copied] == 1;
       if ((!is_copy && !is_sum) || copied == index_variable || code_.variables[copied].kept ||
-          writes[copied] != 1 || contains(first, copied))
+          writes_[copied].size() != 1 || contains(first, copied))
         continue;
-      bool moves = false;
+      bool moves = moved[copied];
       each_read(code_, line.term, [&](std::uint32_t v) {
-        moves = moves || v == index_variable || v == copied || meet(copied, v, is_copy);
+        moves = moves || moved[v] || v == index_variable || v == copied || meet(copied, v, is_copy);
       });
-      if (!moves && (is_copy ? rename(line, copied) : compute_there(line, copied)))
-        return true;
+      if (moves)
+        continue;
+      const auto root = line.term;
+      if (is_copy ? rename(line, copied) : compute_there(line, copied)) {
+        any = moved[copied] = true;
+        each_read(code_, root, [&](std::uint32_t v) { moved[v] = true; });
+      }
     }
-    return false;
+    return any;
   }
 
   bool rename(CodeLine& line, std::uint32_t copied) {
@@ -421,11 +430,11 @@ private:
     return false;
   }
 
-  /// Whether a variable is set while another one is needed or, for copies, is what a loop counts
-  /// in.
+  /// Whether a variable is set while another one, which is set once, is needed or, for copies, is
+  /// what a loop counts in.
   bool meet(std::uint32_t needed, std::uint32_t set, bool is_copy) const {
     std::vector<std::uint64_t> live;
-    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
+    for (const auto b : writes_[set]) {
       const auto out = liveness_.out[b];
       live.assign(out.begin(), out.end());
       for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
@@ -434,8 +443,6 @@ private:
         each_write(code_, line, [&](std::uint32_t v) { writes = writes || v == set; });
         if (writes && (contains(live, needed) || contains(liveness_.across[line.routine], needed) ||
                        (is_copy && (line.kind == LineKind::For || line.kind == LineKind::Next))))
-          return true;
-        if (line.kind == LineKind::Next && line.variable == needed)
           return true;
         step_back(code_, flow_, liveness_, line, live);
       }
@@ -776,6 +783,7 @@ private:
   LineFacts facts_;
   Liveness liveness_;
   std::vector<HeldValue> values_;
+  std::vector<std::vector<std::uint32_t>> writes_; ///< of each variable: blocks that set it
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
   bool changed_ = false;
