@@ -206,6 +206,7 @@ private:
     named_ = tidy(code_);
     at_ = lines_of_labels(code_);
     auto& lines = code_.lines;
+    bool any = false;
     for (auto i = static_cast<std::uint32_t>(lines.size()); i-- > 0;) {
       const auto at = lines[i].kind == LineKind::If ? at_[lines[i].label] : none;
       if (at == none || at == 0 || named_[lines[i].label] != 1 || falls(lines[at - 1]))
@@ -218,9 +219,11 @@ private:
         join_knowledge(code_, lines[test + 1], lines[other]);
         lines[other].kind = LineKind::Nothing;
         std::swap(lines[test], lines[test + 1]);
+        any = true;
       }
     }
-    tidy(code_);
+    if (any)
+      clean_jumps(code_); // nothing may be left of a way
   }
 
   /// Whether a line can run before a test instead of after it. Variables that share a letter are
