@@ -8,7 +8,6 @@
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
-#include "structured/optimise/sink.h"
 #include "structured/optimise/switches.h"
 #include "structured/optimise/tails.h"
 #include "structured/optimise/values.h"
@@ -66,7 +65,6 @@ void shorten(Code& code) {
   settle(code, passes, changes);
   clean_jumps(code);
   hoist_arms(code);
-  sink_into_arms(code);
 }
 
 } // namespace
