@@ -115,6 +115,9 @@ Diagnostic trailing(const Program& program, Span found) {
   if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name)
     return malformed(program, found, "an array index is written in brackets",
                      fmt::format("write `{}[1] = 2`", statement));
+  if (text == "=" && before == ']' && equal_words(statement, "array"))
+    return malformed(program, found, "the elements of an array are 0 at first",
+                     "set each in a line of its own, as in `a[1] = 5`");
   if (text == ":")
     return finding(rules::ForeignWord, found, "`:` does not separate statements",
                    "write one statement per line");
