@@ -125,6 +125,10 @@ bool Ranges::follow() {
   visits_.assign(blocks, 0);
   waiting_.assign((blocks + 63) / 64, 0);
   ends_.assign(code_.labels, Range{greatest_value, least_value});
+  nexts_.assign(code_.labels, none);
+  for (std::uint32_t b = 0; b < blocks; ++b)
+    if (const auto& last = code_.lines[flow_.blocks[b].end - 1]; last.kind == LineKind::Next)
+      nexts_[last.label] = b;
   if (blocks == 0)
     return true;
   following_ = true;
@@ -224,7 +228,12 @@ void Ranges::set(const CodeLine& line, State& state) {
     // The body is entered with all values of the variable at once: each turn would add but one.
     const auto begin = state[line.variable] = range_of(line.term, state);
     const auto end = range_of(line.end, state);
-    ends_[line.label] = compiler::join(ends_[line.label], end);
+    const auto joined = compiler::join(ends_[line.label], end);
+    if (following_ && !(joined == ends_[line.label])) {
+      ends_[line.label] = joined;
+      if (const auto next = nexts_[line.label]; next != none && reached_[next])
+        wait(next); // which leaves the loop at another value now
+    }
     state[line.variable] = line.step > 0 ? Range{begin.lo, std::max(begin.hi, end.hi)}
                                          : Range{std::min(begin.lo, end.lo), begin.hi};
   } else if (line.kind == LineKind::Do) {

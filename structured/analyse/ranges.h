@@ -101,6 +101,7 @@ private:
   std::size_t first_waiting_ = 0;      ///< no word before this one has any
   bool following_ = false;             ///< states are still being found
   std::vector<compiler::Range> ends_;  ///< of each loop's label: its end value
+  std::vector<std::uint32_t> nexts_;   ///< of each loop's label: the block that ends in its `next`
   std::vector<Returned> returns_;
   std::vector<std::int32_t> landmarks_;
   compiler::Range data_;

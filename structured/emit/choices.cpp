@@ -1,6 +1,7 @@
 #include "structured/emit/choices.h"
 
 #include "structured/analyse/flow.h"
+#include "structured/emit/fall.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/tails.h"
 #include "structured/text/words.h"
@@ -54,11 +55,13 @@ unsigned orders_of(Comparison comparison) {
 
 class ChoiceWriter {
 public:
-  ChoiceWriter(Code& code, const Program& program) : code_(code), program_(program) {}
+  ChoiceWriter(Code& code, const Program& program, const Identity& identity)
+      : code_(code), program_(program), identity_(identity) {}
 
   void run() {
     while (join_tests())
       ;
+    join_heads();
     return_at_once();
     turn_branches();
     fold_branches();
@@ -198,6 +201,47 @@ private:
     return changed;
   }
 
+  /// Two ways from a test that begin with the same do it before the test.
+  void join_heads() {
+    named_ = tidy(code_);
+    at_ = lines_of_labels(code_);
+    auto& lines = code_.lines;
+    bool any = false;
+    for (auto i = static_cast<std::uint32_t>(lines.size()); i-- > 0;) {
+      const auto at = lines[i].kind == LineKind::If ? at_[lines[i].label] : none;
+      if (at == none || at == 0 || named_[lines[i].label] != 1 || falls(lines[at - 1]))
+        continue;
+      for (auto test = i, other = at + 1; test + 1 < lines.size() && other < lines.size();
+           ++test, ++other) {
+        if (!does_same(code_, lines[test + 1], lines[other], identity_) ||
+            !passes(lines[test], lines[test + 1]))
+          break;
+        join_knowledge(code_, lines[test + 1], lines[other]);
+        lines[other].kind = LineKind::Nothing;
+        std::swap(lines[test], lines[test + 1]);
+        any = true;
+      }
+    }
+    if (any)
+      clean_jumps(code_); // nothing may be left of a way
+  }
+
+  /// Whether a line can run before a test instead of after it. Variables that share a letter are
+  /// one.
+  bool passes(const CodeLine& test, const CodeLine& line) const {
+    const auto effects = structured::effects_of(code_, test);
+    const auto still = line.kind == LineKind::Let          ? 0
+                       : line.kind == LineKind::SetElement ? effect::elements
+                                                           : effect::elements | effect::senses;
+    bool good = !test.guard && structured::is_pure(effects) && (effects & still) == 0 &&
+                line.kind != LineKind::Gosub;
+    each_write(code_, line, [&](std::uint32_t set) {
+      each_line_read(code_, test,
+                     [&](std::uint32_t read) { good = good && identity_(read) != identity_(set); });
+    });
+    return good;
+  }
+
   /// Whether a line may stand after `then` and `else`.
   static bool fits_branch(const CodeLine& line) {
     switch (line.kind) {
@@ -267,10 +311,29 @@ private:
     return good;
   }
 
+  /// `a <= b` of two values that may be any: `a < b or a = b`.
+  void spell_out(Condition& condition) const {
+    auto& first = condition.first;
+    const auto& left = code_.terms[first.left];
+    const auto& right = code_.terms[first.right];
+    constexpr int longest = 6; // else a jump to the next line is shorter
+    if (condition.glue != Glue::None || can_say(code_, condition) ||
+        ((left.effects | right.effects) & ~effect::elements) != 0 ||
+        left.size + right.size > longest)
+      return;
+    condition.second = first;
+    condition.second.comparison = Comparison::Equal;
+    condition.glue = Glue::Or;
+    first.comparison =
+        first.comparison == Comparison::LessEqual ? Comparison::Less : Comparison::Greater;
+  }
+
   /// Makes line `i` a choice: `taken` where its condition holds, `passed` where it does not.
   bool choose(std::uint32_t i, std::uint32_t taken, std::uint32_t passed) {
     auto& line = code_.lines[i];
     auto condition = code_.conditions[line.condition];
+    if (passed == none)
+      spell_out(condition);
     // Without an `else` the condition must be the one that holds; with one either will do, and the
     // comparison that the robot has reads better.
     const bool turned = is_missing(condition.first.comparison) && passed != none &&
@@ -279,6 +342,7 @@ private:
       condition = opposite_of(condition);
       std::swap(taken, passed);
     }
+    spell_out(condition);
     if (taken == none || !can_say(code_, condition) || !name_origin(line, taken, passed))
       return false;
     code_.conditions.push_back(condition);
@@ -421,10 +485,8 @@ private:
         continue;
       const auto last = static_cast<std::uint32_t>(code_.lines.size()) - 1;
       const auto target = add_branch(jump(lines[i], lines[i].label));
-      if (can_say(code_, code_.conditions[lines[i].condition])) {
-        choose(last, target, none);
+      if (choose(last, target, none))
         continue;
-      }
       const auto next = code_.labels++;
       choose(last, target, add_branch(jump(lines[i], next)));
       CodeLine label;
@@ -477,6 +539,7 @@ private:
 
   Code& code_;
   const Program& program_;
+  const Identity& identity_;
   std::vector<std::uint32_t> at_;    ///< of each label: its line, while branches are folded
   std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
 };
@@ -489,10 +552,14 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
         letters.of[code.terms[line.term].left] == letters.of[line.variable])
       line.kind = LineKind::Nothing;
   clean_jumps(code);
-  merge_tails(code, [&](std::uint32_t variable) { return std::uint32_t{letters.of[variable]}; });
+  const Identity letter = [&](std::uint32_t variable) {
+    return std::uint32_t{letters.of[variable]};
+  };
+  merge_tails(code, letter);
   straighten(code);
   clean_jumps(code);
-  ChoiceWriter(code, program).run();
+  fall_through_tests(code);
+  ChoiceWriter(code, program, letter).run();
 }
 
 } // namespace orb::structured

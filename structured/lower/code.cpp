@@ -97,7 +97,9 @@ std::uint32_t Code::binary(Operator op, std::uint32_t left, std::uint32_t right)
   if (is_number(right) && terms[right].value == 1 &&
       (op == Operator::Multiply || op == Operator::Divide))
     return left;
-  if (is_number(left) && op == Operator::Add && terms[left].value == 0)
+  const auto idle = op == Operator::Add ? 0 : 1;
+  if (is_number(left) && (op == Operator::Add || op == Operator::Multiply) &&
+      terms[left].value == idle)
     return right;
   // A number in front saves nothing, but 0 - x in front of + can go: -5 + x is x - 5.
   if (is_number(left) && op == Operator::Add && terms[left].value < 0 &&
@@ -189,7 +191,7 @@ bool same(const Code& code, std::uint32_t a, std::uint32_t b, const Identity& id
 }
 
 bool may_fault(const Code& code, const CodeLine& line) {
-  if (line.kind == LineKind::SetElement || line.kind == LineKind::SetSystem ||
+  if ((line.kind == LineKind::SetElement && !line.proven) || line.kind == LineKind::SetSystem ||
       line.kind == LineKind::On || line.kind == LineKind::OnGosub)
     return true;
   if ((effects_of(code, line) & effect::faults) != 0)

@@ -3,6 +3,7 @@
 #include "spec/limits.h"
 #include "structured/analyse/flow.h"
 #include "structured/analyse/line_facts.h"
+#include "structured/optimise/jumps.h"
 
 #include <algorithm>
 #include <optional>
@@ -26,8 +27,8 @@ bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64
 class Forwarder {
 public:
   explicit Forwarder(Code& code)
-      : code_(code), flow_(read_flow(code)), facts_(code_, flow_),
-        liveness_(read_liveness(code, flow_)) {}
+      : code_(code), named_(tidy(code)), at_(lines_of_labels(code)), flow_(read_flow(code)),
+        facts_(code_, flow_), liveness_(read_liveness(code, flow_)) {}
 
   bool run() {
     constexpr int most_copies = 8;
@@ -41,7 +42,8 @@ public:
     for (std::uint32_t i = 0; i < size; ++i)
       if (code_.lines[i].kind == LineKind::Let)
         drop_repeated(i);
-    reuse_elements();
+    if (reads_[index_variable] > 0)
+      reuse_elements();
     reuse_values();
     for (auto i = size; i-- > 0;)
       if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
@@ -261,7 +263,9 @@ private:
     auto last = i + 1;
     for (auto j = i + 1; j < code_.lines.size() && j < i + reach && found < reads_[variable]; ++j) {
       auto& line = code_.lines[j];
-      if (line.kind == LineKind::Label || line.kind == LineKind::For)
+      if (line.kind == LineKind::Label ||
+          (line.kind == LineKind::For && // sets it, then reads on
+           (line.variable == variable || facts_.reads(term, line.variable))))
         return;
       // What a statement is given keeps the name that a fault speaks of.
       bool deep = false;
@@ -327,30 +331,51 @@ private:
     constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
     if ((code_.terms[term].effects & moving) != 0 || facts_.reads(term, variable))
       return;
-    const auto last =
-        std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
-    for (auto j = i + 1; j < last; ++j) {
+    drop_repeated(i, i + 1, none);
+  }
+
+  /// The same below line `from`, to which line `jump` leads, or which is the one below.
+  void drop_repeated(std::uint32_t i, std::uint32_t from, std::uint32_t jump) {
+    const auto variable = code_.lines[i].variable;
+    const auto term = code_.lines[i].term;
+    const auto size = static_cast<std::uint32_t>(code_.lines.size());
+    for (auto j = from; j < std::min(size, from + reach); ++j) {
       auto& line = code_.lines[j];
       if (line.kind == LineKind::Let && line.variable == variable && same(code_, line.term, term)) {
         drop(line);
-        for (auto k = i; k <= j; ++k) // the value is read on
+        for (auto k = i; jump != none && k <= jump; ++k) // the value is read on
           remove(last_reads_[k], variable);
+        for (auto k = jump == none ? i : from; k <= j; ++k)
+          remove(last_reads_[k], variable);
+        if (jump != none)
+          insert(liveness_.in[flow_.block_of_label[code_.lines[jump].label]], variable);
         continue;
       }
       if (line.kind == LineKind::Label || facts_.ends_text(line) || facts_.writes(line, variable) ||
           facts_.disturbs(line, term))
         return;
+      if (line.kind == LineKind::If && jump == none && only_jumps_lead_to(line.label))
+        drop_repeated(i, at_[line.label] + 1, j);
     }
+  }
+
+  /// Whether one line of the program leads to a label, and that is a jump.
+  bool only_jumps_lead_to(std::uint32_t label) const {
+    const auto at = at_[label];
+    return named_[label] == 1 && at != none && at > 0 && !falls_through(code_.lines[at - 1]);
   }
 
   /// Reads the original all through the program where a copy, once made, is never another value
   /// while it is needed; computes a sum where it is read, if that is one place.
   bool copy_everywhere() {
     count_reads();
-    std::vector<std::uint32_t> writes(code_.variables.size(), 0);
-    for (const auto& line : code_.lines)
-      each_write(code_, line, [&](std::uint32_t v) { ++writes[v]; });
+    writes_.assign(code_.variables.size(), {});
+    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
+      for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i)
+        each_write(code_, code_.lines[i], [&](std::uint32_t v) { writes_[v].push_back(b); });
     const auto first = liveness_.in[0];
+    std::vector<bool> moved(code_.variables.size(), false); // they live elsewhere now
+    bool any = false;
     for (auto& line : code_.lines) {
       if (line.kind != LineKind::Let)
         continue;
@@ -361,16 +386,21 @@ private:
       const bool is_sum = (term.kind == TermKind::Binary || term.kind == TermKind::Call) &&
                           term.effects == 0 && term.size <= small && reads_[copied] == 1;
       if ((!is_copy && !is_sum) || copied == index_variable || code_.variables[copied].kept ||
-          writes[copied] != 1 || contains(first, copied))
+          writes_[copied].size() != 1 || contains(first, copied))
         continue;
-      bool moves = false;
+      bool moves = moved[copied];
       each_read(code_, line.term, [&](std::uint32_t v) {
-        moves = moves || v == index_variable || v == copied || meet(copied, v, is_copy);
+        moves = moves || moved[v] || v == index_variable || v == copied || meet(copied, v, is_copy);
       });
-      if (!moves && (is_copy ? rename(line, copied) : compute_there(line, copied)))
-        return true;
+      if (moves)
+        continue;
+      const auto root = line.term;
+      if (is_copy ? rename(line, copied) : compute_there(line, copied)) {
+        any = moved[copied] = true;
+        each_read(code_, root, [&](std::uint32_t v) { moved[v] = true; });
+      }
     }
-    return false;
+    return any;
   }
 
   bool rename(CodeLine& line, std::uint32_t copied) {
@@ -400,11 +430,11 @@ private:
     return false;
   }
 
-  /// Whether a variable is set while another one is needed or, for copies, is what a loop counts
-  /// in.
+  /// Whether a variable is set while another one, which is set once, is needed or, for copies, is
+  /// what a loop counts in.
   bool meet(std::uint32_t needed, std::uint32_t set, bool is_copy) const {
     std::vector<std::uint64_t> live;
-    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
+    for (const auto b : writes_[set]) {
       const auto out = liveness_.out[b];
       live.assign(out.begin(), out.end());
       for (auto i = flow_.blocks[b].end; i-- > flow_.blocks[b].begin;) {
@@ -413,8 +443,6 @@ private:
         each_write(code_, line, [&](std::uint32_t v) { writes = writes || v == set; });
         if (writes && (contains(live, needed) || contains(liveness_.across[line.routine], needed) ||
                        (is_copy && (line.kind == LineKind::For || line.kind == LineKind::Next))))
-          return true;
-        if (line.kind == LineKind::Next && line.variable == needed)
           return true;
         step_back(code_, flow_, liveness_, line, live);
       }
@@ -430,54 +458,238 @@ private:
     std::uint32_t since; ///< this line
   };
 
-  /// What an element is known to be is read from the variable that holds it.
+  /// What is known at a place: what the index was set to, while that is still so, and elements.
+  struct Known {
+    std::uint32_t index = none;
+    std::uint32_t since = 0;     ///< this line
+    std::uint32_t tested = none; ///< the same where its tests follow: it is 0 where they fail
+    std::vector<Held> held;
+  };
+
+  /// What is known on all ways to a label that have been seen, all of them from above.
+  struct Arrival {
+    std::uint32_t ways = 0;
+    Known known;
+  };
+
+  void arrive(Arrival& arrival, const Known& known) const {
+    auto& all = arrival.known;
+    if (arrival.ways++ == 0) {
+      all = known;
+      return;
+    }
+    if (all.index != none &&
+        (known.index == none || known.tested != all.tested || !same(code_, all.index, known.index)))
+      all.index = none;
+    all.since = std::min(all.since, known.since);
+    std::erase_if(all.held, [&](Held& held) {
+      const auto other = std::find_if(known.held.begin(), known.held.end(), [&](const Held& one) {
+        return one.variable == held.variable && same(code_, one.index, held.index);
+      });
+      if (other != known.held.end())
+        held.since = std::min(held.since, other->since);
+      return other == known.held.end();
+    });
+  }
+
+  void read_on(std::uint32_t variable, std::uint32_t since, std::uint32_t until) {
+    for (auto k = since; k < until; ++k)
+      remove(last_reads_[k], variable);
+  }
+
+  /// The label after the tests of an index that is set in line `i`, or none where it has none.
+  std::uint32_t end_of_tests(std::uint32_t i) const {
+    const auto& lines = code_.lines;
+    const auto is_test = [&](std::uint32_t n) {
+      return n < lines.size() && lines[n].kind == LineKind::If && lines[n].guard;
+    };
+    if (lines[i].kind != LineKind::Let || lines[i].variable != index_variable || !is_test(i + 1))
+      return none;
+    const auto last = is_test(i + 2) ? i + 2 : i + 1;
+    auto n = last + 1;
+    if (n < lines.size() && lines[n].kind == LineKind::Label && last > i + 1 &&
+        lines[n].label == lines[i + 1].label && named_[lines[n].label] == 1)
+      ++n;
+    else if (last > i + 1)
+      return none;
+    return n + 1 < lines.size() && lines[n].guard && lines[n].kind == LineKind::Let &&
+                   lines[n + 1].kind == LineKind::Label && named_[lines[n + 1].label] == 1 &&
+                   lines[last].label == lines[n + 1].label
+               ? n + 1
+               : none;
+  }
+
+  /// Whether the tests after two lines that set the index let the same pass.
+  bool test_alike(std::uint32_t a, std::uint32_t b, std::uint32_t end_of_b) const {
+    for (++a, ++b; b < end_of_b; ++a, ++b) {
+      const auto& one = code_.lines[a];
+      const auto& other = code_.lines[b];
+      if (one.kind != other.kind || one.guard != other.guard)
+        return false;
+      if (one.kind != LineKind::If)
+        continue;
+      const auto& first = code_.conditions[one.condition].first;
+      const auto& second = code_.conditions[other.condition].first;
+      if (first.comparison != second.comparison || !same(code_, first.right, second.right))
+        return false;
+    }
+    return code_.lines[a].kind == LineKind::Label;
+  }
+
+  /// What an element is known to be is read from the variable that holds it; an index is not set
+  /// and tested again.
   void reuse_elements() {
-    std::uint32_t index = none; // what the index was set to, while that is still so
-    held_.clear();
+    std::vector<Arrival> arrivals(code_.labels);
+    Known known;
+    auto& [index, since, tested, elements] = known;
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      if (index != none && swap_stores(i, index, elements))
+        read_on(index_variable, since, i);
       auto& line = code_.lines[i];
-      if (line.kind == LineKind::Label || line.kind == LineKind::Gosub ||
-          line.kind == LineKind::OnGosub) {
-        index = none;
-        held_.clear();
+      if (const auto end = end_of_tests(i); end != none) {
+        if (index != none && tested != none && same(code_, line.term, index) &&
+            test_alike(tested, i, end)) {
+          read_on(index_variable, since, i);
+          for (; i < end; ++i)
+            drop(code_.lines[i]);
+          continue;
+        }
+        known = {is_still(line.term) ? line.term : none, i, i, {}};
+        i = end;
+        continue;
+      }
+      each_target(code_, line, [&](std::uint32_t label) { arrive(arrivals[label], known); });
+      if (line.kind == LineKind::Label) {
+        auto& arrival = arrivals[line.label];
+        if (i > 0 && falls_through(code_.lines[i - 1]))
+          arrive(arrival, known);
+        else
+          ++arrival.ways;
+        known = arrival.ways == named_[line.label] + 1 ? arrival.known : Known{};
+        auto live = liveness_.in[flow_.block_of_label[line.label]];
+        insert(live, index_variable);
+        for (const auto& held : elements)
+          insert(live, held.variable);
+        continue;
+      }
+      if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub) {
+        known = {};
+        continue;
+      }
+      if (line.kind == LineKind::Let && line.variable == index_variable && index != none &&
+          tested == none && same(code_, line.term, index)) {
+        read_on(index_variable, since, i);
+        drop(line);
         continue;
       }
       const bool loads = line.kind == LineKind::Let && index != none &&
                          code_.terms[line.term].kind == TermKind::Element;
       const auto at = index;
       if (loads)
-        for (const auto& held : held_)
+        for (const auto& held : elements)
           if (same(code_, held.index, index)) {
             line.term = code_.read(held.variable);
             ++reads_[held.variable];
-            for (auto k = held.since; k < i; ++k) // it is read on
-              remove(last_reads_[k], held.variable);
+            read_on(held.variable, held.since, i);
             changed_ = true;
             break;
           }
+      if (index != none && line.kind != LineKind::For && line.kind != LineKind::Do)
+        for (const auto& held : elements)
+          if (held.since < since && is_element(held.variable, held.since) &&
+              same(code_, held.index, index))
+            read_there(line, held.variable, since, i);
       if (facts_.sets_elements(line))
-        std::erase_if(held_, [&](const Held& held) {
+        std::erase_if(elements, [&](const Held& held) {
           return index == none || !facts_.differ(held.index, index);
         });
       each_write(code_, line, [&](std::uint32_t v) {
-        std::erase_if(held_, [&](const Held& held) {
+        std::erase_if(elements, [&](const Held& held) {
           return held.variable == v || facts_.reads(held.index, v);
         });
         if (v == index_variable || (index != none && facts_.reads(index, v)))
           index = none;
       });
-      constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
-      if (line.kind == LineKind::Let && line.variable == index_variable &&
-          (code_.terms[line.term].effects & moving) == 0 &&
-          !facts_.reads(line.term, index_variable))
-        index = line.term;
-      else if (loads && index != none && line.variable != index_variable)
-        held_.push_back({at, line.variable, i});
-      else if (line.kind == LineKind::SetElement && index != none &&
-               code_.terms[line.term].kind == TermKind::Variable &&
-               code_.terms[line.term].left != index_variable)
-        held_.push_back({at, code_.terms[line.term].left, i});
+      if (line.kind == LineKind::Let && line.variable == index_variable) {
+        index = is_still(line.term) ? line.term : none;
+        since = i;
+        tested = none;
+      } else if (loads && index != none && line.variable != index_variable) {
+        elements.push_back({at, line.variable, i});
+      } else if (line.kind == LineKind::SetElement && index != none &&
+                 code_.terms[line.term].kind == TermKind::Variable &&
+                 code_.terms[line.term].left != index_variable) {
+        elements.push_back({at, code_.terms[line.term].left, i});
+      }
     }
+  }
+
+  /// Whether a term stays the same while its variables do.
+  bool is_still(std::uint32_t term) const {
+    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
+    return (code_.terms[term].effects & moving) == 0 && !facts_.reads(term, index_variable);
+  }
+
+  /// Whether line `since` reads an element into a variable that is read once.
+  bool is_element(std::uint32_t variable, std::uint32_t since) const {
+    const auto& line = code_.lines[since];
+    return line.kind == LineKind::Let && line.variable == variable && reads_[variable] == 1 &&
+           !code_.variables[variable].kept && code_.terms[line.term].effects == effect::elements;
+  }
+
+  /// Reads the element itself in place of the only reading of the variable that holds it, where
+  /// the index, set in line `since`, stands there again.
+  void read_there(CodeLine& line, std::uint32_t variable, std::uint32_t since, std::uint32_t i) {
+    each_root(code_, line, [&](std::uint32_t& root) {
+      const auto better = with_variables(code_, root, [&](std::uint32_t term) {
+        if (code_.terms[term].left != variable)
+          return term;
+        const auto element = code_.element();
+        code_.terms[element].effects = effect::elements;
+        return element;
+      });
+      if (better == root)
+        return;
+      root = better;
+      reads_[variable] = 0;
+      read_on(index_variable, since, i);
+      changed_ = true;
+    });
+  }
+
+  /// `Y=I; Z=A; Y=J; Z=B` where the index is J already: `Z=B; Y=I; Z=A`, if the elements are not
+  /// one, or each gets what the other holds.
+  bool swap_stores(std::uint32_t i, std::uint32_t index, std::span<const Held> all) {
+    if (i + 3 >= code_.lines.size() || !contains(last_reads_[i + 3], index_variable) ||
+        !stores(i) || !stores(i + 2) || !same(code_, code_.lines[i + 2].term, index))
+      return false;
+    const auto first = code_.lines[i].term;
+    const auto value = code_.lines[i + 1].term;
+    const auto other = code_.lines[i + 3].term;
+    const auto is_held = [&](std::uint32_t at, std::uint32_t term) {
+      return std::any_of(all.begin(), all.end(), [&](const Held& held) {
+        return same(code_, held.index, at) && code_.terms[term].kind == TermKind::Variable &&
+               code_.terms[term].left == held.variable;
+      });
+    };
+    if (!facts_.differ(first, index) && !(is_held(first, other) && is_held(index, value)))
+      return false;
+    std::swap(code_.lines[i], code_.lines[i + 2]);
+    std::swap(code_.lines[i + 1], code_.lines[i + 3]);
+    drop(code_.lines[i]);
+    for (auto k = i; k <= i + 3; ++k)
+      each_member(last_reads_[k], [&](std::uint32_t v) { remove(last_reads_[k], v); });
+    return true;
+  }
+
+  /// Whether two lines set an element, and nothing else matters to them.
+  bool stores(std::uint32_t i) const {
+    const auto& set = code_.lines[i];
+    const auto& store = code_.lines[i + 1];
+    return set.kind == LineKind::Let && set.variable == index_variable &&
+           store.kind == LineKind::SetElement && store.proven && !set.guard && !store.guard &&
+           code_.terms[set.term].effects == 0 && code_.terms[store.term].effects == 0 &&
+           !facts_.reads(set.term, index_variable) && !facts_.reads(store.term, index_variable);
   }
 
   // ---- values that a variable holds
@@ -565,11 +777,13 @@ private:
   }
 
   Code& code_;
+  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> at_;    ///< of each label: its line
   Flow flow_;
   LineFacts facts_;
   Liveness liveness_;
-  std::vector<Held> held_;
   std::vector<HeldValue> values_;
+  std::vector<std::vector<std::uint32_t>> writes_; ///< of each variable: blocks that set it
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines
   bool changed_ = false;

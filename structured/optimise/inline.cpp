@@ -13,11 +13,19 @@ class Inliner {
 public:
   explicit Inliner(Code& code)
       : code_(code), sites_(code.routines.size(), 0), listed_(code.routines.size(), false),
-        bytes_(code.routines.size(), 0), call_bytes_(code.routines.size(), 0) {}
+        bytes_(code.routines.size(), 0), call_bytes_(code.routines.size(), 0),
+        results_(code.routines.size(), none), result_bytes_(code.routines.size(), 0),
+        tested_(code.routines.size(), 0) {}
 
   bool run() {
+    find_results();
     std::uint32_t set = 0; // bytes of lines that set variables just before, such as parameters
-    for (const auto& line : code_.lines) {
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto& line = code_.lines[i];
+      if (line.kind == LineKind::Gosub && is_tested(i + 1, results_[line.variable])) {
+        call_bytes_[line.variable] += bytes_of(code_, code_.lines[i + 1]);
+        ++tested_[line.variable];
+      }
       set = line.kind == LineKind::Let     ? set + line_bytes + 2
             : line.kind == LineKind::Gosub ? set
                                            : 0;
@@ -43,8 +51,39 @@ private:
     const auto sites = sites_[routine];
     if (sites == 0 || listed_[routine])
       return false;
-    return sites == 1 ||
-           sites * bytes_[routine] <= call_bytes_[routine] + bytes_[routine] + return_bytes;
+    return sites == 1 || sites * bytes_[routine] <= call_bytes_[routine] + bytes_[routine] +
+                                                        return_bytes +
+                                                        tested_[routine] * result_bytes_[routine];
+  }
+
+  /// Routines that set the same variable to a number each time they return: where it is only
+  /// tested, the call becomes jumps.
+  void find_results() {
+    std::vector<bool> others(code_.routines.size(), false);
+    for (std::uint32_t i = 1; i < code_.lines.size(); ++i) {
+      const auto& line = code_.lines[i];
+      const auto& above = code_.lines[i - 1];
+      if (line.kind != LineKind::Return)
+        continue;
+      auto& result = results_[line.routine];
+      if (above.kind != LineKind::Let || !code_.is_number(above.term) ||
+          (result != none && result != above.variable))
+        others[line.routine] = true;
+      result = above.variable;
+      result_bytes_[line.routine] += bytes_of(code_, above);
+    }
+    for (std::size_t routine = 0; routine < others.size(); ++routine)
+      if (others[routine])
+        results_[routine] = none;
+  }
+
+  bool is_tested(std::uint32_t i, std::uint32_t variable) const {
+    if (i >= code_.lines.size() || code_.lines[i].kind != LineKind::If || variable == none)
+      return false;
+    const auto& relation = code_.conditions[code_.lines[i].condition].first;
+    const auto& left = code_.terms[relation.left];
+    return left.kind == TermKind::Variable && left.left == variable &&
+           code_.is_number(relation.right);
   }
 
   /// Whether a sub calls no other that is written into it, too: callees first, and callers in a
@@ -112,6 +151,9 @@ private:
   std::vector<bool> listed_;              ///< of each routine: an `on … gosub` calls it
   std::vector<std::uint32_t> bytes_;      ///< of each routine
   std::vector<std::uint32_t> call_bytes_; ///< of all calls of each routine
+  std::vector<std::uint32_t> results_;    ///< of each routine: the variable of its result, or none
+  std::vector<std::uint32_t> result_bytes_; ///< of the lines that set it
+  std::vector<std::uint32_t> tested_;       ///< of each routine: calls whose result is tested next
   std::vector<std::uint32_t> labels_;
 };
 

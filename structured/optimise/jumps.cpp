@@ -3,6 +3,8 @@
 #include "structured/analyse/flow.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 namespace orb::structured {
 namespace {
@@ -159,26 +161,45 @@ bool straighten(Code& code) {
   auto loops = loops_of_lines(code);
   auto at = lines_of_labels(code);
   auto& lines = code.lines;
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].kind != LineKind::Goto || at[lines[i].label] == none)
-      continue;
-    auto first = at[lines[i].label];
+  /// The lines that follow a label, if they can stand in place of a jump at `i`: first and last.
+  const auto movable = [&](std::uint32_t i, std::uint32_t label) {
+    constexpr auto stay = std::pair{none, none};
+    if (at[label] == none)
+      return stay;
+    auto first = at[label];
     while (first > 0 && lines[first - 1].kind == LineKind::Label)
       --first;
     if (first == 0 || falls_through(lines[first - 1]))
-      continue;
+      return stay;
     auto last = first;
     while (last < lines.size() && falls_through(lines[last]))
       ++last;
     if (last == lines.size() || (first <= i && i <= last))
-      continue;
+      return stay;
     // A loop stays in one piece, and what is in it stays there.
     const bool cuts =
         std::any_of(lines.begin() + first, lines.begin() + last, [&](const auto& line) {
           return line.kind == LineKind::Next &&
                  loops[first] == loops[static_cast<std::size_t>(&line - lines.data())];
         });
-    if (cuts || loops[first] != loops[last] || loops[first] != loops[i])
+    return cuts || loops[first] != loops[last] || loops[first] != loops[i] ? stay
+                                                                           : std::pair{first, last};
+  };
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].kind != LineKind::Goto)
+      continue;
+    auto [first, last] = movable(i, lines[i].label);
+    if (first == none && i > 0 && lines[i - 1].kind == LineKind::If && !lines[i - 1].guard &&
+        code.conditions[lines[i - 1].condition].glue == Glue::None) {
+      // Of the two ways from a test, the other one can come next.
+      std::tie(first, last) = movable(i, lines[i - 1].label);
+      if (first != none) {
+        auto& relation = code.conditions[lines[i - 1].condition].first;
+        relation.comparison = opposite(relation.comparison);
+        std::swap(lines[i - 1].label, lines[i].label);
+      }
+    }
+    if (first == none)
       continue;
     lines[i].kind = LineKind::Nothing;
     const auto begin = lines.begin();

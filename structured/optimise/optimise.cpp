@@ -1,13 +1,13 @@
 #include "structured/optimise/optimise.h"
 
 #include "structured/optimise/copies.h"
+#include "structured/optimise/counted.h"
 #include "structured/optimise/elements.h"
 #include "structured/optimise/forward.h"
 #include "structured/optimise/hoist.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
-#include "structured/optimise/sink.h"
 #include "structured/optimise/switches.h"
 #include "structured/optimise/tails.h"
 #include "structured/optimise/values.h"
@@ -49,6 +49,7 @@ void settle(Code& code, std::span<Pass> passes, std::uint32_t& changes) {
 void shorten(Code& code) {
   Pass passes[] = {
       {clean_jumps},
+      {count_loops},
       {split_variables},
       {forward_values},
       {[](Code& one) { return merge_tails(one, itself); }},
@@ -64,7 +65,6 @@ void shorten(Code& code) {
   settle(code, passes, changes);
   clean_jumps(code);
   hoist_arms(code);
-  sink_into_arms(code);
 }
 
 } // namespace

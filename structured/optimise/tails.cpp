@@ -9,6 +9,19 @@
 namespace orb::structured {
 namespace {
 
+/// Whether one line can speak for both: what stops the program stops it at its own statement.
+bool may_join(const Code& code, const CodeLine& a, const CodeLine& b) {
+  return a.origin == b.origin || !(a.guard || b.guard || may_fault(code, a) || may_fault(code, b));
+}
+
+bool same_part(const Code& code, const Part& a, const Part& b, const Identity& identity) {
+  if (a.kind != b.kind || !(a.text == b.text))
+    return false;
+  if (a.kind == PartKind::Term || a.kind == PartKind::Character)
+    return same(code, a.value, b.value, identity);
+  return a.kind == PartKind::Variable ? identity(a.value) == identity(b.value) : a.value == b.value;
+}
+
 class Merger {
 public:
   Merger(Code& code, const Identity& identity) : code_(code), identity_(identity) {}
@@ -98,7 +111,7 @@ private:
     if (best.lines == 0)
       return;
     for (auto i = best.kept; i < best.kept_end; ++i)
-      join(code_.lines[i], code_.lines[best.other + i - best.kept]);
+      join_knowledge(code_, code_.lines[i], code_.lines[best.other + i - best.kept]);
     for (auto i = best.kept; i <= best.kept_end; ++i)
       taken_[i] = true;
     for (auto i = best.other; i < best.other_end; ++i) {
@@ -111,20 +124,6 @@ private:
     jump.label = code_.labels++;
     jump.parts_begin = jump.parts_end = 0;
     labels_.push_back({best.kept, jump.label});
-  }
-
-  /// What is known of the values of a line that is now run for another, too.
-  void join(const CodeLine& kept, const CodeLine& other) {
-    if (kept.kind == LineKind::If) {
-      auto& relation = code_.conditions[kept.condition].first;
-      const auto& same = code_.conditions[other.condition].first;
-      relation.left_range = compiler::join(relation.left_range, same.left_range);
-      relation.right_range = compiler::join(relation.right_range, same.right_range);
-    } else if (kept.kind == LineKind::Print || kept.kind == LineKind::Do) {
-      for (auto i = kept.parts_begin; i < kept.parts_end; ++i)
-        code_.parts[i].range = compiler::join(
-            code_.parts[i].range, code_.parts[other.parts_begin + i - kept.parts_begin].range);
-    }
   }
 
   Tails compare(std::uint32_t kept_end, std::uint32_t other_end) {
@@ -165,13 +164,10 @@ private:
   }
 
   bool matches(const CodeLine& a, const CodeLine& b) {
-    if (a.kind != b.kind || a.robot != b.robot || a.routine != b.routine || a.step != b.step)
+    if (a.kind != b.kind || a.routine != b.routine || a.step != b.step || !may_join(code_, a, b))
       return false;
-    if (a.origin != b.origin && (a.guard || b.guard || may_fault(code_, a) || may_fault(code_, b)))
-      return false;
-    const bool has_variable =
-        a.kind == LineKind::Let || a.kind == LineKind::For || a.kind == LineKind::Next;
-    if (has_variable ? identity_(a.variable) != identity_(b.variable) : a.variable != b.variable)
+    const bool counts = a.kind == LineKind::For || a.kind == LineKind::Next;
+    if (counts && identity_(a.variable) != identity_(b.variable))
       return false;
     switch (a.kind) {
     case LineKind::Label: return pair_up(a.label, b.label, 0);
@@ -187,14 +183,10 @@ private:
              });
     case LineKind::Let:
     case LineKind::SetElement:
-    case LineKind::SetSystem: return same(a.term, b.term);
-    case LineKind::Gosub: return a.label == b.label;
+    case LineKind::SetSystem:
+    case LineKind::Gosub:
     case LineKind::Print:
-    case LineKind::Do:
-      return falls_through(a) &&
-             std::equal(code_.parts.begin() + a.parts_begin, code_.parts.begin() + a.parts_end,
-                        code_.parts.begin() + b.parts_begin, code_.parts.begin() + b.parts_end,
-                        [&](const Part& x, const Part& y) { return same(x, y); });
+    case LineKind::Do: return does_same(code_, a, b, identity_);
     case LineKind::Nothing:
     case LineKind::Return:
     case LineKind::Switch:
@@ -208,19 +200,10 @@ private:
   bool same(std::uint32_t a, std::uint32_t b) const {
     return structured::same(code_, a, b, identity_);
   }
-  bool same(const Relation& a, const Relation& b) const {
-    return a.comparison == b.comparison && same(a.left, b.left) && same(a.right, b.right);
-  }
   bool same(const Condition& a, const Condition& b) const {
-    return a.glue == Glue::None && b.glue == Glue::None && same(a.first, b.first);
-  }
-  bool same(const Part& a, const Part& b) const {
-    if (a.kind != b.kind || !(a.text == b.text))
-      return false;
-    if (a.kind == PartKind::Term || a.kind == PartKind::Character)
-      return same(a.value, b.value);
-    return a.kind == PartKind::Variable ? identity_(a.value) == identity_(b.value)
-                                        : a.value == b.value;
+    return a.glue == Glue::None && b.glue == Glue::None &&
+           a.first.comparison == b.first.comparison && same(a.first.left, b.first.left) &&
+           same(a.first.right, b.first.right);
   }
 
   Code& code_;
@@ -233,6 +216,35 @@ private:
 };
 
 } // namespace
+
+bool does_same(const Code& code, const CodeLine& a, const CodeLine& b, const Identity& identity) {
+  if (a.kind != b.kind || a.robot != b.robot || !falls_through(a) || !may_join(code, a, b))
+    return false;
+  if (a.kind == LineKind::Gosub)
+    return a.label == b.label;
+  if (a.kind == LineKind::Let)
+    return identity(a.variable) == identity(b.variable) && same(code, a.term, b.term, identity);
+  if (a.kind == LineKind::SetElement || a.kind == LineKind::SetSystem)
+    return a.variable == b.variable && same(code, a.term, b.term, identity);
+  return (a.kind == LineKind::Print || a.kind == LineKind::Do) &&
+         std::equal(code.parts.begin() + a.parts_begin, code.parts.begin() + a.parts_end,
+                    code.parts.begin() + b.parts_begin, code.parts.begin() + b.parts_end,
+                    [&](const Part& x, const Part& y) { return same_part(code, x, y, identity); });
+}
+
+void join_knowledge(Code& code, CodeLine& kept, const CodeLine& other) {
+  kept.proven = kept.proven && other.proven;
+  if (kept.kind == LineKind::If) {
+    auto& relation = code.conditions[kept.condition].first;
+    const auto& same = code.conditions[other.condition].first;
+    relation.left_range = compiler::join(relation.left_range, same.left_range);
+    relation.right_range = compiler::join(relation.right_range, same.right_range);
+  } else if (kept.kind == LineKind::Print || kept.kind == LineKind::Do) {
+    for (auto i = kept.parts_begin; i < kept.parts_end; ++i)
+      code.parts[i].range = compiler::join(
+          code.parts[i].range, code.parts[other.parts_begin + i - kept.parts_begin].range);
+  }
+}
 
 bool merge_tails(Code& code, const Identity& identity) {
   return Merger(code, identity).run();

@@ -220,7 +220,7 @@ private:
   void shorten(CodeLine& line, const State& state) {
     const auto label = chosen_label(code_, ranges_, line, state);
     const auto last = std::max(1, ranges_.range_of(line.term, state).hi);
-    if (label != none && (code_.terms[line.term].effects & effect::clears) == 0) {
+    if (label != none && is_pure(code_.terms[line.term].effects)) {
       line.kind = LineKind::Goto;
       line.label = label;
       changed_ = true;

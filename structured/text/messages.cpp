@@ -121,6 +121,9 @@ Diagnostic trailing(const Program& program, Span found) {
                                  trim(all.substr(index, all.rfind(')', found.begin) - index)),
                                  trim(all.substr(found.end, end - found.end))));
   }
+  if (text == "=" && before == ']' && equal_words(statement, "array"))
+    return malformed(program, found, "the elements of an array are 0 at first",
+                     "set each in a line of its own, as in `a[1] = 5`");
   if (text == ":")
     return finding(rules::ForeignWord, found, "`:` does not separate statements",
                    "write one statement per line");

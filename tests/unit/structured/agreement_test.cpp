@@ -60,8 +60,10 @@ void run(vm::Machine& machine, vm::NotebookHost& host, const std::string& text) 
     machine.run(std::max(machine.next_event(), machine.now()) + 10ms, host);
 }
 
-void compare(std::uint64_t seed) {
-  const auto text = testing::RandomStructured(seed).write();
+using Style = testing::RandomStructured::Style;
+
+void compare(std::uint64_t seed, Style style = Style::Any) {
+  const auto text = testing::RandomStructured(seed, style).write();
   NoFiles files;
   compiler::Target target;
   target.ram_bytes = 4096;
@@ -120,8 +122,14 @@ TEST(Agreement, CompiledProgramsDoWhatTheTextSays) {
     compare(seed);
 }
 
+TEST(Agreement, CompiledHabitsDoWhatTheTextSays) {
+  const auto programs = how_many();
+  for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
+    compare(seed, Style::Habits);
+}
+
 TEST(Agreement, ProgramsThatHaveFoundSomething) {
-  for (const std::uint64_t seed : {5472U, 10147U})
+  for (const std::uint64_t seed : {5472U, 10147U, 181497U})
     compare(seed);
 }
 
@@ -199,23 +207,25 @@ TEST(Agreement, IndicesThatAreErrorsAreWrong) {
 
 TEST(Agreement, MostRandomProgramsCompileAndRun) {
   // Programs that are all refused would prove nothing. Which they are depends on the compiler.
-  int compiled_ones = 0;
-  int ended = 0;
-  for (std::uint64_t seed = 1; seed <= 450; ++seed) {
-    const auto text = testing::RandomStructured(seed).write();
-    NoFiles files;
-    const auto compiled = compile("random.orb", "random.orb", text, {}, files);
-    if (compiled.has_errors())
-      continue;
-    ++compiled_ones;
-    vm::NotebookHost host;
-    prepare(host);
-    TreeEvaluator plain(compiled.program, compiled.names, host, seed);
-    plain.run(4000);
-    ended += plain.end == "end" ? 1 : 0;
+  for (const auto style : {Style::Any, Style::Habits}) {
+    int compiled_ones = 0;
+    int ended = 0;
+    for (std::uint64_t seed = 1; seed <= 450; ++seed) {
+      const auto text = testing::RandomStructured(seed, style).write();
+      NoFiles files;
+      const auto compiled = compile("random.orb", "random.orb", text, {}, files);
+      if (compiled.has_errors())
+        continue;
+      ++compiled_ones;
+      vm::NotebookHost host;
+      prepare(host);
+      TreeEvaluator plain(compiled.program, compiled.names, host, seed);
+      plain.run(4000);
+      ended += plain.end == "end" ? 1 : 0;
+    }
+    EXPECT_GT(compiled_ones, 100);
+    EXPECT_GT(ended, 50);
   }
-  EXPECT_GT(compiled_ones, 100);
-  EXPECT_GT(ended, 50);
 }
 
 } // namespace

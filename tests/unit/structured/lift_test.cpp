@@ -173,9 +173,11 @@ TEST(Lift, CompiledProgramsDoTheSame) {
   std::uint64_t lifted = 0;
   const auto programs = how_many(600);
   for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed) {
+    using Style = testing::RandomStructured::Style;
+    const auto style = seed % 2 == 0 ? Style::Any : Style::Habits;
     NoFiles files;
-    const auto compiled =
-        compile("random.orb", "random.orb", testing::RandomStructured(seed).write(), {}, files);
+    const auto compiled = compile("random.orb", "random.orb",
+                                  testing::RandomStructured(seed, style).write(), {}, files);
     if (compiled.has_errors() || !compiled.runs || !errors_of(compiled.robot.text).empty())
       continue;
     ++lifted;

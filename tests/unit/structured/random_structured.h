@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "spec/basic.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,13 @@ namespace orb::testing {
 
 /// Writes structured programs at random, the same for the same seed: all statements and blocks,
 /// calls with side effects inside expressions, values at the edge of what is allowed. Most end.
+/// With habits, half of it is what people often write: counting by hand, flags, chains of equal
+/// tests, two values exchanged, functions that answer yes or no.
 class RandomStructured {
 public:
-  explicit RandomStructured(std::uint64_t seed) : random_{seed} {}
+  enum class Style { Any, Habits };
+  explicit RandomStructured(std::uint64_t seed, Style style = Style::Any)
+      : random_{seed}, style_(style) {}
 
   std::string write() {
     arrays_ = upto(3);
@@ -60,6 +65,8 @@ private:
       out_ += parameters == 1 ? "(p)" : "(p, q)";
     out_ += chance(0.3) ? "\n  local v = " + expression(2) + "\n" : "\n  local v\n";
     loops_ = 0;
+    if (function && style_ == Style::Habits && chance(0.6))
+      return answer();
     block(2, 1 + upto(3));
     if (function && chance(0.8))
       out_ += "  return " + expression(0) + "\n";
@@ -251,6 +258,8 @@ private:
   std::string counter() { return "i" + std::to_string(loops_) + "_" + std::to_string(routine_); }
 
   void statement(int depth) {
+    if (style_ == Style::Habits && depth < 5 && chance(0.5))
+      return habit(depth);
     const int kind = depth > 4 ? 24 : upto(24);
     switch (kind) {
     case 9: tower(depth); return;
@@ -428,7 +437,213 @@ private:
     line(depth, "end select");
   }
 
+  // ---- habits
+
+  /// A function that answers yes or no.
+  void answer() {
+    if (chance(0.4)) {
+      line(1, "for k" + std::to_string(routine_) + " = 2 to " + variable() + " % 6");
+      line(2, "if " + condition(1) + " then return 0");
+      line(1, "next");
+    } else if (chance(0.3)) {
+      block(1, 1);
+    }
+    if (chance(0.7)) {
+      line(1, "if " + condition(1) + " then return 1");
+      line(1, "return 0");
+    } else {
+      line(1, "if " + condition(1) + " then");
+      line(2, "return 0");
+      line(1, "else");
+      line(2, "return 1");
+      line(1, "end if");
+    }
+    out_ += "end function\n";
+  }
+
+  void habit(int depth) {
+    switch (upto(8)) {
+    case 0: return exchange(depth);
+    case 1: return count_by_hand(depth);
+    case 2: return chain(depth);
+    case 3: return alike(depth);
+    case 4: return flag(depth);
+    case 5: return ask(depth);
+    case 6: return states(depth);
+    default: return order(depth);
+    }
+  }
+
+  void exchange(int depth) {
+    if (arrays_ == 0)
+      return line(depth, simple());
+    const int array = upto(arrays_);
+    const auto size = std::to_string(sizes[array]);
+    const auto list = "list" + std::to_string(array);
+    const auto name = "x" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    const bool loop = chance(0.4);
+    std::string other = name + " + 1";
+    const auto index = [&] {
+      return chance(0.6) ? "rnd(" + size + ")" : "abs(" + variable() + ") % " + size + " + 1";
+    };
+    line(depth, "for q = 1 to " + size);
+    line(depth + 1, list + "[q] = rnd(9)");
+    line(depth, "next");
+    if (loop)
+      line(depth, "for " + name + " = 1 to " + size + " - 1");
+    else
+      line(depth, name + " = " + index());
+    if (!loop || chance(0.4)) {
+      other = name + "o";
+      line(depth, other + " = " + index());
+    }
+    if (chance(0.7))
+      line(depth, "if " + list + "[" + name + "] > " + list + "[" + other + "] then");
+    else
+      line(depth, "if " + condition(1) + " then");
+    line(depth, "t = " + list + "[" + name + "]");
+    line(depth, list + "[" + name + "] = " + list + "[" + other + "]");
+    line(depth, list + "[" + other + "] = " + (chance(0.7) ? "t" : variable()));
+    if (chance(0.3))
+      line(depth, simple());
+    line(depth, "end if");
+    if (loop)
+      line(depth, "next");
+    line(depth, "print " + list + "[" + (loop ? "1" : name) + "]");
+  }
+
+  void count_by_hand(int depth) {
+    const auto name = "h" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    const bool down = chance(0.4);
+    const auto step = std::to_string(1 + (chance(0.2) ? upto(3) : 0));
+    const auto count = name + (down ? " -= " : " += ") + step;
+    const auto end = chance(0.5)   ? std::to_string(upto(6))
+                     : chance(0.5) ? variable() + " % 6"
+                                   : (chance(0.5) ? std::string("alpha") : std::string("count"));
+    line(depth, name + " = " + (down ? std::to_string(3 + upto(6)) : std::to_string(upto(3))));
+    const auto within = name +
+                        (down          ? chance(0.5) ? " > " : " >= "
+                         : chance(0.5) ? " < "
+                                       : " <= ") +
+                        end;
+    const bool first = chance(0.6);
+    line(depth, first ? "while " + within : "repeat");
+    if (chance(0.6)) {
+      ++loops_;
+      block(depth + 1, 1 + upto(2));
+      --loops_;
+    } else {
+      line(depth + 1, "print " + name);
+    }
+    if (chance(0.1))
+      line(depth + 1, "if " + condition(1) + " then exit");
+    line(depth + 1, count);
+    line(depth, first ? "end while" : "until not " + within);
+    if (chance(0.4))
+      line(depth, "print \"then \" " + name);
+  }
+
+  void chain(int depth) {
+    const auto value = variable();
+    const int count = 2 + upto(3);
+    for (int n = 0; n < count; ++n) {
+      line(depth, (n > 0 ? "elseif " : "if ") + value +
+                      (chance(0.7)   ? " = "
+                       : chance(0.5) ? " < "
+                                     : " > ") +
+                      std::to_string(n * 2) + " then");
+      line(depth + 1, chance(0.3) ? value + " = " + number() : simple());
+    }
+    if (chance(0.4)) {
+      line(depth, "else");
+      line(depth + 1, simple());
+    }
+    line(depth, "end if");
+  }
+
+  /// Two ways that begin and end with the same.
+  void alike(int depth) {
+    const auto head = simple();
+    const auto tail = simple();
+    line(depth, "if " + condition(0) + " then");
+    line(depth + 1, head);
+    line(depth + 1, simple());
+    line(depth + 1, tail);
+    line(depth, "else");
+    line(depth + 1, chance(0.8) ? head : simple());
+    if (chance(0.6))
+      line(depth + 1, simple());
+    line(depth + 1, chance(0.8) ? tail : simple());
+    line(depth, "end if");
+  }
+
+  void flag(int depth) {
+    const auto name = "g" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    line(depth, name + " = 0");
+    line(depth, "if " + condition(1) + " then " + name + " = 1");
+    if (chance(0.5))
+      line(depth, simple());
+    if (chance(0.3))
+      line(depth, "if " + condition(1) + " then " + name + " = 1 - " + name);
+    line(depth, "if " + name + (chance(0.5) ? " = 1 then" : " then"));
+    block(depth + 1, 1 + upto(2));
+    line(depth, "end if");
+  }
+
+  /// The answer of a function, tested.
+  void ask(int depth) {
+    const int callee = subs_ + 1 + upto(std::max(functions_, 1));
+    if (functions_ == 0 || callee <= routine_)
+      return flag(depth);
+    const auto call = [&] { return name_of(callee) + arguments(callee, 2); };
+    const auto test = [&] {
+      return chance(0.5) ? call() : call() + (chance(0.5) ? " = 1" : " = 0");
+    };
+    line(depth,
+         "if " + test() + (chance(0.4) ? (chance(0.5) ? " and " : " or ") + test() : "") + " then");
+    block(depth + 1, 1 + upto(2));
+    if (chance(0.5)) {
+      line(depth, "elseif " + test() + " then");
+      line(depth + 1, simple());
+    }
+    line(depth, "end if");
+  }
+
+  void states(int depth) {
+    const auto name = "m" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    line(depth, name + " = 0");
+    line(depth, "repeat " + std::to_string(2 + upto(5)));
+    line(depth + 1, "select " + name);
+    for (int n = 0; n < 3; ++n) {
+      line(depth + 1, "case " + std::to_string(n));
+      line(depth + 2, simple());
+      line(depth + 2, chance(0.5) ? name + " = " + std::to_string(upto(4))
+                                  : "if " + condition(1) + " then " + name + " = " +
+                                        std::to_string(upto(4)) + " else " + name + " = 0");
+    }
+    line(depth + 1, "end select");
+    if (chance(0.5))
+      line(depth + 1, simple());
+    line(depth, "end repeat");
+  }
+
+  /// Two values compared one way after the other.
+  void order(int depth) {
+    const auto a = variable();
+    const auto b = variable();
+    line(depth, "if " + a + " = " + b + " then");
+    block(depth + 1, 1 + upto(2));
+    line(depth, "elseif " + a + (chance(0.5) ? " < " : " > ") + b + " then");
+    line(depth + 1, chance(0.5) ? a + " = " + b + " + 1" : simple());
+    line(depth, "else");
+    line(depth + 1, chance(0.5) ? b + " = " + a + " - 1" : simple());
+    if (chance(0.5))
+      line(depth + 1, simple());
+    line(depth, "end if");
+  }
+
   Random random_;
+  Style style_;
   std::string out_;
   int arrays_ = 0;
   int subs_ = 0;
