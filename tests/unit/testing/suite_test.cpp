@@ -128,7 +128,7 @@ TEST(TestFiles, AnyTextIsRead) {
       "color ",   "#FF0000 ", "times ", "to ",    "points ", "5 ",      "-",       "\n",
       "wall x=3", "error ",   "0Ah ",   "A = 3 ", "\x80",    "reach "};
   Random random{7};
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 10000; ++i) {
     std::string text;
     for (auto more = random.below(12); more > 0; --more)
       text += pieces[random.below(std::size(pieces))];
