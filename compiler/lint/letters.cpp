@@ -164,8 +164,6 @@ void LetterFlow::wait(std::uint32_t block) {
 void LetterFlow::enter(std::uint32_t code, const Letters& letters) {
   if (code >= block_of_.size() || block_of_[code] == none)
     return; // no line, or one that the one above leads to
-  constexpr std::uint32_t patience = 2;
-  constexpr std::uint32_t limit = 24;
   auto& block = blocks_[block_of_[code]];
   if (!block.reached) {
     block.reached = true;
@@ -173,23 +171,26 @@ void LetterFlow::enter(std::uint32_t code, const Letters& letters) {
     wait(block_of_[code]);
     return;
   }
-  const auto before = block.letters;
-  const auto bits = std::pair{before.exact, before.dense};
-  if (!join_into(block.letters, letters)) {
-    if (bits != std::pair{block.letters.exact, block.letters.dense})
-      wait(block_of_[code]);
-    return;
-  }
-  if (block.visits > patience)
+  if (grow(block.letters, letters, block.visits))
+    wait(block_of_[code]);
+}
+
+bool LetterFlow::grow(Letters& into, const Letters& from, std::uint32_t visits) const {
+  constexpr std::uint32_t patience = 2;
+  constexpr std::uint32_t limit = 24;
+  const auto before = into;
+  if (!join_into(into, from))
+    return std::pair{before.exact, before.dense} != std::pair{into.exact, into.dense};
+  if (visits > patience)
     for (std::size_t i = 0; i < spec::letter_count; ++i) {
-      auto& range = block.letters.ranges[i];
+      auto& range = into.ranges[i];
       if (range == before.ranges[i])
         continue;
-      range = block.visits > limit ? Range{} : widen(landmarks_, before.ranges[i], range);
-      block.letters.exact &= ~bit(i);
-      block.letters.dense &= ~bit(i);
+      range = visits > limit ? Range{} : widen(landmarks_, before.ranges[i], range);
+      into.exact &= ~bit(i);
+      into.dense &= ~bit(i);
     }
-  wait(block_of_[code]);
+  return true;
 }
 
 bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters) {
@@ -215,14 +216,11 @@ void LetterFlow::leave(std::uint32_t code, const Letters& letters) {
   for (auto& routine : routines_) {
     if (routine.lines[code] == 0)
       continue;
-    const auto bits = std::pair{routine.letters.exact, routine.letters.dense};
-    bool changed = !routine.returned;
-    if (routine.returned) {
-      changed = join_into(routine.letters, letters);
-      changed = changed || bits != std::pair{routine.letters.exact, routine.letters.dense};
-    } else {
+    // What a routine that calls itself leaves would grow by a step each time.
+    const bool changed = !routine.returned || grow(routine.letters, letters, routine.growths);
+    if (!routine.returned)
       routine.letters = letters;
-    }
+    routine.growths += changed ? 1 : 0;
     routine.returned = true;
     if (changed)
       for (const auto caller : routine.callers)

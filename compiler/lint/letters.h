@@ -72,6 +72,7 @@ private:
     std::uint32_t written = 0; ///< letters, as bits
     bool returned = false;
     Letters letters;                    ///< at its returns
+    std::uint32_t growths = 0;          ///< how often they became more
     std::vector<std::uint32_t> callers; ///< blocks
     std::vector<std::uint8_t> lines;    ///< that run in it
     std::vector<std::uint32_t> callees; ///< entries
@@ -83,6 +84,8 @@ private:
   std::uint32_t written_by(std::uint32_t code) const;
   void find_landmarks();
   void wait(std::uint32_t block);
+  /// Joins what is known on another way, the rougher the more often; whether that is news.
+  bool grow(Letters& into, const Letters& from, std::uint32_t visits) const;
 
   const Program& program_;
   const Flow& flow_;

@@ -541,7 +541,10 @@ private:
   void reuse_elements() {
     std::vector<Arrival> arrivals(code_.labels);
     Known known;
-    auto& [index, since, tested, elements] = known;
+    auto& index = known.index; // not a structured binding: clang 14 lets no lambda capture one
+    auto& since = known.since;
+    auto& tested = known.tested;
+    auto& elements = known.held;
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       if (index != none && swap_stores(i, index, elements))
         read_on(index_variable, since, i);
