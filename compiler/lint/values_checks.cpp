@@ -183,7 +183,7 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
   const auto parameters = row.parameters();
   const auto arguments = program_.items_of(statement);
   const bool mended = statement.kind == spec::Statement::Goroll &&
-                      (check_swapped(arguments) || check_backward(arguments));
+                      (check_swapped(arguments) || check_backward(statement));
   for (std::size_t i = mended ? 2 : 0; i < arguments.size(); ++i)
     check_range(arguments[i], row.word, parameters[i]);
   if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
@@ -221,7 +221,8 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
 }
 
 /// A speed below 0: the ball drives back when it is headed the other way.
-bool ValuesPass::check_backward(std::span<const Item> arguments) {
+bool ValuesPass::check_backward(const StatementNode& statement) {
+  const auto arguments = program_.items_of(statement);
   const auto parameters = spec::info(spec::Statement::Goroll).parameters();
   const auto heading = range_of(arguments[0]);
   const auto speed = range_of(arguments[1]);
@@ -235,9 +236,8 @@ bool ValuesPass::check_backward(std::span<const Item> arguments) {
                           fmt::format("`goroll` takes speed {} to {}, found {}",
                                       parameters[1].least, parameters[1].greatest, speed.lo),
                           fmt::format("write `{}` to drive back", line));
-  const auto statement = program_.text.rfind("goroll", arguments[0].span.begin);
-  d.fix = single_fix(d.help, {static_cast<std::uint32_t>(statement), arguments.back().span.end},
-                     line, Safety::Unsafe);
+  d.fix =
+      single_fix(d.help, {statement.word.begin, arguments.back().span.end}, line, Safety::Unsafe);
   return true;
 }
 

@@ -189,7 +189,7 @@ private:
   void check_arguments(const StatementNode& statement);
 
   bool check_swapped(std::span<const Item> arguments);
-  bool check_backward(std::span<const Item> arguments);
+  bool check_backward(const StatementNode& statement);
   void add_missing_go(const StatementNode& statement, const Item& last);
 
   void check_flags(const Item& value);

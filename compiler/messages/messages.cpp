@@ -328,17 +328,20 @@ private:
       falls = statement.error || (statement.kind != spec::Statement::End &&
                                   statement.kind != spec::Statement::Return &&
                                   statement.kind != spec::Statement::Goto);
-      const bool called =
-          std::any_of(program_.items.begin(), program_.items.end(), [&](const Item& item) {
-            return item.kind == ItemKind::Target && item.value == begin;
-          });
-      if (statement.error || statement.kind != spec::Statement::Return || begin == 0 || called)
+      if (statement.error || statement.kind != spec::Statement::Return || begin == 0 ||
+          is_target(begin))
         continue;
       if (only != 0)
         return 0;
       only = begin;
     }
     return only;
+  }
+
+  bool is_target(std::uint32_t number) const {
+    return std::any_of(program_.items.begin(), program_.items.end(), [&](const Item& item) {
+      return item.kind == ItemKind::Target && item.value == number;
+    });
   }
 
   Diagnostic expected_then() const {

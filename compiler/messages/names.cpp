@@ -343,12 +343,11 @@ private:
   std::vector<std::uint32_t> colons(std::uint32_t from) const {
     std::vector<std::uint32_t> found;
     const auto line = text_.substr(0, code_end());
+    const auto brace = line.find('{', line_.span.begin); // what follows is of other languages
     bool quoted = false;
-    for (auto at = from; at < line.size(); ++at) {
+    for (auto at = from; at < std::min(line.size(), brace); ++at) {
       quoted = quoted != (line[at] == '"');
-      const bool braces =
-          line.substr(line_.span.begin, at - line_.span.begin).find('{') != std::string_view::npos;
-      if (!quoted && line[at] == ':' && !braces && is_letter(after(at + 1)))
+      if (!quoted && line[at] == ':' && is_letter(after(at + 1)))
         found.push_back(at);
     }
     return found;

@@ -208,11 +208,10 @@ private:
     auto& lines = code_.lines;
     bool any = false;
     for (auto i = static_cast<std::uint32_t>(lines.size()); i-- > 0;) {
-      const auto at = lines[i].kind == LineKind::If ? at_[lines[i].label] : none;
-      if (at == none || at == 0 || named_[lines[i].label] != 1 || falls(lines[at - 1]))
+      if (lines[i].kind != LineKind::If || !only_jump_leads_to(code_, named_, at_, lines[i].label))
         continue;
-      for (auto test = i, other = at + 1; test + 1 < lines.size() && other < lines.size();
-           ++test, ++other) {
+      for (auto test = i, other = at_[lines[i].label] + 1;
+           test + 1 < lines.size() && other < lines.size(); ++test, ++other) {
         if (!does_same(code_, lines[test + 1], lines[other], identity_) ||
             !passes(lines[test], lines[test + 1]))
           break;

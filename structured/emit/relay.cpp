@@ -135,7 +135,7 @@ private:
     if (found.rule == &robot::IndexRange)
       told.message = "index out of bounds";
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
-      tell_of_heading(statement, told);
+      tell_of_heading(found, statement, told);
     if (found.rule == &robot::StaleSensor)
       tell_of_copy(found, statement, told);
     if (found.rule == &robot::ValueOutOfRange && found.fix && found.fix->edits.size() > 1 &&
@@ -207,7 +207,10 @@ private:
       }
     auto line = fmt::format("goroll {}, 0, 0", heading);
     const std::string end(line_end_of(program.text));
-    const bool waits = found.help.find("delay") == std::string::npos; // somewhere
+    const bool waits = // somewhere; else the linter adds a wait, too
+        std::any_of(plain_.statements.begin(), plain_.statements.end(), [](const auto& plain) {
+          return spec::info(plain.kind).after == spec::After::Waits;
+        });
     const auto& last = *place;
     const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
     told.help = waits ? fmt::format("add `{}` {}", line, ends ? "above" : "below")
@@ -266,7 +269,20 @@ private:
       text.replace(at, from.size(), to);
   }
 
-  void tell_of_heading(const Statement& statement, Diagnostic& told) const {
+  /// What the robot's line takes away where it sets a letter to the sum at `span`; 0 where it adds.
+  std::int32_t taken_away(Span span) const {
+    const auto sum = std::find_if(plain_.items.begin(), plain_.items.end(),
+                                  [&](const compiler::Item& one) { return one.span == span; });
+    if (sum == plain_.items.end() || sum->kind != compiler::ItemKind::Expression)
+      return 0;
+    const auto& root = plain_.nodes[sum->value];
+    const bool subtracts = root.kind == compiler::NodeKind::Binary &&
+                           static_cast<spec::Operator>(root.what) == spec::Operator::Subtract;
+    return subtracts ? plain_.nodes[sum->value - 1].value : 0;
+  }
+
+  void tell_of_heading(const Diagnostic& found, const Statement& statement,
+                       Diagnostic& told) const {
     const auto& program = compiled_.program;
     const auto items = program.items_of(statement);
     const auto name = program.text_of(items[0].span);
@@ -274,12 +290,10 @@ private:
     if (statement.operation != Statement::none_operation)
       sum = fmt::format("{} {} {}", name,
                         spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
-    // What the robot's own line adds keeps what becomes smaller at 0 or more.
+    // The remainder of a value below 0 is below 0, too.
     const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
-    const bool shrinks = told.message.find("shrinks") != std::string::npos;
-    const auto added = told.help.find(" + ");
-    if (shrinks && added != std::string::npos)
-      sum = fmt::format("{}{}", name, told.help.substr(added, told.help.find(')') - added));
+    if (const auto step = taken_away(found.span); step > 0)
+      sum = fmt::format("{} + {}", name, turn - step % turn);
     told.message.replace(0, told.message.find(" is "), fmt::format("`{}`", name));
     told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
   }

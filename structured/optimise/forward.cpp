@@ -354,15 +354,10 @@ private:
       if (line.kind == LineKind::Label || facts_.ends_text(line) || facts_.writes(line, variable) ||
           facts_.disturbs(line, term))
         return;
-      if (line.kind == LineKind::If && jump == none && only_jumps_lead_to(line.label))
+      if (line.kind == LineKind::If && jump == none &&
+          only_jump_leads_to(code_, named_, at_, line.label))
         drop_repeated(i, at_[line.label] + 1, j);
     }
-  }
-
-  /// Whether one line of the program leads to a label, and that is a jump.
-  bool only_jumps_lead_to(std::uint32_t label) const {
-    const auto at = at_[label];
-    return named_[label] == 1 && at != none && at > 0 && !falls_through(code_.lines[at - 1]);
   }
 
   /// Reads the original all through the program where a copy, once made, is never another value

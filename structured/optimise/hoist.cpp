@@ -58,14 +58,9 @@ private:
     return false;
   }
 
-  bool only_jumps_lead_to(std::uint32_t label) const {
-    const auto at = at_[label];
-    return named_[label] == 1 && at != none && at > 0 && !falls_through(code_.lines[at - 1]);
-  }
-
   /// The arm that only a test leads to.
   std::optional<Arm> taken_arm(std::uint32_t label) const {
-    return only_jumps_lead_to(label) ? arm_at(at_[label] + 1) : std::nullopt;
+    return only_jump_leads_to(code_, named_, at_, label) ? arm_at(at_[label] + 1) : std::nullopt;
   }
 
   bool sets(std::uint32_t i) const {
@@ -87,7 +82,8 @@ private:
     arm.begin = begin;
     const auto& first = code_.lines[std::min<std::size_t>(begin, code_.lines.size() - 1)];
     const bool choice = first.kind == LineKind::If && !first.guard &&
-                        is_pure(effects_of(code_, first)) && only_jumps_lead_to(first.label);
+                        is_pure(effects_of(code_, first)) &&
+                        only_jump_leads_to(code_, named_, at_, first.label);
     const auto set = choice ? begin + 1 : begin;
     if (!sets(set))
       return std::nullopt;
