@@ -21,7 +21,7 @@ struct FailureInfo {
 constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::NotBuilt,     "install `libsdbus-c++-dev` and build orb again; `orb --version -v` says whether it has Bluetooth LE", false},
     {BleFailure::NoSystem,     "the playground reaches these robots, in Chrome or Edge", false},
-    {BleFailure::NotLoaded,    "reinstall orb with all its files, and `libsdbus-c++1`", false},
+    {BleFailure::NotLoaded,    "reinstall orb with all its files, and `libsdbus-c++1` (in a checkout: `./dev build`)", false},
     {BleFailure::NoBus,        "`sudo systemctl start dbus`; in a container, mount /run/dbus/system_bus_socket", false},
     {BleFailure::NoDaemon,     "`sudo systemctl start bluetooth`; it is in the package `bluez`", false},
     {BleFailure::NotAllowed,   "`sudo usermod -aG bluetooth $USER`, then log in again", false},

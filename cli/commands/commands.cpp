@@ -1,5 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/context/language.h"
+#include "cli/editors/commands.h"
 #include "cli/model/command_line.h"
 
 #include "uploader/bluez.h"

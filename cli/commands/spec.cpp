@@ -1,11 +1,8 @@
-#include "base/bytes.h"
 #include "base/suggest.h"
 #include "cli/commands/commands.h"
-#include "disk/disk.h"
-#include "editor/printed/syntax_files.h"
+#include "cli/editors/word_lists.h"
 #include "reference/knowledge.h"
 
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -49,16 +46,6 @@ bool select_section(std::vector<reference::Section>& sections, const std::string
               fmt::format("unknown section `{}`; {}", id,
                           did_you_mean(id, ids, fmt::format("one of {}", fmt::join(ids, ", ")))));
   return false;
-}
-
-void write_editor_files(Context& context, const std::string& folder) {
-  for (const auto& file : editor::syntax_files()) {
-    const auto path = disk::as_path(folder) / disk::as_path(file.path);
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error); // writing says what is wrong
-    if (const auto done = disk::write(path.string(), as_bytes(file.text)); !done)
-      return fail(context, {ExitCode::File, done.error().message});
-  }
 }
 
 void print_spec(Context& context, const SpecOptions& options) {

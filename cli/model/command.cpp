@@ -139,6 +139,10 @@ void Command::callback(std::function<void()> run) const {
   app_->callback(std::move(run));
 }
 
+void Command::any_words() const {
+  app_->fallthrough(false)->prefix_command(); // else orb itself is asked what it makes of them
+}
+
 void Command::footer(const std::string& text) const {
   app_->footer(text);
 }

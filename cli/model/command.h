@@ -80,6 +80,8 @@ public:
   /// One that changes nothing.
   Option add_flag(const std::string& names, const std::string& summary) const;
 
+  /// Takes whatever words follow, options or not, and leaves them unread.
+  void any_words() const;
   /// What runs when the command line has named the command and been read.
   void callback(std::function<void()> run) const;
   /// A paragraph after the options in help.

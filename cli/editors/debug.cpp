@@ -1,5 +1,5 @@
-#include "cli/commands/commands.h"
 #include "cli/context/console.h"
+#include "cli/editors/commands.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"

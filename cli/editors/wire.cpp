@@ -1,4 +1,4 @@
-#include "cli/input/wire.h"
+#include "cli/editors/wire.h"
 
 #include "cli/context/console.h"
 #include "cli/context/context.h"
