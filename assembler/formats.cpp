@@ -1,6 +1,8 @@
 #include "assembler/formats.h"
 
 #include "assembler/timing.h"
+#include "base/suggest.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
 #include <algorithm>
@@ -69,8 +71,7 @@ std::string wait_text(const CommandTiming& timing) {
   return "< " + assembler::print_time(timing.most_ms);
 }
 
-} // namespace
-
+/// A byte array for a C program, with its size: the framed macro.
 std::string print_c(std::string_view name, const AssembledMacro& macro) {
   const auto bytes = protocol::encode(macro.image());
   const auto id = c_name(name);
@@ -81,8 +82,9 @@ std::string print_c(std::string_view name, const AssembledMacro& macro) {
   return out + fmt::format("\n}};\nconst unsigned int {}_size = sizeof {};\n", id, id);
 }
 
-std::string print_macro_json(std::string_view name, const Source& source,
-                             const assembler::Assembly& assembly, std::size_t index) {
+/// A macro as a document of schema `orb.macro/1`: bytes, commands with their operands, times.
+std::string print_json(std::string_view name, const Source& source, const Assembly& assembly,
+                       std::size_t index) {
   const auto& macro = assembly.macros[index];
   const auto image = macro.image();
   const auto timing = assembler::time_macro(assembly, index);
@@ -121,8 +123,9 @@ std::string print_macro_json(std::string_view name, const Source& source,
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::string print_listing(std::string_view name, const Source& source,
-                          const assembler::Assembly& assembly, std::size_t index) {
+/// Offset, command number, bytes, times and source, a line a command.
+std::string print_listing(std::string_view name, const Source& source, const Assembly& assembly,
+                          std::size_t index) {
   const auto& macro = assembly.macros[index];
   const auto image = macro.image();
   const auto timing = assembler::time_macro(assembly, index);
@@ -146,6 +149,61 @@ std::string print_listing(std::string_view name, const Source& source,
                          to_hex(bytes.subspan(at, std::min(bytes.size() - at, bytes_per_line))));
   }
   return out;
+}
+
+std::string print(const Format* format, std::string_view name, const Source& source,
+                  const Assembly& assembly, std::size_t index) {
+  const auto& macro = assembly.macros[index];
+  if (format == nullptr)
+    return print_listing(name, source, assembly, index);
+  if (format->name == "sphero")
+    return std::string(as_text(macro.body));
+  if (format->name == "bin")
+    return std::string(as_text(protocol::encode(macro.image())));
+  if (format->name == "hex")
+    return to_hex(protocol::encode(macro.image())) + "\n";
+  if (format->name == "c")
+    return print_c(name, macro);
+  return print_json(name, source, assembly, index);
+}
+
+std::string size_of(std::string_view name, const Assembly& assembly, std::size_t index) {
+  const auto& macro = assembly.macros[index];
+  return fmt::format("{}: {}, {} ({} with id and flags), {}", name,
+                     plural(macro.commands.size(), "command"), plural(macro.body.size(), "byte"),
+                     macro.framed_size(), to_string(time_macro(assembly, index)));
+}
+
+} // namespace
+
+const Format& format_of(std::string_view name, std::string_view ending) {
+  for (const auto& format : formats)
+    if (format.name == name)
+      return format;
+  for (const auto& format : formats)
+    if (!ending.empty() &&
+        fmt::format("{} ", format.endings).find(fmt::format("{} ", ending)) != std::string::npos)
+      return format;
+  return formats[0];
+}
+
+tl::expected<std::vector<Written>, std::string>
+write(const Source& source, const Assembly& assembly, const Wanted& wanted) {
+  std::vector<Written> all;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < assembly.macros.size(); ++i) {
+    const auto& given = assembly.macros[i].name;
+    names.push_back(given.empty() ? wanted.unnamed : given);
+    const auto& name = names.back();
+    if (wanted.macro.empty() || wanted.macro == name)
+      all.push_back(
+          {name, print(wanted.format, name, source, assembly, i), size_of(name, assembly, i)});
+  }
+  if (!all.empty())
+    return all;
+  return tl::unexpected(fmt::format(
+      "{} has no macro `{}`; {}", source.name(), wanted.macro,
+      did_you_mean(wanted.macro, names, fmt::format("it has {}", fmt::join(names, ", ")))));
 }
 
 } // namespace orb::assembler
