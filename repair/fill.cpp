@@ -82,10 +82,10 @@ const Unit* unit_called(std::string_view word) {
 
 enum class Assume : std::uint8_t { Milliseconds, Seconds, Either };
 
-/// Milliseconds, and whether they were said in another unit.
+/// Milliseconds, and whether they were said with a unit, or are seconds.
 struct Time {
   std::int64_t ms;
-  bool seconds;
+  bool has_unit;
 };
 
 std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
@@ -105,7 +105,7 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
     const auto* const unit = tokens[used].is_word() ? unit_called(tokens[used].text) : nullptr;
     if (unit == nullptr || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
       return std::nullopt;
-    return Time{*value * unit->ms / second_ms, unit->ms > 1};
+    return Time{*value * unit->ms / second_ms, true};
   }
   const bool seconds = assume == Assume::Seconds || fraction ||
                        (assume == Assume::Either && *value <= most_seconds * second_ms);
@@ -116,7 +116,7 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
   if (tokens.size() == 1 && tokens[0].is_text())
     return written_time(tokens_of(tokens[0].text, language), assume, language);
   if (const auto time = time_of(tokens, assume)) {
-    if (language == Language::Basic || !time->seconds)
+    if (language == Language::Basic || !time->has_unit)
       return std::to_string(time->ms);
     return time_text(time->ms);
   }
@@ -295,6 +295,11 @@ Text call(std::string_view function, const Tokens& a, const Tokens& b, const Hol
                ? Text(fmt::format("{}s", *minutes * minute + *seconds))
                : std::nullopt;
   }
+  if (function == "thousands") // `60 000`
+    return a.size() == 1 && b.size() == 1 && a[0].text.size() <= 3 && b[0].text.size() == 3 &&
+                   !a[0].is("0")
+               ? Text(a[0].text + b[0].text)
+               : std::nullopt;
   if (function == "less")
     return plus(a, -1);
   if (function == "more")

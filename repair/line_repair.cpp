@@ -70,7 +70,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   // The same words in another order say what was meant, whatever else is told of the line.
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
-  if (!own || leaves_out || finding.fix->safety != Safety::Safe)
+  own_call(start);
+  if (!best_ && (!own || leaves_out || finding.fix->safety != Safety::Safe))
     several_lines(start);
   if (!best_ && !leaves_out && own && !is_foreign(*own) &&
       (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
@@ -315,6 +316,17 @@ void LineRepair::habits(const std::string& statement, Bounds bounds) {
   explore(statement, around_, bounds, seen_, [&](const Rewritten& one) {
     return attempt(one.text, one.note, one.sure) ||
            (judge_.rephrase && rephrase(tokens_of(one.text, judge_.language)));
+  });
+}
+
+/// `drive 0, 1s` where the program has a sub of that name, whatever else people call so.
+void LineRepair::own_call(const std::string& statement) {
+  if (parts_.tokens.size() < 2 || !holds_name({parts_.tokens[0]}, around_))
+    return;
+  const auto call = parts_.tokens[0].text + "(";
+  std::unordered_set<std::string> seen;
+  explore(statement, around_, {1, few_states}, seen, [&](const Rewritten& one) {
+    return one.text.starts_with(call) && attempt(one.text, one.note, one.sure);
   });
 }
 

@@ -75,6 +75,7 @@ private:
   bool rephrase(const Tokens& line);
   bool begins_alike(std::string_view lines) const;
   void habits(const std::string& statement, Bounds bounds);
+  void own_call(const std::string& statement);
   void several_lines(const std::string& statement);
   void by_fix(const Diagnostic& finding);
   void by_changes(int most);

@@ -139,6 +139,7 @@ public:
     for (auto* finding : first)
       offer(*finding);
     if (judge_.language == Language::Structured) {
+      take_back(first);
       offer_again(first);
       close_mended();
     }
@@ -433,6 +434,24 @@ private:
     } else if (repair && says_little(finding)) {
       if (auto advice = repair->advice(); !advice.empty())
         finding.help = std::move(advice);
+    }
+  }
+
+  /// A line that is right once the others are mended stays as it is: it was judged before them.
+  void take_back(const std::vector<Diagnostic*>& findings) {
+    if (texts_.size() < 2)
+      return;
+    const auto errors = errors_in(judge_.check(whole_text()));
+    for (auto* finding : findings) {
+      const auto mended = texts_.extract(line_of(*finding));
+      if (mended.empty())
+        continue;
+      if (errors_in(judge_.check(whole_text())) > errors) {
+        texts_.insert({mended.key(), mended.mapped()});
+        continue;
+      }
+      *finding = before_[static_cast<std::size_t>(finding - findings_.data())];
+      mended_.erase(finding);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include "base/suggest.h"
 #include "base/text.h"
+#include "repair/fill.h"
 #include "repair/idioms.h"
 
 #include <algorithm>
@@ -125,6 +126,13 @@ private:
     add(changed, 4);
   }
 
+  /// Digits, where there are units perhaps with one: `1s`.
+  bool is_count(std::string_view text) const {
+    const auto unit = text.find_first_not_of("0123456789");
+    return unit == std::string_view::npos ||
+           (unit > 0 && language_ != Language::Basic && milliseconds_of(text.substr(unit)) > 0);
+  }
+
   void split(std::size_t i) {
     const auto& word = line_[i];
     if (!word.is_word() || is_known(word.text))
@@ -132,8 +140,8 @@ private:
     for (std::size_t n = 2; n < word.text.size(); ++n) {
       const auto left = std::string_view(word.text).substr(0, n);
       const auto right = std::string_view(word.text).substr(n);
-      const bool value = std::all_of(right.begin(), right.end(), is_digit) ||
-                         (right.size() == 1 && language_ == Language::Basic) || is_known(right);
+      const bool value =
+          is_count(right) || (right.size() == 1 && language_ == Language::Basic) || is_known(right);
       if (!value || std::none_of(words_.begin(), words_.end(),
                                  [&](std::string_view one) { return equal_words(one, left); }))
         continue;

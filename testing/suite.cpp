@@ -17,7 +17,7 @@
 namespace orb::testing {
 namespace {
 
-constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
+constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"}; // of programs
 
 /// What keeps a source from becoming a program at all, as text.
 std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings) {
@@ -174,9 +174,19 @@ std::string beside(const std::string& name, std::string_view ending) {
   return name.substr(0, dot) + std::string(ending);
 }
 
-Diagnostic cannot_read(const std::string& path, Span span) {
-  return finding(rules::File, span, fmt::format("cannot read {}", path),
-                 "paths are relative to the folder of the test file");
+/// For a line `WORD NAME` whose file cannot be read.
+Diagnostic cannot_read(std::string_view word, const Named& given, const std::string& path,
+                       structured::Files& files) {
+  auto d = finding(rules::File, given.span, fmt::format("cannot read {}", path),
+                   "paths are relative to the folder of the test file");
+  for (const auto ending : {endings[0], endings[1], endings[2], std::string_view(".svg")})
+    if ((ending == ".svg") == (word == "course") && files.read(fmt::format("{}{}", path, ending))) {
+      const auto name = fmt::format("{}{}", given.text, ending);
+      d.help = fmt::format("write `{} {}`", word, name);
+      d.fix = Fix{d.help, {{given.span, name}}, Safety::Unsafe};
+      return d;
+    }
+  return d;
 }
 
 /// Where the program of a test file is; nothing, and a finding, where there is none.
@@ -188,7 +198,9 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
     auto path = structured::resolve_path(name, given->text);
     if (files.read(path))
       return path;
-    findings.push_back(cannot_read(path, given->span));
+    if (given->text == "=" || given->text == ":")
+      return std::nullopt; // what follows is unexpected, and that is said
+    findings.push_back(cannot_read("program", *given, path, files));
     return std::nullopt;
   }
   for (const auto ending : endings)
@@ -366,19 +378,19 @@ void check_files(SuiteFile& file, structured::Files& files) {
   for (const auto& with : file.file.with)
     if (const auto path = structured::resolve_path(file.source->name(), with.text);
         !with.text.empty() && !files.read(path))
-      file.file.diagnostics.push_back(cannot_read(path, with.span));
+      file.file.diagnostics.push_back(cannot_read("with", with, path, files));
 }
 
 /// Reads the course that a file names.
 void read_course(SuiteFile& file, structured::Files& files) {
   const auto& given = file.file.course;
-  if (!given || given->text.empty())
-    return;
+  if (!given || given->text.empty() || given->text == "=" || given->text == ":")
+    return; // what is wrong with the line has been said
   const auto path = structured::resolve_path(file.source->name(), given->text);
   auto& findings = file.file.diagnostics;
   auto text = files.read(path);
   if (!text) {
-    findings.push_back(cannot_read(path, given->span));
+    findings.push_back(cannot_read("course", *given, path, files));
     return;
   }
   const Source drawing(path, *std::move(text));

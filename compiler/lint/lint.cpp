@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
+#include <map>
 
 namespace orb::compiler {
 namespace {
@@ -71,17 +73,21 @@ void silence(const Program& program, Findings& findings) {
     orb::silence(program.text, comments, rules::all(), rules::UnknownRule, findings.all());
 }
 
-/// A warning where an error begins is about the same cause and says less.
+/// A warning where an error begins, and one of a byte in a word that is none, is about the same
+/// cause and says less.
 void drop_doubles(std::vector<Diagnostic>& findings) {
-  std::vector<std::uint32_t> errors;
+  std::map<std::uint32_t, std::uint32_t> errors; // where they begin and end
   for (const auto& d : findings)
     if (d.severity == Severity::Error)
-      errors.push_back(d.span.begin);
-  std::sort(errors.begin(), errors.end());
+      errors.emplace(d.span.begin,
+                     d.rule == &rules::UnknownStatement ? d.span.end : d.span.begin + 1);
   std::erase_if(findings, [&](const Diagnostic& d) {
-    return (d.rule == &rules::NegativeLiteral || d.rule == &rules::NonprintingByte) &&
-           d.severity != Severity::Error &&
-           std::binary_search(errors.begin(), errors.end(), d.span.begin);
+    const auto above = errors.upper_bound(d.span.begin);
+    if (d.severity == Severity::Error || above == errors.begin())
+      return false;
+    const auto [begin, end] = *std::prev(above);
+    return (d.rule == &rules::NegativeLiteral && d.span.begin == begin) ||
+           (d.rule == &rules::NonprintingByte && d.span.begin < end);
   });
 }
 

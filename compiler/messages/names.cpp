@@ -343,7 +343,8 @@ private:
   std::vector<std::uint32_t> colons(std::uint32_t from) const {
     std::vector<std::uint32_t> found;
     const auto line = text_.substr(0, code_end());
-    const auto brace = line.find('{', line_.span.begin); // what follows is of other languages
+    const auto brace =
+        line.find_first_of("{?", line_.span.begin); // what follows is of other languages
     bool quoted = false;
     for (auto at = from; at < std::min(line.size(), brace); ++at) {
       quoted = quoted != (line[at] == '"');

@@ -147,10 +147,35 @@ void Checker::check_for(const Statement& statement) {
   }
   if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
     report(rules::WrongUse, item(statement, 0).span, "a loop needs a variable to count with");
-  if (size(statement) < 4 || !require_constant(item(statement, 3)))
+  if (size(statement) >= 4 && !require_constant(item(statement, 3)))
     return;
-  if (value_of(item(statement, 3))->value == 0)
+  if (size(statement) >= 4 && value_of(item(statement, 3))->value == 0)
     report(compiler::rules::ZeroStep, item(statement, 3).span, "the step of the loop is 0");
+  else if (size(statement) >= 3)
+    check_direction(statement);
+}
+
+void Checker::check_direction(const Statement& statement) {
+  const auto number = [&](std::uint32_t n) { // a name may have another value tomorrow
+    const auto& part = item(statement, n);
+    const auto kind = program_.nodes[part.value].kind;
+    return kind == NodeKind::Number || kind == NodeKind::Negate ? value_of(part) : std::nullopt;
+  };
+  const auto from = number(1);
+  const auto to = number(2);
+  const auto step = size(statement) >= 4 ? value_of(item(statement, 3))->value : 1;
+  if (!from || !to || (step > 0 ? from->value <= to->value : from->value >= to->value))
+    return;
+  const Span counted{statement.word.begin, item(statement, 2).span.end};
+  const auto turned = step == -1 ? std::string(program_.text_of(counted))
+                                 : fmt::format("{} step {}", program_.text_of(counted), -step);
+  auto& d = report(
+      rules::LoopNeverRuns, counted,
+      fmt::format("the loop counts from {} away from {}, so it never runs", from->value, to->value),
+      fmt::format("write `{}`", turned));
+  d.fix = Fix{d.help,
+              {{{counted.begin, item(statement, size(statement) >= 4 ? 3 : 2).span.end}, turned}},
+              Safety::Unsafe};
 }
 
 void Checker::check_next(const Statement& statement) {

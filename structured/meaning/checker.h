@@ -128,6 +128,8 @@ private:
 
   void check_for(const Statement& statement);
 
+  /// A loop of which nothing is ever done: its numbers lie the other way round.
+  void check_direction(const Statement& statement);
   void check_next(const Statement& statement);
 
   // ---- select
