@@ -31,8 +31,8 @@ std::string address(std::string_view text) {
   std::string link = "https://orb.example/#p=";
   unsigned bits = 0;
   int held = 0;
-  for (const unsigned char c : packed)
-    for (bits = bits << 8 | c, held += 8; held >= 6; held -= 6)
+  for (const char c : packed)
+    for (bits = bits << 8 | static_cast<unsigned char>(c), held += 8; held >= 6; held -= 6)
       link += alphabet[bits >> (held - 6) & 63];
   if (held > 0)
     link += alphabet[bits << (6 - held) & 63];
