@@ -408,8 +408,11 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return join(holes.rest);
   if (name == "right" || name == "left")
     return std::to_string((around.heading + (name == "right" ? 90 : 270)) % 360);
-  if (name == "brake") // what drives
-    return around.pace.empty() ? std::nullopt : Text(fmt::format("goroll {},0,0", around.heading));
+  if (name == "brake") { // what drives
+    const auto* const comma = around.language == Language::Basic ? "," : ", ";
+    return around.pace.empty() ? std::nullopt
+                               : Text(fmt::format("goroll {}{}0{}0", around.heading, comma, comma));
+  }
   if (name == "still" && !around.pace.empty())
     return around.pace;
   if (name == "still")

@@ -40,6 +40,14 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
       errors_(errors_in(before)), lasting_(lasting_errors(before)),
       parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
       is_target_(false), most_checks_(most_checks) {
+  std::string words;
+  for (const auto& token : parts_.tokens)
+    words += (words.empty() ? "" : "_") + token.text;
+  is_named_ = parts_.tokens.size() > 1 && scenery.has_sub(words);
+  sub_ = is_named_ ? words : "";
+  for (std::size_t i = 0; i < std::min<std::size_t>(parts_.tokens.size(), 2); ++i)
+    if (sub_.empty() && parts_.tokens[i].is_word() && scenery.has_sub(parts_.tokens[i].text))
+      sub_ = parts_.tokens[i].text;
   around_.elsewhere = scenery.words_without(parts_.tokens);
   if (judge.language != Language::Basic)
     names_ = around_.elsewhere;
@@ -71,7 +79,10 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   own_call(start);
-  if (!best_ && (!own || leaves_out || finding.fix->safety != Safety::Safe))
+  const bool calls = !sub_.empty() && parts_.tokens[0].text == sub_;
+  if (calls && !best_ && finding.rule->id == "argument-count")
+    return {}; // which value is missing is said, whatever others call so
+  if (!best_ && !calls && (!own || leaves_out || finding.fix->safety != Safety::Safe))
     several_lines(start);
   if (!best_ && !leaves_out && own && !is_foreign(*own) &&
       (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
@@ -319,14 +330,14 @@ void LineRepair::habits(const std::string& statement, Bounds bounds) {
   });
 }
 
-/// `drive 0, 1s` where the program has a sub of that name, whatever else people call so.
+/// `drive 0, 1s`, `call drive(0, 1s)` and `wait for shake` where the program has a sub of that
+/// name, whatever else people call so.
 void LineRepair::own_call(const std::string& statement) {
-  if (parts_.tokens.size() < 2 || !holds_name({parts_.tokens[0]}, around_))
+  if (sub_.empty() || parts_.tokens.size() < 2 || (is_named_ && attempt(sub_, {}, true)))
     return;
-  const auto call = parts_.tokens[0].text + "(";
   std::unordered_set<std::string> seen;
   explore(statement, around_, {1, few_states}, seen, [&](const Rewritten& one) {
-    return one.text.starts_with(call) && attempt(one.text, one.note, one.sure);
+    return one.text.starts_with(sub_ + "(") && attempt(one.text, one.note, one.sure);
   });
 }
 

@@ -102,6 +102,12 @@ bool says_little(const Diagnostic& finding) {
   return !finding.fix && std::find(rules.begin(), rules.end(), finding.rule->id) != rules.end();
 }
 
+/// Whether a fix only leaves something out or puts something in, which a whole line does, too.
+bool is_piecemeal(const Fix& fix) {
+  return std::all_of(fix.edits.begin(), fix.edits.end(),
+                     [](const Edit& edit) { return edit.text.empty() || edit.span.size() == 0; });
+}
+
 /// Whether a line goes on in the next one, or seems to: an operator or a bracket is left open.
 bool goes_on(std::string_view line) {
   int depth = 0;
@@ -109,7 +115,7 @@ bool goes_on(std::string_view line) {
   for (const auto& token : tokens)
     depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
   return depth > 0 || (!tokens.empty() && tokens.back().kind == Token::Kind::Sign &&
-                       !tokens.back().is(")") && !tokens.back().is("{"));
+                       !tokens.back().is(")") && !tokens.back().is("{") && !tokens.back().is(";"));
 }
 
 /// Offers lines for the findings of one text.
@@ -543,9 +549,15 @@ private:
                  });
         }))
       return; // what was offered does not go far enough to tell
+    std::set<std::uint32_t> lines;
+    for (const auto* finding : mended_)
+      lines.insert(line_of(*finding));
     std::set<const Diagnostic*> gone;
     for (const auto& finding : findings_)
-      if (is_error(finding) && (!finding.fix || finding.rule->id == "block-end") &&
+      if (is_error(finding) &&
+          (!finding.fix || finding.rule->id == "block-end" ||
+           finding.rule->id == "unclosed-block" ||
+           (lines.contains(line_of(finding)) && is_piecemeal(*finding.fix))) &&
           !mended_.contains(&finding) &&
           std::none_of(after.begin(), after.end(), [&](const Diagnostic& one) {
             return is_error(one) && ((one.rule == finding.rule && one.message == finding.message) ||
@@ -571,7 +583,7 @@ private:
   void write(Diagnostic& finding, const LineRepair& repair, std::uint32_t at,
              const std::vector<Accepted>& found) const {
     const auto shown = repair.shown(found[0].text);
-    if (found.size() > 1) {
+    if (found.size() > 1 && repair.shown(found[1].text) != shown) {
       finding.help = fmt::format("write `{}` or `{}`", shown, repair.shown(found[1].text));
       finding.fix.reset();
       return;

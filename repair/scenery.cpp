@@ -31,6 +31,9 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
     if (language == Language::Structured && tokens.size() == 2 && tokens[0].is_word() &&
         tokens[1].is(":") && !equal_words(tokens[0].text, "else"))
       labels_.push_back(tokens[0].text);
+    if (language == Language::Structured && tokens.size() > 1 && tokens[1].is_word())
+      if (const auto first = word_at(tokens, 0); first == "sub" || first == "function")
+        subs_.push_back(tokens[1].text);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;
@@ -39,6 +42,11 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
         ++set_[tokens[i].text];
     }
   }
+}
+
+bool Scenery::has_sub(std::string_view name) const {
+  return std::any_of(subs_.begin(), subs_.end(),
+                     [&](const std::string& one) { return equal_words(one, name); });
 }
 
 std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {

@@ -45,6 +45,9 @@ public:
   /// Where other lines of an orbBasic program jump to a number.
   std::vector<Span> jumps_to(std::string_view number) const;
 
+  /// Whether a structured program has a sub or function of that name.
+  bool has_sub(std::string_view name) const;
+
   Surroundings around(std::uint32_t line, const SplitLine& parts) const;
 
   /// Variables that nobody uses; first those that only a `next` names.
@@ -70,6 +73,7 @@ private:
   std::vector<std::string> closers_; ///< of each line: what ends the block that it is in
   std::vector<Roll> rolls_;          ///< from the top
   std::vector<std::string> labels_;  ///< of a structured program
+  std::vector<std::string> subs_;    ///< and what it calls its subs and functions
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };

@@ -249,6 +249,9 @@ private:
     add(changed, cost);
   }
 
+  static bool is_open(const Token& token) { return token.is("["); }
+  static bool is_close(const Token& token) { return token.is("]"); }
+
   void inserted(std::size_t at) {
     const auto& before = line_[at - 1];
     const bool value_before = before.is_number() || before.is(")") || before.is_word();
@@ -268,6 +271,9 @@ private:
     }
     if (value_before)
       insert(at, ")", at == line_.size() ? 8 : 11, Token::Kind::Sign);
+    if (value_before && std::count_if(line_.begin(), line_.end(), is_open) >
+                            std::count_if(line_.begin(), line_.end(), is_close))
+      insert(at, "]", at == line_.size() ? 8 : 11, Token::Kind::Sign);
   }
 
   /// Whether a `=` may be missing: an assignment and a `for` have one, a condition has its own.

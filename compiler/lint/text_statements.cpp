@@ -187,13 +187,15 @@ void TextPass::check_print(std::span<const Item> items) {
 void TextPass::check_single_quotes(const StatementNode& statement, Span comment) {
   const auto text = program_.text_of(comment);
   const auto last = text.find_last_of('\'');
-  if (last == 0 || last == std::string_view::npos ||
-      text.find_first_not_of(" \t", last + 1) != std::string_view::npos)
+  if (last == 0 || last == std::string_view::npos)
+    return;
+  const auto rest = trim(text.substr(last + 1)); // `, A`: what else was to be printed
+  if (!rest.empty() && rest[0] != ',' && rest[0] != ';')
     return;
   const auto quoted = fmt::format("\"{}\"", text.substr(1, last - 1));
   auto& d = findings_.add(rules::SingleQuotes, {statement.span.begin, comment.end},
                           "`'` starts a comment, so this prints an empty line",
-                          fmt::format("write `print {}`", quoted));
+                          fmt::format("write `print {}{}`", quoted, rest));
   if (quoted.find('"', 1) == quoted.size() - 1)
     d.fix = single_fix(
         d.help, {comment.begin, comment.begin + static_cast<std::uint32_t>(last) + 1}, quoted);

@@ -256,9 +256,20 @@ private:
       help = "write `repeat` instead of the `loop` above";
     if (open_.empty() && ends)
       help = "leave the line out";
+    if (parts_block(statement.role()))
+      help = {};
+    if (statement.role() == Kind::ElseIf)
+      help = begin_if(statement);
+    const bool routine = statement.role() == Kind::EndSub && returns_nothing(i);
+    if (routine)
+      help = fmt::format("write `sub{}` instead of the `function` above",
+                         after_word(program_.statements[open_.back()]));
     const bool told = report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word),
                              std::move(help));
-    if (told && until) {
+    if (told && routine) {
+      program_.diagnostics.back().fix =
+          Fix{"write `sub`", {{program_.statements[open_.back()].word, "sub"}}, Safety::Unsafe};
+    } else if (told && until) {
       program_.diagnostics.back().fix = Fix{
           "write `repeat`", {{program_.statements[open_.back()].word, "repeat"}}, Safety::Unsafe};
     } else if (told && ends && open_.empty()) {
@@ -278,6 +289,32 @@ private:
       d.fix = Fix{fmt::format("write `{}`", end), {{statement.span, end}}, Safety::Unsafe};
     }
     statement.kind = statement.meant = Kind::Broken;
+  }
+
+  /// Whether the innermost open block is a function that returns no value up to its `end sub`.
+  bool returns_nothing(std::uint32_t end) const {
+    if (open_.empty() || role(open_.back()) != Kind::Function)
+      return false;
+    for (auto n = open_.back(); n < end; ++n)
+      if (role(n) == Kind::Return &&
+          program_.statements[n].items_begin < program_.statements[n].items_end)
+        return false;
+    return true;
+  }
+
+  /// The `if` that an `elseif` without one may have been meant for; empty where it compares
+  /// nothing.
+  std::string begin_if(const Statement& statement) const {
+    auto condition = after_word(statement);
+    if (condition.find_first_of("<>=") == std::string::npos)
+      return {};
+    condition.resize(condition.find_last_not_of(" \t:{") + 1);
+    return fmt::format("write `if{}{}`", condition, condition.ends_with(" then") ? "" : " then");
+  }
+
+  /// What a statement says after its word.
+  std::string after_word(const Statement& statement) const {
+    return program_.text.substr(statement.word.end, statement.span.end - statement.word.end);
   }
 
   /// Of a line that does not parse all is said: false.

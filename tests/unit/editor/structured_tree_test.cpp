@@ -38,7 +38,7 @@ std::vector<std::string> brief_rows(std::string_view text) {
 
 /// An expression as nested lists.
 std::string listed(const Json& node) {
-  auto text = std::string(node.value("groups", 0), '(') + node.at("kind").get<std::string>() + ":" +
+  auto text = std::string(node.value("groups", std::size_t{0}), '(') + node.at("kind").get<std::string>() + ":" +
               node.at("text").get<std::string>();
   for (const auto& operand : node.value("operands", Json::array()))
     text += " [" + listed(operand) + "]";
