@@ -3,13 +3,14 @@
 #include "uploader/endpoint.h"
 
 #include <algorithm>
-#include <array>
 #include <asio.hpp>
 #include <cerrno>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 // What the links of an operating system have in common: each is an Asio stream behind the Transport
 // interface.
@@ -19,7 +20,8 @@ namespace orb::uploader {
 using protocol::LinkError;
 
 inline constexpr std::size_t read_most = 4096; // bytes at once
-
+inline constexpr std::chrono::milliseconds cancel_time{
+    2000}; // to give up an operation; it takes none
 inline tl::unexpected<LinkError> failed(LinkError::Kind kind, std::string message) {
   return tl::unexpected(LinkError{kind, std::move(message)});
 }
@@ -29,63 +31,95 @@ inline Instant steady_now() {
       std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
 }
 
-/// A stream of Asio with deadlines. One operation at a time; an unfinished one is cancelled.
+/// Keeps what must not be destroyed, since that would wait for an operation that has no end.
+inline void keep_forever(std::unique_ptr<asio::io_context> io) {
+  static std::mutex mutex;
+  static auto* const kept = new std::vector<std::unique_ptr<asio::io_context>>;
+  const std::lock_guard lock(mutex);
+  kept->push_back(std::move(io));
+}
+
+/// A stream of Asio with deadlines. One operation at a time; an unfinished one is cancelled. Where
+/// the system does not let go of it, the link is broken, and what the operation may still touch is
+/// left alone.
 template <class Stream>
 class AsioTransport final : public protocol::Transport {
 public:
   AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream, Duration write_time, Stop stop)
       : io_(std::move(io)), stream_(std::move(stream)), write_time_(write_time),
         stop_(std::move(stop)) {}
+  AsioTransport(const AsioTransport&) = delete;
+  AsioTransport& operator=(const AsioTransport&) = delete;
+  ~AsioTransport() override {
+    if (lost_)
+      keep_forever(std::move(io_));
+  }
 
   Instant now() const override { return steady_now(); }
 
   tl::expected<void, LinkError> write(ByteView bytes) override {
-    if (stuck_) // in the middle of a packet
+    if (stuck_ || lost_) // in the middle of a packet
       return failed(LinkError::Kind::Broken, takes_nothing);
-    std::optional<asio::error_code> result;
-    asio::async_write(stream_, asio::buffer(bytes.data(), bytes.size()),
-                      [&](const asio::error_code& error, std::size_t) { result = error; });
+    const auto operation = std::make_shared<Operation>();
+    operation->bytes.assign(bytes.begin(), bytes.end());
+    asio::async_write(
+        stream_, asio::buffer(operation->bytes),
+        [operation](const asio::error_code& error, std::size_t) { operation->result = error; });
     const auto deadline = steady_now() + write_time_;
     const auto asked = stop_();
-    while (!run(result, std::min(deadline, steady_now() + stop_notice)))
+    while (!run(*operation, std::min(deadline, steady_now() + stop_notice)))
       if (steady_now() >= deadline || stop_() > asked)
         break;
-    stuck_ = !cancel_unless(result);
+    stuck_ = !cancel_unless(*operation);
     if (stuck_)
       return stop_() > asked ? failed(LinkError::Kind::Interrupted, "interrupted")
                              : failed(LinkError::Kind::Broken, takes_nothing);
-    if (*result)
-      return link_error(*result);
+    if (*operation->result)
+      return link_error(*operation->result);
     return {};
   }
 
   tl::expected<Bytes, LinkError> read(Instant deadline) override {
-    std::optional<asio::error_code> result;
-    std::size_t size = 0;
-    stream_.async_read_some(asio::buffer(buffer_),
-                            [&](const asio::error_code& error, std::size_t count) {
-                              result = error;
-                              size = count;
+    if (lost_)
+      return failed(LinkError::Kind::Broken, not_let_go);
+    const auto operation = std::make_shared<Operation>();
+    operation->bytes.resize(read_most);
+    stream_.async_read_some(asio::buffer(operation->bytes),
+                            [operation](const asio::error_code& error, std::size_t count) {
+                              operation->result = error;
+                              operation->size = count;
                             });
-    run(result, deadline);
-    const auto in_time = cancel_unless(result);
-    if (size > 0)
-      return Bytes(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(size));
+    run(*operation, deadline);
+    const auto in_time = cancel_unless(*operation);
+    if (lost_)
+      return failed(LinkError::Kind::Broken, not_let_go);
+    if (operation->size > 0) {
+      operation->bytes.resize(operation->size);
+      return std::move(operation->bytes);
+    }
     if (!in_time)
       return Bytes{};
-    if (*result)
-      return link_error(*result);
+    if (*operation->result)
+      return link_error(*operation->result);
     return Bytes{};
   }
 
 private:
   static constexpr auto takes_nothing = "the link no longer accepts data";
+  static constexpr auto not_let_go = "the system does not let go of the link";
+
+  /// What an operation has to do with; it may come to its end after nobody waits any more.
+  struct Operation {
+    std::optional<asio::error_code> result;
+    std::size_t size = 0;
+    Bytes bytes;
+  };
 
   /// Runs the operation to its end or to the deadline; whether it has ended.
-  bool run(const std::optional<asio::error_code>& result, Instant deadline) {
+  bool run(const Operation& operation, Instant deadline) {
     io_->restart();
     io_->poll();
-    if (!result && deadline > steady_now()) {
+    if (!operation.result && deadline > steady_now()) {
       const auto until = std::chrono::steady_clock::time_point(
           std::chrono::duration_cast<std::chrono::steady_clock::duration>(
               deadline.time_since_epoch()));
@@ -94,18 +128,19 @@ private:
       else
         io_->run_until(until);
     }
-    return result.has_value();
+    return operation.result.has_value();
   }
 
   /// Cancels the operation unless it has ended; whether it came to its own end.
-  bool cancel_unless(const std::optional<asio::error_code>& result) {
-    if (result)
+  bool cancel_unless(const Operation& operation) {
+    if (operation.result)
       return true;
     asio::error_code ignored;
     stream_.cancel(ignored);
     io_->restart();
-    io_->run();
-    return !result || *result != asio::error::operation_aborted;
+    io_->run_for(cancel_time);
+    lost_ = !operation.result;
+    return !lost_ && *operation.result != asio::error::operation_aborted;
   }
 
   tl::unexpected<LinkError> link_error(const asio::error_code& error) {
@@ -122,7 +157,7 @@ private:
   Duration write_time_;
   Stop stop_;
   bool stuck_ = false; ///< a write did not come to its end
-  std::array<std::uint8_t, read_most> buffer_{};
+  bool lost_ = false;  ///< an operation cannot be cancelled
 };
 
 using Opened = tl::expected<std::unique_ptr<protocol::Transport>, LinkError>;
