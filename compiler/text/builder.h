@@ -221,9 +221,10 @@ private:
     const char* p = at;
     if (p == end || *p == '\n' || *p == '\r' || *p == '\'')
       return span(trim(base_, at), trim(base_, at));
-    if (is_letter(*p)) // of other alphabets, too: `zurück` is one word
-      p = std::find_if_not(
-          p, end, [](char c) { return is_letter(c) || static_cast<unsigned char>(c) >= 0x80; });
+    if (is_letter(*p))
+      p = std::find_if_not(p, end, [](char c) {
+        return is_letter(c) || static_cast<unsigned char>(c) > 0x7F; // `zurück` is one word
+      });
     else if (is_digit(*p))
       p = std::find_if_not(p, end, is_digit);
     else if (*p == '"')

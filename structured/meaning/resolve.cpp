@@ -456,6 +456,8 @@ private:
                      fmt::format("`{}` takes {}, found {}", program_.name(symbol.name),
                                  plural(routine.parameters, "value"), count));
     const auto& header = program_.statements[routine.statement];
+    if (routine.parameters == 0 && symbol.kind == SymbolKind::Sub)
+      d.help = fmt::format("write `{}`", program_.name(symbol.name));
     if (count < routine.parameters)
       d.help = fmt::format("`{}` is missing, as in `{}`",
                            program_.name(names_.symbols[routine.first_parameter + count].name),

@@ -490,7 +490,7 @@ Diagnostic habit(const Program& program, Span found, std::string_view instead,
                    std::string(help));
   if (!instead.empty()) {
     const auto written = instead == " " ? std::string_view() : instead;
-    d.help = written.empty() ? "leave it out" : fmt::format("write `{}`", written);
+    d.help = written.empty() ? "leave it out" : fmt::format("write `{}`", trim(written));
     d.fix = Fix{d.help, {Edit{found, std::string(written)}}, Safety::Safe};
   }
   return d;
