@@ -13,7 +13,7 @@ import time
 
 def environment(home):
     """For a browser whose font cache, settings and crash reports lie in `home`, not in the user's."""
-    return {**{name: value for name, value in os.environ.items() if not name.startswith("XDG_")}, "HOME": home}
+    return {**{name: value for name, value in os.environ.items() if not name.startswith("XDG_")}, "HOME": home, "TMPDIR": home}
 
 
 def find():
