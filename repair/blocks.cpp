@@ -1,6 +1,7 @@
 #include "repair/blocks.h"
 
 #include "base/text.h"
+#include "repair/block_line.h"
 #include "repair/fill.h"
 #include "repair/repair.h"
 
@@ -20,51 +21,6 @@ constexpr std::size_t most_foreign = 64; // lines that do not parse; nobody mend
 constexpr std::size_t block_states = 40; // of one line
 constexpr char place_sign = '\x1a';      // nobody types it
 
-/// What a line is to a block, by the words that structured programs have for it.
-enum class Role : std::uint8_t {
-  None,
-  If,
-  ElseIf,
-  Else,
-  While,
-  Loop,
-  Repeat, ///< a number of times
-  For,
-  Until,
-  Exit,
-  Continue,
-  End,
-  Stop, ///< `end`, which ends the program and, where nothing else does, a block
-};
-
-struct BlockLine {
-  std::uint32_t line = 0; ///< of the source
-  std::uint32_t number = 0;
-  std::size_t indent = 0; ///< blanks after the number
-  std::string comment;
-  Role role = Role::None;
-  Tokens operand;        ///< a condition, a number of times, `I = 1 to 3`
-  std::string_view ends; ///< of an End: the word of the block; empty: of any
-  bool colon = false;    ///< it was written with a `:` at its end
-  std::string text;      ///< what becomes of it, without its number
-  bool changed = false;  ///< `text` counts
-  std::string below;     ///< a line that is added
-  bool gone() const { return changed && text.empty(); }
-};
-
-struct Word {
-  std::string_view form;
-  Role role;
-  std::string_view ends;
-};
-constexpr Word forms[] = {
-    {"end if", Role::End, "if"},      {"end while", Role::End, "while"},
-    {"end loop", Role::End, "loop"},  {"end repeat", Role::End, "repeat"},
-    {"else", Role::Else, ""},         {"exit", Role::Exit, ""},
-    {"continue", Role::Continue, ""}, {"loop", Role::Loop, ""},
-    {"repeat", Role::Loop, ""},       {"end", Role::Stop, ""},
-};
-
 Tokens middle(const Tokens& tokens, std::size_t from, std::size_t cut = 0) {
   return {tokens.begin() + static_cast<std::ptrdiff_t>(from),
           tokens.end() - static_cast<std::ptrdiff_t>(cut)};
@@ -77,7 +33,7 @@ bool begins(const Tokens& tokens, std::string_view word) {
 /// Takes up what a line is, if it is written as structured programs write it.
 bool take_role(BlockLine& line, const Tokens& tokens) {
   const auto text = join(tokens);
-  for (const auto& one : forms)
+  for (const auto& one : block_words)
     if (equal_words(text, one.form)) {
       line.role = one.role;
       line.ends = one.ends;

@@ -1,10 +1,9 @@
 #include "testing/suite.h"
 
 #include "base/render.h"
-#include "base/suggest.h"
 #include "compiler/text/image.h"
-#include "spec/limits.h"
 #include "testing/check_room.h"
+#include "testing/lookup.h"
 #include "testing/text/rules.h"
 
 #include <algorithm>
@@ -213,126 +212,6 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
                              "name one: `program corner.bas`, or give programs with `--program`"));
   findings.back().severity = Severity::Error; // to run it; check() lowers that
   return std::nullopt;
-}
-
-std::string meant(std::string_view word, const std::vector<std::string_view>& known,
-                  std::string_view what) {
-  return did_you_mean(word, known,
-                      known.empty() ? fmt::format("it has no {}s", what)
-                                    : fmt::format("it has {}", fmt::join(known, ", ")));
-}
-
-/// What a name means in a program, or why it means nothing.
-struct Lookup {
-  Meaning meaning;
-  const Rule* rule = nullptr; ///< of the finding, where there is a problem
-  std::string help;
-};
-
-std::vector<std::string_view> variables_of(const structured::Compiled& compiled) {
-  std::vector<std::string_view> names;
-  for (const auto& symbol : compiled.names.symbols)
-    if (symbol.kind == structured::SymbolKind::Variable)
-      names.push_back(compiled.program.name(symbol.name));
-  return names;
-}
-
-/// The letter of a variable.
-void find_variable(const Expectation& one, const Prepared& program, Lookup& found) {
-  const auto& name = one.name.text;
-  const auto* first = run::first_with_program(program.inputs);
-  if (first == nullptr) {
-    found.meaning.problem = "there are only macros and no program, so there are no variables";
-  } else if (first->program->compiled) {
-    const auto& compiled = *first->program->compiled;
-    if (const auto letter = structured::letter_of(compiled, name)) {
-      found.meaning.variable = *letter;
-    } else {
-      found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
-      found.help = meant(name, variables_of(compiled), "variable");
-    }
-  } else if (name.size() == 1 && name[0] >= 'A' &&
-             name[0] - 'A' < spec::value_of(spec::Limit::DirectVariables)) {
-    found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
-  } else {
-    found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
-    found.help = "a program with line numbers has A to Y";
-  }
-  if (!found.meaning.problem.empty())
-    found.rule = &rules::Variable;
-}
-
-void find_macro(const Expectation& one, const Prepared& program, Lookup& found) {
-  const auto at = program.macros.find(one.name.text);
-  if (at != program.macros.end()) {
-    found.meaning.macro = at->second;
-    return;
-  }
-  std::vector<std::string_view> known;
-  for (const auto& row : program.macros)
-    known.push_back(row.first);
-  found.meaning.problem = fmt::format("no macro `{}` is loaded", one.name.text);
-  found.help = meant(one.name.text, known, "macro");
-  found.rule = &rules::Macro;
-}
-
-void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
-  const auto& name = one.name.text;
-  found.meaning.zone = file.course ? file.course->zone(name) : nullptr;
-  if (found.meaning.zone != nullptr)
-    return;
-  found.rule = &rules::Zone;
-  if (!file.course) {
-    found.meaning.problem = fmt::format("`{}` is a zone, but the file names no course", name);
-    found.help = "add `course hall.svg` at the top";
-    return;
-  }
-  std::vector<std::string_view> known;
-  for (const auto& zone : file.course->zones)
-    known.push_back(zone.id);
-  found.meaning.problem = fmt::format("the course has no zone `{}`", name);
-  found.help = meant(name, known, "zone");
-}
-
-/// One word of an expectation.
-Lookup look_up_alone(const Expectation& one, const SuiteFile& file, const Prepared& program) {
-  Lookup found;
-  found.meaning.packed_bytes = program.packed_bytes;
-  if (one.other_ball)
-    found.meaning.other_ball = file.file.balls[*one.other_ball].name.text;
-  if (one.word == Word::Inside || one.word == Word::Stay)
-    find_zone(one, file, found);
-  else if (one.word == Word::Marker && !one.name.text.empty())
-    find_macro(one, program, found);
-  else if (one.word == Word::Variable)
-    find_variable(one, program, found);
-  return found;
-}
-
-/// All that an expectation speaks of: itself, what is joined, and the other one.
-std::vector<const Expectation*> parts_of(const Expectation& one) {
-  std::vector<const Expectation*> parts{&one};
-  for (const auto& other : one.joined)
-    parts.push_back(&other);
-  if (one.other)
-    for (const auto* part : parts_of(*one.other))
-      parts.push_back(part);
-  return parts;
-}
-
-Meaning look_up(const Expectation& one, const SuiteFile& file, const Prepared& program) {
-  auto meaning = look_up_alone(one, file, program).meaning;
-  const auto add_problem = [&](const Meaning& part) {
-    if (meaning.problem.empty())
-      meaning.problem = part.problem;
-  };
-  for (const auto& part : one.joined)
-    add_problem(meaning.joined.emplace_back(look_up(part, file, program)));
-  if (one.other) {
-    meaning.other = std::make_shared<const Meaning>(look_up(*one.other, file, program));
-    add_problem(*meaning.other);
-  }
-  return meaning;
 }
 
 /// Says so where a test does not run the very program that is flashed.
