@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <termios.h>
+#include <tuple>
 #include <unistd.h>
 
 namespace orb::serve {
@@ -60,10 +62,21 @@ std::string our_target(const std::string& slave) {
   return slave.substr(0, number) + "/." + slave.substr(number);
 }
 
-/// Left over from a ball that was killed.
+bool is_before(const timespec& a, const timespec& b) {
+  return std::tie(a.tv_sec, a.tv_nsec) < std::tie(b.tv_sec, b.tv_nsec);
+}
+
+/// Left over from a ball that was killed: its pty is gone, or is a later one that was given the
+/// same number.
 bool is_left_over(const std::string& link) {
   const auto target = target_of(link);
-  return target.starts_with(our_target("/dev/pts/")) && ::access(target.c_str(), F_OK) != 0;
+  if (!target.starts_with(our_target("/dev/pts/")))
+    return false;
+  struct stat of_link {};
+  struct stat of_pty {};
+  if (::stat(target.c_str(), &of_pty) != 0)
+    return true;
+  return ::lstat(link.c_str(), &of_link) == 0 && is_before(of_link.st_mtim, of_pty.st_ctim);
 }
 
 IoError failure(std::string_view what) {

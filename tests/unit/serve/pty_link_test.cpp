@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -260,6 +261,19 @@ TEST_F(PtyLinkTest, ReplacesNothingButTheLinkOfABallThatWasKilled) {
   fs::create_symlink("/dev/pts/./2000000000", dead); // as a ball writes it
   const auto made = second.make_link(dead);
   EXPECT_TRUE(made) << (made ? "" : made.error().message);
+}
+
+TEST_F(PtyLinkTest, ReplacesALinkToAPtyThatCameAfterIt) {
+  const Folder folder;
+  const auto place = folder.path / "ball";
+  const auto slave = fs::path(link.address().substr(4));
+  fs::create_symlink("/dev/pts/." / fs::path(slave.filename()), place);
+  PtyLink second(io);
+  ASSERT_TRUE(second.open());
+  EXPECT_FALSE(second.make_link(place)); // as of a ball that runs
+  const std::array<timespec, 2> long_ago{};
+  ASSERT_EQ(::utimensat(AT_FDCWD, place.c_str(), long_ago.data(), AT_SYMLINK_NOFOLLOW), 0);
+  EXPECT_TRUE(second.make_link(place)); // the number was given to somebody else
 }
 
 TEST_F(PtyLinkTest, LeavesALinkThatSomebodyElseHasMade) {
