@@ -39,15 +39,7 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
     : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
       errors_(errors_in(before)), lasting_(lasting_errors(before)),
       parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
-      is_target_(false), most_checks_(most_checks) {
-  std::string words;
-  for (const auto& token : parts_.tokens)
-    words += (words.empty() ? "" : "_") + token.text;
-  is_named_ = parts_.tokens.size() > 1 && scenery.has_sub(words);
-  sub_ = is_named_ ? words : "";
-  for (std::size_t i = 0; i < std::min<std::size_t>(parts_.tokens.size(), 2); ++i)
-    if (sub_.empty() && parts_.tokens[i].is_word() && scenery.has_sub(parts_.tokens[i].text))
-      sub_ = parts_.tokens[i].text;
+      sub_(scenery.sub_of(parts_.tokens)), is_target_(false), most_checks_(most_checks) {
   around_.elsewhere = scenery.words_without(parts_.tokens);
   if (judge.language != Language::Basic)
     names_ = around_.elsewhere;
@@ -333,7 +325,10 @@ void LineRepair::habits(const std::string& statement, Bounds bounds) {
 /// `drive 0, 1s`, `call drive(0, 1s)` and `wait for shake` where the program has a sub of that
 /// name, whatever else people call so.
 void LineRepair::own_call(const std::string& statement) {
-  if (sub_.empty() || parts_.tokens.size() < 2 || (is_named_ && attempt(sub_, {}, true)))
+  if (sub_.empty() || parts_.tokens.size() < 2)
+    return;
+  const bool spread = parts_.tokens[0].text != sub_ && parts_.tokens[1].text != sub_;
+  if (spread && attempt(sub_, {}, true))
     return;
   std::unordered_set<std::string> seen;
   explore(statement, around_, {1, few_states}, seen, [&](const Rewritten& one) {

@@ -90,8 +90,7 @@ private:
   Surroundings around_;
   std::vector<std::string_view> names_;
   std::string number_below_;
-  std::string sub_;             ///< of the program: what the line begins with, or calls
-  bool is_named_ = false;       ///< the words of the line are its name
+  std::string sub_;             ///< of the program, which the line calls, rightly or not
   bool is_target_;              ///< something jumps here
   std::vector<Candidate> near_; ///< by one change, the cheapest first
   std::unordered_set<std::string> seen_;

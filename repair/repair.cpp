@@ -443,16 +443,21 @@ private:
     }
   }
 
-  /// A line that is right once the others are mended stays as it is: it was judged before them.
+  /// A line that is right once the others are mended stays as it is: it was judged before them. One
+  /// that does not even parse is not.
   void take_back(const std::vector<Diagnostic*>& findings) {
     if (texts_.size() < 2)
       return;
-    const auto errors = errors_in(judge_.check(whole_text()));
+    std::optional<std::size_t> errors; // of the text as it will be
     for (auto* finding : findings) {
+      if (!judge_.parses(source_.line(line_of(*finding))))
+        continue;
+      if (!errors)
+        errors = errors_in(judge_.check(whole_text()));
       const auto mended = texts_.extract(line_of(*finding));
       if (mended.empty())
         continue;
-      if (errors_in(judge_.check(whole_text())) > errors) {
+      if (errors_in(judge_.check(whole_text())) > *errors) {
         texts_.insert({mended.key(), mended.mapped()});
         continue;
       }

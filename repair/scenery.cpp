@@ -44,9 +44,22 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
   }
 }
 
-bool Scenery::has_sub(std::string_view name) const {
-  return std::any_of(subs_.begin(), subs_.end(),
-                     [&](const std::string& one) { return equal_words(one, name); });
+std::string Scenery::sub_of(const Tokens& line) const {
+  if (subs_.empty())
+    return {};
+  const auto is_sub = [&](std::string_view name) {
+    return std::any_of(subs_.begin(), subs_.end(),
+                       [&](const std::string& one) { return equal_words(one, name); });
+  };
+  std::string words;
+  for (const auto& token : line)
+    words += (words.empty() ? "" : "_") + token.text;
+  if (line.size() > 1 && is_sub(words))
+    return words;
+  for (std::size_t i = 0; i < std::min<std::size_t>(line.size(), 2); ++i)
+    if (line[i].is_word() && is_sub(line[i].text))
+      return line[i].text;
+  return {};
 }
 
 std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {

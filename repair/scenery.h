@@ -45,8 +45,9 @@ public:
   /// Where other lines of an orbBasic program jump to a number.
   std::vector<Span> jumps_to(std::string_view number) const;
 
-  /// Whether a structured program has a sub or function of that name.
-  bool has_sub(std::string_view name) const;
+  /// The sub or function of a structured program that a line calls, rightly or not: its first word,
+  /// or its second (`call drive`), or all its words (`wait for shake`); empty without.
+  std::string sub_of(const Tokens& line) const;
 
   Surroundings around(std::uint32_t line, const SplitLine& parts) const;
 

@@ -17,7 +17,10 @@ class Changes {
 public:
   Changes(const Tokens& line, Language language, std::span<const std::string_view> words,
           std::span<const std::string_view> names)
-      : line_(line), language_(language), words_(words), names_(names) {}
+      : line_(line), language_(language), words_(words), names_(names) {
+    for (const auto& token : line)
+      open_brackets_ += token.is("[") ? 1 : token.is("]") ? -1 : 0;
+  }
 
   std::vector<Candidate> all() {
     for (std::size_t i = 0; i < line_.size(); ++i) {
@@ -249,9 +252,6 @@ private:
     add(changed, cost);
   }
 
-  static bool is_open(const Token& token) { return token.is("["); }
-  static bool is_close(const Token& token) { return token.is("]"); }
-
   void inserted(std::size_t at) {
     const auto& before = line_[at - 1];
     const bool value_before = before.is_number() || before.is(")") || before.is_word();
@@ -271,8 +271,7 @@ private:
     }
     if (value_before)
       insert(at, ")", at == line_.size() ? 8 : 11, Token::Kind::Sign);
-    if (value_before && std::count_if(line_.begin(), line_.end(), is_open) >
-                            std::count_if(line_.begin(), line_.end(), is_close))
+    if (value_before && open_brackets_ > 0)
       insert(at, "]", at == line_.size() ? 8 : 11, Token::Kind::Sign);
   }
 
@@ -306,6 +305,7 @@ private:
   Language language_;
   std::span<const std::string_view> words_;
   std::span<const std::string_view> names_;
+  int open_brackets_ = 0; ///< `[` without a `]`
   std::vector<Candidate> found_;
 };
 

@@ -88,9 +88,8 @@ std::vector<vm::TimedStimulus> Course::stimuli() const {
 }
 
 bool is_course(std::string_view file_name) {
-  constexpr std::string_view ending = ".svg";
-  return file_name.size() > ending.size() &&
-         equal_words(file_name.substr(file_name.size() - ending.size()), ending);
+  return file_name.size() > course_ending.size() &&
+         equal_words(file_name.substr(file_name.size() - course_ending.size()), course_ending);
 }
 
 } // namespace orb::report

@@ -71,6 +71,9 @@ struct CourseReading {
 /// Reads a drawing. Any bytes are read in time and memory bounded by their number.
 CourseReading read_course(const Source& drawing);
 
+/// How the files of courses end.
+inline constexpr std::string_view course_ending = ".svg";
+
 /// Whether a file of that name is taken for a course.
 bool is_course(std::string_view file_name);
 

@@ -1,7 +1,6 @@
 #include "run/live.h"
 
 #include "compiler/check.h"
-#include "run/named_values.h"
 #include "run/start.h"
 #include "run/want.h"
 #include "run/watcher.h"
@@ -9,8 +8,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <iterator>
-#include <map>
 
 namespace orb::run {
 namespace {

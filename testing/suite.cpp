@@ -12,12 +12,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace orb::testing {
 namespace {
 
-constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"}; // of programs
+constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
 
 /// What keeps a source from becoming a program at all, as text.
 std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings) {
@@ -174,18 +175,19 @@ std::string beside(const std::string& name, std::string_view ending) {
   return name.substr(0, dot) + std::string(ending);
 }
 
-/// For a line `WORD NAME` whose file cannot be read.
+/// For a line `WORD NAME` whose file cannot be read: one with an ending may have been meant.
 Diagnostic cannot_read(std::string_view word, const Named& given, const std::string& path,
-                       structured::Files& files) {
+                       std::span<const std::string_view> possible, structured::Files& files) {
   auto d = finding(rules::File, given.span, fmt::format("cannot read {}", path),
                    "paths are relative to the folder of the test file");
-  for (const auto ending : {endings[0], endings[1], endings[2], std::string_view(".svg")})
-    if ((ending == ".svg") == (word == "course") && files.read(fmt::format("{}{}", path, ending))) {
-      const auto name = fmt::format("{}{}", given.text, ending);
-      d.help = fmt::format("write `{} {}`", word, name);
-      d.fix = Fix{d.help, {{given.span, name}}, Safety::Unsafe};
-      return d;
-    }
+  const auto ending = std::find_if(possible.begin(), possible.end(), [&](std::string_view one) {
+    return files.read(fmt::format("{}{}", path, one)).has_value();
+  });
+  if (ending != possible.end()) {
+    const auto name = fmt::format("{}{}", given.text, *ending);
+    d.help = fmt::format("write `{} {}`", word, name);
+    d.fix = Fix{d.help, {{given.span, name}}, Safety::Unsafe};
+  }
   return d;
 }
 
@@ -195,12 +197,12 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
   auto& findings = file.file.diagnostics;
   const auto& balls = file.file.balls;
   if (const auto& given = balls.empty() ? file.file.program : std::optional(balls[0].program)) {
+    if (given->text.empty())
+      return std::nullopt; // what is wrong with the line has been said
     auto path = structured::resolve_path(name, given->text);
     if (files.read(path))
       return path;
-    if (given->text == "=" || given->text == ":")
-      return std::nullopt; // what follows is unexpected, and that is said
-    findings.push_back(cannot_read("program", *given, path, files));
+    findings.push_back(cannot_read("program", *given, path, endings, files));
     return std::nullopt;
   }
   for (const auto ending : endings)
@@ -258,19 +260,19 @@ void check_files(SuiteFile& file, structured::Files& files) {
   for (const auto& with : file.file.with)
     if (const auto path = structured::resolve_path(file.source->name(), with.text);
         !with.text.empty() && !files.read(path))
-      file.file.diagnostics.push_back(cannot_read("with", with, path, files));
+      file.file.diagnostics.push_back(cannot_read("with", with, path, endings, files));
 }
 
 /// Reads the course that a file names.
 void read_course(SuiteFile& file, structured::Files& files) {
   const auto& given = file.file.course;
-  if (!given || given->text.empty() || given->text == "=" || given->text == ":")
-    return; // what is wrong with the line has been said
+  if (!given || given->text.empty())
+    return;
   const auto path = structured::resolve_path(file.source->name(), given->text);
   auto& findings = file.file.diagnostics;
   auto text = files.read(path);
   if (!text) {
-    findings.push_back(cannot_read("course", *given, path, files));
+    findings.push_back(cannot_read("course", *given, path, {&report::course_ending, 1}, files));
     return;
   }
   const Source drawing(path, *std::move(text));

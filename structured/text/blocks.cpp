@@ -242,53 +242,59 @@ private:
 
   void report_stray(std::uint32_t i) {
     auto& statement = program_.statements[i];
-    const auto word = std::string(program_.text_of(statement.word));
-    std::string help;
-    if (!open_.empty()) {
-      const auto* block = by_opener(role(open_.back()));
-      help = fmt::format("write `{}`; the open block is a `{}`", block->end_words, block->word);
-    }
     alone_.insert(statement.word.begin);
-    const bool ends = closes_block(statement.role());
-    const bool until =
-        statement.role() == Kind::Until && !open_.empty() && role(open_.back()) == Kind::Loop;
-    if (until)
-      help = "write `repeat` instead of the `loop` above";
-    if (open_.empty() && ends)
-      help = "leave the line out";
-    if (parts_block(statement.role()))
-      help = {};
-    if (statement.role() == Kind::ElseIf)
-      help = begin_if(statement);
-    const bool routine = statement.role() == Kind::EndSub && returns_nothing(i);
-    if (routine)
-      help = fmt::format("write `sub{}` instead of the `function` above",
-                         after_word(program_.statements[open_.back()]));
-    const bool told = report(rules::BlockEnd, i, fmt::format("`{}` without a matching block", word),
-                             std::move(help));
-    if (told && routine) {
-      program_.diagnostics.back().fix =
-          Fix{"write `sub`", {{program_.statements[open_.back()].word, "sub"}}, Safety::Unsafe};
-    } else if (told && until) {
-      program_.diagnostics.back().fix = Fix{
-          "write `repeat`", {{program_.statements[open_.back()].word, "repeat"}}, Safety::Unsafe};
-    } else if (told && ends && open_.empty()) {
-      const std::string_view text = program_.text;
-      const auto line = text.substr(0, statement.span.begin).find_last_of("\r\n") + 1;
-      auto next = std::size_t{statement.span.end};
-      next += text.substr(next).starts_with("\r\n") ? 2 : next < text.size() ? 1 : 0;
-      if (text.find_first_not_of(" \t", line) == statement.span.begin &&
-          text.find_first_of("\r\n", statement.span.end) == statement.span.end)
-        program_.diagnostics.back().fix =
-            Fix{"remove the line",
-                {{{static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(next)}, {}}},
-                Safety::Unsafe};
-    } else if (told && ends && !open_.empty()) {
-      auto& d = program_.diagnostics.back();
-      const std::string end(by_opener(role(open_.back()))->end_words);
-      d.fix = Fix{fmt::format("write `{}`", end), {{statement.span, end}}, Safety::Unsafe};
-    }
+    auto mend = mend_stray(i);
+    if (report(rules::BlockEnd, i,
+               fmt::format("`{}` without a matching block", program_.text_of(statement.word)),
+               std::move(mend.help)))
+      program_.diagnostics.back().fix = std::move(mend.fix);
     statement.kind = statement.meant = Kind::Broken;
+  }
+
+  struct Mend {
+    std::string help;
+    std::optional<Fix> fix = {};
+  };
+
+  /// What to write for an end or a part that belongs to no block, or for the block above it.
+  Mend mend_stray(std::uint32_t i) const {
+    const auto& statement = program_.statements[i];
+    if (statement.role() == Kind::ElseIf)
+      return {begin_if(statement)};
+    if (parts_block(statement.role()))
+      return {};
+    if (open_.empty())
+      return closes_block(statement.role()) ? Mend{"leave the line out", remove(statement)}
+                                            : Mend{};
+    const auto& opener = program_.statements[open_.back()];
+    const auto reopen = [&](const std::string& word) {
+      return Fix{fmt::format("write `{}`", word), {{opener.word, word}}, Safety::Unsafe};
+    };
+    if (statement.role() == Kind::EndSub && returns_nothing(i))
+      return {fmt::format("write `sub{}` instead of the `function` above", after_word(opener)),
+              reopen("sub")};
+    if (statement.role() == Kind::Until && opener.role() == Kind::Loop)
+      return {"write `repeat` instead of the `loop` above", reopen("repeat")};
+    const auto* const block = by_opener(opener.role());
+    const std::string end(block->end_words);
+    Mend mend{fmt::format("write `{}`; the open block is a `{}`", end, block->word)};
+    if (closes_block(statement.role()))
+      mend.fix = Fix{fmt::format("write `{}`", end), {{statement.span, end}}, Safety::Unsafe};
+    return mend;
+  }
+
+  /// Removes a statement that has its line for itself.
+  std::optional<Fix> remove(const Statement& statement) const {
+    const std::string_view text = program_.text;
+    const auto line = text.substr(0, statement.span.begin).find_last_of("\r\n") + 1;
+    auto next = std::size_t{statement.span.end};
+    next += text.substr(next).starts_with("\r\n") ? 2 : next < text.size() ? 1 : 0;
+    if (text.find_first_not_of(" \t", line) != statement.span.begin ||
+        text.find_first_of("\r\n", statement.span.end) != statement.span.end)
+      return std::nullopt;
+    return Fix{"remove the line",
+               {{{static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(next)}, {}}},
+               Safety::Unsafe};
   }
 
   /// Whether the innermost open block is a function that returns no value up to its `end sub`.

@@ -21,6 +21,8 @@ void FileReader::read_file(Cursor& cursor, Named& into) {
   const auto from = cursor.offset();
   into.text = cursor.file_name();
   into.span = cursor.span_from(from);
+  if (into.text == "=" || into.text == ":")
+    into.text.clear(); // what follows is unexpected, and that is said
 }
 
 void FileReader::read_target(Cursor& cursor) {
