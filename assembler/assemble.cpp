@@ -2,9 +2,9 @@
 
 #include "assembler/names.h"
 #include "assembler/operands.h"
-#include "assembler/parse.h"
-#include "assembler/rules.h"
-#include "base/utf8.h"
+#include "assembler/text/parse.h"
+#include "assembler/text/rules.h"
+#include "base/text/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>

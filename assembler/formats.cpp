@@ -1,9 +1,9 @@
 #include "assembler/formats.h"
 
 #include "assembler/timing.h"
-#include "base/suggest.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "assembler/names.h"
 
-#include "assembler/rules.h"
-#include "base/suggest.h"
+#include "assembler/text/rules.h"
+#include "base/text/suggest.h"
 
 #include <algorithm>
 #include <array>

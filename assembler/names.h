@@ -3,7 +3,7 @@
 // Private to assembler/: what a file names, its constants and macros.
 
 #include "assembler/assemble.h"
-#include "assembler/program.h"
+#include "assembler/text/program.h"
 #include "base/findings.h"
 
 #include <optional>

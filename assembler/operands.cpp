@@ -1,8 +1,8 @@
 #include "assembler/operands.h"
 
-#include "assembler/rules.h"
-#include "base/suggest.h"
-#include "base/text.h"
+#include "assembler/text/rules.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

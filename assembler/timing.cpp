@@ -1,6 +1,6 @@
 #include "assembler/timing.h"
 
-#include "assembler/program.h"
+#include "assembler/text/program.h"
 #include "assembler/walk.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "base/duration.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 
 #include <tao/pegtl.hpp>
 
-// What the three parsers share (compiler/, assembler/, structured/): rules of PEGTL that are matched
-// by hand, what a rule does, and what is reported where a rule that must match does not. Each parser
-// brings, in its own namespace, a Builder, a Stop that ends the parse of a line, and
+// What the three parsers share (compiler/, assembler/, structured/): rules of PEGTL that are
+// matched by hand, what a rule does, and what is reported where a rule that must match does not.
+// Each parser brings, in its own namespace, a Builder, a Stop that ends the parse of a line, and
 // `template <typename Rule> constexpr … reason` with what Stop says. Only parsers include this: it
 // takes a second to compile.
 
@@ -24,8 +24,7 @@
 #define ORB_MATCH(name)                                                                            \
   ORB_RULE_TEMPLATE bool name::match([[maybe_unused]] Input& in, [[maybe_unused]] Builder& builder)
 /// Whether another rule matches, within ORB_MATCH.
-#define ORB_MATCHES(rule)                                                                          \
-  Control<rule>::template match<A, M, Action, Control>(in, builder)
+#define ORB_MATCHES(rule) Control<rule>::template match<A, M, Action, Control>(in, builder)
 
 /// What is reported where a rule, which may have commas, must match and does not.
 #define ORB_REASON(what, ...)                                                                      \

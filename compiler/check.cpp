@@ -1,6 +1,6 @@
 #include "compiler/check.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"

@@ -1,6 +1,6 @@
 #include "debug/expression.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "bytecode/arithmetic.h"
 #include "structured/text/parse.h"
 

@@ -1,7 +1,7 @@
 #include "debug/hit_condition.h"
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 
 #include "debug/debugger.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <cctype>

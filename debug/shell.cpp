@@ -1,8 +1,8 @@
 #include "debug/shell.h"
 
 #include "base/duration.h"
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "debug/picture.h"
 #include "report/svg.h"
 

@@ -1,6 +1,6 @@
 #include "debug/sources.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "run/start.h"
 
 #include <algorithm>

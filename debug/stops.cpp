@@ -2,7 +2,7 @@
 
 #include "debug/debugger.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

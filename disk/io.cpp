@@ -1,6 +1,6 @@
 #include "disk/io.h"
 
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 
 #include <algorithm>
 #include <cerrno>

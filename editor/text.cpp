@@ -1,8 +1,8 @@
 #include "editor/text.h"
 
 #include "base/path.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "editor/words.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 // The words of a line of any of the languages, for text that need not parse.
 
 #include "base/source.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "spec/basic.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "protocol/ble_faults.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "protocol/plan_words.h"
 
 #include <array>

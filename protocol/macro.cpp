@@ -1,5 +1,5 @@
 #include "protocol/macro.h"
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <fmt/format.h>
 

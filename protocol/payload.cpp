@@ -1,6 +1,6 @@
 #include "protocol/payload.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 #include "protocol/plan_words.h"
 
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <fmt/format.h>
 

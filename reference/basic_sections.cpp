@@ -1,6 +1,6 @@
 // What the orbBasic tables know.
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
 #include "spec/limits.h"

@@ -1,6 +1,6 @@
 #include "reference/foreign.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/idioms.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // What the macro tables know.
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "reference/sections.h"
 #include "spec/macro.h"
 

@@ -1,7 +1,7 @@
 #include "reference/manual.h"
 
 #include "base/exit_code.h"
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "reference/knowledge.h"
 #include "spec/limits.h"
 

@@ -1,6 +1,6 @@
 // What the linters look for.
 
-#include "assembler/rules.h"
+#include "assembler/text/rules.h"
 #include "compiler/text/rules.h"
 #include "reference/sections.h"
 #include "report/rules.h"

@@ -1,7 +1,7 @@
 #include "repair/arrange.h"
 
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
 

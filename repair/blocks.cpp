@@ -1,6 +1,6 @@
 #include "repair/blocks.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/block_line.h"
 #include "repair/fill.h"
 #include "repair/repair.h"

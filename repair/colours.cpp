@@ -1,6 +1,6 @@
 #include "repair/colours.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/idioms.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "repair/fill.h"
 
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/print_items.h"

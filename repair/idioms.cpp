@@ -1,6 +1,6 @@
 #include "repair/idioms.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/fill.h"
 #include "repair/matcher.h"
 

@@ -1,6 +1,6 @@
 #include "repair/line_repair.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/fill.h"
 #include "repair/idioms.h"
 

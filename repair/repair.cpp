@@ -1,7 +1,7 @@
 #include "repair/repair.h"
 
 #include "base/fixes.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/blocks.h"
 #include "repair/fill.h"
 #include "repair/line_repair.h"

@@ -1,7 +1,7 @@
 #include "repair/search.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "repair/fill.h"
 #include "repair/idioms.h"
 

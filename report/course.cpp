@@ -1,6 +1,6 @@
 #include "report/course.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <cmath>

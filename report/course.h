@@ -2,7 +2,7 @@
 
 #include "base/diagnostic.h"
 #include "base/source.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 #include "vm/stimulus.h"
 
 #include <optional>

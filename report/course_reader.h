@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "report/course.h"
 #include "report/rules.h"
 #include "report/svg_path.h"

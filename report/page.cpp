@@ -1,6 +1,6 @@
 #include "report/page.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "report/assets.h"
 #include "spec/basic.h"
 #include "spec/macro.h"

@@ -1,6 +1,6 @@
 #include "report/svg_path.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <array>

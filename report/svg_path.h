@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/source.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <optional>
 #include <string>

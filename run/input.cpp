@@ -1,7 +1,7 @@
 #include "run/input.h"
 
 #include "assembler/assemble.h"
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "compiler/check.h"
 #include "compiler/text/parse.h"
 #include "report/course.h"

@@ -5,7 +5,7 @@
 #include "base/time.h"
 #include "report/course.h"
 #include "report/journey.h"
-#include "run/cause.h"
+#include "run/cause/cause.h"
 #include "run/input.h"
 #include "spec/firmware.h"
 #include "spec/robots.h"

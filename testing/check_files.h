@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "base/diagnostic.h"
 #include "compiler/text/image.h"
 #include "run/input.h"

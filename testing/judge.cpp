@@ -1,7 +1,7 @@
 #include "testing/judge.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "testing/sighting.h"
 
 #include <algorithm>

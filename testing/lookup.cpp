@@ -1,6 +1,6 @@
 #include "testing/lookup.h"
 
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "spec/limits.h"
 #include "testing/text/rules.h"
 

@@ -1,8 +1,8 @@
 #include "testing/replay.h"
 
 #include "base/duration.h"
-#include "base/shell.h"
-#include "base/text.h"
+#include "base/text/shell.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

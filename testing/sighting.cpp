@@ -1,6 +1,6 @@
 #include "testing/sighting.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 
 #include <algorithm>
 #include <cmath>

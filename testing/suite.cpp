@@ -1,7 +1,7 @@
 #include "testing/suite.h"
 
 #include "base/render.h"
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "compiler/text/image.h"
 #include "testing/check_room.h"
 #include "testing/lookup.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "uploader/gatt.h"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #include "uploader/endpoint.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "uploader/device_words.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/time.h"
-#include "vm/body.h"
 #include "vm/body/ask.h"
+#include "vm/body/body.h"
 #include "vm/settings.h"
 
 #include <optional>

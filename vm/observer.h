@@ -2,7 +2,7 @@
 
 #include "base/time.h"
 #include "spec/basic.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <cstdint>
 #include <optional>

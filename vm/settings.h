@@ -3,7 +3,7 @@
 #include "base/time.h"
 #include "spec/api.h"
 #include "spec/ball.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <cstdint>
 

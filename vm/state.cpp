@@ -1,7 +1,7 @@
 #include "vm/state.h"
 
 #include "base/hash.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "protocol/payload.h"
 #include "vm/ball.h"
 

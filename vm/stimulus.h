@@ -3,7 +3,7 @@
 #include "base/diagnostic.h"
 #include "base/source.h"
 #include "base/time.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <array>
 #include <cstdint>

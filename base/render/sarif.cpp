@@ -1,8 +1,8 @@
 #include "base/hash.h"
 #include "base/path.h"
 #include "base/render.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 
 #include <fmt/format.h>
 #include <map>

@@ -6,8 +6,8 @@
 namespace orb::cli {
 
 /// The parts of the program that need D-Bus, as the module `bluez.so` gives them. D-Bus brings nine
-/// libraries, which take a quarter of the time of a short command and which few commands need, so the
-/// module is loaded when Bluetooth LE is asked for.
+/// libraries, which take a quarter of the time of a short command and which few commands need, so
+/// the module is loaded when Bluetooth LE is asked for.
 struct BluezModule {
   const char* build; ///< names what the program and the module give each other; must be the same
   decltype(&uploader::make_bluez_gatt) make_gatt;

@@ -1,7 +1,7 @@
 #include "cli/commands/asm.h"
 
 #include "assembler/formats.h"
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
 #include "cli/input/inputs.h"

@@ -1,4 +1,4 @@
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "base/render.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"

@@ -1,7 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "protocol/packet.h"
 #include "protocol/packet_v2.h"
 #include "protocol/payload.h"

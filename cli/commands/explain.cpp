@@ -1,6 +1,6 @@
 #include "base/rules.h"
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 #include "cli/model/command_line.h"

@@ -1,9 +1,9 @@
-#include "assembler/layout.h"
-#include "assembler/lint.h"
-#include "assembler/rules.h"
+#include "assembler/lint/lint.h"
+#include "assembler/text/layout.h"
+#include "assembler/text/rules.h"
 #include "base/source.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "cli/commands/commands.h"
 #include "cli/input/inputs.h"
 #include "cli/terminal/diff.h"
@@ -12,7 +12,7 @@
 #include "compiler/text/parse.h"
 #include "compiler/text/print.h"
 #include "disk/disk.h"
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 
 #include <fmt/format.h>
 #include <memory>

@@ -1,5 +1,5 @@
 #include "base/bytes.h"
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
 #include "cli/model/checks.h"

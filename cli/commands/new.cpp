@@ -1,5 +1,5 @@
-#include "base/shell.h"
-#include "base/text.h"
+#include "base/text/shell.h"
+#include "base/text/text.h"
 #include "cli/commands/commands.h"
 #include "disk/disk.h"
 #include "uploader/device_words.h"

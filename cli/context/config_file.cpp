@@ -1,6 +1,6 @@
 #include "cli/context/config_file.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 #include "spec/robots.h"

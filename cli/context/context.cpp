@@ -1,6 +1,6 @@
 #include "cli/context/context.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "cli/context/console.h"
 #include "cli/context/output_error.h"
 

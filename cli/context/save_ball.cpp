@@ -1,6 +1,6 @@
 #include "cli/context/save_ball.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "cli/context/config_file.h"
 #include "cli/context/user.h"
 #include "disk/disk.h"

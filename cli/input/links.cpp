@@ -1,8 +1,8 @@
 #include "cli/input/links.h"
 
 #include "base/bytes.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "disk/disk.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "cli/input/policy.h"
 
 #include "base/rules.h"
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "cli/model/command.h"
 #include "reference/knowledge.h"
 

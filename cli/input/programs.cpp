@@ -1,6 +1,6 @@
 #include "cli/input/programs.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "cli/input/links.h"
 #include "disk/disk.h"
 #include "run/input.h"

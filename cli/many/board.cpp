@@ -1,6 +1,6 @@
 #include "cli/many/board.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "cli/context/console.h"
 #include "cli/terminal/progress_bar.h"
 

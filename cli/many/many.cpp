@@ -1,7 +1,7 @@
 #include "cli/many/many.h"
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "cli/context/json.h"
 #include "cli/terminal/interrupt.h"
 #include "disk/disk.h"

@@ -1,7 +1,7 @@
 #include "cli/many/roster.h"
 
 #include "base/refuse.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "cli/model/checks.h"
 #include "cli/model/command.h"
 #include "disk/disk.h"

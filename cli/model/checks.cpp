@@ -1,7 +1,7 @@
 #include "cli/model/checks.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "cli/room/room_plan.h"
 
 #include "base/refuse.h"
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "cli/context/config.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"

@@ -1,7 +1,7 @@
 #include "cli/run/run_console.h"
 #include "cli/context/console.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "disk/disk.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/lint/letters.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/range.h"

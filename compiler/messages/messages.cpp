@@ -1,7 +1,7 @@
 #include "compiler/messages/messages.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "compiler/messages/fault_text.h"
 #include "compiler/messages/names.h"
 #include "compiler/text/rules.h"

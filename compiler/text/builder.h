@@ -2,8 +2,8 @@
 
 // What the rules of orbBasic's grammar write to. Private to parse.cpp.
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "compiler/text/program.h"
 #include "spec/basic.h"
 #include "spec/limits.h"

@@ -1,6 +1,6 @@
 #include "compiler/text/parse.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "compiler/text/builder.h"
 #include "compiler/text/grammar.h"
 #include "compiler/text/words.h"

@@ -3,7 +3,7 @@
 // The words of orbBasic, found by one multiplication: each fits into 64 bits, and the multiplier is
 // searched at compile time so that no two words share a slot.
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "spec/basic.h"
 
 #include <array>

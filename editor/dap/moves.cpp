@@ -1,6 +1,6 @@
 #include "editor/dap/session.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "debug/shell.h"
 
 #include <algorithm>

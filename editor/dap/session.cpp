@@ -1,7 +1,7 @@
 #include "editor/dap/session.h"
 
 #include "base/source.h"
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "editor/languages/shape.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "editor/languages/markdown.h"
 #include "reference/sections.h"
 

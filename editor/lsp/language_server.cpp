@@ -1,6 +1,6 @@
 #include "editor/lsp/language_server.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "editor/lsp/methods.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "editor/lsp/shape_answers.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace orb::editor {
 namespace {

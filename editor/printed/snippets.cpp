@@ -1,6 +1,6 @@
 #include "editor/printed/snippets.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "editor/directives.h"
 #include "spec/basic.h"
 #include "spec/macro.h"

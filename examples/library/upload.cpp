@@ -1,8 +1,8 @@
 // Uploads a program over a link of your own. This one counts the bytes and hands them to a ball in
 // this process; yours may be a radio, a test double or a cable.
 #include <orb/compiler/check.h>
-#include <orb/compiler/text/image.h>
 #include <orb/compiler/load.h>
+#include <orb/compiler/text/image.h>
 #include <orb/uploader/upload.h>
 #include <orb/vm/ball_transport.h>
 

@@ -1,6 +1,6 @@
 #include "playground/engine/robot.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "run/delivery.h"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #include "playground/engine/runs.h"
 
 #include "base/duration.h"
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "playground/engine/sources.h"
 #include "run/want.h"
 #include "structured/text/words.h"

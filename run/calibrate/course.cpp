@@ -1,8 +1,8 @@
 #include "run/calibrate/course.h"
 
 #include "base/refuse.h"
-#include "vm/body.h"
 #include "vm/body/angles.h"
+#include "vm/body/body.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "run/calibrate/fit.h"
 
 #include "base/refuse.h"
-#include "vm/body.h"
 #include "vm/body/angles.h"
+#include "vm/body/body.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "run/calibrate/profile.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 
 #include <cmath>
 #include <fmt/format.h>

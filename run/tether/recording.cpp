@@ -1,6 +1,6 @@
 #include "run/tether/recording.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "structured/emit/relay.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"

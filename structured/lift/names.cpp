@@ -1,6 +1,6 @@
 #include "structured/lift/names.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "structured/text/words.h"
 
 #include <algorithm>

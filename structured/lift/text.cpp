@@ -1,10 +1,10 @@
 #include "structured/lift/text.h"
 
+#include "structured/layout/format.h"
 #include "structured/lift/choices.h"
 #include "structured/lift/effects.h"
 #include "structured/lift/statements.h"
 #include "structured/lift/tests.h"
-#include "structured/text/format.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

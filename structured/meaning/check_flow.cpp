@@ -1,7 +1,7 @@
 #include "structured/meaning/checker.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 
 namespace orb::structured {
 

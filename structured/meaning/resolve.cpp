@@ -1,4 +1,4 @@
-#include "base/text.h"
+#include "base/text/text.h"
 #include "structured/meaning/names.h"
 
 #include "spec/limits.h"

@@ -1,6 +1,6 @@
 #include "structured/meaning/unknown_names.h"
 
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "structured/text/blocks.h"
 #include "structured/text/messages.h"
 #include "structured/text/rules.h"

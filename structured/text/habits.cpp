@@ -2,7 +2,7 @@
 
 #include "structured/text/messages.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/idioms.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"

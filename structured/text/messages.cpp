@@ -1,7 +1,7 @@
 #include "structured/text/messages.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
 #include "structured/text/rules.h"

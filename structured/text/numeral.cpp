@@ -1,6 +1,6 @@
 #include "structured/text/numeral.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <charconv>

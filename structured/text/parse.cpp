@@ -1,6 +1,6 @@
 #include "structured/text/parse.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "structured/text/blocks.h"
 #include "structured/text/lines.h"
 

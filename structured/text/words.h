@@ -2,7 +2,7 @@
 
 // The words of structured orbBasic: those of the robot's tables and its own. Case does not count.
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "spec/basic.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "testing/text/cursor.h"
 
 #include "base/duration.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "testing/text/rules.h"
 
 #include <algorithm>

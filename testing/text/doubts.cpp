@@ -1,7 +1,7 @@
 #include "testing/text/doubts.h"
 
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "testing/text/cursor.h"
 #include "testing/text/rephrase.h"
 #include "testing/text/rules.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/duration.h"
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "repair/repair.h"
 #include "spec/limits.h"
 #include "structured/text/words.h"

@@ -1,7 +1,7 @@
 #include "testing/text/rephrase.h"
 
-#include "base/suggest.h"
-#include "base/text.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "spec/ball.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"

@@ -82,8 +82,8 @@ struct Expectation {
   std::vector<vm::Color> colors; ///< Color: any of these
   int number = 0;                ///< Marker
   std::optional<spec::BasicError> error; ///< Error: nothing for any
-  Named name; ///< of a zone, a macro or a variable; empty where none is given
-  std::optional<std::size_t> ball;  ///< of whom it is expected, of TestFile::balls; nothing: of all
+  Named name;                      ///< of a zone, a macro or a variable; empty where none is given
+  std::optional<std::size_t> ball; ///< of whom it is expected, of TestFile::balls; nothing: of all
   std::optional<std::size_t> other_ball; ///< Near: in place of x and y
 
   std::vector<Expectation> joined; ///< states that are true at the same moment

@@ -1,7 +1,7 @@
 // The formats that CI servers and forges read.
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "testing/verdicts/render.h"
 #include "testing/verdicts/table.h"
 

@@ -1,6 +1,6 @@
 // Results for spreadsheets.
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "testing/verdicts/render.h"
 #include "testing/verdicts/table.h"
 

@@ -1,7 +1,7 @@
 #include "testing/verdicts/report.h"
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "report/page.h"
 #include "report/svg.h"
 #include "testing/run_suite.h"

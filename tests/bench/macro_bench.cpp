@@ -2,7 +2,7 @@
 
 #include "assembler/assemble.h"
 #include "assembler/disassemble.h"
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "vm/macros/macro_executive.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // The committed tree-sitter parsers against the programs that orb itself takes: no error in any.
 
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "compiler/check.h"
 #include "compiler/text/parse.h"
 #include "structured/compile.h"

@@ -1,6 +1,6 @@
 #include "slips/judge.h"
 
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "base/fixes.h"
 #include "compiler/check.h"
 #include "compiler/renumber.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/time.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 #include "vm/link.h"
 #include "vm/settings.h"
 

@@ -1,6 +1,6 @@
 #include "vm/api/profile.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "protocol/payload.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "base/time.h"
 #include "spec/api.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "protocol/packet.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "vm/room/room.h"
 
 #include "spec/ball.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 #include "vm/room/contacts.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "cli/commands/commands.h"
 #include "cli/context/json.h"
 #include "cli/many/many.h"

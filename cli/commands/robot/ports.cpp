@@ -1,7 +1,7 @@
 #include "cli/commands/robot/ports.h"
 
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/robot/devices.h"
 #include "cli/context/json.h"

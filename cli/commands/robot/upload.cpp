@@ -1,5 +1,5 @@
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/robot/monitor.h"
 #include "cli/context/json.h"

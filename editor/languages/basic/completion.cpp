@@ -1,7 +1,7 @@
 #include "editor/languages/basic/completion.h"
 
 #include "base/silence.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
 #include "editor/languages/basic/names.h"

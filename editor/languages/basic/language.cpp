@@ -2,7 +2,7 @@
 
 #include "editor/language.h"
 #include "base/silence.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/check.h"
 #include "compiler/renumber.h"
 #include "compiler/text/parse.h"

@@ -1,6 +1,6 @@
 #include "editor/languages/basic/names.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 // The names of macro source: macros and constants.
 
-#include "assembler/program.h"
+#include "assembler/text/program.h"
 #include "base/source.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // What an editor draws of macro source, and which macro calls which.
 
 #include "editor/languages/shape.h"
-#include "assembler/parse.h"
+#include "assembler/text/parse.h"
 #include "editor/directives.h"
 #include "editor/languages/macro/names.h"
 #include "editor/languages/markdown.h"

@@ -1,7 +1,7 @@
 #include "editor/languages/structured/completion.h"
 
 #include "base/silence.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/text/rules.h"
 #include "editor/languages/markdown.h"
 #include "editor/languages/structured/names.h"

@@ -3,7 +3,7 @@
 #include "editor/language.h"
 #include "assembler/assemble.h"
 #include "base/fixes.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "compiler/check.h"
 #include "compiler/text/rules.h"
 #include "editor/languages/markdown.h"
@@ -15,7 +15,7 @@
 #include "editor/words.h"
 #include "reference/sections.h"
 #include "structured/compile.h"
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"
 

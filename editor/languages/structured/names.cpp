@@ -1,6 +1,6 @@
 #include "editor/languages/structured/names.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "editor/text.h"
 #include "structured/text/read.h"
 

@@ -1,7 +1,7 @@
 // What an editor draws of a structured program, where it leads, and who calls whom in it.
 
 #include "editor/languages/shape.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "editor/languages/markdown.h"
 #include "editor/languages/structured/names.h"
 #include "editor/text.h"

@@ -2,8 +2,8 @@
 
 #include "base/source.h"
 #include "spec/basic.h"
+#include "structured/layout/layout.h"
 #include "structured/text/blocks.h"
-#include "structured/text/layout.h"
 #include "structured/text/parse.h"
 #include "structured/text/words.h"
 

@@ -1,6 +1,6 @@
 // What an editor may ask about a test file.
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "editor/languages/test/names.h"
 #include "editor/text.h"
 #include "report/course.h"

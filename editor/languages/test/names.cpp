@@ -1,6 +1,6 @@
 #include "editor/languages/test/names.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace orb::editor {
 namespace {

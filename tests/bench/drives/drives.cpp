@@ -10,7 +10,7 @@
 // driven again in pieces of 12 s; the first 2 s of each only bring the ball up to speed. Nothing
 // here is random, and the pictures are the same on every machine.
 
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "assembler/assemble.h"
 
 #include "assembler/disassemble.h"
-#include "assembler/lint.h"
-#include "assembler/rules.h"
+#include "assembler/lint/lint.h"
+#include "assembler/text/rules.h"
 #include "assembler/timing.h"
 
 #include <fmt/format.h>

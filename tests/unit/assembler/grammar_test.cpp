@@ -1,4 +1,4 @@
-#include "assembler/grammar.h"
+#include "assembler/text/grammar.h"
 
 #include <gtest/gtest.h>
 #include <tao/pegtl/contrib/analyze.hpp>

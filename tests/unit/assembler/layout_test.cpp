@@ -1,4 +1,4 @@
-#include "assembler/layout.h"
+#include "assembler/text/layout.h"
 
 #include "assembler/assemble.h"
 

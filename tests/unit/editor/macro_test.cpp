@@ -1,6 +1,6 @@
 // What an editor may ask about macro source.
 
-#include "assembler/parse.h"
+#include "assembler/text/parse.h"
 #include "editor/directives.h"
 #include "tests/unit/editor/client.h"
 

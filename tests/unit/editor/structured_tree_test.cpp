@@ -3,7 +3,7 @@
 #include "editor/languages/structured/tree.h"
 
 #include "spec/basic.h"
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 #include "structured/text/words.h"
 #include "tests/unit/structured/random_structured.h"
 
@@ -38,8 +38,8 @@ std::vector<std::string> brief_rows(std::string_view text) {
 
 /// An expression as nested lists.
 std::string listed(const Json& node) {
-  auto text = std::string(node.value("groups", std::size_t{0}), '(') + node.at("kind").get<std::string>() + ":" +
-              node.at("text").get<std::string>();
+  auto text = std::string(node.value("groups", std::size_t{0}), '(') +
+              node.at("kind").get<std::string>() + ":" + node.at("text").get<std::string>();
   for (const auto& operand : node.value("operands", Json::array()))
     text += " [" + listed(operand) + "]";
   return text;

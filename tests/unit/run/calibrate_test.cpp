@@ -1,7 +1,7 @@
 #include "run/calibrate/fit.h"
 
 #include "base/random.h"
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 
 #include "random_structured.h"
 #include "structured/compile.h"

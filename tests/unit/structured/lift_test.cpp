@@ -4,7 +4,7 @@
 #include "compiler/load.h"
 #include "random_structured.h"
 #include "structured/compile.h"
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 #include "tests/random_program.h"
 #include "vm/machine/machine.h"
 

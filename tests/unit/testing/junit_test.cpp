@@ -2,7 +2,7 @@
 // Jenkins' junit plugin) ask, in our words, for what is checked here; what both allow, we need not
 // test.
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "testing/verdicts/render.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // One mutant for each word of the vocabulary: a program that meets the expectation, and one that
 // fails it just so. Each must be told apart, and what was seen instead must be named.
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "testing/run_suite.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
-#include "assembler/lint_timing.h"
+#include "assembler/lint/lint_timing.h"
 
-#include "assembler/edits.h"
-#include "assembler/rules.h"
+#include "assembler/lint/edits.h"
+#include "assembler/text/rules.h"
 #include "assembler/timing.h"
 #include "assembler/walk.h"
 #include "base/duration.h"

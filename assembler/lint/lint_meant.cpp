@@ -1,8 +1,8 @@
-#include "assembler/lint_meant.h"
+#include "assembler/lint/lint_meant.h"
 
-#include "assembler/edits.h"
-#include "assembler/lint_timing.h"
-#include "assembler/rules.h"
+#include "assembler/lint/edits.h"
+#include "assembler/lint/lint_timing.h"
+#include "assembler/text/rules.h"
 #include "repair/tokens.h"
 
 #include <algorithm>

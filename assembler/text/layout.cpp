@@ -1,6 +1,6 @@
-#include "assembler/layout.h"
+#include "assembler/text/layout.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "spec/macro.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "run/cause_places.h"
+#include "run/cause/places.h"
 
 #include "bytecode/op.h"
 #include "spec/limits.h"

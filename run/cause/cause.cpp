@@ -1,6 +1,6 @@
-#include "run/cause.h"
+#include "run/cause/cause.h"
 
-#include "run/cause_places.h"
+#include "run/cause/places.h"
 
 #include "compiler/check.h"
 #include "run/run.h"

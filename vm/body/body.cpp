@@ -1,4 +1,4 @@
-#include "vm/body.h"
+#include "vm/body/body.h"
 
 #include "vm/body/angles.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembler/program.h"
+#include "assembler/text/program.h"
 
 #include <string_view>
 

@@ -4,7 +4,7 @@
 
 #include "base/diagnostic.h"
 #include "base/source.h"
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <cstdint>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
-#include "assembler/lint_loops.h"
+#include "assembler/lint/lint_loops.h"
 
-#include "assembler/edits.h"
-#include "assembler/layout.h"
-#include "assembler/lint_timing.h"
-#include "assembler/rules.h"
+#include "assembler/lint/edits.h"
+#include "assembler/lint/lint_timing.h"
+#include "assembler/text/layout.h"
+#include "assembler/text/rules.h"
 #include "repair/arrange.h"
 
 #include <algorithm>

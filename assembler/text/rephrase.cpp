@@ -1,9 +1,9 @@
-#include "assembler/rephrase.h"
+#include "assembler/text/rephrase.h"
 
-#include "assembler/program.h"
+#include "assembler/text/program.h"
 
 #include "base/duration.h"
-#include "base/text.h"
+#include "base/text/text.h"
 #include "repair/tokens.h"
 #include "spec/macro.h"
 

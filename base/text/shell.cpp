@@ -1,6 +1,6 @@
-#include "base/shell.h"
+#include "base/text/shell.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include "base/text.h"
+#include "base/text/text.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 
-#include "base/utf8.h"
-#include "structured/text/layout.h"
+#include "base/text/utf8.h"
+#include "structured/layout/layout.h"
 #include "structured/text/parse.h"
 
 namespace orb::structured {

@@ -1,10 +1,10 @@
-#include "assembler/parse.h"
+#include "assembler/text/parse.h"
 
-#include "assembler/grammar.h"
-#include "assembler/rules.h"
-#include "base/suggest.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "assembler/text/grammar.h"
+#include "assembler/text/rules.h"
+#include "base/text/suggest.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 
 #include <array>
 #include <cstring>

@@ -1,6 +1,6 @@
-#include "structured/text/layout.h"
+#include "structured/layout/layout.h"
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
