@@ -4,6 +4,7 @@
 #include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
+#include "repair/word_index.h"
 
 #include <algorithm>
 #include <array>
@@ -525,30 +526,23 @@ private:
   bool exchanged_ = false;
 };
 
+const WordIndex& called_by() {
+  static const WordIndex index(callings, [](const Calling& calling) { return calling.words; });
+  return index;
+}
+
 } // namespace
 
 bool is_called(std::string_view operand, std::string_view word) {
-  return std::any_of(callings.begin(), callings.end(), [&](const Calling& calling) {
-    return calling.name == operand && holds(calling.words, word);
-  });
+  const auto& lists = called_by().lists_of(word);
+  return std::any_of(lists.begin(), lists.end(),
+                     [&](std::size_t list) { return callings[list].name == operand; });
 }
 
 std::vector<std::string_view> meanings_of(std::string_view word) {
-  static const auto all = [] {
-    std::multimap<std::string, std::string_view, std::less<>> each;
-    for (const auto& calling : callings)
-      for (auto rest = calling.words; !rest.empty();) {
-        const auto end = std::min(rest.find(' '), rest.size());
-        each.emplace(rest.substr(0, end), calling.name);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-      }
-    return each;
-  }();
-  std::string small(word);
-  std::transform(small.begin(), small.end(), small.begin(), to_lower);
   std::vector<std::string_view> found;
-  for (auto [at, end] = all.equal_range(small); at != end; ++at)
-    found.push_back(at->second);
+  for (const auto list : called_by().lists_of(word))
+    found.push_back(callings[list].name);
   return found;
 }
 
@@ -563,12 +557,11 @@ int count_of(const Token& token) {
        "five fünf fuenf cinco cinq cinque vijf", "six sechs seis sei zes",
        "seven sieben siete sept sette sete zeven", "eight acht ocho huit otto oito",
        "nine neun nueve neuf nove negen", "ten zehn diez dix dieci dez tien"});
+  static const WordIndex index(words, [](std::string_view list) { return list; });
   if (token.is_number())
     return parse_number<int>(token.text).value_or(0);
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (holds(words[i], token.text))
-      return static_cast<int>(i) + 1;
-  return 0;
+  const auto& lists = index.lists_of(token.text);
+  return lists.empty() ? 0 : static_cast<int>(lists.front()) + 1;
 }
 
 std::optional<Arranged> arrange(const Tokens& values, const std::vector<Operand>& operands,

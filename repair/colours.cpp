@@ -2,6 +2,7 @@
 
 #include "base/text/text.h"
 #include "repair/idioms.h"
+#include "repair/word_index.h"
 
 #include <algorithm>
 #include <array>
@@ -41,9 +42,9 @@ constexpr auto colours = std::to_array<Colour>({
 const Colour* named_colour(const Token& token) {
   if (!token.is_word() && !token.is_text())
     return nullptr;
-  const auto found = std::find_if(colours.begin(), colours.end(),
-                                  [&](const Colour& one) { return holds(one.words, token.text); });
-  return found == colours.end() ? nullptr : &*found;
+  static const WordIndex index(colours, [](const Colour& one) { return one.words; });
+  const auto& lists = index.lists_of(token.text);
+  return lists.empty() ? nullptr : &colours[lists.front()];
 }
 
 } // namespace

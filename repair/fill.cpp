@@ -5,6 +5,7 @@
 #include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/print_items.h"
+#include "repair/word_index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,9 +76,9 @@ constexpr auto units = std::to_array<Unit>(
      {"m min mins minute minutes minuten minuut minuto minutos minuti", 60 * second_ms}});
 
 const Unit* unit_called(std::string_view word) {
-  const auto* const unit = std::find_if(units.begin(), units.end(),
-                                        [&](const Unit& each) { return holds(each.words, word); });
-  return unit == units.end() ? nullptr : unit;
+  static const WordIndex index(units, [](const Unit& one) { return one.words; });
+  const auto& lists = index.lists_of(word);
+  return lists.empty() ? nullptr : &units[lists.front()];
 }
 
 enum class Assume : std::uint8_t { Milliseconds, Seconds, Either };

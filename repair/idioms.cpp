@@ -108,16 +108,58 @@ std::string_view form_of(const Idiom& idiom, Language language) {
   return form == "=" ? idiom.basic : form;
 }
 
+/// The part that the fewest lines have: a word where there is one. A comma of a macro is none.
+const Part* rarest_part(const Pattern& pattern) {
+  const auto rank = [](const Part& part) {
+    const bool sign = !is_letter(part.literals.front()[0]);
+    return std::pair(sign, part.literals.size());
+  };
+  const Part* rarest = nullptr;
+  for (const auto& part : pattern.parts)
+    if (!part.literals.empty() && !part.may_lack && (!rarest || rank(part) < rank(*rarest)))
+      rarest = &part;
+  return rarest;
+}
+
+/// Patterns in the order of the table, and where each of them can be found.
+struct Patterns {
+  void index() {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (const auto* const part = rarest_part(all[i]))
+        for (const auto& literal : part->literals)
+          having.add(literal, i);
+      else
+        without.push_back(i);
+  }
+
+  /// Those that a line can fit: all others have a literal that it lacks.
+  std::vector<std::size_t> possible(const Tokens& line) const {
+    auto found = without;
+    for (const auto& token : line) {
+      const auto& more = having.lists_of(token.text);
+      found.insert(found.end(), more.begin(), more.end());
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+  std::vector<Pattern> all;
+  WordIndex having; ///< by their rarest part
+  std::vector<std::size_t> without;
+};
+
 /// The patterns that a language has an answer to.
-const std::vector<Pattern>& patterns_of(Language language) {
+const Patterns& patterns_of(Language language) {
   static const auto all = [] {
-    std::array<std::vector<Pattern>, 4> each;
+    std::array<Patterns, 4> each;
     for (std::size_t i = 0; i < each.size(); ++i) {
       for (const auto& word : words)
-        add_patterns(each[i], word.patterns, nullptr, word.meaning, static_cast<Language>(i));
+        add_patterns(each[i].all, word.patterns, nullptr, word.meaning, static_cast<Language>(i));
       for (const auto& idiom : idioms())
         if (!form_of(idiom, static_cast<Language>(i)).empty())
-          add_patterns(each[i], idiom.patterns, &idiom, {}, static_cast<Language>(i));
+          add_patterns(each[i].all, idiom.patterns, &idiom, {}, static_cast<Language>(i));
+      each[i].index();
     }
     return each;
   }();
@@ -199,7 +241,9 @@ void rewrite(const Tokens& line, const Surroundings& around,
   const auto here = join(line);
   const Line all(line);
   const auto statements = statements_of(line);
-  for (const auto& pattern : patterns_of(around.language)) {
+  const auto& patterns = patterns_of(around.language);
+  for (const auto each : patterns.possible(line)) {
+    const auto& pattern = patterns.all[each];
     if (std::any_of(pattern.needs.begin(), pattern.needs.end(),
                     [bits](std::uint64_t one) { return (one & bits) == 0; }))
       continue;
@@ -268,7 +312,7 @@ std::string word_at(const Tokens& line, std::size_t at) {
   Matcher matcher(all, line.size(), false);
   std::size_t farthest = at;
   std::string_view meaning = line[at].text;
-  for (const auto& pattern : patterns_of(Language::Structured)) {
+  for (const auto& pattern : patterns_of(Language::Structured).all) {
     if (pattern.idiom != nullptr)
       break; // the words come first
     if ((pattern.first & bit_of(line[at].text)) == 0)
@@ -284,7 +328,7 @@ std::string word_at(const Tokens& line, std::size_t at) {
 bool is_known_word(std::string_view word, Where where) {
   static const auto all = [] {
     std::array<std::set<std::string>, 2> each;
-    for (const auto& pattern : patterns_of(Language::Structured))
+    for (const auto& pattern : patterns_of(Language::Structured).all)
       if (pattern.idiom != nullptr)
         for (const auto& one : pattern.parts.front().literals)
           if (is_letter(one[0]))

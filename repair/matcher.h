@@ -3,6 +3,7 @@
 #include "base/text/text.h"
 #include "repair/fill.h"
 #include "repair/idioms.h"
+#include "repair/word_index.h"
 
 #include <algorithm>
 #include <array>
@@ -29,13 +30,6 @@ struct Pattern {
   const Idiom* idiom = nullptr;
   std::string_view meaning; ///< of a word
 };
-
-/// In small letters.
-inline std::string lower(std::string_view word) {
-  std::string small(word);
-  std::transform(small.begin(), small.end(), small.begin(), to_lower);
-  return small;
-}
 
 /// Words that part a line, and so are in no value.
 inline bool parts_line(const Token& token) {

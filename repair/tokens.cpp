@@ -33,6 +33,15 @@ constexpr auto long_signs = std::to_array<std::string_view>(
      "+=",  "-=",  "*=",  "/=", "%=", "=+", "=-", "++", "--", "&&", "||",
      ":=",  "<-",  "**",  "//", "->", "<<", ">>", "..", "~="});
 
+/// Whether a sign that is no byte of ASCII may begin here.
+bool may_draw(char c) {
+  constexpr unsigned char first = 0xC2; // none begins below
+  return static_cast<unsigned char>(c) >= first;
+}
+bool may_quote(char c) {
+  return c == '"' || c == '\'' || c == '`' || may_draw(c);
+}
+
 class Splitter {
 public:
   Splitter(std::string_view text, Language language) : text_(text), language_(language) {}
@@ -55,6 +64,7 @@ public:
 
   Tokens rest() {
     Tokens tokens;
+    tokens.reserve(text_.size() / 3); // words are longer, with their blanks; signs shorter
     while (true) {
       const auto before = at_;
       blanks();
@@ -153,6 +163,8 @@ private:
   }
 
   bool text(Tokens& tokens) {
+    if (!may_quote(text_[at_]))
+      return false;
     const auto quote =
         std::find_if(quotes.begin(), quotes.end(), [&](std::string_view one) { return sees(one); });
     if (quote == quotes.end())
@@ -163,7 +175,8 @@ private:
     std::size_t width = 1;
     for (auto at = at_; at < text_.size() && end == std::string_view::npos; ++at)
       for (const auto one : quotes)
-        if (text_.substr(at).starts_with(one) && (straight ? one == *quote : one != "'")) {
+        if (may_quote(text_[at]) && text_.substr(at).starts_with(one) &&
+            (straight ? one == *quote : one != "'")) {
           end = at;
           width = one.size();
           break;
@@ -211,10 +224,8 @@ private:
   }
 
   bool is_drawn() const {
-    constexpr unsigned char first = 0xC2; // none begins below
-    return static_cast<unsigned char>(text_[at_]) >= first &&
-           std::any_of(drawn.begin(), drawn.end(),
-                       [&](const Written& one) { return sees(one.text); });
+    return may_draw(text_[at_]) && std::any_of(drawn.begin(), drawn.end(),
+                                               [&](const Written& one) { return sees(one.text); });
   }
 
   bool word(Tokens& tokens) {
@@ -238,7 +249,7 @@ private:
       return add(tokens, Token::Kind::Colour, std::string(text_.substr(begin, at_ - begin)));
     }
     for (const auto& one : drawn)
-      if (sees(one.text)) {
+      if (may_draw(text_[at_]) && sees(one.text)) {
         at_ += one.text.size();
         return add(tokens, is_letter(one.means[0]) ? Token::Kind::Word : Token::Kind::Sign,
                    std::string(one.means));

@@ -106,7 +106,7 @@ public:
 
 private:
   static constexpr auto takes_nothing = "the link no longer accepts data";
-  static constexpr auto not_let_go = "the system does not let go of the link";
+  static constexpr auto not_let_go = "the system does not release the link";
 
   /// What an operation has to do with; it may come to its end after nobody waits any more.
   struct Operation {

@@ -11,15 +11,15 @@ namespace orb::cli {
 namespace {
 
 void say_left_out(Context& context, const std::string& command) {
-  print_error(context, fmt::format("`{}` is not in this program, which `./dev demo` built: "
-                                   "run `./dev build orb` for the whole of it",
+  print_error(context, fmt::format("`{}` is left out of this program, which `./dev demo` "
+                                   "built; `./dev build orb` builds the full one",
                                    command));
   context.exit = ExitCode::Usage;
 }
 
 void add_left_out(const Command& orb, Context& context, const std::string& name) {
   const auto command = orb.add_command(
-      name, "not in this program, which ./dev demo built: run ./dev build orb", "./dev build orb");
+      name, "left out by ./dev demo; ./dev build orb builds the full program", "./dev build orb");
   command.any_words();
   command.callback([&context, name] { say_left_out(context, "orb " + name); });
 }

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "base/text/text.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace orb::repair {
+
+/// A word in small letters.
+inline std::string lower(std::string_view word) {
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(), to_lower);
+  return small;
+}
+
+/// Lists of words, told by their numbers: which of them have a word? Case does not count.
+class WordIndex {
+public:
+  WordIndex() = default;
+  /// Numbers the lists from 0; `words` gives that of a row, a blank between two words.
+  template <typename Rows, typename Words>
+  WordIndex(const Rows& rows, Words words) {
+    for (std::size_t i = 0; i < std::size(rows); ++i)
+      for (auto rest = words(rows[i]); !rest.empty();) {
+        const auto end = std::min(rest.find(' '), rest.size());
+        add(rest.substr(0, end), i);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+      }
+  }
+
+  void add(std::string_view word, std::size_t list) {
+    auto& lists = lists_[lower(word)];
+    if (lists.empty() || lists.back() != list)
+      lists.push_back(list);
+  }
+
+  /// In the order in which they were added.
+  const std::vector<std::size_t>& lists_of(std::string_view word) const {
+    static const std::vector<std::size_t> none;
+    const auto found = lists_.find(lower(word));
+    return found == lists_.end() ? none : found->second;
+  }
+
+private:
+  std::unordered_map<std::string, std::vector<std::size_t>> lists_;
+};
+
+} // namespace orb::repair
