@@ -59,7 +59,7 @@ void Decoder::feed(ByteView bytes) {
     at_ = 0;
     return;
   }
-  keep_rest();
+  keep();
   kept_.insert(kept_.end(), bytes.begin(), bytes.end());
   window_ = kept_;
 }
@@ -71,8 +71,8 @@ void Decoder::reset() {
   kept_.clear();
 }
 
-/// Makes the unconsumed bytes our own, at the front of kept_.
-void Decoder::keep_rest() {
+/// At the front of kept_.
+void Decoder::keep() {
   const auto rest = window_.subspan(at_);
   if (window_.data() == kept_.data() && !kept_.empty())
     kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(at_));
@@ -104,7 +104,7 @@ std::optional<Item> Decoder::next() {
     case Match::Damaged: ++at_; return item;
     case Match::Incomplete:
       if (expiry_ == Expiry::No) {
-        keep_rest();
+        keep();
         return std::nullopt;
       }
       expiry_ = Expiry::Reported;

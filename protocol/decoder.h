@@ -50,8 +50,12 @@ class Decoder {
 public:
   explicit Decoder(Direction direction) : direction_(direction) {}
 
-  /// Takes bytes without copying them: they must live until next() has returned nothing.
+  /// Takes bytes without copying them: they must live until next() has returned nothing, or keep()
+  /// is called.
   void feed(ByteView bytes);
+
+  /// Copies what was fed and is not consumed yet: those bytes may go.
+  void keep();
 
   /// The next item, or nothing when more bytes are needed.
   std::optional<Item> next();
@@ -76,7 +80,6 @@ private:
   Match match_command(ByteView bytes, Item& item) const;
   bool is_stray(ByteView bytes) const;
   Match match_answer(ByteView bytes, Item& item) const;
-  void keep_rest();
 
   Direction direction_;
   Expiry expiry_ = Expiry::No;

@@ -1,6 +1,7 @@
 #include "repair/line_repair.h"
 
 #include "base/text/text.h"
+#include "repair/arrange.h"
 #include "repair/fill.h"
 #include "repair/idioms.h"
 
@@ -71,6 +72,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   own_call(start);
+  if (!best_ && judge_.language == Language::Structured)
+    own_words();
   const bool calls = !sub_.empty() && parts_.tokens[0].text == sub_;
   if (calls && !best_ && finding.rule->id == "argument-count")
     return {}; // which value is missing is said, whatever others call so
@@ -334,6 +337,34 @@ void LineRepair::own_call(const std::string& statement) {
   explore(statement, around_, {1, few_states}, seen, [&](const Rewritten& one) {
     return one.text.starts_with(sub_ + "(") && attempt(one.text, one.note, one.sure);
   });
+}
+
+/// Words that mean what a name of the program means: `Richtung` where there is a `direction`.
+void LineRepair::own_words() {
+  const auto is_own = [&](std::string_view name) {
+    return std::none_of(judge_.words.begin(), judge_.words.end(),
+                        [&](std::string_view one) { return equal_words(one, name); });
+  };
+  auto tokens = parts_.tokens;
+  bool any = false;
+  for (auto& token : tokens) {
+    const auto meanings = token.is_word() ? meanings_of(token.text) : std::vector<std::string_view>();
+    if (meanings.empty() || !is_foreign(token.text))
+      continue;
+    for (const auto name : names_) {
+      const auto theirs = meanings_of(name);
+      const bool same = std::any_of(theirs.begin(), theirs.end(), [&](std::string_view one) {
+        return !one.empty() && std::find(meanings.begin(), meanings.end(), one) != meanings.end();
+      });
+      if (!same || !is_own(name))
+        continue;
+      token.text = name;
+      any = true;
+      break;
+    }
+  }
+  if (any)
+    attempt(join(tokens), {}, true);
 }
 
 /// Habits that are several lines here: they say more than any one line.

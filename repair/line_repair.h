@@ -76,6 +76,7 @@ private:
   bool begins_alike(std::string_view lines) const;
   void habits(const std::string& statement, Bounds bounds);
   void own_call(const std::string& statement);
+  void own_words();
   void several_lines(const std::string& statement);
   void by_fix(const Diagnostic& finding);
   void by_changes(int most);

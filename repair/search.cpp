@@ -118,11 +118,10 @@ private:
     add(changed, 3);
   }
 
-  /// `"7"` where a value stands.
+  /// `"7"` and `"500ms"` where a value stands.
   void unquoted(std::size_t i) {
     const auto& token = line_[i];
-    if (!token.is_text() || token.text.empty() || line_[0].is("print") ||
-        !std::all_of(token.text.begin(), token.text.end(), is_digit))
+    if (!token.is_text() || token.text.empty() || line_[0].is("print") || !is_count(token.text))
       return;
     auto changed = line_;
     changed[i].kind = Token::Kind::Number;
@@ -142,7 +141,9 @@ private:
       return;
     for (std::size_t n = 2; n < word.text.size(); ++n) {
       const auto left = std::string_view(word.text).substr(0, n);
-      const auto right = std::string_view(word.text).substr(n);
+      auto right = std::string_view(word.text).substr(n);
+      if (right.size() > 1 && right[0] == '_')
+        right.remove_prefix(1);
       const bool value =
           is_count(right) || (right.size() == 1 && language_ == Language::Basic) || is_known(right);
       if (!value || std::none_of(words_.begin(), words_.end(),
@@ -172,26 +173,46 @@ private:
       changed.erase(next, next + 2);
       add(changed, 5);
     }
-    for (const auto* between : {"", "_"}) {
-      auto changed = line_;
-      changed[i].text = a.text + between + b.text;
-      const auto known = std::find_if(words_.begin(), words_.end(), [&](std::string_view one) {
-        return equal_words(one, changed[i].text);
-      });
-      if (known == words_.end())
+    for (const auto* between : {"", "_"})
+      joined_by(between, i);
+  }
+
+  /// `sub wait for shake`, where other lines call it `wait_for_shake`.
+  void joined_by(std::string_view between, std::size_t first) {
+    constexpr std::size_t most_words = 4;
+    const auto end = std::min(line_.size(), first + most_words);
+    auto name = line_[first].text;
+    for (auto i = first + 1; i < end && line_[i].is_word(); ++i) {
+      name += std::string(between) + line_[i].text;
+      const auto known = spelling_of(name);
+      if (known.empty())
         continue;
-      changed[i].text = *known;
-      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      auto changed = line_;
+      changed[first].text = known;
+      const auto next = changed.begin() + static_cast<std::ptrdiff_t>(first) + 1;
+      changed.erase(next, next + static_cast<std::ptrdiff_t>(i - first));
       add(changed, 3);
     }
+  }
+
+  /// A word of the language or of other lines; empty where it is none.
+  std::string_view spelling_of(std::string_view word) const {
+    for (const auto& list : {words_, names_})
+      for (const auto one : list)
+        if (equal_words(one, word))
+          return one;
+    return {};
   }
 
   void left_out(std::size_t i) {
     const auto& token = line_[i];
     const bool twice = i > 0 && !token.is_number() && line_[i - 1].text == token.text;
     constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs that compute nothing
-    const bool is_idle = token.kind == Token::Kind::Sign && token.text.size() == 1 &&
-                         idle.find(token.text[0]) != std::string_view::npos;
+    constexpr std::string_view kinds = "$%!&";          // behind the name of a variable: its kind
+    const bool one = token.kind == Token::Kind::Sign && token.text.size() == 1;
+    const bool is_kind = one && i > 0 && line_[i - 1].is_word() && !token.gap &&
+                         kinds.find(token.text[0]) != std::string_view::npos;
+    const bool is_idle = (one && idle.find(token.text[0]) != std::string_view::npos) || is_kind;
     // Fewer values are not what was meant: a comma goes where no value follows it.
     const bool parts_values = token.is(",") && i > 1 && i + 1 < line_.size() &&
                               (line_[i + 1].is_number() || line_[i + 1].text.size() == 1) &&

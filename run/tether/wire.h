@@ -48,7 +48,7 @@ public:
 
   virtual Bytes encode(const Request& request, std::uint8_t seq) const = 0;
   virtual std::uint8_t next_seq(std::uint8_t seq) const = 0;
-  /// The bytes must live until next() has returned nothing.
+  /// Takes a copy: what is left when somebody stops asking next() is told later.
   virtual void feed(ByteView bytes) = 0;
   virtual std::optional<Said> next() = 0;
 

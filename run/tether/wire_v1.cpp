@@ -113,7 +113,10 @@ public:
   std::uint8_t next_seq(std::uint8_t seq) const override {
     return static_cast<std::uint8_t>(seq + 1);
   }
-  void feed(ByteView bytes) override { decoder_.feed(bytes); }
+  void feed(ByteView bytes) override {
+    decoder_.feed(bytes);
+    decoder_.keep();
+  }
   std::optional<Said> next() override;
 
   std::vector<Request> setup(Aim aim) const override;

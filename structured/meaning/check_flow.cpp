@@ -138,6 +138,7 @@ void Checker::report_cycle(const std::vector<std::pair<std::uint32_t, std::size_
 
 void Checker::check_loops() {
   for (const auto i : program_.order) {
+    check_left(i);
     if (at(i).kind == Kind::Loop ||
         (at(i).kind == Kind::While && always_holds(item(at(i), 0).value)))
       check_endless(i);
@@ -201,14 +202,45 @@ void Checker::check_endless(std::uint32_t i) {
     loops += is_loop(kind) ? 1 : 0;
     loops -= at(n).opener != none && is_loop(at(at(n).opener).kind) ? 1 : 0;
   }
-  const auto after = end + 1;
-  if (after >= program_.statements.size() || names_.routine_of[after] != names_.routine_of[i] ||
-      at(after).depth != at(i).depth || at(after).kind == Kind::Label || declares(at(after).kind) ||
-      parts_block(at(after).kind) || closes_block(at(after).kind))
+  if (const auto* const after = never_reached(i, end + 1))
+    report(compiler::rules::UnreachableLine, after->span,
+           "unreachable: nothing leaves the loop above",
+           "leave the loop with `exit`, as in `if speed = 0 then exit`");
+}
+
+void Checker::check_left(std::uint32_t i) {
+  const auto& statement = at(i);
+  const bool ends =
+      statement.kind == Kind::Robot && spec::info(statement.robot).after == spec::After::Ends;
+  if (!ends && statement.kind != Kind::Goto && statement.kind != Kind::Return &&
+      statement.kind != Kind::Exit && statement.kind != Kind::Continue)
     return;
-  report(compiler::rules::UnreachableLine, at(after).span,
-         "unreachable: nothing leaves the loop above",
-         "leave the loop with `exit`, as in `if speed = 0 then exit`");
+  const auto* const after = never_reached(i, i + 1);
+  if (after == nullptr)
+    return;
+  const auto word = program_.text_of(statement.word);
+  const bool sleeps = ends && statement.robot == spec::Statement::Sleep;
+  const auto seconds = sleeps && size(statement) == 1 ? value_of(item(statement, 0)) : std::nullopt;
+  auto& d = report(compiler::rules::UnreachableLine, after->span,
+                   fmt::format("unreachable after `{}`", word),
+                   seconds  ? fmt::format("for a pause write `delay {}s`", seconds->value)
+                   : sleeps ? "for a pause write `delay`"
+                   : ends   ? fmt::format("leave out the `{}` above", word)
+                            : "leave the line out");
+  d.notes.push_back({statement.span, sleeps ? "the robot falls asleep here, and the program ends"
+                                     : ends ? "the program ends here"
+                                            : "nothing gets past this"});
+}
+
+const Statement* Checker::never_reached(std::uint32_t i, std::uint32_t after) const {
+  if (after >= program_.statements.size() || names_.routine_of[after] != names_.routine_of[i] ||
+      at(after).depth != at(i).depth)
+    return nullptr;
+  const auto kind = at(after).kind;
+  const bool runs = kind != Kind::Label && kind != Kind::Local && kind != Kind::Broken &&
+                    !declares(kind) && !parts_block(kind) && !closes_block(kind) &&
+                    (kind != Kind::Robot || at(after).robot != spec::Statement::Data);
+  return runs ? &at(after) : nullptr;
 }
 
 void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {

@@ -173,6 +173,13 @@ private:
   /// What stands after a loop that nothing leaves.
   void check_endless(std::uint32_t i);
 
+  /// What stands after a statement that does not go on: `end`, `sleep`, `goto`, `return`, `exit`.
+  void check_left(std::uint32_t i);
+
+  /// The statement `after` what nothing gets past, `i`; null where something else leads there, or
+  /// it does nothing.
+  const Statement* never_reached(std::uint32_t i, std::uint32_t after) const;
+
   /// A loop that asks one variable, which nothing in it changes.
   void check_unchanged(std::uint32_t i, std::uint32_t condition);
 

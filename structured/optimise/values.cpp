@@ -223,6 +223,7 @@ private:
     if (label != none && is_pure(code_.terms[line.term].effects)) {
       line.kind = LineKind::Goto;
       line.label = label;
+      line.parts_begin = line.parts_end = 0;
       changed_ = true;
     } else if (static_cast<std::uint32_t>(last) < line.parts_end - line.parts_begin) {
       line.parts_end = line.parts_begin + static_cast<std::uint32_t>(last);
@@ -357,6 +358,7 @@ private:
         if (code_.cases[n].lo <= chosen.lo && chosen.lo <= code_.cases[n].hi)
           line.label = code_.cases[n].label;
       line.kind = LineKind::Goto;
+      line.parts_begin = line.parts_end = 0; // they were cases
       return;
     }
     if (span > most_targets || line.parts_end - line.parts_begin < least_cases)

@@ -194,6 +194,24 @@ TEST(Decoder, AStrayStartByteIsJudgedAlikeHoweverTheBytesArrive) {
   }
 }
 
+TEST(Decoder, KeepsWhatNobodyAskedForYet) {
+  const auto ping = encode(make_command(spec::ApiCommand::Ping, {}));
+  Decoder decoder(Direction::ToBall);
+  std::vector<Found> found;
+  for (int n = 0; n < 2; ++n) {
+    auto fed = ping;
+    fed.insert(fed.end(), ping.begin(), ping.end());
+    decoder.feed(fed);
+    decoder.keep();
+    std::fill(fed.begin(), fed.end(), std::uint8_t{0}); // they are gone
+    EXPECT_TRUE(decoder.next());
+  }
+  drain(decoder, found);
+  EXPECT_EQ(found.size(), 2U); // of the four, the two that were left
+  for (const auto& item : found)
+    EXPECT_EQ(item.kind, Kind::Command);
+}
+
 RC_GTEST_PROP(Decoder, FindsTheSameHoweverTheBytesArrive, (bool to_ball)) {
   const auto bytes = *stream();
   const auto direction = to_ball ? Direction::ToBall : Direction::FromBall;
