@@ -38,9 +38,10 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
                        std::uint32_t line, const Context& context,
                        const std::vector<Diagnostic>& before, int most_checks)
     : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
-      errors_(errors_in(before)), lasting_(lasting_errors(before)),
-      parts_(split(line_, judge.language)), around_(scenery.around(line, parts_)),
-      sub_(scenery.sub_of(parts_.tokens)), is_target_(false), most_checks_(most_checks) {
+      lasting_(lasting_errors(before)), parts_(split(line_, judge.language)),
+      around_(scenery.around(line, parts_)), sub_(scenery.sub_of(parts_.tokens)),
+      uncalled_(scenery.uncalled_sub()), is_target_(false), most_checks_(most_checks) {
+  errors_ = errors_of(before, context.above + std::string(line_) + context.below);
   around_.elsewhere = scenery.words_without(parts_.tokens);
   if (judge.language != Language::Basic)
     names_ = around_.elsewhere;
@@ -74,6 +75,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   own_call(start);
   if (!best_ && judge_.language == Language::Structured)
     own_words();
+  if (!best_ && judge_.language == Language::Structured)
+    own_sub();
   const bool calls = !sub_.empty() && parts_.tokens[0].text == sub_;
   if (calls && !best_ && finding.rule->id == "argument-count")
     return {}; // which value is missing is said, whatever others call so
@@ -231,6 +234,21 @@ bool LineRepair::keeps_texts(std::string_view lines) const {
          });
 }
 
+/// Errors but unknown names that this line does not have: while it did not parse, nobody asked for
+/// them.
+std::size_t LineRepair::errors_of(const std::vector<Diagnostic>& findings,
+                                  std::string_view text) const {
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), [&](const Diagnostic& one) {
+        const auto has = [&](std::string_view word) {
+          return std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
+                             [&](const Token& token) { return token.text == word; });
+        };
+        return is_error(one) && (one.rule->id != "unknown-name" ||
+                                 has(text.substr(one.span.begin, one.span.size())));
+      }));
+}
+
 std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::string_view note,
                                                  bool sure, bool keep) {
   if (text == line_ || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
@@ -253,7 +271,7 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
       return std::nullopt;
     quiet = quiet && one.severity == Severity::Info;
   }
-  const auto errors = errors_in(found);
+  const auto errors = errors_of(found, changed);
   if (errors > errors_ || (!keep && errors == errors_))
     return std::nullopt;
   Accepted accepted{text, note,  errors < errors_ || lasting_errors(found) < lasting_, quiet, sure,
@@ -339,6 +357,18 @@ void LineRepair::own_call(const std::string& statement) {
   });
 }
 
+/// `trazo(90)` where nobody calls the only `stroke` yet.
+void LineRepair::own_sub() {
+  const auto& tokens = parts_.tokens;
+  if (uncalled_.empty() || tokens.size() < 3 || !tokens[0].is_word() || !tokens[1].is("(") ||
+      !tokens.back().is(")") || !is_foreign(tokens[0].text) ||
+      is_known_word(tokens[0].text, Where::Line))
+    return;
+  auto called = tokens;
+  called[0].text = uncalled_;
+  attempt(join(called), {}, false);
+}
+
 /// Words that mean what a name of the program means: `Richtung` where there is a `direction`.
 void LineRepair::own_words() {
   const auto is_own = [&](std::string_view name) {
@@ -348,20 +378,15 @@ void LineRepair::own_words() {
   auto tokens = parts_.tokens;
   bool any = false;
   for (auto& token : tokens) {
-    const auto meanings = token.is_word() ? meanings_of(token.text) : std::vector<std::string_view>();
-    if (meanings.empty() || !is_foreign(token.text))
+    if (!token.is_word() || meanings_of(token.text).empty() || !is_foreign(token.text))
       continue;
-    for (const auto name : names_) {
-      const auto theirs = meanings_of(name);
-      const bool same = std::any_of(theirs.begin(), theirs.end(), [&](std::string_view one) {
-        return !one.empty() && std::find(meanings.begin(), meanings.end(), one) != meanings.end();
-      });
-      if (!same || !is_own(name))
-        continue;
-      token.text = name;
-      any = true;
-      break;
-    }
+    const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {
+      return is_own(name) && mean_the_same(name, token.text);
+    });
+    if (own == names_.end())
+      continue;
+    token.text = *own;
+    any = true;
   }
   if (any)
     attempt(join(tokens), {}, true);

@@ -68,6 +68,7 @@ private:
   bool attempt(const std::string& statement, std::string_view note, bool sure);
   bool parses(std::string_view lines) const;
   bool keeps_texts(std::string_view lines) const;
+  std::size_t errors_of(const std::vector<Diagnostic>& findings, std::string_view text) const;
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
   std::string closed_earlier() const;
@@ -77,6 +78,7 @@ private:
   void habits(const std::string& statement, Bounds bounds);
   void own_call(const std::string& statement);
   void own_words();
+  void own_sub();
   void several_lines(const std::string& statement);
   void by_fix(const Diagnostic& finding);
   void by_changes(int most);
@@ -85,13 +87,14 @@ private:
   std::string_view line_;
   std::uint32_t begin_;
   const Context& context_;
-  std::size_t errors_;
+  std::size_t errors_ = 0;
   std::size_t lasting_; ///< errors that no fix mends by itself
   SplitLine parts_;
   Surroundings around_;
   std::vector<std::string_view> names_;
   std::string number_below_;
   std::string sub_;             ///< of the program, which the line calls, rightly or not
+  std::string uncalled_;        ///< the only sub that nobody calls
   bool is_target_;              ///< something jumps here
   std::vector<Candidate> near_; ///< by one change, the cheapest first
   std::unordered_set<std::string> seen_;

@@ -2,6 +2,7 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
+#include "repair/arrange.h"
 
 #include <algorithm>
 #include <iterator>
@@ -17,6 +18,25 @@ std::string digits_of(std::string_view head) {
 }
 
 } // namespace
+
+bool mean_the_same(std::string_view a, std::string_view b) {
+  const auto theirs = meanings_of(b);
+  for (const auto one : meanings_of(a))
+    if (!one.empty() && std::find(theirs.begin(), theirs.end(), one) != theirs.end())
+      return true;
+  return false;
+}
+
+std::string Scenery::uncalled_sub() const {
+  std::string found;
+  for (const auto& sub : subs_)
+    if (const auto uses = words_.find(sub); uses != words_.end() && uses->second == 1) {
+      if (!found.empty())
+        return {};
+      found = sub;
+    }
+  return found;
+}
 
 Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
@@ -93,7 +113,8 @@ std::optional<std::string> Scenery::misspelt(std::string_view word,
     return std::nullopt;
   for (const auto& [other, count] : words_)
     if (count == 1 && other.size() > 2 &&
-        edit_distance(other, word) * 3 <= std::max(other.size(), word.size()) &&
+        (edit_distance(other, word) * 3 <= std::max(other.size(), word.size()) ||
+         mean_the_same(other, word)) &&
         std::none_of(known.begin(), known.end(),
                      [&one = other](std::string_view k) { return equal_words(k, one); }))
       return other;
@@ -169,9 +190,9 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
 
 void Scenery::note_roll(std::uint32_t line, Tokens tokens) {
   const bool macro = language_ == Language::Macro;
+  std::erase_if(tokens, [](const Token& token) { return token.is(","); });
   if (tokens.size() < 3 || !tokens[0].is(macro ? "roll" : "goroll"))
     return;
-  std::erase_if(tokens, [](const Token& token) { return token.is(","); });
   const auto& heading = tokens[macro ? 2 : 1];
   const auto& pace = tokens[macro ? 1 : 2];
   const bool rests =

@@ -18,6 +18,9 @@ namespace orb::repair {
 /// Longer lines are not looked at.
 inline constexpr std::size_t longest_line = 240;
 
+/// Whether two words stand for the same operand, unit or value: `Richtung` and `direction`.
+bool mean_the_same(std::string_view a, std::string_view b);
+
 /// What is around the lines of a text: names, open loops, free letters.
 class Scenery {
 public:
@@ -29,7 +32,7 @@ public:
   /// Words of several letters that other lines set: `count = 0`.
   std::vector<std::string_view> set_without(const Tokens& line) const;
 
-  /// A name that is written once and is near `word`: its misspelt definition.
+  /// A name that is written once and is near `word`, or means the same: its wrong definition.
   std::optional<std::string> misspelt(std::string_view word,
                                       const std::vector<std::string_view>& known) const;
 
@@ -48,6 +51,9 @@ public:
   /// The sub or function of a structured program that a line calls, rightly or not: its first word,
   /// or its second (`call drive`), or all its words (`wait for shake`); empty without.
   std::string sub_of(const Tokens& line) const;
+
+  /// The only sub that no line calls; empty where there is none, or more than one.
+  std::string uncalled_sub() const;
 
   Surroundings around(std::uint32_t line, const SplitLine& parts) const;
 

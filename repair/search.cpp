@@ -94,6 +94,13 @@ private:
         c = c == 'l' || c == 'I' ? '1' : c == 'O' || c == 'o' ? '0' : c;
       return text;
     };
+    if (line_[i].is_word() && line_[i].text.size() > 1 && to_lower(line_[i].text[0]) == 'x' &&
+        is_count(std::string_view(line_[i].text).substr(1))) {
+      auto changed = line_; // `x2`: twice
+      changed[i].kind = Token::Kind::Number;
+      changed[i].text.erase(0, 1);
+      add(changed, 3);
+    }
     const bool number = line_[i].is_number();
     if (const auto point = line_[i].text.find('.');
         number && point != std::string::npos &&
@@ -208,10 +215,11 @@ private:
     const auto& token = line_[i];
     const bool twice = i > 0 && !token.is_number() && line_[i - 1].text == token.text;
     constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs that compute nothing
-    constexpr std::string_view kinds = "$%!&";          // behind the name of a variable: its kind
+    constexpr std::string_view kinds = "%!&";           // behind the name of a number: its kind
     const bool one = token.kind == Token::Kind::Sign && token.text.size() == 1;
     const bool is_kind = one && i > 0 && line_[i - 1].is_word() && !token.gap &&
-                         kinds.find(token.text[0]) != std::string_view::npos;
+                         (kinds.find(token.text[0]) != std::string_view::npos ||
+                          (token.is("$") && !line_[0].is("print"))); // which prints a text
     const bool is_idle = (one && idle.find(token.text[0]) != std::string_view::npos) || is_kind;
     // Fewer values are not what was meant: a comma goes where no value follows it.
     const bool parts_values = token.is(",") && i > 1 && i + 1 < line_.size() &&

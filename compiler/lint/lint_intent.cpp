@@ -508,14 +508,16 @@ private:
     }
     const auto& sum = program_.as<LetView>(statement).expression;
     const auto& root = program_.nodes[sum.value];
-    const auto& right = program_.nodes[sum.value - (root.kind == NodeKind::Number ? 0 : 1)];
     if (root.kind == NodeKind::Number) {
       grown.resets.push_back(code);
-    } else if (root.kind == NodeKind::Binary && sum.value - root.first == 2 &&
-               (is_sum(root) || is_difference(root)) &&
-               program_.nodes[root.first].kind == NodeKind::Letter &&
-               program_.nodes[root.first].what == letter && right.kind == NodeKind::Number &&
-               right.value > 0 && grown.code == none) {
+      return;
+    }
+    const bool two = root.kind == NodeKind::Binary && sum.value - root.first == 2 &&
+                     (is_sum(root) || is_difference(root));
+    const auto& right = program_.nodes[two ? sum.value - 1 : sum.value];
+    if (two && program_.nodes[root.first].kind == NodeKind::Letter &&
+        program_.nodes[root.first].what == letter && right.kind == NodeKind::Number &&
+        right.value > 0 && grown.code == none) {
       grown.code = code;
       grown.sum = &sum;
       grown.step = is_sum(root) ? right.value : -right.value;

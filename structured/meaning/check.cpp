@@ -15,9 +15,10 @@ void Checker::run() {
   }
   check_jumps();
   const auto& found = program_.diagnostics;
-  if (std::none_of(found.begin(), found.end(),
-                   [](const Diagnostic& one) { return one.rule == &rules::UnclosedBlock; }))
-    check_recursion(); // a sub without an end holds the calls below it
+  if (std::none_of(found.begin(), found.end(), [](const Diagnostic& one) {
+        return one.rule == &rules::UnclosedBlock || one.rule == &rules::BlockEnd;
+      }))
+    check_recursion(); // a sub without its end holds the calls below it
   check_unused();
   check_values();
   if (!any_error(program_.diagnostics))

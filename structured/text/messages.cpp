@@ -96,7 +96,7 @@ Diagnostic trailing(const Program& program, Span found) {
   const auto word = find_word(statement);
   if (word.kind == WordKind::Statement &&
       spec::statements[word.index].form == spec::Form::Arguments && is_name_char(before) &&
-      is_name_char(text.front()))
+      is_digit(text.front()))
     return malformed(program, found, "unexpected text after the statement",
                      "separate values with commas: `RGB 255, 0, 0`");
   return malformed(program, found, "unexpected text after the statement");

@@ -702,6 +702,8 @@ Tokens translate(const Tokens& line) {
       continue;
     }
     if (const auto colour = repair::test_colour(token); colour && !all.empty()) {
+      if (all.back().is("and") || all.back().is("before")) // `and green`
+        all.push_back(Token{Token::Kind::Word, "color", true});
       add(*colour);
       continue;
     }
