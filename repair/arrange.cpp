@@ -475,7 +475,8 @@ private:
 
   /// Whether a byte was meant as a part of 1.
   bool is_fraction(const Given& value, const Operand& operand) const {
-    if (operand.most != UINT8_MAX || value.number.measure != Measure::None)
+    if (operand.most != UINT8_MAX || operand.counts == Counts::Milliseconds ||
+        value.number.measure != Measure::None)
       return false;
     const auto plain = [](const Given& each) {
       return each.word.empty() && each.number.measure == Measure::None;

@@ -62,6 +62,8 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
 std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (parts_.tokens.size() > most_tokens)
     return {};
+  if (judge_.language == Language::Structured)
+    own_words();
   const auto start = join(parts_.tokens);
   // What another language needs and this one does not is not all that the line says there.
   const auto own = fixed(finding);
@@ -73,8 +75,6 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   own_call(start);
-  if (!best_ && judge_.language == Language::Structured)
-    own_words();
   if (!best_ && judge_.language == Language::Structured)
     own_sub();
   const bool calls = !sub_.empty() && parts_.tokens[0].text == sub_;
@@ -253,6 +253,7 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
                                                  bool sure, bool keep) {
   if (text == line_ || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
     return std::nullopt;
+
   ++checks_;
   auto changed = context_.above;
   const auto begin = changed.size();
@@ -372,13 +373,17 @@ void LineRepair::own_sub() {
 /// Words that mean what a name of the program means: `Richtung` where there is a `direction`.
 void LineRepair::own_words() {
   const auto is_own = [&](std::string_view name) {
-    return std::none_of(judge_.words.begin(), judge_.words.end(),
+    return milliseconds_of(name) == 0 &&
+           std::none_of(judge_.words.begin(), judge_.words.end(),
                         [&](std::string_view one) { return equal_words(one, name); });
   };
   auto tokens = parts_.tokens;
   bool any = false;
-  for (auto& token : tokens) {
-    if (!token.is_word() || meanings_of(token.text).empty() || !is_foreign(token.text))
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    auto& token = tokens[i];
+    const bool acts = i == 0 && !(tokens.size() > 1 && tokens[1].is("="));
+    if (acts || !token.is_word() || milliseconds_of(token.text) > 0 ||
+        meanings_of(token.text).empty() || !is_foreign(token.text))
       continue;
     const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {
       return is_own(name) && mean_the_same(name, token.text);
@@ -388,8 +393,8 @@ void LineRepair::own_words() {
     token.text = *own;
     any = true;
   }
-  if (any)
-    attempt(join(tokens), {}, true);
+  if (any && !attempt(join(tokens), {}, false))
+    parts_.tokens = std::move(tokens); // something else is wrong, too
 }
 
 /// Habits that are several lines here: they say more than any one line.

@@ -1,5 +1,6 @@
 #include "structured/compile.h"
 
+#include "base/fixes.h"
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "repair/repair.h"
@@ -316,6 +317,7 @@ Compiled compile(std::string name, std::string path, std::string_view text,
   silence(compiled.program);
   if (compiled.has_errors())
     offer_lines(compiled, text, target, files);
+  say_lines(compiled.program.text, compiled.program.diagnostics);
   return compiled;
 }
 

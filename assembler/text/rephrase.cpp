@@ -261,7 +261,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
         flag.clear();
       flag.push_back(token);
     } else if (!token.is(",")) {
-      if (token.is_number() && id.empty() && !name.empty() && token.gap)
+      const bool apart = token.gap || line[i - 1].is("(");
+      if (token.is_number() && id.empty() && !name.empty() && apart)
         id = token.text;
       else
         name.push_back(token);

@@ -221,9 +221,11 @@ void Checker::check_left(std::uint32_t i) {
   const auto word = program_.text_of(statement.word);
   const bool sleeps = ends && statement.robot == spec::Statement::Sleep;
   const auto seconds = sleeps && size(statement) == 1 ? value_of(item(statement, 0)) : std::nullopt;
+  constexpr std::int32_t longest = 65; // s of a `delay`; more were meant as milliseconds
   auto& d = report(compiler::rules::UnreachableLine, after->span,
                    fmt::format("unreachable after `{}`", word),
-                   seconds  ? fmt::format("for a pause write `delay {}s`", seconds->value)
+                   seconds  ? fmt::format("for a pause write `delay {}{}`", seconds->value,
+                                         seconds->value > longest ? "" : "s")
                    : sleeps ? "for a pause write `delay`"
                    : ends   ? fmt::format("leave out the `{}` above", word)
                             : "leave the line out");

@@ -1,5 +1,6 @@
 #include "testing/text/file_reader.h"
 
+#include "base/fixes.h"
 #include "testing/text/doubts.h"
 #include "testing/text/rephrase.h"
 
@@ -264,6 +265,7 @@ TestFile parse(const Source& source) {
   auto file = FileReader(source).read();
   if (any_error(file.diagnostics))
     offer_lines(source, file.diagnostics);
+  say_lines(source.text(), file.diagnostics);
   return file;
 }
 

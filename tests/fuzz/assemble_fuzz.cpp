@@ -1,6 +1,6 @@
 // Any text is assembled, linted and timed, or explained.
 
-#include "assembler/lint.h"
+#include "assembler/lint/lint.h"
 #include "assembler/timing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

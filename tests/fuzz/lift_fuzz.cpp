@@ -4,7 +4,7 @@
 #include "compiler/check.h"
 #include "structured/compile.h"
 #include "structured/lift/lift.h"
-#include "structured/text/format.h"
+#include "structured/layout/format.h"
 
 #include <cstdlib>
 
