@@ -1,5 +1,6 @@
 #include "structured/text/blocks.h"
 
+#include "base/text/text.h"
 #include "structured/text/rules.h"
 #include "structured/text/words.h"
 
@@ -141,6 +142,13 @@ private:
       offer_end(i, block, program_.diagnostics.back());
   }
 
+  /// The number of a statement's line in its file.
+  std::ptrdiff_t line_of(std::uint32_t i) const {
+    const auto above = std::string_view(program_.text)
+                           .substr(file_.begin, program_.statements[i].span.begin - file_.begin);
+    return 1 + std::count(above.begin(), above.end(), line_end_of(program_.text).back());
+  }
+
   /// Where a block ends that nothing closes: at a bare `end` right under its word, or where lines
   /// are no longer indented.
   void offer_end(std::uint32_t i, const Block& block, Diagnostic& d) const {
@@ -158,7 +166,7 @@ private:
         return; // it may be the end
       if (statement.role() == Kind::Robot && statement.robot == spec::Statement::End &&
           last != none) {
-        d.help = fmt::format("write `{}` instead of the `end` below", block.end_words);
+        d.help = fmt::format("write `{}` in line {}", block.end_words, line_of(j));
         d.fix = Fix{d.help, {{statement.span, std::string(block.end_words)}}, Safety::Unsafe};
         return;
       }
