@@ -299,9 +299,24 @@ private:
         insert(at, "(", 12, Token::Kind::Sign);
     }
     if (value_before)
-      insert(at, ")", at == line_.size() ? 8 : 11, Token::Kind::Sign);
+      insert(at, ")", at == line_.size() ? 8 : ends_sum(at) ? 5 : 11, Token::Kind::Sign);
     if (value_before && open_brackets_ > 0)
       insert(at, "]", at == line_.size() ? 8 : 11, Token::Kind::Sign);
+  }
+
+  /// Whether what is computed next takes a sum in parentheses that nothing closes: `(H + 90 % 360`.
+  bool ends_sum(std::size_t at) const {
+    if (at == line_.size() || !(line_[at].is("%") || line_[at].is("*") || line_[at].is("/")))
+      return false;
+    int closed = 0;
+    bool sum = false;
+    for (auto i = at; i-- > 0 && closed >= 0;) {
+      closed += line_[i].is(")") ? 1 : line_[i].is("(") ? -1 : 0;
+      sum = sum || (closed == 0 && (line_[i].is("+") || line_[i].is("-")));
+      if (line_[i].is(","))
+        return false;
+    }
+    return sum && closed < 0;
   }
 
   /// Whether a `=` may be missing: an assignment and a `for` have one, a condition has its own.
