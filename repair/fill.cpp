@@ -249,142 +249,189 @@ Text hex_colour(const Token& token, Language language) {
   return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
 }
 
-Text call(std::string_view function, const Tokens& a, const Tokens& b, const Holes& holes,
-          const Surroundings& around) {
-  const auto language = around.language;
-  if (function == "sec") // no time at all is another habit
-    return whole(a) == 0 ? std::nullopt : written_time(a, Assume::Seconds, language);
-  if (function == "wait")
-    return written_time(a, Assume::Either, language);
-  if (function == "ms")
-    return written_time(a, Assume::Milliseconds, language);
-  if (function == "later") // no part of a colour
-    return whole(a).value_or(UINT8_MAX + 1) > UINT8_MAX
-               ? written_time(a, Assume::Milliseconds, language)
-               : std::nullopt;
-  if (function == "operand") // and no unit
-    return a.size() == 1 && milliseconds_of(a[0].text) == 0 ? Text(a[0].text) : std::nullopt;
-  if (function == "percent") {
-    const auto value = whole(a);
-    return value && *value <= 100 ? Text(std::to_string((*value * UINT8_MAX + 50) / 100))
-                                  : std::nullopt;
-  }
-  if (function == "bearing") {
-    for (const auto* heading : {"0", "90", "180", "270"})
-      if (a.size() == 1 && is_called(heading, a[0].text))
-        return heading;
+/// What a function of a template is held.
+struct Holding {
+  const Tokens& a; ///< the hole
+  const Tokens& b; ///< a second one, empty where it names one
+  const Holes& holes;
+  const Surroundings& around;
+
+  Language language() const { return around.language; }
+};
+
+Text only(bool applies, std::string text) {
+  return applies ? Text(std::move(text)) : std::nullopt;
+}
+
+/// The middle of a range of even length, or half of its length.
+Text half_way(const Holding& held, bool of_length) {
+  const auto from = whole(held.a);
+  const auto to = whole(held.b);
+  if (!from || !to || *from >= *to || (*to - *from) % 2 != 0)
     return std::nullopt;
-  }
-  if (function == "clock")
-    return clock(a);
-  if (function == "length")
-    return length(a);
-  if (function == "compass") // a heading, no turns
-    return whole(a).value_or(0) < full_circle ? Text(join(a)) : std::nullopt;
-  if (function == "middle" || function == "half") { // of a range
-    const auto from = whole(a);
-    const auto to = whole(b);
-    if (!from || !to || *from >= *to || (*to - *from) % 2 != 0)
-      return std::nullopt;
-    return std::to_string(function == "half" ? (*to - *from) / 2 : (*to + *from) / 2);
-  }
-  if (function == "clockface") { // minutes and seconds
-    const auto minutes = whole(a);
-    const auto seconds = whole(b);
-    constexpr std::int64_t minute = 60; // seconds
-    return minutes && seconds && *seconds < minute
-               ? Text(fmt::format("{}s", *minutes * minute + *seconds))
-               : std::nullopt;
-  }
-  if (function == "thousands") // `60 000`
-    return a.size() == 1 && b.size() == 1 && a[0].text.size() <= 3 && b[0].text.size() == 3 &&
-                   !a[0].is("0")
-               ? Text(a[0].text + b[0].text)
-               : std::nullopt;
-  if (function == "less")
-    return plus(a, -1);
-  if (function == "more")
-    return plus(a, +1);
-  if (function == "toward")
-    return plus(a, !b.empty() && b[0].is("-") ? +1 : -1);
-  if (function == "factor")
-    return a.empty() ? Text("") : Text(as_factor(a));
-  if (function == "unit")
-    return as_factor(a);
-  if (function == "not")
-    return opposite(a, language);
-  if (function == "true")
-    return as_comparison(a);
-  if (function == "items")
-    return print_items(a);
-  if (function == "quoted") // not what a program sets
-    return around.language == Language::Basic && holds_name(a, around) ? std::nullopt : quoted(a);
-  if (function == "letter")
-    return a.size() == 1 && !holds_name(a, around) && is_letter(a[0].text[0])
-               ? Text(std::string(1, to_upper(a[0].text[0])))
-               : std::nullopt;
-  if (function == "known")
-    return a.size() == 1 && std::find(around.names.begin(), around.names.end(), a[0].text) !=
-                                around.names.end()
-               ? Text(a[0].text)
-               : std::nullopt;
-  if (function == "alone") // what other lines read was not meant for the ball
-    return std::find(around.elsewhere.begin(), around.elsewhere.end(), holes.choice) ==
-                   around.elsewhere.end()
-               ? Text("")
-               : std::nullopt;
-  if (function == "speed")
-    return whole(a).value_or(0) > 0 ? Text(join(a)) : std::nullopt;
-  if (function == "dice")
-    return dice(a, b, language);
-  if (function == "below") // the second value is not one of them
-    return dice(a, tokens_of(plus(b, -1).value_or(""), language), language);
-  if (function == "ratio" || function == "inverse")
-    return fraction(a, function == "inverse");
-  if (function == "most") { // of three brightnesses
-    const auto three = {whole(a), whole(b), whole(holes['o'])};
-    const auto most = std::max(three);
-    return most.value_or(0) > 0 ? Text(std::to_string(*most)) : std::nullopt;
-  }
-  if (function == "around")
-    return around_length(a, b);
-  if (function == "zero")
-    return a.empty() ? Text("0") : Text(join(a));
-  if (function == "channels")
-    return channels(a);
-  if (function == "parameters")
-    return parameters(a);
-  if (function == "hexword" || function == "hexrgb") {
-    if (a.empty())
-      return Text("");
-    return function == "hexword" ? hex_word(a[0]) : hex_colour(a[0], language);
-  }
-  if (function == "bare") {
-    Tokens inner = a;
-    if (inner.size() == 1 && inner[0].is_text())
-      return inner[0].text;
-    if (inner.size() > 2 && inner.front().is("(") && inner.back().is(")"))
-      inner = Tokens(inner.begin() + 1, inner.end() - 1);
-    return join(inner);
-  }
-  if (function == "lower") {
-    auto text = join(a);
-    std::transform(text.begin(), text.end(), text.begin(), to_lower);
-    return text;
-  }
-  if (function == "leftward") {
-    const auto value = whole(a);
-    return value && *value > 0 && *value < 360 ? Text(std::to_string(360 - *value)) : std::nullopt;
-  }
-  if (function == "hex") {
-    const auto r = whole(a);
-    const auto g = whole(b);
-    const auto o = whole(holes['o']);
-    return r && g && o && *r < 256 && *g < 256 && *o < 256
-               ? Text(fmt::format("#{:02X}{:02X}{:02X}", *r, *g, *o))
-               : std::nullopt;
-  }
-  return write_colour(function, a);
+  return std::to_string(of_length ? (*to - *from) / 2 : (*to + *from) / 2);
+}
+
+Text bearing(const Tokens& a) {
+  for (const auto* heading : {"0", "90", "180", "270"})
+    if (a.size() == 1 && is_called(heading, a[0].text))
+      return heading;
+  return std::nullopt;
+}
+
+/// Minutes and seconds, such as `1:30`.
+Text clock_face(const Holding& held) {
+  const auto minutes = whole(held.a);
+  const auto seconds = whole(held.b);
+  constexpr std::int64_t minute = 60; // seconds
+  return minutes && seconds && *seconds < minute
+             ? Text(fmt::format("{}s", *minutes * minute + *seconds))
+             : std::nullopt;
+}
+
+/// `60 000`
+Text thousands(const Holding& held) {
+  const auto& [a, b, holes, around] = held;
+  const bool parted = a.size() == 1 && b.size() == 1 && a[0].text.size() <= 3 &&
+                      b[0].text.size() == 3 && !a[0].is("0");
+  return parted ? Text(a[0].text + b[0].text) : std::nullopt;
+}
+
+/// Without what it is wrapped in.
+Text bare(const Tokens& a) {
+  if (a.size() == 1 && a[0].is_text())
+    return a[0].text;
+  if (a.size() > 2 && a.front().is("(") && a.back().is(")"))
+    return join(Tokens(a.begin() + 1, a.end() - 1));
+  return join(a);
+}
+
+/// The greatest of three brightnesses.
+Text brightest(const Holding& held) {
+  const auto three = {whole(held.a), whole(held.b), whole(held.holes['o'])};
+  const auto most = std::max(three);
+  return most.value_or(0) > 0 ? Text(std::to_string(*most)) : std::nullopt;
+}
+
+Text hex_of_three(const Holding& held) {
+  const auto r = whole(held.a);
+  const auto g = whole(held.b);
+  const auto b = whole(held.holes['o']);
+  return r && g && b && *r <= UINT8_MAX && *g <= UINT8_MAX && *b <= UINT8_MAX
+             ? Text(fmt::format("#{:02X}{:02X}{:02X}", *r, *g, *b))
+             : std::nullopt;
+}
+
+bool has(const std::vector<std::string_view>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+struct Function {
+  std::string_view name;
+  Text (*call)(const Holding&);
+};
+constexpr auto functions = std::to_array<Function>({
+    // times, in milliseconds or with a unit; no time at all is another habit
+    {"sec",
+     [](const Holding& g) {
+       return whole(g.a) == 0 ? std::nullopt : written_time(g.a, Assume::Seconds, g.language());
+     }},
+    {"wait", [](const Holding& g) { return written_time(g.a, Assume::Either, g.language()); }},
+    {"ms", [](const Holding& g) { return written_time(g.a, Assume::Milliseconds, g.language()); }},
+    {"later", // no part of a colour
+     [](const Holding& g) {
+       return whole(g.a).value_or(UINT8_MAX + 1) > UINT8_MAX
+                  ? written_time(g.a, Assume::Milliseconds, g.language())
+                  : std::nullopt;
+     }},
+    {"clock", [](const Holding& g) { return clock(g.a); }},
+    {"clockface", clock_face},
+
+    // other quantities
+    {"percent",
+     [](const Holding& g) {
+       const auto value = whole(g.a);
+       return value && *value <= 100 ? Text(std::to_string((*value * UINT8_MAX + 50) / 100))
+                                     : std::nullopt;
+     }},
+    {"speed", [](const Holding& g) { return only(whole(g.a).value_or(0) > 0, join(g.a)); }},
+    {"length", [](const Holding& g) { return length(g.a); }},
+    {"around", [](const Holding& g) { return around_length(g.a, g.b); }},
+    {"bearing", [](const Holding& g) { return bearing(g.a); }},
+    {"compass", // a heading, no turns
+     [](const Holding& g) { return only(whole(g.a).value_or(0) < full_circle, join(g.a)); }},
+    {"leftward",
+     [](const Holding& g) {
+       const auto value = whole(g.a);
+       return value && *value > 0 && *value < full_circle
+                  ? Text(std::to_string(full_circle - *value))
+                  : std::nullopt;
+     }},
+    {"middle", [](const Holding& g) { return half_way(g, false); }},
+    {"half", [](const Holding& g) { return half_way(g, true); }},
+    {"ratio", [](const Holding& g) { return fraction(g.a, false); }},
+    {"inverse", [](const Holding& g) { return fraction(g.a, true); }},
+    {"thousands", thousands},
+    {"zero", [](const Holding& g) { return g.a.empty() ? Text("0") : Text(join(g.a)); }},
+
+    // expressions and conditions
+    {"less", [](const Holding& g) { return plus(g.a, -1); }},
+    {"more", [](const Holding& g) { return plus(g.a, +1); }},
+    {"toward",
+     [](const Holding& g) { return plus(g.a, !g.b.empty() && g.b[0].is("-") ? +1 : -1); }},
+    {"factor", [](const Holding& g) { return g.a.empty() ? Text("") : Text(as_factor(g.a)); }},
+    {"unit", [](const Holding& g) { return Text(as_factor(g.a)); }},
+    {"not", [](const Holding& g) { return opposite(g.a, g.language()); }},
+    {"true", [](const Holding& g) { return Text(as_comparison(g.a)); }},
+    {"dice", [](const Holding& g) { return dice(g.a, g.b, g.language()); }},
+    {"below", // the second value is not one of them
+     [](const Holding& g) {
+       return dice(g.a, tokens_of(plus(g.b, -1).value_or(""), g.language()), g.language());
+     }},
+
+    // words
+    {"operand", // and no unit
+     [](const Holding& g) {
+       return g.a.size() == 1 && milliseconds_of(g.a[0].text) == 0 ? Text(g.a[0].text)
+                                                                   : std::nullopt;
+     }},
+    {"items", [](const Holding& g) { return print_items(g.a); }},
+    {"quoted", // not what a program sets
+     [](const Holding& g) {
+       return g.language() == Language::Basic && holds_name(g.a, g.around) ? std::nullopt
+                                                                           : Text(quoted(g.a));
+     }},
+    {"letter",
+     [](const Holding& g) {
+       return g.a.size() == 1 && !holds_name(g.a, g.around) && is_letter(g.a[0].text[0])
+                  ? Text(std::string(1, to_upper(g.a[0].text[0])))
+                  : std::nullopt;
+     }},
+    {"known",
+     [](const Holding& g) {
+       return g.a.size() == 1 && has(g.around.names, g.a[0].text) ? Text(g.a[0].text)
+                                                                  : std::nullopt;
+     }},
+    {"alone", // what other lines read was not meant for the ball
+     [](const Holding& g) { return only(!has(g.around.elsewhere, g.holes.choice), ""); }},
+    {"parameters", [](const Holding& g) { return Text(parameters(g.a)); }},
+    {"bare", [](const Holding& g) { return bare(g.a); }},
+    {"lower", [](const Holding& g) { return Text(lower(join(g.a))); }},
+
+    // colours; the rest are those of write_colour()
+    {"most", brightest},
+    {"channels", [](const Holding& g) { return channels(g.a); }},
+    {"hexword", [](const Holding& g) { return g.a.empty() ? Text("") : hex_word(g.a[0]); }},
+    {"hexrgb",
+     [](const Holding& g) { return g.a.empty() ? Text("") : hex_colour(g.a[0], g.language()); }},
+    {"hex", hex_of_three},
+});
+
+Text call(std::string_view function, const Holding& held) {
+  for (const auto& one : functions)
+    if (one.name == function)
+      return one.call(held);
+  return write_colour(function, held.a);
 }
 
 Text name_of(std::string_view name, const Holes& holes, const Surroundings& around) {
@@ -548,8 +595,9 @@ std::optional<std::string> fill(std::string_view form, const Holes& holes,
     } else {
       const auto arguments = inner.substr(colon + 1);
       static const Tokens none;
-      value = call(inner.substr(0, colon), holes[arguments[0]],
-                   arguments.size() > 2 ? holes[arguments[2]] : none, holes, around);
+      value = call(
+          inner.substr(0, colon),
+          {holes[arguments[0]], arguments.size() > 2 ? holes[arguments[2]] : none, holes, around});
     }
     if (!value)
       return std::nullopt;
