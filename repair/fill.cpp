@@ -68,7 +68,9 @@ struct Unit {
   std::int64_t ms; ///< per one
 };
 constexpr auto units = std::to_array<Unit>(
-    {{"ms msec millis millisecond milliseconds millisekunden milisegundos millisecondes msecs", 1},
+    {{"ms msec millis millisecond milliseconds millisekunden milisegundos millisecondes msecs "
+      "millisecondi milissegundos milliseconde",
+      1},
      {"s sec secs second seconds sekunde sekunden sek segundo segundos seconden seconde secondes "
       "secondi "
       "secondo seg",

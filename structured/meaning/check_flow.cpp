@@ -226,7 +226,8 @@ void Checker::check_left(std::uint32_t i) {
                    fmt::format("unreachable after `{}`", word),
                    seconds  ? fmt::format("for a pause write `delay {}{}`", seconds->value,
                                          seconds->value > longest ? "" : "s")
-                   : sleeps ? "for a pause write `delay`"
+                   : sleeps ? fmt::format("for a pause write `delay {}`",
+                                          program_.text_of(item(statement, 0).span))
                    : ends   ? fmt::format("leave out the `{}` above", word)
                             : "leave the line out");
   d.notes.push_back({statement.span, sleeps ? "the robot falls asleep here, and the program ends"
