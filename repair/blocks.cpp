@@ -151,7 +151,8 @@ private:
     Surroundings around;
     around.language = Language::Structured;
     std::unordered_set<std::string> seen;
-    explore(join(tokens), around, {3, block_states}, seen, [&](const Rewritten& one) {
+    Rewrites rewrites;
+    explore(join(tokens), around, {3, block_states}, seen, rewrites, [&](const Rewritten& one) {
       return take_role(line, tokens_of(one.text, Language::Structured));
     });
     if (begins(tokens, "do") && (line.role == Role::Loop || line.role == Role::While))
@@ -372,7 +373,8 @@ private:
     Surroundings around;
     around.language = Language::Basic;
     std::unordered_set<std::string> seen;
-    explore(text, around, {4, block_states}, seen, [&](const Rewritten& one) {
+    Rewrites rewrites;
+    explore(text, around, {4, block_states}, seen, rewrites, [&](const Rewritten& one) {
       if (parses_("1 " + one.text))
         known = one.text;
       return known.has_value();

@@ -284,16 +284,13 @@ void rewrite(const Tokens& line, const Surroundings& around,
 }
 
 void explore(const std::string& line, const Surroundings& around, Bounds bounds,
-             std::unordered_set<std::string>& seen,
+             std::unordered_set<std::string>& seen, Rewrites& known,
              const std::function<bool(const Rewritten&)>& take) {
   std::vector<std::pair<std::string, int>> open{{line, 0}};
   for (std::size_t next = 0; next < open.size(); ++next) {
     const auto [text, depth] = open[next];
-    const auto tokens = tokens_of(text, around.language);
-    if (tokens.size() > most_tokens)
-      continue;
     bool done = false;
-    rewrite(tokens, around, [&, depth = depth](const Rewritten& one) {
+    const auto look = [&, depth = depth](const Rewritten& one) {
       if (!seen.insert(one.text).second)
         return false;
       if (take(one))
@@ -301,7 +298,20 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
       if (depth + 1 < bounds.deepest && one.text.find('\n') == std::string::npos)
         open.emplace_back(one.text, depth + 1);
       return seen.size() >= bounds.states;
-    });
+    };
+    if (const auto told = known.find(text); told != known.end()) {
+      std::any_of(told->second.begin(), told->second.end(), look);
+    } else if (const auto tokens = tokens_of(text, around.language); tokens.size() <= most_tokens) {
+      std::vector<Rewritten> all;
+      bool whole = true;
+      rewrite(tokens, around, [&](const Rewritten& one) {
+        all.push_back(one);
+        whole = !look(one);
+        return !whole;
+      });
+      if (whole)
+        known.emplace(text, std::move(all));
+    }
     if (done || seen.size() >= bounds.states)
       return;
   }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -76,10 +77,14 @@ struct Bounds {
   std::size_t states = 0;
 };
 
+/// What the rows make of lines that have been looked at to the end, within the same surroundings.
+using Rewrites = std::unordered_map<std::string, std::vector<Rewritten>>;
+
 /// Calls `take` with what the rows make of a line, one alone first, then two after each other, and
-/// so on, until it returns true. What is in `seen` is not looked at again.
+/// so on, until it returns true. What is in `seen` is not looked at again; what is in `known` need
+/// not be computed, and what is looked at to the end is kept there.
 void explore(const std::string& line, const Surroundings& around, Bounds bounds,
-             std::unordered_set<std::string>& seen,
+             std::unordered_set<std::string>& seen, Rewrites& known,
              const std::function<bool(const Rewritten&)>& take);
 
 /// The word that a line has at a place, as structured programs have it: `wenn` is `if`.

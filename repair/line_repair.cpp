@@ -171,7 +171,7 @@ std::string LineRepair::spelled(const std::string& statements, int depth) const 
   std::string found;
   std::unordered_set<std::string> seen;
   if (depth < 2)
-    explore(statements, around_, {3, few_states}, seen, [&](const Rewritten& one) {
+    explore(statements, around_, {3, few_states}, seen, rewrites_, [&](const Rewritten& one) {
       if (one.text.find('\n') != std::string::npos)
         found = spelled(one.text, depth + 1);
       else if (judge_.parses(parts_.head + one.text))
@@ -338,7 +338,7 @@ bool LineRepair::rephrase(const Tokens& line) {
 
 /// Applies habits until the line is one.
 void LineRepair::habits(const std::string& statement, Bounds bounds) {
-  explore(statement, around_, bounds, seen_, [&](const Rewritten& one) {
+  explore(statement, around_, bounds, seen_, rewrites_, [&](const Rewritten& one) {
     return attempt(one.text, one.note, one.sure) ||
            (judge_.rephrase && rephrase(tokens_of(one.text, judge_.language)));
   });
@@ -353,7 +353,7 @@ void LineRepair::own_call(const std::string& statement) {
   if (spread && attempt(sub_, {}, true))
     return;
   std::unordered_set<std::string> seen;
-  explore(statement, around_, {1, few_states}, seen, [&](const Rewritten& one) {
+  explore(statement, around_, {1, few_states}, seen, rewrites_, [&](const Rewritten& one) {
     return one.text.starts_with(sub_ + "(") && attempt(one.text, one.note, one.sure);
   });
 }
@@ -400,7 +400,7 @@ void LineRepair::own_words() {
 /// Habits that are several lines here: they say more than any one line.
 void LineRepair::several_lines(const std::string& statement) {
   std::unordered_set<std::string> seen;
-  explore(statement, around_, {3, few_states}, seen, [&](const Rewritten& one) {
+  explore(statement, around_, {3, few_states}, seen, rewrites_, [&](const Rewritten& one) {
     return one.text.find('\n') != std::string::npos && attempt(one.text, one.note, one.sure);
   });
 }

@@ -98,6 +98,7 @@ private:
   bool is_target_;              ///< something jumps here
   std::vector<Candidate> near_; ///< by one change, the cheapest first
   std::unordered_set<std::string> seen_;
+  mutable Rewrites rewrites_; ///< of this line, and what became of it
   std::unordered_set<std::string> changed_;
   std::optional<Accepted> best_;
   std::optional<Accepted> other_;
