@@ -551,7 +551,7 @@ counts as follows. Held out:
 The others:
 
 {}
-An older batch that has been read through, and 109 mistakes at random places of examples and lessons, typed by who made
+An older batch that has been read through, and 120 mistakes at random places of examples and lessons, typed by who made
 the rows for them (`tests/slips/programs.txt`):
 
 {}
