@@ -38,21 +38,22 @@ MacroError cut_operand(ByteView bytes, std::uint32_t offset, const spec::MacroCo
 std::string seen_and_expected(const MacroError& error) {
   switch (error.kind) {
   case MacroError::Kind::NoHeader:
-    return fmt::format("the bytes end; expected {}", error.offset == 0   ? "a macro id"
-                                                     : error.offset == 1 ? "the flags"
-                                                                         : "the extended flags");
+    return fmt::format("unexpected end of data; expected {}", error.offset == 0 ? "a macro id"
+                                                              : error.offset == 1
+                                                                  ? "the flags"
+                                                                  : "the extended flags");
   case MacroError::Kind::UnknownCode:
     return fmt::format(
         "{:02X}h is not a macro command; expected a command code, {:02X}h to {:02X}h", error.byte,
         std::begin(spec::macro_commands)->code, (std::end(spec::macro_commands) - 1)->code);
   case MacroError::Kind::CutOperand:
     return fmt::format(
-        "the bytes end inside `{}` ({:02X}h); expected its operand `{}`, found {} of the "
+        "the data ends inside `{}` ({:02X}h); expected its operand `{}`, found {} of the "
         "{} that the command takes",
         error.command->mnemonic, error.byte, error.operand->name, error.present,
         plural(error.wanted, "byte"));
   case MacroError::Kind::CutText:
-    return fmt::format("the bytes end inside a `{}` ({:02X}h); expected {} of text, found {}",
+    return fmt::format("the data ends inside a `{}` ({:02X}h); expected {} of text, found {}",
                        error.command->mnemonic, error.byte, plural(error.wanted, "byte"),
                        error.present);
   case MacroError::Kind::AfterEnd:

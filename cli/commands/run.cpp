@@ -318,7 +318,7 @@ void run_with_report(Context& context, RunOptions& options) {
     return fail(context, {ExitCode::Usage, "`--replay` needs no robot; leave `--port` out"});
   if (options.watch && !options.port.port.empty())
     return fail(context,
-                {ExitCode::Usage, "`--watch` would drive the robot at every change; do not "
+                {ExitCode::Usage, "`--watch` would drive the robot on every change; do not "
                                   "use it with `--port`"});
   const bool temporary = options.open && options.report.empty();
   std::vector<std::string> made_up;

@@ -487,7 +487,7 @@ void add_test(const Command& orb, Context& context) {
   add_robot_port_options(command, options->port, options->robot);
   command.add_flag("--yes", options->yes, "the robot is on its mark: do not ask before each test");
   command.add_flag("--merge", options->merge,
-                   "merge results: the files are those that shards wrote with --format json");
+                   "merge the result files that shards wrote with --format json");
   command.callback([&context, options] {
     if (const auto done = run_tests(context, *options); !done)
       fail(context, done.error());

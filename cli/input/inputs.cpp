@@ -111,7 +111,7 @@ read_stimuli(const Context& context, const std::vector<std::string>& given) {
     const auto script = vm::parse_stimulus(source);
     if (!script.diagnostics.empty()) {
       print_findings(context, source, script.diagnostics);
-      return tl::unexpected(Failure{ExitCode::BadInput, "the stimulus script has mistakes"});
+      return tl::unexpected(Failure{ExitCode::BadInput, "the stimulus script has errors"});
     }
     events.insert(events.end(), script.events.begin(), script.events.end());
   }
@@ -134,7 +134,7 @@ tl::expected<report::Course, Failure> read_course(const Context& context, const 
   auto reading = report::read_course(drawing);
   if (print_findings(context, drawing, reading.findings))
     return tl::unexpected(
-        Failure{ExitCode::BadInput, fmt::format("the course {} has mistakes", drawing.name())});
+        Failure{ExitCode::BadInput, fmt::format("the course {} has errors", drawing.name())});
   return std::move(reading.course);
 }
 
@@ -168,7 +168,7 @@ tl::expected<void, Failure> check_inputs(const Context& context,
     if (input.has_errors()) {
       print_findings(context, input);
       return tl::unexpected(
-          Failure{ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name())});
+          Failure{ExitCode::BadInput, fmt::format("{} has errors", input.source->name())});
     }
   return {};
 }

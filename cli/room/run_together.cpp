@@ -98,7 +98,7 @@ tl::expected<void, Failure> furnish(const Context& context, const RunOptions& gi
     for (const auto& input : *inputs)
       if (input.has_errors()) {
         print_findings(context, input);
-        return refuse(ExitCode::BadInput, fmt::format("{} has mistakes", input.source->name()));
+        return refuse(ExitCode::BadInput, fmt::format("{} has errors", input.source->name()));
       }
     auto options = options_of(context, all, ball);
     if (!options)

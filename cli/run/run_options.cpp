@@ -36,9 +36,10 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
   auto options = given.run;
   const auto time = parse_duration(given.time, 1s);
   if (!time)
-    return refuse(ExitCode::Usage, fmt::format("`--for {}` is not a time; write it like 90s, 500ms "
-                                               "or 2min",
-                                               given.time));
+    return refuse(ExitCode::Usage,
+                  fmt::format("`--for {}` is not a duration; write it like 90s, 500ms "
+                              "or 2min",
+                              given.time));
   options.bound = *time;
   if (!given.input.empty() && given.input != from_stdin) {
     auto numbers = read_numbers(given.input);

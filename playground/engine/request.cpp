@@ -114,7 +114,7 @@ tl::expected<std::vector<run::Input>, Problem> Request::inputs() {
     if (!input)
       return refuse(input.error());
     if (input->has_errors())
-      return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} has mistakes", name),
+      return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} has errors", name),
                                     check(*this).value_or("")});
     run::add_input(inputs, *std::move(input));
   }

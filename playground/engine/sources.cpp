@@ -103,7 +103,7 @@ Answer lift(Request& request) {
     return refuse(ExitCode::Usage, fmt::format("{} is no program with line numbers", file.path));
   const auto lifted = structured::lift(compiler::check(file.source.text(), {}));
   if (lifted.text.empty())
-    return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} has mistakes", file.path),
+    return tl::unexpected(Problem{ExitCode::BadInput, fmt::format("{} has errors", file.path),
                                   render_json({{&file.source, lifted.findings, {}}})});
   return print({{"text", lifted.text}});
 }

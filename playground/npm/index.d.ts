@@ -115,7 +115,7 @@ export interface Macro {
 
 /** The mistakes in programs, macros, courses and tests. */
 export function check(files: Files, options?: Named): Promise<Findings>;
-/** Runs a program or macro on a virtual ball, in virtual time. Rejects where it has mistakes. */
+/** Runs a program or macro on a virtual ball, in virtual time. Rejects where it has errors. */
 export function run(files: Files, options?: RunOptions): Promise<Ran>;
 /** Runs the test files that `names` names; `results` is of schema `orb.test/1`. */
 export function test(files: Files, options?: TestOptions): Promise<{ text: string; results: Record<string, unknown> }>;

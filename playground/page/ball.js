@@ -218,7 +218,7 @@ export class Ball {
     this.finish();
     this.player.settle();
     if (error.findings) this.on_mistakes(error.findings);
-    this.say(error.findings ? "It has mistakes; they are listed below the program." : error.message, true);
+    this.say(error.findings ? "It has errors; they are listed below the program." : error.message, true);
   }
   /** The engine is gone. */
   give_up() {

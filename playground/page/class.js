@@ -21,7 +21,7 @@ export function set_up_class({ machine, workspace, on_change, share, address_of 
     if (!tests.length) return;
     const { results } = await machine.call("test", { files: now.files, names: tests }).catch(() => ({}));
     const summary = results?.summary;
-    verdict.textContent = !summary ? "It has mistakes." : summary.passed === summary.tests ? "The program already passes: what is left for pupils to do?"
+    verdict.textContent = !summary ? "It has errors." : summary.passed === summary.tests ? "The program already passes: what is left for pupils to do?"
       : `The program passes ${summary.passed} of ${summary.tests}.`;
   }
   function make_test(program) {

@@ -78,7 +78,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     } catch (error) {
       if (error.findings) {
         on_mistakes(error.findings);
-        say("The program has mistakes; it was not written.", true);
+        say("The program has errors; it was not written.", true);
       } else {
         say(error.name === "NotFoundError" ? "No ball was chosen." : error.message, error.name !== "NotFoundError");
       }
@@ -154,7 +154,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       say(`${name}: write it with \`orb upload ${name}\`.`);
     } catch (error) {
       if (error.findings) on_mistakes(error.findings);
-      say(error.findings ? "The program has mistakes." : error.message, true);
+      say(error.findings ? "The program has errors." : error.message, true);
     }
   }
   $("robot-run").addEventListener("click", () => tell("run"));

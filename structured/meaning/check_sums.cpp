@@ -126,7 +126,7 @@ void Checker::check_single_round(std::uint32_t i) {
   if (last == none || at(last).kind != Kind::Exit || size(at(last)) > 0 || last == i + 1)
     return;
   report(compiler::rules::LoopRunsOnce, at(last).span,
-         "the loop always ends here, in its first round",
+         "the loop always ends here, in its first iteration",
          "make it conditional: `if speed = 0 then exit`");
 }
 

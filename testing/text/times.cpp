@@ -171,7 +171,7 @@ void FileReader::check_order(Cursor& cursor, const Expectation& one, const Said&
                           "write that on a separate line");
   if (one.lag && (one.never || said.when.size() > 0 || one.order == Order::Before))
     cursor.fail_at(said.order, rules::When,
-                   "an exact time takes no `never`, `before` or other time",
+                   "an exact time cannot be combined with `never`, `before` or another time",
                    "write it like `expect print \"3\" 1s after print \"2\" by 200ms`");
 }
 

@@ -3,8 +3,8 @@
 
 #include "compiler/check.h"
 #include "structured/compile.h"
-#include "structured/lift/lift.h"
 #include "structured/layout/format.h"
+#include "structured/lift/lift.h"
 
 #include <cstdlib>
 

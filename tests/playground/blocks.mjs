@@ -61,7 +61,7 @@ function check(name, deed) {
     if (failures.length <= 5) console.error(`${name}: ${error.message.split("\n").slice(0, 12).join("\n")}`);
   }
 }
-/** Its image, or nothing where it has mistakes. */
+/** Its image, or nothing where it has errors. */
 function image_of(files, name) {
   try {
     return engine.call("build", { files, names: [name] }).bytes;

@@ -302,9 +302,10 @@ void listen(Context& context, const MonitorOptions& options) {
   }
   const auto lasts = options.time.empty() ? Duration{} : parse_duration(options.time, 1s);
   if (!lasts)
-    return fail(context, {ExitCode::Usage, fmt::format("`--for {}` is not a time; write it like "
-                                                       "90s, 500ms or 2min",
-                                                       options.time)});
+    return fail(context,
+                {ExitCode::Usage, fmt::format("`--for {}` is not a duration; write it like "
+                                              "90s, 500ms or 2min",
+                                              options.time)});
   with_firmware(context, options.port,
                 [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
                   return watch(context, options, *lasts, lookup, inputs, link, session);

@@ -90,7 +90,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
       const { text: lifted } = await language.call("lift", { files: { [name]: text } });
       add_file(name.replace(/\.bas$/, ".orb"), lifted);
     } catch (error) {
-      explain(element("p", {}, error.findings ? "It has mistakes, which are listed below. Fix them under Text first." : `It cannot be turned into one: ${error.message}.`));
+      explain(element("p", {}, error.findings ? "It has errors, which are listed below. Fix them under Text first." : `It cannot be turned into one: ${error.message}.`));
     }
   }
   function choose(blocks) {

@@ -98,7 +98,7 @@ TEST(Macro, ACommandCutAnywhereSaysWhichOperandIsMissing) {
   }
   const auto cut = read_macro_command(*from_hex("05 7F 01"), 0);
   EXPECT_EQ(to_string(cut.error()),
-            "offset 2 (02h): the bytes end inside `roll` (05h); expected its operand `heading`, "
+            "offset 2 (02h): the data ends inside `roll` (05h); expected its operand `heading`, "
             "found 3 of the 5 bytes that the command takes");
 }
 
