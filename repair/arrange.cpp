@@ -547,6 +547,14 @@ std::vector<std::string_view> meanings_of(std::string_view word) {
   return found;
 }
 
+bool mean_the_same(std::string_view a, std::string_view b) {
+  const auto theirs = meanings_of(b);
+  for (const auto mine : meanings_of(a))
+    if (!mine.empty() && std::find(theirs.begin(), theirs.end(), mine) != theirs.end())
+      return true;
+  return false;
+}
+
 std::optional<std::string> test_colour(const Token& token) {
   return write_colour("testcolour", {token});
 }

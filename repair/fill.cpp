@@ -251,7 +251,7 @@ Text hex_colour(const Token& token, Language language) {
   return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
 }
 
-/// What a function of a template is held.
+/// What a function of a template works with.
 struct Holding {
   const Tokens& a; ///< the hole
   const Tokens& b; ///< a second one, empty where it names one
@@ -335,97 +335,97 @@ struct Function {
 constexpr auto functions = std::to_array<Function>({
     // times, in milliseconds or with a unit; no time at all is another habit
     {"sec",
-     [](const Holding& g) {
-       return whole(g.a) == 0 ? std::nullopt : written_time(g.a, Assume::Seconds, g.language());
+     [](const Holding& held) {
+       return whole(held.a) == 0 ? std::nullopt : written_time(held.a, Assume::Seconds, held.language());
      }},
-    {"wait", [](const Holding& g) { return written_time(g.a, Assume::Either, g.language()); }},
-    {"ms", [](const Holding& g) { return written_time(g.a, Assume::Milliseconds, g.language()); }},
+    {"wait", [](const Holding& held) { return written_time(held.a, Assume::Either, held.language()); }},
+    {"ms", [](const Holding& held) { return written_time(held.a, Assume::Milliseconds, held.language()); }},
     {"later", // no part of a colour
-     [](const Holding& g) {
-       return whole(g.a).value_or(UINT8_MAX + 1) > UINT8_MAX
-                  ? written_time(g.a, Assume::Milliseconds, g.language())
+     [](const Holding& held) {
+       return whole(held.a).value_or(UINT8_MAX + 1) > UINT8_MAX
+                  ? written_time(held.a, Assume::Milliseconds, held.language())
                   : std::nullopt;
      }},
-    {"clock", [](const Holding& g) { return clock(g.a); }},
+    {"clock", [](const Holding& held) { return clock(held.a); }},
     {"clockface", clock_face},
 
     // other quantities
     {"percent",
-     [](const Holding& g) {
-       const auto value = whole(g.a);
+     [](const Holding& held) {
+       const auto value = whole(held.a);
        return value && *value <= 100 ? Text(std::to_string((*value * UINT8_MAX + 50) / 100))
                                      : std::nullopt;
      }},
-    {"speed", [](const Holding& g) { return only(whole(g.a).value_or(0) > 0, join(g.a)); }},
-    {"length", [](const Holding& g) { return length(g.a); }},
-    {"around", [](const Holding& g) { return around_length(g.a, g.b); }},
-    {"bearing", [](const Holding& g) { return bearing(g.a); }},
+    {"speed", [](const Holding& held) { return only(whole(held.a).value_or(0) > 0, join(held.a)); }},
+    {"length", [](const Holding& held) { return length(held.a); }},
+    {"around", [](const Holding& held) { return around_length(held.a, held.b); }},
+    {"bearing", [](const Holding& held) { return bearing(held.a); }},
     {"compass", // a heading, no turns
-     [](const Holding& g) { return only(whole(g.a).value_or(0) < full_circle, join(g.a)); }},
+     [](const Holding& held) { return only(whole(held.a).value_or(0) < full_circle, join(held.a)); }},
     {"leftward",
-     [](const Holding& g) {
-       const auto value = whole(g.a);
+     [](const Holding& held) {
+       const auto value = whole(held.a);
        return value && *value > 0 && *value < full_circle
                   ? Text(std::to_string(full_circle - *value))
                   : std::nullopt;
      }},
-    {"middle", [](const Holding& g) { return half_way(g, false); }},
-    {"half", [](const Holding& g) { return half_way(g, true); }},
-    {"ratio", [](const Holding& g) { return fraction(g.a, false); }},
-    {"inverse", [](const Holding& g) { return fraction(g.a, true); }},
+    {"middle", [](const Holding& held) { return half_way(held, false); }},
+    {"half", [](const Holding& held) { return half_way(held, true); }},
+    {"ratio", [](const Holding& held) { return fraction(held.a, false); }},
+    {"inverse", [](const Holding& held) { return fraction(held.a, true); }},
     {"thousands", thousands},
-    {"zero", [](const Holding& g) { return g.a.empty() ? Text("0") : Text(join(g.a)); }},
+    {"zero", [](const Holding& held) { return held.a.empty() ? Text("0") : Text(join(held.a)); }},
 
     // expressions and conditions
-    {"less", [](const Holding& g) { return plus(g.a, -1); }},
-    {"more", [](const Holding& g) { return plus(g.a, +1); }},
+    {"less", [](const Holding& held) { return plus(held.a, -1); }},
+    {"more", [](const Holding& held) { return plus(held.a, +1); }},
     {"toward",
-     [](const Holding& g) { return plus(g.a, !g.b.empty() && g.b[0].is("-") ? +1 : -1); }},
-    {"factor", [](const Holding& g) { return g.a.empty() ? Text("") : Text(as_factor(g.a)); }},
-    {"unit", [](const Holding& g) { return Text(as_factor(g.a)); }},
-    {"not", [](const Holding& g) { return opposite(g.a, g.language()); }},
-    {"true", [](const Holding& g) { return Text(as_comparison(g.a)); }},
-    {"dice", [](const Holding& g) { return dice(g.a, g.b, g.language()); }},
+     [](const Holding& held) { return plus(held.a, !held.b.empty() && held.b[0].is("-") ? +1 : -1); }},
+    {"factor", [](const Holding& held) { return held.a.empty() ? Text("") : Text(as_factor(held.a)); }},
+    {"unit", [](const Holding& held) { return Text(as_factor(held.a)); }},
+    {"not", [](const Holding& held) { return opposite(held.a, held.language()); }},
+    {"true", [](const Holding& held) { return Text(as_comparison(held.a)); }},
+    {"dice", [](const Holding& held) { return dice(held.a, held.b, held.language()); }},
     {"below", // the second value is not one of them
-     [](const Holding& g) {
-       return dice(g.a, tokens_of(plus(g.b, -1).value_or(""), g.language()), g.language());
+     [](const Holding& held) {
+       return dice(held.a, tokens_of(plus(held.b, -1).value_or(""), held.language()), held.language());
      }},
 
     // words
     {"operand", // and no unit
-     [](const Holding& g) {
-       return g.a.size() == 1 && milliseconds_of(g.a[0].text) == 0 ? Text(g.a[0].text)
+     [](const Holding& held) {
+       return held.a.size() == 1 && milliseconds_of(held.a[0].text) == 0 ? Text(held.a[0].text)
                                                                    : std::nullopt;
      }},
-    {"items", [](const Holding& g) { return print_items(g.a); }},
+    {"items", [](const Holding& held) { return print_items(held.a); }},
     {"quoted", // not what a program sets
-     [](const Holding& g) {
-       return g.language() == Language::Basic && holds_name(g.a, g.around) ? std::nullopt
-                                                                           : Text(quoted(g.a));
+     [](const Holding& held) {
+       return held.language() == Language::Basic && holds_name(held.a, held.around) ? std::nullopt
+                                                                           : Text(quoted(held.a));
      }},
     {"letter",
-     [](const Holding& g) {
-       return g.a.size() == 1 && !holds_name(g.a, g.around) && is_letter(g.a[0].text[0])
-                  ? Text(std::string(1, to_upper(g.a[0].text[0])))
+     [](const Holding& held) {
+       return held.a.size() == 1 && !holds_name(held.a, held.around) && is_letter(held.a[0].text[0])
+                  ? Text(std::string(1, to_upper(held.a[0].text[0])))
                   : std::nullopt;
      }},
     {"known",
-     [](const Holding& g) {
-       return g.a.size() == 1 && has(g.around.names, g.a[0].text) ? Text(g.a[0].text)
+     [](const Holding& held) {
+       return held.a.size() == 1 && has(held.around.names, held.a[0].text) ? Text(held.a[0].text)
                                                                   : std::nullopt;
      }},
     {"alone", // what other lines read was not meant for the ball
-     [](const Holding& g) { return only(!has(g.around.elsewhere, g.holes.choice), ""); }},
-    {"parameters", [](const Holding& g) { return Text(parameters(g.a)); }},
-    {"bare", [](const Holding& g) { return bare(g.a); }},
-    {"lower", [](const Holding& g) { return Text(lower(join(g.a))); }},
+     [](const Holding& held) { return only(!has(held.around.elsewhere, held.holes.choice), ""); }},
+    {"parameters", [](const Holding& held) { return Text(parameters(held.a)); }},
+    {"bare", [](const Holding& held) { return bare(held.a); }},
+    {"lower", [](const Holding& held) { return Text(lower(join(held.a))); }},
 
     // colours; the rest are those of write_colour()
     {"most", brightest},
-    {"channels", [](const Holding& g) { return channels(g.a); }},
-    {"hexword", [](const Holding& g) { return g.a.empty() ? Text("") : hex_word(g.a[0]); }},
+    {"channels", [](const Holding& held) { return channels(held.a); }},
+    {"hexword", [](const Holding& held) { return held.a.empty() ? Text("") : hex_word(held.a[0]); }},
     {"hexrgb",
-     [](const Holding& g) { return g.a.empty() ? Text("") : hex_colour(g.a[0], g.language()); }},
+     [](const Holding& held) { return held.a.empty() ? Text("") : hex_colour(held.a[0], held.language()); }},
     {"hex", hex_of_three},
 });
 

@@ -20,6 +20,12 @@ constexpr int surely = 6;                // one letter of a word
 constexpr int clearly = 4;               // by so much the best change is cheaper than the next
 constexpr std::uint32_t usual_step = 10; // of line numbers
 
+/// Whether a word is one of them, in capitals or not.
+bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view one) { return equal_words(one, word); });
+}
+
 /// Errors that no fix mends by itself.
 std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(
@@ -51,8 +57,7 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
     around_.names = scenery.set_without(parts_.tokens);
   }
   for (const auto name : names_)
-    if (std::none_of(judge.words.begin(), judge.words.end(),
-                     [&](std::string_view word) { return equal_words(word, name); }))
+    if (!has_word(judge.words, name))
       around_.names.push_back(name);
   canonical();
   if (judge.language == Language::Basic)
@@ -253,7 +258,6 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
                                                  bool sure, bool keep) {
   if (text == line_ || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
     return std::nullopt;
-
   ++checks_;
   auto changed = context_.above;
   const auto begin = changed.size();
@@ -312,13 +316,9 @@ std::string LineRepair::closed_earlier() const {
 /// Whether a line has a word that means nothing to the language and that no other line has.
 bool LineRepair::is_foreign(std::string_view line) const {
   const auto tokens = split(line, judge_.language).tokens;
-  const auto holds = [](const std::vector<std::string_view>& all, const Token& token) {
-    return std::any_of(all.begin(), all.end(),
-                       [&](std::string_view one) { return equal_words(one, token.text); });
-  };
   return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
-    return token.is_word() && token.text.size() > 1 && !holds(judge_.words, token) &&
-           !holds(around_.elsewhere, token);
+    return token.is_word() && token.text.size() > 1 && !has_word(judge_.words, token.text) &&
+           !has_word(around_.elsewhere, token.text);
   });
 }
 
@@ -372,11 +372,6 @@ void LineRepair::own_sub() {
 
 /// Words that mean what a name of the program means: `Richtung` where there is a `direction`.
 void LineRepair::own_words() {
-  const auto is_own = [&](std::string_view name) {
-    return milliseconds_of(name) == 0 &&
-           std::none_of(judge_.words.begin(), judge_.words.end(),
-                        [&](std::string_view one) { return equal_words(one, name); });
-  };
   auto tokens = parts_.tokens;
   bool any = false;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
@@ -386,7 +381,8 @@ void LineRepair::own_words() {
         meanings_of(token.text).empty() || !is_foreign(token.text))
       continue;
     const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {
-      return is_own(name) && mean_the_same(name, token.text);
+      return milliseconds_of(name) == 0 && !has_word(judge_.words, name) &&
+             mean_the_same(name, token.text);
     });
     if (own == names_.end())
       continue;

@@ -19,14 +19,6 @@ std::string digits_of(std::string_view head) {
 
 } // namespace
 
-bool mean_the_same(std::string_view a, std::string_view b) {
-  const auto theirs = meanings_of(b);
-  for (const auto one : meanings_of(a))
-    if (!one.empty() && std::find(theirs.begin(), theirs.end(), one) != theirs.end())
-      return true;
-  return false;
-}
-
 std::string Scenery::uncalled_sub() const {
   std::string found;
   for (const auto& sub : subs_)

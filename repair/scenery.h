@@ -18,9 +18,6 @@ namespace orb::repair {
 /// Longer lines are not looked at.
 inline constexpr std::size_t longest_line = 240;
 
-/// Whether two words stand for the same operand, unit or value: `Richtung` and `direction`.
-bool mean_the_same(std::string_view a, std::string_view b);
-
 /// What is around the lines of a text: names, open loops, free letters.
 class Scenery {
 public:

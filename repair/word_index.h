@@ -2,7 +2,6 @@
 
 #include "base/text/text.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -10,13 +9,6 @@
 #include <vector>
 
 namespace orb::repair {
-
-/// A word in small letters.
-inline std::string lower(std::string_view word) {
-  std::string small(word);
-  std::transform(small.begin(), small.end(), small.begin(), to_lower);
-  return small;
-}
 
 /// Lists of words, told by their numbers: which of them have a word? Case does not count.
 class WordIndex {
@@ -26,11 +18,8 @@ public:
   template <typename Rows, typename Words>
   WordIndex(const Rows& rows, Words words) {
     for (std::size_t i = 0; i < std::size(rows); ++i)
-      for (auto rest = words(rows[i]); !rest.empty();) {
-        const auto end = std::min(rest.find(' '), rest.size());
-        add(rest.substr(0, end), i);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-      }
+      for (const auto word : words_in(words(rows[i])))
+        add(word, i);
   }
 
   void add(std::string_view word, std::size_t list) {

@@ -216,13 +216,6 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
 }
 
 /// `.macro NAME id=40 flags=motor_control`, with its parts in any order.
-const spec::MacroFlagInfo* flag_called(std::string_view word) {
-  const auto* const found =
-      std::find_if(std::begin(spec::macro_flags), std::end(spec::macro_flags),
-                   [&](const auto& row) { return equal_words(row.word, word); });
-  return found == std::end(spec::macro_flags) ? nullptr : found;
-}
-
 std::vector<Rephrased> rephrase_header(const Tokens& line) {
   Tokens name;
   std::string id;
@@ -267,7 +260,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
       if (token.gap && !flag.empty() && end_flag())
         flag.clear();
       flag.push_back(token);
-    } else if (const auto* known = flag_called(token.text); known != nullptr && !name.empty()) {
+    } else if (const auto* known = spec::find_macro_flag(lower(token.text));
+               known != nullptr && !name.empty()) {
       flags.emplace_back(known->word);
     } else if (!token.is(",")) {
       const bool apart = token.gap || line[i - 1].is("(");

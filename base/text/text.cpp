@@ -41,6 +41,22 @@ bool is_real(std::string_view text, std::chars_format form) {
 
 } // namespace
 
+std::string lower(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(), to_lower);
+  return small;
+}
+
+std::vector<std::string_view> words_in(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return words;
+}
+
 std::optional<double> parse_real(std::string_view text, std::chars_format form) {
   if (!is_real(text, form))
     return std::nullopt;

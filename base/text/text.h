@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
 namespace orb {
 
@@ -38,6 +39,12 @@ constexpr bool equal_words(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return to_lower(x) == to_lower(y); });
 }
+
+/// In small letters; bytes beyond ASCII stay.
+std::string lower(std::string_view text);
+
+/// The words of a text that has one blank between two of them.
+std::vector<std::string_view> words_in(std::string_view text);
 
 /// How the lines of a text end: as its first one does, else with LF.
 constexpr std::string_view line_end_of(std::string_view text) {

@@ -36,11 +36,6 @@ void add_rest(const Command& command, RosterOptions& options, const std::string&
       .show_default();
 }
 
-std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), to_lower);
-  return text;
-}
-
 /// Collects the robots that the words of the command line name.
 class Naming {
 public:
@@ -137,8 +132,7 @@ private:
     }
     case Scheme::Rfcomm:
     case Scheme::Ble:
-      return endpoint.name.empty() ? uploader::to_string(endpoint.address)
-                                   : in_lower_case(endpoint.name);
+      return endpoint.name.empty() ? uploader::to_string(endpoint.address) : lower(endpoint.name);
     case Scheme::Tcp: return fmt::format("{}:{}", endpoint.host, endpoint.port);
     case Scheme::Sim: break;
     }

@@ -221,7 +221,8 @@ void Checker::check_left(std::uint32_t i) {
   const auto word = program_.text_of(statement.word);
   const bool sleeps = ends && statement.robot == spec::Statement::Sleep;
   const auto seconds = sleeps && size(statement) == 1 ? value_of(item(statement, 0)) : std::nullopt;
-  constexpr std::int32_t longest = 65; // s of a `delay`; more were meant as milliseconds
+  constexpr std::int32_t second = 1000; // ms; more than a `delay` takes were meant as ms already
+  const auto longest = spec::info(spec::Statement::Delay).parameters()[0].greatest / second;
   auto& d = report(compiler::rules::UnreachableLine, after->span,
                    fmt::format("unreachable after `{}`", word),
                    seconds  ? fmt::format("for a pause write `delay {}{}`", seconds->value,

@@ -176,8 +176,8 @@ private:
   /// What stands after a statement that does not go on: `end`, `sleep`, `goto`, `return`, `exit`.
   void check_left(std::uint32_t i);
 
-  /// The statement `after` what nothing gets past, `i`; null where something else leads there, or
-  /// it does nothing.
+  /// The statement `after`, where nothing leads there because nothing gets past `i`; null where
+  /// something else does, or where it would do nothing.
   const Statement* never_reached(std::uint32_t i, std::uint32_t after) const;
 
   /// A loop that asks one variable, which nothing in it changes.

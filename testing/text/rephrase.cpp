@@ -550,13 +550,8 @@ struct Takes {
 
 Takes takes_of(const vm::StimulusInfo& row) {
   Takes takes;
-  for (auto rest = row.operands; !rest.empty();) {
-    const auto end = std::min(rest.find(' '), rest.size());
-    std::string name(rest.substr(0, end));
-    std::transform(name.begin(), name.end(), name.begin(), to_lower);
-    takes.names.push_back(name);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  for (const auto name : words_in(row.operands))
+    takes.names.push_back(lower(name));
   for (const auto& name : takes.names) {
     Operand operand;
     operand.name = name;
