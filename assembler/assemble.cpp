@@ -166,7 +166,7 @@ void Assembler::add_command(const Statement& statement) {
   auto& out = macro();
   if (out.has_end && out.id != spec::macro_id_stream) {
     if (!after_end_reported_)
-      findings_.add(rules::AfterEnd, statement.span, "this is after `end`",
+      findings_.add(rules::AfterEnd, statement.span, "this comes after `end`",
                     "remove `end`, or start another macro with `.macro`");
     after_end_reported_ = true;
     return;

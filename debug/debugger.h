@@ -23,9 +23,8 @@ namespace orb::debug {
 
 /// Why a run on a robot is not gone back.
 inline constexpr std::string_view no_way_back =
-    "a robot cannot run backwards: set an earlier breakpoint and start again, or leave the "
-    "port "
-    "out";
+    "a robot cannot run backwards: set an earlier breakpoint and start again, or omit the "
+    "port";
 
 /// Who runs. A ball has both at once.
 enum class Thread : std::uint8_t { Program, Macro };

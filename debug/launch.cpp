@@ -146,15 +146,15 @@ tl::expected<std::unique_ptr<Launched>, Failure> read(const Launch& launch,
 tl::expected<void, Failure> check_for_robot(const Launched& launched) {
   const auto& options = launched.options;
   if (options.course != nullptr && launched.suite == nullptr)
-    return failed(ExitCode::Usage, "a course is for the virtual ball; leave it out, or leave the "
-                                   "port out");
+    return failed(ExitCode::Usage, "a course is for the virtual ball; omit it, or omit "
+                                   "the port");
   if (options.client == run::Client::Absent)
-    return failed(ExitCode::Usage, "a robot that is driven from here has a client: leave "
-                                   "`disconnected` out");
+    return failed(ExitCode::Usage, "a robot that is driven from here has a client: omit "
+                                   "`disconnected`");
   for (const auto& event : options.stimuli)
     if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
       return failed(ExitCode::Usage, "with a robot a stimulus can only be an `input`: shake and "
-                                     "push it by hand, or leave the port out");
+                                     "push it by hand, or omit the port");
   return {};
 }
 

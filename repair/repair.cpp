@@ -57,7 +57,7 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
       auto line = std::string(source.line(n));
       line.replace(token.at, other->size(), word);
       finding.help =
-          fmt::format("write `{}` in line {}", line.substr(line.find_first_not_of(" \t")), n);
+          fmt::format("write `{}` on line {}", line.substr(line.find_first_not_of(" \t")), n);
       finding.fix = Fix{fmt::format("rename `{}` to `{}`", *other, word), {edit}, Safety::Unsafe};
       return true;
     }
@@ -173,7 +173,7 @@ private:
         if (!is_error(finding) || written == block.lines.end() ||
             !lines_.insert(written->first).second)
           continue;
-        finding.help = written->second.empty() ? "leave the line out"
+        finding.help = written->second.empty() ? "remove the line"
                                                : fmt::format("write `{}`", written->second);
         finding.fix = fix;
         mended_.insert(&finding);
@@ -301,11 +301,11 @@ private:
     std::sort(fix.edits.begin(), fix.edits.end(),
               [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
     finding.help =
-        fmt::format("write `{}`, and leave ", joined) +
-        (lines.size() > 2 ? fmt::format("lines {} to {} out", scenery_.number(lines[1]),
-                                        scenery_.number(lines.back()))
-         : line_of(finding) == lines[1] ? std::string("this line out")
-                                        : fmt::format("line {} out", scenery_.number(lines[1])));
+        fmt::format("write `{}`, and remove ", joined) +
+        (lines.size() > 2               ? fmt::format("lines {} to {}", scenery_.number(lines[1]),
+                                                      scenery_.number(lines.back()))
+         : line_of(finding) == lines[1] ? std::string("this line")
+                                        : fmt::format("line {}", scenery_.number(lines[1])));
     finding.fix = std::move(fix);
     return true;
   }
@@ -360,7 +360,7 @@ private:
         Fix{finding.help, {{source_.line_span(line), std::string(blanks) + text}}, Safety::Unsafe};
     mended_.insert(&finding);
     texts_[line] = std::string(blanks) + text;
-    open->help = fmt::format("{} in line {}", finding.help, line);
+    open->help = fmt::format("{} on line {}", finding.help, line);
     open->fix = finding.fix;
     if (word == "do") {
       open->help = "write `repeat`";
@@ -593,7 +593,7 @@ private:
       finding.fix.reset();
       return;
     }
-    finding.help = shown.empty() ? "leave the line out" : in_turn(repair, found[0].text);
+    finding.help = shown.empty() ? "remove the line" : in_turn(repair, found[0].text);
     if (!found[0].note.empty())
       finding.help += fmt::format("; {}", found[0].note);
     if (const auto own = repair.fixed(finding);

@@ -364,7 +364,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
       if (!file.file.balls.empty())
         return tl::unexpected(
             Failure{ExitCode::Usage, fmt::format("{} tests a room, which names its own programs; "
-                                                 "leave `--program` out",
+                                                 "omit `--program`",
                                                  file.source->name())});
       own.push_back(reader.program(path, file));
     }

@@ -201,7 +201,7 @@ private:
       return;
     auto line = std::string(source_.text(leaves.span));
     line.replace(0, leaves.info->mnemonic.size(), spec::info(MacroCommand::Gosub).mnemonic);
-    d.help = fmt::format("write `{}` in line {}", line, line_of(leaves));
+    d.help = fmt::format("write `{}` on line {}", line, line_of(leaves));
     d.fix = Fix{fmt::format("write `{}`", line), {{leaves.span, line}}, Safety::Unsafe};
   }
 
@@ -354,7 +354,7 @@ private:
       }
     if (asks != nullptr && !any_error(assembly_.diagnostics))
       report(
-          rules::CollisionsOff, asks->span, "nothing here switches collision detection on",
+          rules::CollisionsOff, asks->span, "nothing here turns on collision detection",
           "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, unless a client does it");
   }
 

@@ -48,7 +48,7 @@ private:
       if (is(command, MacroCommand::LoopStart) || is(command, MacroCommand::LoopStartSystem)) {
         if (open != nullptr) {
           report(rules::NestedLoop, command.span, "this loop replaces the previous one",
-                 "loops do not nest; multiply the counts, or repeat the commands")
+                 "loops cannot be nested; multiply the counts, or repeat the commands")
               .notes.push_back({open->span, "the previous one begins here"});
           ++replaced;
         }
@@ -82,8 +82,8 @@ private:
       report(rules::LoopZero, command.operand, "a loop count of 0 runs once",
              help.empty() ? "write 1, or remove it" : help);
     else
-      report(rules::LoopOne, command.operand, "a loop of 1 round repeats nothing",
-             help.empty() ? "write the number of rounds, 2 to 255" : help);
+      report(rules::LoopOne, command.operand, "a loop with 1 iteration repeats nothing",
+             help.empty() ? "write the number of iterations, 2 to 255" : help);
     if (said > 1)
       diagnostics_.back().fix =
           Fix{help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};
@@ -131,7 +131,7 @@ private:
     if (before == nullptr || !is(*before, MacroCommand::LoopEnd) ||
         any_error(assembly_.diagnostics))
       return;
-    d.help = "leave the line out";
+    d.help = "remove the line";
     d.fix = Fix{"remove the line", {without_line(source_, line_of(command))}, Safety::Unsafe};
   }
 

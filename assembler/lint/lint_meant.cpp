@@ -94,7 +94,7 @@ private:
         changed = true;
       }
     if (changed)
-      offer(rules::DimColour, command, "this is almost dark: brightness goes from 0 to 255",
+      offer(rules::DimColour, command, "this is almost dark: brightness ranges from 0 to 255",
             repair::join(tokens), "");
   }
 

@@ -101,7 +101,7 @@ private:
           Fix{title, {below(source_, at, indent_of(source_, at), line)}, Safety::Unsafe};
     } else if (background.waits == 1 && background.wait->origin == Origin::Written) {
       const auto span = background.wait->span;
-      diagnostic.help = fmt::format("{} in line {}", title, source_.position(span.begin).line);
+      diagnostic.help = fmt::format("{} on line {}", title, source_.position(span.begin).line);
       diagnostic.fix = Fix{title, {{span, line}}, Safety::Unsafe};
     }
   }
@@ -160,7 +160,7 @@ private:
                               fmt::format("this {} has no effect: {}", what,
                                           by.size() > 0 ? "the next one replaces it at once"
                                                         : "the macro ends, and stops the motors"),
-                              "put a delay below it, such as `delay 1s`");
+                              "add a delay below it, such as `delay 1s`");
     last_as_others(diagnostic, *first.command);
     if (by.size() > 0)
       diagnostic.notes.push_back({by, "replaced here"});

@@ -78,7 +78,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
   if (is_v2 && !arguments.state.empty())
     return fail(context, {ExitCode::Usage, fmt::format("a {} stores no programs or settings; "
-                                                       "leave `--state` out",
+                                                       "omit `--state`",
                                                        spec::info(options.robot).title)});
   options.ball.seed = arguments.seed;
   options.ball.firmware = firmware.firmware;

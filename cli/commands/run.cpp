@@ -310,12 +310,11 @@ void run_and_watch(Context& context, const RunOptions& options,
 /// Runs once or at every change, and sees to the page that its options ask for.
 void run_with_report(Context& context, RunOptions& options) {
   if (options.open && options.report == "-")
-    return fail(context,
-                {ExitCode::Usage, "`--open` needs a report in a file; leave `--report -` out"});
+    return fail(context, {ExitCode::Usage, "`--open` needs a report in a file; omit `--report -`"});
   if (!options.record.empty() && options.port.port.empty())
     return fail(context, {ExitCode::Usage, "`--record` records a run on a robot; add `--port`"});
   if (!options.replay.empty() && !options.port.port.empty())
-    return fail(context, {ExitCode::Usage, "`--replay` needs no robot; leave `--port` out"});
+    return fail(context, {ExitCode::Usage, "`--replay` needs no robot; omit `--port`"});
   if (options.watch && !options.port.port.empty())
     return fail(context,
                 {ExitCode::Usage, "`--watch` would drive the robot on every change; do not "

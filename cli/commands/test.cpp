@@ -321,7 +321,7 @@ tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
 tl::expected<void, Failure> check_programs(const TestOptions& options) {
   if (!options.class_folder.empty() && !options.programs.empty())
     return tl::unexpected(
-        Failure{ExitCode::Usage, "`--class` names the programs; leave `--program` out"});
+        Failure{ExitCode::Usage, "`--class` names the programs; omit `--program`"});
   std::error_code absent;
   if (!options.class_folder.empty() &&
       !fs::is_directory(disk::as_path(options.class_folder), absent))
@@ -392,9 +392,9 @@ tl::expected<void, Failure> check_port(const TestOptions& options) {
     if (!options.robot.empty())
       return refuse("`--robot` says which robot answers; add `--port`");
   } else if (!options.ball.empty()) {
-    return refuse("`--ball` says how a virtual ball drives; leave it out, or leave `--port` out");
+    return refuse("`--ball` says how a virtual ball drives; omit it, or omit `--port`");
   } else if (options.jobs > 1) {
-    return refuse("a robot runs one test at a time; leave `--jobs` out");
+    return refuse("a robot runs one test at a time; omit `--jobs`");
   }
   return {};
 }

@@ -100,7 +100,7 @@ tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
     return refuse("`--test` brings its own course and stimuli; leave `--course` and `--stimulus` "
                   "out");
   if (!options.ball.empty() && !options.port.port.empty())
-    return refuse("`--ball` says how a virtual ball drives; leave it out, or leave `--port` out");
+    return refuse("`--ball` says how a virtual ball drives; omit it, or omit `--port`");
   if (!options.ball.empty()) {
     const auto profile = read_profile(options.ball, {});
     if (!profile)

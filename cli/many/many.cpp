@@ -292,7 +292,7 @@ void with_robots(Context& context, const RosterOptions& given, const ManyOptions
 }
 
 Failure listens_to_one() {
-  return {ExitCode::Usage, "`--monitor` listens to one robot; leave it out, and use `orb monitor` "
+  return {ExitCode::Usage, "`--monitor` listens to one robot; omit it, and use `orb monitor` "
                            "for one of them"};
 }
 

@@ -60,7 +60,7 @@ tl::expected<RoomPlan, Failure> plan_of(const RunOptions& given) {
     return side_by_side(given.files);
   if (given.files.size() > 1)
     return refuse(ExitCode::Usage,
-                  fmt::format("{} is a room, which names its own programs; leave {} out",
+                  fmt::format("{} is a room, which names its own programs; omit {}",
                               disk::display_name(given.files[0]),
                               disk::display_name(given.files[1])));
   auto plan = read_room(given.files.front());

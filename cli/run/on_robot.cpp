@@ -29,8 +29,8 @@ void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs
 tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options) {
   const auto of_simulation = [&](std::string_view option) {
     return refuse(ExitCode::Usage,
-                  fmt::format("`{}` is for the virtual ball; leave it out, or leave `{}` out",
-                              option, given.replay.empty() ? "--port" : "--replay"));
+                  fmt::format("`{}` is for the virtual ball; omit it, or omit `{}`", option,
+                              given.replay.empty() ? "--port" : "--replay"));
   };
   if (!given.course.empty())
     return of_simulation("--course");
@@ -43,7 +43,7 @@ tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::
       return refuse(
           ExitCode::Usage,
           "with a robot, a stimulus can only be an `input`: shake and push it by hand, or "
-          "leave `--port` out");
+          "omit `--port`");
   return {};
 }
 

@@ -73,7 +73,7 @@ tl::expected<void, Failure> RobotStage::ready(const testing::Suite& suite,
                                  "do; run it without `--port`"));
   if (attended_ == Attended::No && has(options, Doer::Hand))
     return tl::unexpected(
-        cannot("the test needs someone to shake or push the robot; leave `--yes` out"));
+        cannot("the test needs someone to shake or push the robot; omit `--yes`"));
   auto home = run::Home::Reached;
   if (begun_++ > 0) {
     auto came = run::drive_home(*robot_.link.transport, robot_.tether);

@@ -18,7 +18,7 @@ std::string_view for_one_robot(const RunOptions& options) {
          : !options.trace.empty() && options.trace_out.empty()
              ? "a trace covers one robot; with several write `--trace-out FILE`, which writes a "
                "file for each"
-         : !options.compare.empty()    ? "`--compare` shows one robot; with several leave it out"
+         : !options.compare.empty()    ? "`--compare` shows one robot; with several, omit it"
          : options.input == from_stdin ? "numbers that are typed go to one robot; with several "
                                          "write them, as in `--input 1,2`"
                                        : "";

@@ -261,7 +261,7 @@ private:
                               number_of(jump.to)),
                   flow_.code[last].falls
                       ? fmt::format("add `return` below line {}", number)
-                      : fmt::format("in line {1} write `return` instead of `{0}`",
+                      : fmt::format("on line {1}, write `return` instead of `{0}`",
                                     program_.text_of(end.span), number));
   }
 

@@ -418,7 +418,7 @@ private:
     }
     const auto innermost = spec::letter_name(loops.innermost());
     findings_.add(rules::NextWithoutFor, node.span,
-                  fmt::format("the innermost loop counts with `{}`", innermost),
+                  fmt::format("the innermost loop variable is `{}`", innermost),
                   fmt::format("end it first: `next {}`", innermost));
   }
 

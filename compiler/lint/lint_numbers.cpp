@@ -37,7 +37,7 @@ private:
 
   void number_all() {
     auto& d = findings_.add(
-        rules::MissingLineNumber, faults_[0]->span, "no line is numbered",
+        rules::MissingLineNumber, faults_[0]->span, "no line has a number",
         fmt::format("each line begins with a number: `{} {}`; `orb check --fix` numbers them all",
                     step, text_of(*faults_[0])));
     if (faults_.size() * step > static_cast<std::size_t>(greatest))

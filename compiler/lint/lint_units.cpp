@@ -195,7 +195,7 @@ private:
 
   void add_time(const Item& time, std::int32_t ms, std::string message, const std::string& line) {
     auto& d = findings_.add(rules::WrongUnit, time.span, std::move(message),
-                            fmt::format("for {} write `{}`", plural_seconds(ms), line));
+                            fmt::format("for {}, write `{}`", plural_seconds(ms), line));
     d.fix = single_fix(d.help, time.span, fmt::format("{}", ms * in_second), Safety::Unsafe);
   }
 
@@ -215,7 +215,7 @@ private:
     auto& d = findings_.add(
         rules::WrongUnit, time.span,
         fmt::format("`sleep` counts in seconds: {} is {} minutes", *seconds, *seconds / 60),
-        fmt::format("for {} write `{}{}{}`", plural_seconds(meant),
+        fmt::format("for {}, write `{}{}{}`", plural_seconds(meant),
                     text(statement, time, Part::Before), meant,
                     text(statement, time, Part::After)));
     d.fix = single_fix(d.help, time.span, fmt::format("{}", meant), Safety::Unsafe);

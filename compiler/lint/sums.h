@@ -66,7 +66,7 @@ inline Said lost_exchange(std::string_view a, std::string_view b, std::string_vi
 
 /// Of a share that is divided first, and the same multiplied first.
 inline Said divides_first(std::string_view share, std::string_view meant) {
-  return {fmt::format("`{}` loses the remainder of the division", share),
+  return {fmt::format("`{}` discards the remainder of the division", share),
           fmt::format("multiply first: `{}`", meant)};
 }
 
@@ -78,7 +78,7 @@ inline Said stays_zero(std::string_view name) {
 
 /// Of a sum that a line of its loop sets back.
 inline Said sum_restarts(std::string_view name, std::string_view line, std::string_view loop) {
-  return {fmt::format("`{}` is reset in every round of the loop", name),
+  return {fmt::format("`{}` is reset in every iteration of the loop", name),
           fmt::format("write `{}` above the {}", line, loop)};
 }
 

@@ -73,8 +73,8 @@ void TextPass::check_let(const StatementNode& statement) {
   check_age_of_timer(program_.as<LetView>(statement));
   if (statement.spelling != Spelling::Let)
     return;
-  auto& d = findings_.add(rules::UndocumentedLet, statement.word, "`let` is not documented",
-                          "leave it out");
+  auto& d =
+      findings_.add(rules::UndocumentedLet, statement.word, "`let` is not documented", "remove it");
   const auto begin = program_.as<LetView>(statement).variable.span.begin;
   d.fix = single_fix("remove `let`", {statement.word.begin, begin}, "");
 }

@@ -153,7 +153,7 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
     return false;
   const auto text = program_.text_of(value.span);
   auto& d = findings_.add(rules::LoopLeavesRange, value.span,
-                          fmt::format("`{}` takes {} {} to {}, but `{}` counts {} here", word,
+                          fmt::format("`{}` takes {} {} to {}, but `{}` ranges from {} here", word,
                                       parameter.name, parameter.least, parameter.greatest, text,
                                       shown(range_of(value))));
   const bool heading = parameter.greatest + 1 == full_turn && range_of(value).lo >= 0;
@@ -310,7 +310,7 @@ void ValuesPass::check_for(const ForView& loop) {
                                         shown(start), shown(end)));
     if (loop.step == nullptr) {
       const auto counts = program_.text_of({variable.span.begin, loop.last().span.end});
-      d.help = fmt::format("to count down write `for {} step -1`", counts);
+      d.help = fmt::format("to count down, write `for {} step -1`", counts);
       const auto at = loop.last().span.end;
       d.fix = single_fix("count down", {at, at}, " step -1", Safety::Unsafe);
     }

@@ -30,7 +30,7 @@ void ValuesPass::check_print(const StatementNode& statement) {
                   "end the first part with `;` and print the rest on the next line");
   else if (most > limit)
     findings_.add(rules::PrintMayBeTooLong, statement.span,
-                  fmt::format("the output can be {} bytes; the limit is {}", most, limit));
+                  fmt::format("the output can reach {} bytes; the limit is {}", most, limit));
 }
 
 void ValuesPass::check_input(const StatementNode& statement) {

@@ -303,7 +303,7 @@ private:
                   fmt::format("`{}` takes a plain line number, found {}", word(), found()),
                   is_letter(token()[0]) && token().size() > 1
                       ? fmt::format("jump to a line by its number: `{} 100`", word())
-                      : "to choose between lines use `on A goto 100,200`");
+                      : "to choose between lines, use `on A goto 100,200`");
     const auto number =
         fault_.statement == spec::Statement::Gosub && is_letter(token()[0]) ? only_subroutine() : 0;
     if (number > 0 && skip_blanks(fault_.span.end) == code_end()) {
@@ -430,10 +430,10 @@ private:
     if (fault_.statement == spec::Statement::Print && is_letter(here[0]) &&
         find_word(here).kind == WordKind::Unknown)
       return unknown_name();
-    const auto what = fault_.statement == spec::Statement::Let ? std::string("assignment")
-                                                               : fmt::format("`{}`", word());
-    return make(rules::SyntaxError,
-                fmt::format("unexpected {} after the complete {}", found(), what));
+    const auto what = fault_.statement == spec::Statement::Let
+                          ? std::string("assignment")
+                          : fmt::format("`{}` statement", word());
+    return make(rules::SyntaxError, fmt::format("unexpected {} after the {}", found(), what));
   }
 };
 

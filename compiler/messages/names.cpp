@@ -76,7 +76,7 @@ private:
       return d;
     }
     d.help =
-        fmt::format("leave {} out, and jump to line {}", alone ? "the line" : "the label", number);
+        fmt::format("remove {}, and jump to line {}", alone ? "the line" : "the label", number);
     for (auto& jump : jumps)
       jump.text = std::to_string(number);
     if (below == 0) { // what jumps there ends

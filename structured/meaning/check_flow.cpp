@@ -225,15 +225,15 @@ void Checker::check_left(std::uint32_t i) {
   const auto longest = spec::info(spec::Statement::Delay).parameters()[0].greatest / second;
   auto& d = report(compiler::rules::UnreachableLine, after->span,
                    fmt::format("unreachable after `{}`", word),
-                   seconds  ? fmt::format("for a pause write `delay {}{}`", seconds->value,
+                   seconds  ? fmt::format("for a pause, write `delay {}{}`", seconds->value,
                                          seconds->value > longest ? "" : "s")
-                   : sleeps ? fmt::format("for a pause write `delay {}`",
+                   : sleeps ? fmt::format("for a pause, write `delay {}`",
                                           program_.text_of(item(statement, 0).span))
-                   : ends   ? fmt::format("leave out the `{}` above", word)
-                            : "leave the line out");
+                   : ends   ? fmt::format("remove the `{}` above", word)
+                            : "remove the line");
   d.notes.push_back({statement.span, sleeps ? "the robot falls asleep here, and the program ends"
                                      : ends ? "the program ends here"
-                                            : "nothing gets past this"});
+                                            : "execution never gets past this"});
 }
 
 const Statement* Checker::never_reached(std::uint32_t i, std::uint32_t after) const {

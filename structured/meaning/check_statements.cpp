@@ -11,7 +11,7 @@ void Checker::check_place(std::uint32_t i, const Statement& statement) {
     misplaced(statement, fmt::format("`{}` inside a block", word),
               "declarations must be at top level");
   if ((statement.kind == Kind::Exit || statement.kind == Kind::Continue) && !in_loop())
-    stands_outside(statement, "loops");
+    stands_outside(statement, "a loop");
   if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1) &&
       !in_broken_routine())
     misplaced(statement,
@@ -30,7 +30,7 @@ void Checker::check_place(std::uint32_t i, const Statement& statement) {
 void Checker::check_return(std::uint32_t routine, const Statement& statement) {
   if (routine == 0) {
     if (!in_broken_routine())
-      stands_outside(statement, "subs and functions", "`end` ends the program");
+      stands_outside(statement, "a sub or function", "`end` ends the program");
     return;
   }
   const auto& symbol = names_.symbols[names_.routines[routine].symbol];
@@ -193,7 +193,7 @@ void Checker::check_next(const Statement& statement) {
     return; // the other `next` of the two said so
   crossed_ = {counter.value, named.value};
   report(rules::LoopVariable, item(statement, 0).span,
-         fmt::format("the innermost loop counts with `{}`", program_.text_of(counter.span)),
+         fmt::format("the innermost loop variable is `{}`", program_.text_of(counter.span)),
          fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
 }
 

@@ -166,7 +166,7 @@ private:
         return; // it may be the end
       if (statement.role() == Kind::Robot && statement.robot == spec::Statement::End &&
           last != none) {
-        d.help = fmt::format("write `{}` in line {}", block.end_words, line_of(j));
+        d.help = fmt::format("write `{}` on line {}", block.end_words, line_of(j));
         d.fix = Fix{d.help, {{statement.span, std::string(block.end_words)}}, Safety::Unsafe};
         return;
       }
@@ -272,8 +272,7 @@ private:
     if (parts_block(statement.role()))
       return {};
     if (open_.empty())
-      return closes_block(statement.role()) ? Mend{"leave the line out", remove(statement)}
-                                            : Mend{};
+      return closes_block(statement.role()) ? Mend{"remove the line", remove(statement)} : Mend{};
     const auto& opener = program_.statements[open_.back()];
     const auto reopen = [&](const std::string& word) {
       return Fix{fmt::format("write `{}`", word), {{opener.word, word}}, Safety::Unsafe};

@@ -29,10 +29,10 @@ constexpr auto no_braces = "blocks have no braces; they end with `next`, `end if
 
 /// Where structured programs say it in another way than numbered ones.
 constexpr auto structured_words = std::to_array<Habit>({
-    {"set", Where::Line, "", "leave it out: `x = 5`"},
-    {"int", Where::Line, "", "leave it out: `x = 5`"},
+    {"set", Where::Line, "", "remove it: `x = 5`"},
+    {"int", Where::Line, "", "remove it: `x = 5`"},
     {"clear", Where::Line, "", "variables start at 0; or write `x = 0`"},
-    {"begin", Where::Line, "", "blocks need no `begin`; leave the line out"},
+    {"begin", Where::Line, "", "blocks need no `begin`; remove the line"},
     {"def", Where::Line, "", "write `sub name` … `end sub`"},
     {"func", Where::Line, "", "write `function name()` … `end function`"},
     {"proc", Where::Line, "", "write `sub name` … `end sub`"},
@@ -54,8 +54,8 @@ constexpr auto structured_words = std::to_array<Habit>({
     {"^", Where::Inside, "", "there is no power operator: write `a * a`"},
     {"{", Where::Inside, "", no_braces},
     {"}", Where::Inside, "", no_braces},
-    {"do", Where::Inside, "", "leave it out"},
-    {"times", Where::Inside, "", "leave it out: `repeat 5`"},
+    {"do", Where::Inside, "", "remove it"},
+    {"times", Where::Inside, "", "remove it: `repeat 5`"},
 });
 
 } // namespace
@@ -67,7 +67,7 @@ Diagnostic habit(const Program& program, Span found, std::string_view instead,
                    std::string(help));
   if (!instead.empty()) {
     const auto written = instead == " " ? std::string_view() : instead;
-    d.help = written.empty() ? "leave it out" : fmt::format("write `{}`", trim(written));
+    d.help = written.empty() ? "remove it" : fmt::format("write `{}`", trim(written));
     d.fix = Fix{d.help, {Edit{found, std::string(written)}}, Safety::Safe};
   }
   return d;

@@ -380,7 +380,7 @@ std::pair<Duration, Duration> Cursor::times() {
   if (!from || !to) {
     fail(rules::Value,
          at_end() ? std::string("missing time span")
-                  : fmt::format("expected two times, found `{}`", text),
+                  : fmt::format("expected a start and an end time, found `{}`", text),
          "write it like `2s..3s`");
     return {};
   }

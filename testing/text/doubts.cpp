@@ -61,7 +61,7 @@ private:
   void too_late(const Rule& rule, Span span, const Test& test, Duration time) {
     const auto line = fmt::format("for {}s", seconds_for(time));
     auto& d = report(rule, span, "the run ends before that time",
-                     fmt::format("for a longer run write `{}`", line));
+                     fmt::format("for a longer run, write `{}`", line));
     if (source_.line(test.line).find(" for ") != std::string_view::npos)
       return; // of this test alone
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
@@ -94,7 +94,7 @@ private:
       return;
     auto& d = report(rules::Start, one.span,
                      one.never ? "the ball starts there, so this fails at once"
-                               : "the ball starts there, so this is met at once");
+                               : "the ball starts there, so this succeeds at once");
     write(d, one, text_of(one) + " at end");
   }
 
@@ -114,7 +114,7 @@ private:
     auto line = text_of(one);
     const std::string_view moving = info(Word::Moving).word;
     line.replace(line.find(moving), moving.size(), info(Word::Resting).word);
-    write(report(rules::MovingAtEnd, one.span, "at the end the ball rests"), one, line);
+    write(report(rules::MovingAtEnd, one.span, "the ball is at rest at the end"), one, line);
   }
 
   std::string what_of(const Expectation& one) const {
@@ -146,8 +146,9 @@ private:
           !other.joined.empty() || other.order != Order::Free || other.lasts > Duration{} ||
           !covers(other.when, one.when) || what_of(other).empty() || what_of(other) != what_of(one))
         continue;
-      report(rules::Contradiction, one.span, "this cannot be met: another line forbids it then",
-             "change the time in one of the two")
+      report(rules::Contradiction, one.span,
+             "this can never be met: another line forbids it at that time",
+             "change one of the two times")
           .notes.push_back({other.span, "it is forbidden here"});
       return;
     }
@@ -175,7 +176,7 @@ private:
         cursor.word();
       if (time && test != nullptr && *time >= test->bound)
         report(rules::Bound, cursor.span_from(begin), "the run ends before that time",
-               "for a longer run write a later time after `for`");
+               "for a longer run, write a later time after `for`");
     }
   }
 

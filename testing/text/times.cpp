@@ -165,7 +165,7 @@ void FileReader::check_order(Cursor& cursor, const Expectation& one, const Said&
   if (row.kind != Kind::State && row.kind != Kind::Event)
     return cursor.fail_at(said.order, rules::When,
                           fmt::format("`{}` takes no `after` or `before`", row.word),
-                          "leave that out");
+                          "remove that");
   if (one.order == Order::Before && said.when.size() > 0)
     return cursor.fail_at(said.when, rules::When, "`before` takes no time",
                           "write that on a separate line");

@@ -578,7 +578,7 @@ of all examples and lessons.
 {}
 ## In a parser's words
 
-*Unexpected X after the complete Y* and *expected X, found Y* are what is said when nothing else fits: to {:.1f} %
+*Unexpected X after the Y statement* and *expected X, found Y* are what is said when nothing else fits: to {:.1f} %
 of all mistakes above, to {:.1f} % without the line to write.
 
 ## In other languages

@@ -67,7 +67,7 @@ void hear_frame(Heard& heard) {
     for (const auto& rule : rules)
       for (std::size_t i = 0; i < n; ++i) {
         files[0].diagnostics.push_back(orb::finding(rule, {0, 2}, "`a` is not a number"));
-        files[0].diagnostics.back().help = "leave it out";
+        files[0].diagnostics.back().help = "remove it";
         files[0].diagnostics.back().notes.push_back({{0, 2}, "missing value"});
         orb::render_text(source, files[0].diagnostics.back(), {}, listen);
       }

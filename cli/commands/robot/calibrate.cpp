@@ -93,7 +93,7 @@ tl::expected<void, Failure> check(CalibrateOptions& options) {
     return {};
   if (options.port.port != "sim:")
     return refuse(ExitCode::Usage, "`--ball` says how the virtual robot of `--port sim:` drives; "
-                                   "leave it out");
+                                   "omit it");
   const auto profile = read_profile(options.ball, options.robot);
   if (!profile)
     return tl::unexpected(profile.error());

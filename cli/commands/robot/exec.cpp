@@ -197,7 +197,7 @@ std::optional<std::string> lacking_command(const ExecOptions& options, const Mem
                          : v2 != nullptr && spec::knows(robot, *v2);
   if (knows)
     return std::nullopt;
-  return fmt::format("is a {}, which has no command `{}`; leave it out, or send another command "
+  return fmt::format("is a {}, which has no command `{}`; omit it, or send another command "
                      "to it",
                      robot.title, options.name);
 }

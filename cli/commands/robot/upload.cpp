@@ -193,7 +193,7 @@ ExitCode send(const Context& context, const UploadOptions& options,
 std::optional<std::string> misfit(const UploadOptions& options, const Member& member) {
   if (!member.robot || spec::info(*member.robot).packets == spec::Packets::V1)
     return std::nullopt;
-  return fmt::format("is a {}, which stores no programs; leave it out: `orb run {} {}--port {}` "
+  return fmt::format("is a {}, which stores no programs; omit it: `orb run {} {}--port {}` "
                      "drives it from here",
                      spec::info(*member.robot).title, options.files.front(),
                      options.roster.file.empty() ? "" : "--ports " + options.roster.file + " ",
