@@ -46,7 +46,8 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
     : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
       lasting_(lasting_errors(before)), parts_(split(line_, judge.language)),
       around_(scenery.around(line, parts_)), sub_(scenery.sub_of(parts_.tokens)),
-      uncalled_(scenery.uncalled_sub()), is_target_(false), most_checks_(most_checks) {
+      meant_(scenery.sub_meant(values_between(parts_.tokens, 1))), is_target_(false),
+      most_checks_(most_checks) {
   errors_ = errors_of(before, context.above + std::string(line_) + context.below);
   around_.elsewhere = scenery.words_without(parts_.tokens);
   if (judge.language != Language::Basic)
@@ -358,15 +359,15 @@ void LineRepair::own_call(const std::string& statement) {
   });
 }
 
-/// `trazo(90)` where nobody calls the only `stroke` yet.
+/// `trazo(90)` where nobody calls the only `stroke` yet, or only `stroke` takes one value.
 void LineRepair::own_sub() {
   const auto& tokens = parts_.tokens;
-  if (uncalled_.empty() || tokens.size() < 3 || !tokens[0].is_word() || !tokens[1].is("(") ||
+  if (meant_.empty() || tokens.size() < 3 || !tokens[0].is_word() || !tokens[1].is("(") ||
       !tokens.back().is(")") || !is_foreign(tokens[0].text) ||
       is_known_word(tokens[0].text, Where::Line))
     return;
   auto called = tokens;
-  called[0].text = uncalled_;
+  called[0].text = meant_;
   attempt(join(called), {}, false);
 }
 

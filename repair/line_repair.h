@@ -94,7 +94,7 @@ private:
   std::vector<std::string_view> names_;
   std::string number_below_;
   std::string sub_;             ///< of the program, which the line calls, rightly or not
-  std::string uncalled_;        ///< the only sub that nobody calls
+  std::string meant_;           ///< the sub that a call of an unknown one can only mean
   bool is_target_;              ///< something jumps here
   std::vector<Candidate> near_; ///< by one change, the cheapest first
   std::unordered_set<std::string> seen_;

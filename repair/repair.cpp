@@ -144,6 +144,8 @@ public:
     });
     for (auto* finding : first)
       offer(*finding);
+    if (judge_.language == Language::Test)
+      take_back({first.rbegin(), first.rend()}); // what `prints` lists, from its first text on
     if (judge_.language == Language::Structured) {
       take_back(first);
       offer_again(first);
@@ -444,13 +446,13 @@ private:
   }
 
   /// A line that is right once the others are mended stays as it is: it was judged before them. One
-  /// that does not even parse is not.
+  /// that does not even parse is not, but for what tests list below `prints`.
   void take_back(const std::vector<Diagnostic*>& findings) {
     if (texts_.size() < 2)
       return;
     std::optional<std::size_t> errors; // of the text as it will be
     for (auto* finding : findings) {
-      if (!judge_.parses(source_.line(line_of(*finding))))
+      if (judge_.language != Language::Test && !judge_.parses(source_.line(line_of(*finding))))
         continue;
       if (!errors)
         errors = errors_in(judge_.check(whole_text()));
@@ -547,9 +549,11 @@ private:
       one.fix->safety = Safety::Safe; // as all are taken
     const Source then({}, apply_fixes(source_.text(), offered).text);
     const auto after = judge_.check(then.text());
+    for (const auto& one : after)
+      replace_end(then, one);
     if (std::any_of(after.begin(), after.end(), [&](const Diagnostic& one) {
           return is_error(one) &&
-                 std::none_of(before_.begin(), before_.end(), [&](const auto& was) {
+                 std::none_of(findings_.begin(), findings_.end(), [&](const auto& was) {
                    return was.rule == one.rule && was.message == one.message;
                  });
         }))
@@ -571,6 +575,24 @@ private:
           }))
         gone.insert(&finding);
     std::erase_if(findings_, [&](const Diagnostic& one) { return gone.contains(&one); });
+  }
+
+  /// What the end of a block is told of a program whose other lines are mended takes the place of
+  /// what it was told without them: of a `next` that it has no loop.
+  void replace_end(const Source& then, const Diagnostic& told) {
+    const auto line = then.line(then.position(told.span.begin).line);
+    const auto column = told.span.begin - then.line_start(then.position(told.span.begin).line);
+    for (auto& finding : findings_) {
+      const auto at = line_of(finding);
+      if (finding.rule->id != "block-end" || mended_.contains(&finding) ||
+          source_.line(at) != line || !is_error(told) || told.rule == finding.rule)
+        continue;
+      finding = told;
+      finding.span.begin = source_.line_start(at) + column;
+      finding.span.end = finding.span.begin + told.span.size();
+      finding.fix.reset();
+      finding.notes.clear();
+    }
   }
 
   /// One line after the other: "write `print "hi"`, then `delay 2s`".

@@ -19,15 +19,29 @@ std::string digits_of(std::string_view head) {
 
 } // namespace
 
-std::string Scenery::uncalled_sub() const {
-  std::string found;
-  for (const auto& sub : subs_)
-    if (const auto uses = words_.find(sub); uses != words_.end() && uses->second == 1) {
-      if (!found.empty())
-        return {};
-      found = sub;
-    }
-  return found;
+std::size_t values_between(const Tokens& line, std::size_t open) {
+  if (open + 2 >= line.size() || !line[open].is("("))
+    return 0;
+  std::size_t values = 1;
+  int depth = 0;
+  for (auto i = open; i < line.size(); ++i) {
+    depth += line[i].is("(") ? 1 : line[i].is(")") ? -1 : 0;
+    if (depth == 0)
+      return i == open + 1 ? 0 : values;
+    values += depth == 1 && line[i].is(",") ? 1 : 0;
+  }
+  return values;
+}
+
+std::string Scenery::sub_meant(std::size_t values) const {
+  const auto only = [this](auto fits) {
+    const auto one = std::find_if(subs_.begin(), subs_.end(), fits);
+    return one != subs_.end() && std::find_if(one + 1, subs_.end(), fits) == subs_.end()
+               ? one->name
+               : std::string();
+  };
+  auto uncalled = only([&](const Sub& sub) { return words_.at(sub.name) == 1; });
+  return uncalled.empty() ? only([&](const Sub& sub) { return sub.takes == values; }) : uncalled;
 }
 
 Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {
@@ -45,7 +59,7 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
       labels_.push_back(tokens[0].text);
     if (language == Language::Structured && tokens.size() > 1 && tokens[1].is_word())
       if (const auto first = word_at(tokens, 0); first == "sub" || first == "function")
-        subs_.push_back(tokens[1].text);
+        subs_.push_back({tokens[1].text, values_between(tokens, 2)});
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;
@@ -61,7 +75,7 @@ std::string Scenery::sub_of(const Tokens& line) const {
     return {};
   const auto is_sub = [&](std::string_view name) {
     return std::any_of(subs_.begin(), subs_.end(),
-                       [&](const std::string& one) { return equal_words(one, name); });
+                       [&](const Sub& one) { return equal_words(one.name, name); });
   };
   std::string words;
   for (const auto& token : line)

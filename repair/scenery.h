@@ -18,6 +18,9 @@ namespace orb::repair {
 /// Longer lines are not looked at.
 inline constexpr std::size_t longest_line = 240;
 
+/// How many values stand between the parentheses that token `open` of a line opens; 0 without.
+std::size_t values_between(const Tokens& line, std::size_t open);
+
 /// What is around the lines of a text: names, open loops, free letters.
 class Scenery {
 public:
@@ -49,8 +52,9 @@ public:
   /// or its second (`call drive`), or all its words (`wait for shake`); empty without.
   std::string sub_of(const Tokens& line) const;
 
-  /// The only sub that no line calls; empty where there is none, or more than one.
-  std::string uncalled_sub() const;
+  /// The sub that a call with so many values can only mean, whatever it says: the only one that
+  /// nobody calls yet, or the only one that takes as many; empty without.
+  std::string sub_meant(std::size_t values) const;
 
   Surroundings around(std::uint32_t line, const SplitLine& parts) const;
 
@@ -60,6 +64,10 @@ public:
 private:
   std::string loop_above(std::uint32_t line) const;
 
+  struct Sub {
+    std::string name;
+    std::size_t takes = 0; ///< values
+  };
   struct Roll {
     std::uint32_t line = 0;
     int heading = 0;  ///< 0 where it is no number
@@ -77,7 +85,7 @@ private:
   std::vector<std::string> closers_; ///< of each line: what ends the block that it is in
   std::vector<Roll> rolls_;          ///< from the top
   std::vector<std::string> labels_;  ///< of a structured program
-  std::vector<std::string> subs_;    ///< and what it calls its subs and functions
+  std::vector<Sub> subs_;            ///< and its subs and functions
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };

@@ -158,8 +158,8 @@ private:
     if (close == std::string_view::npos || tokens.empty())
       return false;
     const auto& last = tokens.back();
-    return last.is("(") || last.is(",") || last.is("+") || last.is("=") || last.is("==") ||
-           text_[at_ + 1] == '\'' || (last.is_word() && tokens.size() <= 3);
+    return last.is("(") || last.is("~") || last.is(",") || last.is("+") || last.is("=") ||
+           last.is("==") || text_[at_ + 1] == '\'' || (last.is_word() && tokens.size() <= 3);
   }
 
   bool text(Tokens& tokens) {

@@ -48,7 +48,7 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
     return;
   if (find_colour(program_.text_of(span))) {
     add(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
-        "use only a colour after `RGB`: `RGB red`");
+        fmt::format("use only a colour after `RGB`: `RGB {}`", program_.text_of(span)));
     return;
   }
   std::vector<std::string_view> candidates;

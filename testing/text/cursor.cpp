@@ -129,15 +129,15 @@ void Cursor::fail_at(Span span, const Rule& rule, std::string message, std::stri
     diagnostics_->push_back(finding(rule, span, std::move(message), std::move(help)));
 }
 
-std::string Cursor::quoted(std::string_view what) {
+std::string Cursor::quoted() {
   if (!take('"')) {
-    fail(rules::Syntax, fmt::format("missing {}: expected text in quotes", what));
+    fail(rules::Syntax, "expected text in quotes");
     return {};
   }
   const auto end = text_.find('"', at_);
   if (end == std::string_view::npos) {
     --at_;
-    fail(rules::Syntax, fmt::format("unterminated {}", what), "add `\"` after it");
+    fail(rules::Syntax, "unterminated string", "add `\"` after it");
     return {};
   }
   const auto found = text_.substr(at_, end - at_);
@@ -166,7 +166,7 @@ std::string Cursor::file_name() {
     fail(rules::Syntax, "missing file name");
     return {};
   }
-  return peek_char() == '"' ? quoted("file name") : std::string(word());
+  return peek_char() == '"' ? quoted() : std::string(word());
 }
 
 std::optional<double> Cursor::digits() {

@@ -46,7 +46,7 @@ public:
   bool take(char wanted);
   bool take_word(std::string_view wanted);
   /// A text in quotes, without them.
-  std::string quoted(std::string_view what);
+  std::string quoted();
   /// What stands between slashes; `\/` is a slash.
   std::string slashed();
   /// A file's name: a word, or a text in quotes.

@@ -93,11 +93,11 @@ void FileReader::take(Expectation& one, Cursor::Range range) {
 void FileReader::read_print(Cursor& cursor, Expectation& one) {
   if (cursor.take('~')) {
     one.match = Match::Part;
-    one.text = cursor.quoted("part of a line");
+    one.text = cursor.quoted();
     return;
   }
   if (cursor.peek_char() != '/') {
-    one.text = cursor.quoted("line");
+    one.text = cursor.quoted();
     return;
   }
   one.match = Match::Pattern;
@@ -167,7 +167,7 @@ void FileReader::read_name(Cursor& cursor, Expectation& one, std::string_view wh
   const auto from = cursor.offset();
   if (cursor.at_end())
     return cursor.fail(rules::Syntax, fmt::format("missing {} name", what));
-  one.name.text = cursor.peek_char() == '"' ? cursor.quoted("name") : std::string(cursor.word());
+  one.name.text = cursor.peek_char() == '"' ? cursor.quoted() : std::string(cursor.word());
   one.name.span = cursor.span_from(from);
 }
 
@@ -235,7 +235,7 @@ void FileReader::read_error(Cursor& cursor, Expectation& one) {
     return;
   std::string text;
   if (cursor.peek_char() == '"')
-    text = cursor.quoted("error name");
+    text = cursor.quoted();
   else
     while (!ends())
       text += fmt::format("{}{}", text.empty() ? "" : " ", cursor.word());

@@ -43,7 +43,7 @@ void FileReader::read_line(std::uint32_t line) {
   if (cursor.at_end())
     return;
   if (prints_ && cursor.peek_char() == '"') {
-    current().expectations.back().texts.push_back(cursor.quoted("line"));
+    current().expectations.back().texts.push_back(cursor.quoted());
     return end_of_line(cursor);
   }
   prints_ = false;

@@ -87,7 +87,7 @@ void FileReader::read_test(Cursor& cursor, Span span, std::uint32_t line) {
   auto test = new_test();
   test.line = line;
   const auto from = cursor.offset();
-  test.name.text = cursor.peek_char() == '"' ? cursor.quoted("name") : std::string();
+  test.name.text = cursor.peek_char() == '"' ? cursor.quoted() : std::string();
   test.name.span = cursor.span_from(from);
   if (!cursor.failed() && trim(test.name.text).empty())
     cursor.fail_at(test.name.span.size() == 0 ? span : test.name.span, rules::Name,
