@@ -251,6 +251,15 @@ Text hex_colour(const Token& token, Language language) {
   return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
 }
 
+/// `0 to 5` for `0, 1, 2, 3, 4, 5`; nothing where the numbers do not follow each other.
+Text counted(const Tokens& list) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (i % 2 == 1 ? !list[i].is(",")
+                   : whole({list[i]}) != whole({list[0]}).value_or(-1) + static_cast<int>(i / 2))
+      return std::nullopt;
+  return list.size() > 2 ? Text(list.front().text + " to " + list.back().text) : std::nullopt;
+}
+
 /// What a function of a template works with.
 struct Holding {
   const Tokens& a; ///< the hole
@@ -398,6 +407,7 @@ constexpr auto functions = std::to_array<Function>({
                                                                    : std::nullopt;
      }},
     {"items", [](const Holding& held) { return print_items(held.a); }},
+    {"count", [](const Holding& held) { return counted(held.a); }},
     {"quoted", // not what a program sets
      [](const Holding& held) {
        return held.language() == Language::Basic && holds_name(held.a, held.around) ? std::nullopt

@@ -302,7 +302,8 @@ void ValuesPass::check_for(const ForView& loop) {
   const auto end = range_of(loop.end);
   const auto step = loop.step != nullptr ? range_of(*loop.step) : Range::only(1);
   if (step == Range::only(0))
-    findings_.add(rules::ZeroStep, loop.step->span, "the step of the loop is 0");
+    findings_.add(rules::ZeroStep, loop.step->span, "the step of the loop is 0",
+                  "write `step 1`, or `step -1` to count down");
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
     auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},

@@ -150,7 +150,8 @@ void Checker::check_for(const Statement& statement) {
   if (size(statement) >= 4 && !require_constant(item(statement, 3)))
     return;
   if (size(statement) >= 4 && value_of(item(statement, 3))->value == 0)
-    report(compiler::rules::ZeroStep, item(statement, 3).span, "the step of the loop is 0");
+    report(compiler::rules::ZeroStep, item(statement, 3).span, "the step of the loop is 0",
+           "write `step 1`, or `step -1` to count down");
   else if (size(statement) >= 3)
     check_direction(statement);
 }

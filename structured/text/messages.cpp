@@ -89,7 +89,9 @@ Diagnostic trailing(const Program& program, Span found) {
                      "write the parts side by side: `print \"x is \" x`");
   if (is_digit(before) &&
       (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
-    return malformed(program, found, "a unit directly follows its number", "write `500ms`");
+    return malformed(
+        program, found, "a unit directly follows its number",
+        fmt::format("write `{}{}`", program.text_of(word_before(program.text, found.begin)), text));
   if (equal_words(statement, "loop"))
     return malformed(program, found, "`loop` repeats forever",
                      "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
