@@ -556,6 +556,7 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
   };
   merge_tails(code, letter);
   straighten(code);
+  put_end_last(code);
   clean_jumps(code);
   fall_through_tests(code);
   ChoiceWriter(code, program, letter).run();

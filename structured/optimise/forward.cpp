@@ -14,8 +14,10 @@ namespace {
 constexpr std::uint32_t reach = 40; ///< lines that a value is followed
 constexpr std::uint16_t largest_term = 64;
 
-/// Whether a line only sets what nobody reads, or a variable to itself.
+/// Whether a line only sets what nobody reads, or a variable or an element to itself.
 bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64_t> live) {
+  if (line.kind == LineKind::SetElement)
+    return line.proven && code.terms[line.term].kind == TermKind::Element;
   if (line.kind != LineKind::Let)
     return false;
   const auto& term = code.terms[line.term];

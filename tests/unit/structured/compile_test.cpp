@@ -208,6 +208,38 @@ TEST(Lines, AnArgumentIsOneOfTwoInOneLine) {
             "1 if yaw > 180 then H = 90 else H = 225\n2 goroll H,70,1\n3 delay 700\n4 goto 1\n");
 }
 
+TEST(Lines, WhatEndsTheProgramStandsLast) {
+  // A test, whose other way comes next.
+  EXPECT_EQ(lines("loop\n  if yaw < 60 then\n    print yaw\n    end\n  end if\n"
+                  "  delay 1s\nend loop\n"),
+            "1 if yaw < 60 then goto 4\n2 delay 1000\n3 goto 1\n4 print yaw\n");
+}
+
+TEST(Lines, AnElementThatIsSetToItselfStays) {
+  EXPECT_EQ(lines("array s[2]\n"
+                  "for i = 1 to 2\n"
+                  "  s[i] = rnd(6)\n"
+                  "  x = rnd(3)\n"
+                  "  if x = 1 then\n"
+                  "    g = 0\n"
+                  "    print \"one\"\n"
+                  "  else\n"
+                  "    g = x * x\n"
+                  "    LEDC x\n"
+                  "  end if\n"
+                  "  s[i] += g\n"
+                  "  if g = 0 then\n"
+                  "    RGB red\n"
+                  "  else\n"
+                  "    RGB blue\n"
+                  "    delay 1s\n"
+                  "  end if\n"
+                  "next i\n"),
+            "1 for Y = 1 to 2\n2 Z = rnd 6\n3 X = rnd 3\n4 if X ! 1 then goto 8\n5 print "
+            "\"one\"\n6 RGB 255,0,0\n"
+            "7 goto 12\n8 LEDC X\n9 Z = Z + X * X\n10 RGB 0,0,255\n11 delay 1000\n12 next Y\n");
+}
+
 // ---- variables that somebody looks at
 
 std::string lines_keeping(std::string_view text, const std::vector<std::string>& kept) {
