@@ -79,6 +79,7 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   std::string out;
   int depth = 0;
   bool apart = true;
+  bool said = false; // a text, which makes each `+` behind it join texts
   const auto beside_text = [&](std::size_t i) {
     return (i > 0 && tokens[i - 1].is_text()) ||
            (i + 1 < tokens.size() && tokens[i + 1].is_text()) ||
@@ -105,7 +106,7 @@ std::optional<std::string> print_items(const Tokens& tokens) {
     }
     const bool joins =
         token.is("+") || token.is("&") || token.is("<<") || token.is(".") || token.is("..");
-    if (depth == 0 && (token.is(";") || (joins && beside_text(i)))) {
+    if (depth == 0 && (token.is(";") || (joins && (said || beside_text(i))))) {
       if (token.is(";") && i + 1 == tokens.size())
         out += ";";
       apart = false;
@@ -123,6 +124,7 @@ std::optional<std::string> print_items(const Tokens& tokens) {
       continue;
     }
     depth += token.is("(") ? 1 : token.is(")") ? -1 : 0;
+    said = depth == 0 && (token.is_text() || (said && !token.is(",")));
     const bool wants_gap = !apart && !token.is(",") &&
                            (token.gap || i == 0 || token.is_text() || tokens[i - 1].is_text() ||
                             out.ends_with("\x01") || tokens[i - 1].is("+"));

@@ -258,21 +258,26 @@ void Checker::check_version(Span span, std::string_view word, spec::BasicVersion
                        spec::info(target_.version).text));
 }
 
-void Checker::check_range(const Item& part, std::string_view word,
-                          const spec::Parameter& parameter) {
-  if (part.kind != ItemKind::Expression)
-    return;
-  const auto value = value_of(part);
+Diagnostic* Checker::check_range(const Item& part, std::string_view word,
+                                 const spec::Parameter& parameter) {
+  const auto value = part.kind == ItemKind::Expression ? value_of(part) : std::nullopt;
   if (!value || (value->value >= parameter.least && value->value <= parameter.greatest))
-    return;
+    return nullptr;
   const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
   auto& d = report(compiler::rules::ValueOutOfRange, part.span,
                    fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
                                parameter.greatest, value->value));
-  const bool written = program_.nodes[part.value].kind == NodeKind::Number;
-  if (const auto meant = compiler::nearest_allowed(parameter, value->value); written && meant)
-    d.fix =
-        Fix{fmt::format("write {}", *meant), {{part.span, std::to_string(*meant)}}, Safety::Unsafe};
+  const auto text = program_.text_of(part.span);
+  const bool negative = text.starts_with('-');
+  std::string meant;
+  if (const auto nearest = compiler::nearest_allowed(parameter, value->value);
+      nearest && (negative || program_.nodes[part.value].kind == NodeKind::Number))
+    meant = std::to_string(*nearest);
+  else if (negative && parameter.name != "speed" && -value->value <= parameter.greatest)
+    meant = text.substr(1);
+  if (!meant.empty())
+    d.fix = Fix{fmt::format("write {}", meant), {{part.span, meant}}, Safety::Unsafe};
+  return &d;
 }
 
 bool Checker::require_constant(const Item& part) {

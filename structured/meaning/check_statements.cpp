@@ -74,7 +74,21 @@ void Checker::check_robot(const Statement& statement) {
     return;
   }
   for (std::uint32_t n = 0; n < size(statement) && n < row.parameters().size(); ++n)
-    check_range(item(statement, n), row.word, row.parameters()[n]);
+    if (auto* const d = check_range(item(statement, n), row.word, row.parameters()[n]);
+        d != nullptr && n == 1 && statement.robot == spec::Statement::Goroll)
+      help_backwards(statement, *d);
+}
+
+/// Who writes a negative speed wants to drive back.
+void Checker::help_backwards(const Statement& statement, Diagnostic& d) {
+  constexpr std::int32_t half_turn = 180;
+  const auto heading = value_of(item(statement, 0));
+  const auto speed = value_of(item(statement, 1));
+  const Span rest{d.span.end, item(statement, size(statement) - 1).span.end};
+  if (heading && heading->value >= 0 && speed->value < 0)
+    d.help = fmt::format("write `goroll {}, {}{}` to drive back",
+                         (heading->value + half_turn) % (2 * half_turn),
+                         -std::int64_t{speed->value}, program_.text_of(rest));
 }
 
 void Checker::check_colour(const Statement& statement) {

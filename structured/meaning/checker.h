@@ -108,7 +108,10 @@ private:
 
   void check_assign(const Statement& statement);
 
-  void check_range(const Item& part, std::string_view word, const spec::Parameter& parameter);
+  void help_backwards(const Statement& statement, Diagnostic& d);
+  /// The finding, where there is one; until the next.
+  Diagnostic* check_range(const Item& part, std::string_view word,
+                          const spec::Parameter& parameter);
 
   void check_robot(const Statement& statement);
 
