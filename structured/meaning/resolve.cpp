@@ -383,6 +383,10 @@ private:
                                                                    : "it cannot be assigned to");
       if (d != nullptr && symbol.kind == SymbolKind::Constant)
         make_variable(symbol, *d);
+      if (d != nullptr && symbol.kind == SymbolKind::Sub && statement.kind == Kind::Assign &&
+          statement.operation == Statement::none_operation)
+        d->help = fmt::format("write `{}({})`", program_.text_of(node.span),
+                              program_.text_of(program_.items[statement.items_begin + 1].span));
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, "a loop counts with a variable, not an array element");
     }
