@@ -1,5 +1,7 @@
 #pragma once
 
+#include "spec/carried.h"
+
 #include <array>
 #include <chrono>
 #include <compare>
@@ -186,8 +188,14 @@ struct CommandInfo {
 inline constexpr auto api_commands = std::to_array<CommandInfo>({
 #define COMMAND(enumerator, did, cid, name, status, idempotent, major, minor, source, example,     \
                 summary)                                                                           \
-  {ApiCommand::enumerator, name,   Status::status, Idempotent::idempotent,                         \
-   {major, minor},         source, example,        summary},
+  carried(CommandInfo{ApiCommand::enumerator,                                                      \
+                      name,                                                                        \
+                      Status::status,                                                              \
+                      Idempotent::idempotent,                                                      \
+                      {major, minor},                                                              \
+                      source,                                                                      \
+                      example,                                                                     \
+                      summary}),
 #include "spec/api.def"
 });
 

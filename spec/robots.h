@@ -2,6 +2,7 @@
 
 #include "spec/ball.h"
 #include "spec/ble.h"
+#include "spec/carried.h"
 
 #include <algorithm>
 #include <array>
@@ -66,7 +67,8 @@ struct V2CommandInfo {
 
 inline constexpr auto v2_commands = std::to_array<V2CommandInfo>({
 #define V2_COMMAND(enumerator, did, cid, name, processor, robots, source, example, summary)        \
-  {V2Command::enumerator, name, V2Processor::processor, V2Robots::robots, source, example, summary},
+  carried(V2CommandInfo{V2Command::enumerator, name, V2Processor::processor, V2Robots::robots,     \
+                        source, example, summary}),
 #include "spec/robots.def"
 });
 
