@@ -24,14 +24,13 @@ struct OpInfo {
   Ends ends;
   Compiled compiled;
   std::string_view operands; ///< a letter for each of a to d, then t for a target
-  std::string_view effect;
 
   constexpr bool has_target() const { return operands.size() == 5; }
 };
 
 inline constexpr auto ops = std::to_array<OpInfo>({
 #define ORB_OP(name, ends, compiled, operands, effect)                                             \
-  {#name, Ends::ends, Compiled::compiled, operands, effect},
+  {#name, Ends::ends, Compiled::compiled, operands},
 #include "bytecode/op.def"
 });
 
