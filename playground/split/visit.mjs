@@ -61,7 +61,7 @@ function test(engine, files, name) {
   if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
 }
 
-/** What visitors do, each part as a call with an engine. `first`: the first program, mistakes, the first
+/** What visitors do, each part as a call with an engine. `first`: the first program, mistakes, half of the
  *  lessons; `lessons`: the others; `examples`: those in the structured language, of which somebody opens some. Who edits numbered programs, macros or tests, or drives through a
  *  course, loads the rest, as for a robot. `list`: the file that the page loads. */
 export function visits(list) {
@@ -80,15 +80,15 @@ export function visits(list) {
   const [lessons, examples] = JSON.parse(readFileSync(list, "utf8")).groups.map(({ items }) => items
     .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")))
     .map(tried));
-  const begun = 3; // lessons that everybody opens
+  const half = Math.ceil(lessons.length / 2);
   return {
     first(engine) {
       engine.call("version");
       for (const text of slips) edit(engine, { "robot.orb": text });
       for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
         run_all(engine, { "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
-      for (const lesson of lessons.slice(0, begun)) lesson(engine);
+      for (const lesson of lessons.slice(0, half)) lesson(engine);
     },
-    lessons: lessons.slice(begun), examples,
+    lessons: lessons.slice(half), examples,
   };
 }
