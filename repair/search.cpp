@@ -110,6 +110,12 @@ private:
       add(changed, 8);
     }
     const bool goes_on = i + 1 < line_.size() && line_[i + 1].is_word() && !line_[i + 1].gap;
+    constexpr std::string_view suffixes = "uUlLfF"; // of C, which say a number's kind
+    if (number && goes_on && line_[i + 1].text.find_first_not_of(suffixes) == std::string::npos) {
+      auto changed = line_;
+      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      add(changed, 3);
+    }
     if (number ? !goes_on : !line_[i].is_word() || line_[i].text.size() < 2)
       return;
     const auto digits = as_digits(line_[i].text + (number ? line_[i + 1].text : ""));
