@@ -135,7 +135,7 @@ void say_modes(Tokens& values) {
 
 /// `100%` becomes 255: each in its place, which a share says nothing of.
 void count_shares(Tokens& values) {
-  constexpr std::uint32_t hundred = 100;
+  constexpr std::uint32_t hundred = 100; ///< per cent
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     const auto share = parse_number<std::uint32_t>(values[i].text);
     if (!share || *share > hundred || !values[i + 1].is("%"))
