@@ -59,6 +59,7 @@ public:
       : code_(code), program_(program), identity_(identity) {}
 
   void run() {
+    count_reads();
     while (join_tests())
       ;
     join_heads();
@@ -460,6 +461,7 @@ private:
       const auto target = line.label;
       if (choose(i, none, add_branch(first))) {
         first.kind = LineKind::Nothing;
+        sense_in(i);
       } else if (choose(i, add_branch(jump(line, target)), add_branch(first))) {
         first.kind = LineKind::Nothing;
       }
@@ -470,6 +472,33 @@ private:
       if (choose(i, add_branch(jump(line, line.label)), add_branch(first)))
         first.kind = LineKind::Nothing;
     }
+  }
+
+  void count_reads() {
+    reads_.assign(code_.variables.size(), 0);
+    for (const auto& line : code_.lines)
+      each_line_read(code_, line, [&](std::uint32_t v) { ++reads_[v]; });
+  }
+
+  /// `B = abs roll` above `if A < B then A = B`: in one line a sensor is read twice at once.
+  void sense_in(std::uint32_t i) {
+    constexpr std::uint16_t largest = 2; ///< a sensor, or a function of one: as short as the line
+    if (i == 0 || code_.lines[i - 1].kind != LineKind::Let)
+      return;
+    auto& set = code_.lines[i - 1];
+    const auto& term = code_.terms[set.term];
+    const auto is_it = [&](std::uint32_t root) {
+      return code_.terms[root].kind == TermKind::Variable && code_.terms[root].left == set.variable;
+    };
+    auto& condition = code_.conditions[code_.lines[i].condition];
+    auto& branch = code_.branches[code_.lines[i].term];
+    auto& tested = is_it(condition.first.left) ? condition.first.left : condition.first.right;
+    if (term.effects != effect::senses || term.size > largest || reads_[set.variable] != 2 ||
+        code_.variables[set.variable].kept || condition.glue != Glue::None || !is_it(tested) ||
+        branch.kind != LineKind::Let || !is_it(branch.term))
+      return;
+    tested = branch.term = set.term;
+    set.kind = LineKind::Nothing;
   }
 
   static bool falls(const CodeLine& line) { return falls_through(line); }
@@ -541,6 +570,7 @@ private:
   const Identity& identity_;
   std::vector<std::uint32_t> at_;    ///< of each label: its line, while branches are folded
   std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
+  std::vector<std::uint32_t> reads_; ///< of each variable: how often it is read
 };
 
 } // namespace

@@ -208,6 +208,15 @@ TEST(Lines, AnArgumentIsOneOfTwoInOneLine) {
             "1 if yaw > 180 then H = 90 else H = 225\n2 goroll H,70,1\n3 delay 700\n4 goto 1\n");
 }
 
+TEST(Lines, ASensorIsReadTwiceInOneLine) {
+  EXPECT_EQ(
+      lines("repeat\n  t = max(abs(pitch), abs(roll))\n  LEDC t\nuntil t > 9\n"),
+      "1 B = abs pitch\n2 if B < abs roll then B = abs roll\n3 LEDC B\n4 if B < 10 then goto 1\n");
+  // What is read later is read once.
+  EXPECT_EQ(lines("a = abs(pitch)\nb = abs(roll)\nif a < b then a = b\nprint a\nprint b\n"),
+            "1 A = abs pitch\n2 B = abs roll\n3 if A < B then A = B\n4 print A\n5 print B\n");
+}
+
 TEST(Lines, WhatEndsTheProgramStandsLast) {
   // A test, whose other way comes next.
   EXPECT_EQ(lines("loop\n  if yaw < 60 then\n    print yaw\n    end\n  end if\n"
