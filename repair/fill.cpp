@@ -355,6 +355,11 @@ constexpr auto functions = std::to_array<Function>({
                   ? written_time(held.a, Assume::Milliseconds, held.language())
                   : std::nullopt;
      }},
+    {"thousandth",
+     [](const Holding& held) {
+       const auto value = whole(held.a).value_or(0);
+       return value < 1000 ? std::nullopt : Text(std::to_string(value / 1000)); // microseconds
+     }},
     {"clock", [](const Holding& held) { return clock(held.a); }},
     {"clockface", clock_face},
 
@@ -368,7 +373,11 @@ constexpr auto functions = std::to_array<Function>({
     {"speed", [](const Holding& held) { return only(whole(held.a).value_or(0) > 0, join(held.a)); }},
     {"length", [](const Holding& held) { return length(held.a); }},
     {"around", [](const Holding& held) { return around_length(held.a, held.b); }},
-    {"bearing", [](const Holding& held) { return bearing(held.a); }},
+    {"bearing", // no name of the program
+     [](const Holding& held) {
+       return held.a.size() == 1 && has(held.around.names, held.a[0].text) ? std::nullopt
+                                                                          : bearing(held.a);
+     }},
     {"compass", // a heading, no turns
      [](const Holding& held) { return only(whole(held.a).value_or(0) < full_circle, join(held.a)); }},
     {"leftward",

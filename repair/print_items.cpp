@@ -88,8 +88,8 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   };
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const auto& token = tokens[i];
-    const bool converts =
-        token.is("str") || token.is("String") || token.is("STR") || token.is("string");
+    const bool converts = token.is("str") || token.is("String") || token.is("STR") ||
+                          token.is("string") || token.is("buildString");
     if (converts && i + 1 < tokens.size() && tokens[i + 1].is("(")) {
       Tokens inner;
       int open = 0;

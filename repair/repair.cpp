@@ -114,8 +114,9 @@ bool goes_on(std::string_view line) {
   const auto tokens = split(line.substr(0, longest_line), Language::Structured).tokens;
   for (const auto& token : tokens)
     depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-  return depth > 0 || (!tokens.empty() && tokens.back().kind == Token::Kind::Sign &&
-                       !tokens.back().is(")") && !tokens.back().is("{") && !tokens.back().is(";"));
+  return depth > 0 ||
+         (!tokens.empty() && tokens.back().kind == Token::Kind::Sign && !tokens.back().is(")") &&
+          !tokens.back().is("]") && !tokens.back().is("{") && !tokens.back().is(";"));
 }
 
 /// Offers lines for the findings of one text.

@@ -102,6 +102,13 @@ private:
       add(changed, 3);
     }
     const bool number = line_[i].is_number();
+    if (i > 0 && (line_[i].is("O") || line_[i].is("o") || line_[i].is("l")) &&
+        language_ != Language::Basic && !is_known(line_[i].text)) {
+      auto changed = line_;
+      changed[i].kind = Token::Kind::Number;
+      changed[i].text = as_digits(line_[i].text);
+      add(changed, 6);
+    }
     if (const auto point = line_[i].text.find('.');
         number && point != std::string::npos &&
         line_[i].text.find_first_not_of('0', point + 1) == std::string::npos) {
@@ -118,14 +125,22 @@ private:
     }
     if (number ? !goes_on : !line_[i].is_word() || line_[i].text.size() < 2)
       return;
-    const auto digits = as_digits(line_[i].text + (number ? line_[i + 1].text : ""));
+    auto written = line_[i].text + (number ? line_[i + 1].text : "");
+    std::string unit; // `7O0ms`
+    if (const auto end = written.find_last_of("0123456789oOIl") + 1;
+        end < written.size() && language_ != Language::Basic &&
+        milliseconds_of(std::string_view(written).substr(end)) > 0) {
+      unit = written.substr(end);
+      written.resize(end);
+    }
+    const auto digits = as_digits(written);
     const auto& letters = line_[i].text;
     const bool has_digit = std::any_of(letters.begin(), letters.end(), is_digit);
     if (!has_digit || !std::all_of(digits.begin(), digits.end(), is_digit))
       return;
     auto changed = line_;
     changed[i].kind = Token::Kind::Number;
-    changed[i].text = digits;
+    changed[i].text = digits + unit;
     if (number)
       changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     add(changed, 3);
