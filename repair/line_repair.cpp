@@ -362,8 +362,9 @@ void LineRepair::own_call(const std::string& statement) {
 /// `trazo(90)` where nobody calls the only `stroke` yet, or only `stroke` takes one value.
 void LineRepair::own_sub() {
   const auto& tokens = parts_.tokens;
-  if (meant_.empty() || tokens.size() < 3 || !tokens[0].is_word() || !tokens[1].is("(") ||
-      !tokens.back().is(")") || !is_foreign(tokens[0].text) ||
+  const bool calls =
+      tokens.size() == 1 || (tokens.size() > 2 && tokens[1].is("(") && tokens.back().is(")"));
+  if (meant_.empty() || !calls || !tokens[0].is_word() || !is_foreign(tokens[0].text) ||
       is_known_word(tokens[0].text, Where::Line))
     return;
   auto called = tokens;

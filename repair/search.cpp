@@ -87,63 +87,67 @@ private:
       }
   }
 
-  /// `l00` and `2O0`: letters that look like digits.
+  void number_instead(std::size_t i, std::string text, std::size_t tokens, int cost) {
+    auto changed = line_;
+    changed[i].kind = Token::Kind::Number;
+    changed[i].text = std::move(text);
+    const auto next = changed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    changed.erase(next, next + static_cast<std::ptrdiff_t>(tokens) - 1);
+    add(changed, cost);
+  }
+
   void near_number(std::size_t i) {
+    const auto& text = line_[i].text;
+    const bool number = line_[i].is_number();
+    const bool goes_on = i + 1 < line_.size() && line_[i + 1].is_word() && !line_[i + 1].gap;
+    if (line_[i].is_word() && text.size() > 1 && to_lower(text[0]) == 'x' &&
+        is_count(std::string_view(text).substr(1)))
+      number_instead(i, text.substr(1), 1, 3); // `x2`: twice
+    if (const auto point = text.find('.');
+        number && point != std::string::npos &&
+        text.find_first_not_of('0', point + 1) == std::string::npos)
+      number_instead(i, text.substr(0, point), 1, 8); // `3.0`, which of times is in seconds
+    if (number && goes_on)
+      wrong_ending(i);
+    letters_for_digits(i, number && goes_on);
+  }
+
+  /// `1ss`, `20mss`, and what C writes behind a number: `1000UL`.
+  void wrong_ending(std::size_t i) {
+    const auto& ending = line_[i + 1].text;
+    if (ending.find_first_not_of("uUlLfF") == std::string::npos)
+      number_instead(i, line_[i].text, 2, 3);
+    auto unit = ending;
+    while (unit.size() > 1 && milliseconds_of(unit) == 0)
+      unit.pop_back();
+    if (language_ != Language::Basic && milliseconds_of(unit) > 0)
+      number_instead(i, line_[i].text + unit, 2, 6);
+  }
+
+  /// `l00`, `2O0` and `7O0ms`: letters that look like digits; `O` alone.
+  void letters_for_digits(std::size_t i, bool goes_on) {
     const auto as_digits = [](std::string text) {
       for (auto& c : text)
         c = c == 'l' || c == 'I' ? '1' : c == 'O' || c == 'o' ? '0' : c;
       return text;
     };
-    if (line_[i].is_word() && line_[i].text.size() > 1 && to_lower(line_[i].text[0]) == 'x' &&
-        is_count(std::string_view(line_[i].text).substr(1))) {
-      auto changed = line_; // `x2`: twice
-      changed[i].kind = Token::Kind::Number;
-      changed[i].text.erase(0, 1);
-      add(changed, 3);
-    }
-    const bool number = line_[i].is_number();
-    if (i > 0 && (line_[i].is("O") || line_[i].is("o") || line_[i].is("l")) &&
-        language_ != Language::Basic && !is_known(line_[i].text)) {
-      auto changed = line_;
-      changed[i].kind = Token::Kind::Number;
-      changed[i].text = as_digits(line_[i].text);
-      add(changed, 6);
-    }
-    if (const auto point = line_[i].text.find('.');
-        number && point != std::string::npos &&
-        line_[i].text.find_first_not_of('0', point + 1) == std::string::npos) {
-      auto changed = line_; // `3.0`, which of times is in seconds
-      changed[i].text.resize(point);
-      add(changed, 8);
-    }
-    const bool goes_on = i + 1 < line_.size() && line_[i + 1].is_word() && !line_[i + 1].gap;
-    constexpr std::string_view suffixes = "uUlLfF"; // of C, which say a number's kind
-    if (number && goes_on && line_[i + 1].text.find_first_not_of(suffixes) == std::string::npos) {
-      auto changed = line_;
-      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-      add(changed, 3);
-    }
-    if (number ? !goes_on : !line_[i].is_word() || line_[i].text.size() < 2)
+    const auto& text = line_[i].text;
+    const bool units = language_ != Language::Basic;
+    if (i > 0 && units && (text == "O" || text == "o" || text == "l") && !is_known(text))
+      number_instead(i, as_digits(text), 1, 6);
+    if (line_[i].is_number() ? !goes_on : !line_[i].is_word() || text.size() < 2)
       return;
-    auto written = line_[i].text + (number ? line_[i + 1].text : "");
-    std::string unit; // `7O0ms`
+    auto written = text + (goes_on ? line_[i + 1].text : "");
+    std::string unit;
     if (const auto end = written.find_last_of("0123456789oOIl") + 1;
-        end < written.size() && language_ != Language::Basic &&
-        milliseconds_of(std::string_view(written).substr(end)) > 0) {
+        units && milliseconds_of(std::string_view(written).substr(end)) > 0) {
       unit = written.substr(end);
       written.resize(end);
     }
     const auto digits = as_digits(written);
-    const auto& letters = line_[i].text;
-    const bool has_digit = std::any_of(letters.begin(), letters.end(), is_digit);
-    if (!has_digit || !std::all_of(digits.begin(), digits.end(), is_digit))
-      return;
-    auto changed = line_;
-    changed[i].kind = Token::Kind::Number;
-    changed[i].text = digits + unit;
-    if (number)
-      changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    add(changed, 3);
+    if (std::any_of(text.begin(), text.end(), is_digit) &&
+        std::all_of(digits.begin(), digits.end(), is_digit))
+      number_instead(i, digits + unit, goes_on ? 2 : 1, 3);
   }
 
   /// `"7"` and `"500ms"` where a value stands.

@@ -275,6 +275,11 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
     meant = std::to_string(*nearest);
   else if (negative && parameter.name != "speed" && -value->value <= parameter.greatest)
     meant = text.substr(1);
+  // So many seconds are milliseconds.
+  constexpr std::int32_t second = 1000;
+  if (meant.empty() && text.ends_with('s') && value->value / second <= parameter.greatest &&
+      text == fmt::format("{}s", value->value / second))
+    meant = fmt::format("{}ms", value->value / second);
   if (!meant.empty())
     d.fix = Fix{fmt::format("write {}", meant), {{part.span, meant}}, Safety::Unsafe};
   return &d;
