@@ -590,7 +590,7 @@ private:
         continue;
       finding = told;
       finding.span.begin = source_.line_start(at) + column;
-      finding.span.end = finding.span.begin + told.span.size();
+      finding.span.end = std::min(finding.span.begin + told.span.size(), source_.line_span(at).end);
       finding.fix.reset();
       finding.notes.clear();
     }

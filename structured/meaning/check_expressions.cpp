@@ -268,12 +268,14 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
                    fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
                                parameter.greatest, value->value));
   const auto text = program_.text_of(part.span);
-  const bool negative = text.starts_with('-');
+  const bool negative = // a number, no sum
+      text.starts_with('-') && text.find_first_of(" \t+-*/%(", 1) == std::string_view::npos;
   std::string meant;
   if (const auto nearest = compiler::nearest_allowed(parameter, value->value);
       nearest && (negative || program_.nodes[part.value].kind == NodeKind::Number))
     meant = std::to_string(*nearest);
-  else if (negative && parameter.name != "speed" && -value->value <= parameter.greatest)
+  else if (negative && parameter.name != "speed" &&
+           -std::int64_t{value->value} <= parameter.greatest)
     meant = text.substr(1);
   // So many seconds are milliseconds.
   constexpr std::int32_t second = 1000;

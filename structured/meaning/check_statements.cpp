@@ -81,14 +81,15 @@ void Checker::check_robot(const Statement& statement) {
 
 /// Who writes a negative speed wants to drive back.
 void Checker::help_backwards(const Statement& statement, Diagnostic& d) {
-  const auto turn = spec::info(statement.robot).parameters()[0].greatest + 1;
+  const auto parameters = spec::info(statement.robot).parameters();
+  const auto turn = parameters[0].greatest + 1;
   const auto heading = value_of(item(statement, 0));
-  const auto speed = value_of(item(statement, 1));
+  const auto speed = -std::int64_t{value_of(item(statement, 1))->value};
   const Span rest{d.span.end, item(statement, size(statement) - 1).span.end};
-  if (heading && heading->value >= 0 && speed->value < 0)
-    d.help =
-        fmt::format("write `goroll {}, {}{}` to drive back", (heading->value + turn / 2) % turn,
-                    -std::int64_t{speed->value}, program_.text_of(rest));
+  if (heading && heading->value >= 0 && heading->value < turn && speed > 0 &&
+      speed <= parameters[1].greatest)
+    d.help = fmt::format("write `goroll {}, {}{}` to drive back",
+                         (heading->value + turn / 2) % turn, speed, program_.text_of(rest));
 }
 
 void Checker::check_colour(const Statement& statement) {
