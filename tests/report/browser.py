@@ -24,6 +24,10 @@ def find():
     return None
 
 
+class OnItsWay(AssertionError):
+    """The page was asked while another one took its place."""
+
+
 class Page:
     def __init__(self, browser, session):
         self._browser = browser
@@ -70,10 +74,16 @@ class Page:
     def wait(self, expression, seconds=20):
         """Until the page says so; a page that never does is a failure."""
         limit = time.monotonic() + seconds
-        while not self.evaluate(expression):
+        while not self._is_true(expression):
             if time.monotonic() > limit:
                 raise AssertionError(f"never became true: {expression}")
             self._browser.listen(0.02)
+
+    def _is_true(self, expression):
+        try:
+            return self.evaluate(expression)
+        except OnItsWay:
+            return False
 
     def key(self, key, modifiers=0):
         text = {"text": key} if len(key) == 1 else {}
@@ -186,5 +196,6 @@ class Browser:
             self.listen(0.1)
         answer = self._answers.pop(number)
         if "error" in answer:
-            raise AssertionError(f"{method}: {answer['error']}")
+            kind = OnItsWay if "navigated" in answer["error"]["message"] else AssertionError
+            raise kind(f"{method}: {answer['error']}")
         return answer["result"]
