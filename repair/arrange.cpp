@@ -406,7 +406,13 @@ private:
       bound_[at] = &value;
     }
     place_large();
-    const auto tells = [](const Given& value) { return value.number.measure != Measure::None; };
+    const auto plain =
+        std::count_if(operands_.begin(), operands_.end(),
+                      [](const Operand& operand) { return operand.counts == Counts::Plain; });
+    const auto tells = [plain](const Given& value) { // of which operand it is
+      return value.number.measure != Measure::None &&
+             (value.number.measure != Measure::Percent || plain == 1);
+    };
     for (const bool told : {true, false})
       for (const auto& value : given_) {
         if (!value.name.empty() || tells(value) != told || is_bound(value))

@@ -133,18 +133,6 @@ void say_modes(Tokens& values) {
     values = said;
 }
 
-/// `100%` becomes 255: each in its place, which a share says nothing of.
-void count_shares(Tokens& values) {
-  constexpr std::uint32_t hundred = 100; ///< per cent
-  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-    const auto share = parse_number<std::uint32_t>(values[i].text);
-    if (!share || *share > hundred || !values[i + 1].is("%"))
-      continue;
-    values[i].text = std::to_string((*share * UINT8_MAX + hundred / 2) / hundred);
-    values.erase(values.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-  }
-}
-
 /// Letters that names do not have, and what stands for them.
 constexpr auto letters = std::to_array<std::pair<std::string_view, std::string_view>>(
     {{"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"}, {"ß", "ss"},
@@ -197,8 +185,6 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
         token = Token{Token::Kind::Word, plain_name({token}), token.gap};
   if (info.command == spec::MacroCommand::Roll) // a longer delay makes it a roll2
     operands.back().most = UINT16_MAX;
-  if (operands.size() > 1)
-    count_shares(values);
   const auto arranged = repair::arrange(values, operands, elsewhere.constants);
   if (!arranged)
     return {};
