@@ -115,6 +115,11 @@ void each_callee(const Code& code, const CodeLine& line, Visit visit) {
       visit(code.parts[i].text.begin);
 }
 
+/// Whether the program ends with a line.
+inline bool ends_program(const CodeLine& line) {
+  return line.kind == LineKind::Do && line.robot == spec::Statement::End;
+}
+
 /// Whether the line below can be next.
 inline bool falls_through(const CodeLine& line) {
   if (line.kind == LineKind::Do)

@@ -59,7 +59,7 @@ public:
       : code_(code), program_(program), identity_(identity) {}
 
   void run() {
-    count_reads();
+    reads_ = reads_of(code_);
     while (join_tests())
       ;
     join_heads();
@@ -474,12 +474,6 @@ private:
     }
   }
 
-  void count_reads() {
-    reads_.assign(code_.variables.size(), 0);
-    for (const auto& line : code_.lines)
-      each_line_read(code_, line, [&](std::uint32_t v) { ++reads_[v]; });
-  }
-
   /// `B = abs roll` above `if A < B then A = B`: in one line a sensor is read twice at once.
   void sense_in(std::uint32_t i) {
     constexpr std::uint16_t largest = 2; ///< a sensor, or a function of one: as short as the line
@@ -538,9 +532,7 @@ private:
       if (target == code_.lines.size())
         continue;
       const auto& last = code_.lines[target];
-      const bool ends = last.kind == LineKind::Return ||
-                        (last.kind == LineKind::Do && last.robot == spec::Statement::End);
-      if (!ends)
+      if (last.kind != LineKind::Return && !ends_program(last))
         continue;
       const auto origin = line.origin;
       line = last;

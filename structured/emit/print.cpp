@@ -2,6 +2,7 @@
 
 #include "bytecode/arithmetic.h"
 #include "spec/limits.h"
+#include "structured/analyse/flow.h"
 
 #include <algorithm>
 #include <charconv>
@@ -50,8 +51,7 @@ private:
     numbers_.assign(code_.labels, 0);
     size_ = static_cast<std::uint32_t>(code_.lines.size());
     // An `end` at the very end that nothing leads to says nothing.
-    if (size_ > 1 && code_.lines[size_ - 1].kind == LineKind::Do &&
-        code_.lines[size_ - 1].robot == spec::Statement::End &&
+    if (size_ > 1 && ends_program(code_.lines[size_ - 1]) &&
         code_.lines[size_ - 2].kind != LineKind::Label)
       --size_;
     std::uint32_t number = numbering_.start;

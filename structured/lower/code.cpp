@@ -304,4 +304,11 @@ Comparison mirrored(Comparison comparison) {
   return comparison;
 }
 
+std::vector<std::uint32_t> reads_of(const Code& code) {
+  std::vector<std::uint32_t> reads(code.variables.size(), 0);
+  for (const auto& line : code.lines)
+    each_line_read(code, line, [&](std::uint32_t v) { ++reads[v]; });
+  return reads;
+}
+
 } // namespace orb::structured

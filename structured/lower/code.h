@@ -339,4 +339,7 @@ void each_line_read(const Code& code, const CodeLine& line, Visit visit) {
         visit(index_variable);
 }
 
+/// Of each variable: how often it is read.
+std::vector<std::uint32_t> reads_of(const Code& code);
+
 } // namespace orb::structured

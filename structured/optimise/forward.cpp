@@ -39,7 +39,7 @@ public:
       liveness_ = read_liveness(code_, flow_);
     }
     go_back();
-    count_reads();
+    reads_ = reads_of(code_);
     const auto size = static_cast<std::uint32_t>(code_.lines.size());
     for (std::uint32_t i = 0; i < size; ++i)
       if (code_.lines[i].kind == LineKind::Let)
@@ -82,12 +82,6 @@ private:
         step_back(code_, flow_, liveness_, line, live);
       }
     }
-  }
-
-  void count_reads() {
-    reads_.assign(code_.variables.size(), 0);
-    for (const auto& line : code_.lines)
-      each_line_read(code_, line, [&](std::uint32_t v) { ++reads_[v]; });
   }
 
   bool live_at(std::uint32_t label, std::uint32_t variable) const {
@@ -365,7 +359,7 @@ private:
   /// Reads the original all through the program where a copy, once made, is never another value
   /// while it is needed; computes a sum where it is read, if that is one place.
   bool copy_everywhere() {
-    count_reads();
+    reads_ = reads_of(code_);
     writes_.assign(code_.variables.size(), {});
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
       for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i)

@@ -148,24 +148,22 @@ public:
 
   void run() {
     tidy(code_);
-    if (lines_.empty() || falls_through(lines_.back()) || ends(lines_.back()))
+    if (lines_.empty() || falls_through(lines_.back()) || ends_program(lines_.back()))
       return;
     loops_ = loops_of_lines(code_);
     at_ = lines_of_labels(code_);
     for (auto end = static_cast<std::uint32_t>(lines_.size()); end-- > 0;) {
+      if (!ends_program(lines_[end]) || !outside(end))
+        continue;
       auto begin = end;
       while (begin > 0 && falls_through(lines_[begin - 1]))
         --begin;
-      if (ends(lines_[end]) && outside(end) &&
-          (from_jump(begin, end) || all(begin, end) || from_test(begin, end)))
+      if (from_jump(begin, end) || all(begin, end) || from_test(begin, end))
         return;
     }
   }
 
 private:
-  static bool ends(const CodeLine& line) {
-    return line.kind == LineKind::Do && line.robot == spec::Statement::End;
-  }
   bool outside(std::uint32_t i) const { return loops_[i] == none; }
 
   bool move(std::uint32_t first, std::uint32_t last) {
@@ -190,7 +188,7 @@ private:
       return false;
     const auto& above = lines_[begin - 1];
     const auto over = above.kind == LineKind::Goto ? at_[above.label] : none;
-    return (over == none || over < begin || over > end) && move(begin, end);
+    return (over < begin || over > end) && move(begin, end);
   }
 
   /// Where a test leads past them: the other way comes next.

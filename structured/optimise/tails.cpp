@@ -91,7 +91,7 @@ private:
         ends[{line.routine, line.label}].push_back(i);
       else if (line.kind == LineKind::Return)
         ends[{line.routine, returns}].push_back(i);
-      else if (line.kind == LineKind::Do && line.robot == spec::Statement::End)
+      else if (ends_program(line))
         ends[{line.routine, stops}].push_back(i);
       else if (line.kind == LineKind::Label && i > 0 && falls_through(code_.lines[i - 1]) &&
                code_.lines[i - 1].kind != LineKind::Label)
