@@ -551,7 +551,8 @@ private:
     const Source then({}, apply_fixes(source_.text(), offered).text);
     const auto after = judge_.check(then.text());
     for (const auto& one : after)
-      replace_end(then, one);
+      if (is_error(one))
+        replace_end(then, one);
     if (std::any_of(after.begin(), after.end(), [&](const Diagnostic& one) {
           return is_error(one) &&
                  std::none_of(findings_.begin(), findings_.end(), [&](const auto& was) {
@@ -581,12 +582,13 @@ private:
   /// What the end of a block is told of a program whose other lines are mended takes the place of
   /// what it was told without them: of a `next` that it has no loop.
   void replace_end(const Source& then, const Diagnostic& told) {
-    const auto line = then.line(then.position(told.span.begin).line);
-    const auto column = told.span.begin - then.line_start(then.position(told.span.begin).line);
+    const auto n = then.position(told.span.begin).line;
+    const auto line = then.line(n);
+    const auto column = told.span.begin - then.line_start(n);
     for (auto& finding : findings_) {
       const auto at = line_of(finding);
       if (finding.rule->id != "block-end" || mended_.contains(&finding) ||
-          source_.line(at) != line || !is_error(told) || told.rule == finding.rule)
+          source_.line(at) != line || told.rule == finding.rule)
         continue;
       finding = told;
       finding.span.begin = source_.line_start(at) + column;

@@ -87,6 +87,7 @@ private:
       }
   }
 
+  /// Puts a number in place of so many tokens.
   void number_instead(std::size_t i, std::string text, std::size_t tokens, int cost) {
     auto changed = line_;
     changed[i].kind = Token::Kind::Number;
@@ -96,6 +97,7 @@ private:
     add(changed, cost);
   }
 
+  /// What may be a number that is written wrongly.
   void near_number(std::size_t i) {
     const auto& text = line_[i].text;
     const bool number = line_[i].is_number();

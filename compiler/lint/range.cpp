@@ -176,6 +176,16 @@ std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, st
   return std::clamp(value, parameter.least, parameter.greatest);
 }
 
+std::optional<std::int32_t> heading_back(std::int64_t heading, std::int64_t speed) {
+  const auto parameters = spec::info(spec::Statement::Goroll).parameters();
+  const auto& headings = parameters[0];
+  if (heading < headings.least || heading > headings.greatest || speed >= 0 ||
+      -speed > parameters[1].greatest)
+    return std::nullopt;
+  const auto turn = std::int64_t{headings.greatest} + 1;
+  return static_cast<std::int32_t>((heading + turn / 2) % turn);
+}
+
 Range widen(std::span<const std::int32_t> landmarks, Range before, Range now) {
   if (now.lo < before.lo)
     now.lo = *std::prev(std::upper_bound(landmarks.begin(), landmarks.end(), now.lo));

@@ -52,6 +52,10 @@ std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Ran
 /// one turn, the nearest brightness or speed; nothing where that is not clear.
 std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value);
 
+/// The heading to drive in instead, for a speed below 0: who writes that wants to drive back.
+/// Nothing where one of them is too far out.
+std::optional<std::int32_t> heading_back(std::int64_t heading, std::int64_t speed);
+
 /// `now`, which grows: on to the next of these ascending landmarks, so that it grows a few times
 /// only. They begin and end with the least and the greatest number.
 Range widen(std::span<const std::int32_t> landmarks, Range before, Range now);

@@ -51,6 +51,11 @@ struct Said {
   std::string help;
 };
 
+/// Of a `for` that never moves on.
+inline Said step_of_zero() {
+  return {"the step of the loop is 0", "write `step 1`, or `step -1` to count down"};
+}
+
 /// Of two comparisons with one answer, and what was likely meant.
 inline Said one_answer(std::string_view test, bool answer, std::string_view meant) {
   return {fmt::format("`{}` is {} true", test, answer ? "always" : "never"),

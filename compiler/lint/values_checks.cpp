@@ -1,3 +1,4 @@
+#include "compiler/lint/sums.h"
 #include "compiler/lint/values_pass.h"
 
 namespace orb::compiler {
@@ -226,11 +227,12 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
   const auto parameters = spec::info(spec::Statement::Goroll).parameters();
   const auto heading = range_of(arguments[0]);
   const auto speed = range_of(arguments[1]);
-  if (!heading.constant() || heading.misses(parameters[0].least, parameters[0].greatest) ||
-      !speed.constant() || speed.lo >= 0 || speed.lo < -parameters[1].greatest)
+  const auto back =
+      heading.constant() && speed.constant() ? heading_back(heading.lo, speed.lo) : std::nullopt;
+  if (!back)
     return false;
   const auto line =
-      fmt::format("goroll {},{}{}", (heading.lo + full_turn / 2) % full_turn, -speed.lo,
+      fmt::format("goroll {},{}{}", *back, -speed.lo,
                   program_.text_of({arguments[1].span.end, arguments.back().span.end}));
   auto& d = findings_.add(rules::ValueOutOfRange, arguments[1].span,
                           fmt::format("`goroll` takes speed {} to {}, found {}",
@@ -302,8 +304,7 @@ void ValuesPass::check_for(const ForView& loop) {
   const auto end = range_of(loop.end);
   const auto step = loop.step != nullptr ? range_of(*loop.step) : Range::only(1);
   if (step == Range::only(0))
-    findings_.add(rules::ZeroStep, loop.step->span, "the step of the loop is 0",
-                  "write `step 1`, or `step -1` to count down");
+    findings_.add(rules::ZeroStep, loop.step->span, step_of_zero().message, step_of_zero().help);
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
     auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},

@@ -79,17 +79,13 @@ void Checker::check_robot(const Statement& statement) {
       help_backwards(statement, *d);
 }
 
-/// Who writes a negative speed wants to drive back.
 void Checker::help_backwards(const Statement& statement, Diagnostic& d) {
-  const auto parameters = spec::info(statement.robot).parameters();
-  const auto turn = parameters[0].greatest + 1;
   const auto heading = value_of(item(statement, 0));
-  const auto speed = -std::int64_t{value_of(item(statement, 1))->value};
+  const auto speed = std::int64_t{value_of(item(statement, 1))->value};
   const Span rest{d.span.end, item(statement, size(statement) - 1).span.end};
-  if (heading && heading->value >= 0 && heading->value < turn && speed > 0 &&
-      speed <= parameters[1].greatest)
-    d.help = fmt::format("write `goroll {}, {}{}` to drive back",
-                         (heading->value + turn / 2) % turn, speed, program_.text_of(rest));
+  if (const auto back = heading ? compiler::heading_back(heading->value, speed) : std::nullopt)
+    d.help =
+        fmt::format("write `goroll {}, {}{}` to drive back", *back, -speed, program_.text_of(rest));
 }
 
 void Checker::check_colour(const Statement& statement) {
@@ -165,8 +161,7 @@ void Checker::check_for(const Statement& statement) {
   if (size(statement) >= 4 && !require_constant(item(statement, 3)))
     return;
   if (size(statement) >= 4 && value_of(item(statement, 3))->value == 0)
-    report(compiler::rules::ZeroStep, item(statement, 3).span, "the step of the loop is 0",
-           "write `step 1`, or `step -1` to count down");
+    report(compiler::rules::ZeroStep, item(statement, 3).span, compiler::step_of_zero());
   else if (size(statement) >= 3)
     check_direction(statement);
 }
