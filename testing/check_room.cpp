@@ -13,7 +13,7 @@ void check_room(SuiteFile& file, structured::Files& files) {
   if (!balls.empty() && file.file.program)
     findings.push_back(finding(rules::Place, file.file.program->span,
                                "a room cannot have a `program` besides those of its balls",
-                               "leave out `program` or the balls"));
+                               "omit `program` or the balls"));
   std::vector<run::RoomBall> placed;
   for (const auto& ball : balls) {
     auto& one = placed.emplace_back();

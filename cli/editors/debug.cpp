@@ -97,8 +97,8 @@ tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
   if (!launch.test_name.empty() && launch.test.empty())
     return refuse("`--only` needs `--test`: it names a test in that file");
   if (!launch.test.empty() && (!launch.course.empty() || !launch.stimuli.empty()))
-    return refuse("`--test` brings its own course and stimuli; leave `--course` and `--stimulus` "
-                  "out");
+    return refuse("`--test` brings its own course and stimuli; omit `--course` and "
+                  "`--stimulus`");
   if (!options.ball.empty() && !options.port.port.empty())
     return refuse("`--ball` says how a virtual ball drives; omit it, or omit `--port`");
   if (!options.ball.empty()) {

@@ -43,7 +43,7 @@ tl::expected<run::Profile, Failure> read_profile(const std::string& name,
         Failure{ExitCode::BadInput, fmt::format("{}: {}", *file, profile.error())});
   if (!robot.empty() && spec::find_robot(robot)->robot != profile->robot)
     return tl::unexpected(
-        Failure{ExitCode::Usage, fmt::format("the profile `{}` is for a {}; leave out `--robot {}`",
+        Failure{ExitCode::Usage, fmt::format("the profile `{}` is for a {}; omit `--robot {}`",
                                              name, spec::info(profile->robot).title, robot)});
   return *profile;
 }

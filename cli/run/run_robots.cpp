@@ -41,7 +41,7 @@ tl::expected<void, Failure> check_for_several(const Context& context, const RunO
 std::optional<std::string> misfit(const RunOptions& options, const Member& robot) {
   if (!robot.robot || options.robot.empty() || spec::info(*robot.robot).name == options.robot)
     return std::nullopt;
-  return fmt::format("is a {}, not a {}; leave out `--robot {}`", spec::info(*robot.robot).title,
+  return fmt::format("is a {}, not a {}; omit `--robot {}`", spec::info(*robot.robot).title,
                      spec::find_robot(options.robot)->title, options.robot);
 }
 
