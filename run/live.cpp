@@ -84,7 +84,7 @@ Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
 std::string waits_for(Reason reason, std::span<const Input> inputs, const Options& options,
                       const vm::Ball& ball) {
   if (reason == Reason::Input)
-    return fmt::format("a number in {}", first_with_program(inputs)->program->where(
+    return fmt::format("a number at {}", first_with_program(inputs)->program->where(
                                              static_cast<std::uint32_t>(ball.machine().line())));
   const auto found = reason == Reason::TimeLimit ? want(inputs, options) : std::nullopt;
   return found ? std::string(found->what) : std::string();

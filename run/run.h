@@ -161,7 +161,7 @@ struct Ending {
   std::string aborted; ///< how a macro aborted by itself; empty where none did
   Sought seen = Sought::Nothing;
   Sight sight;
-  std::string waits_for;             ///< `a number in line 20`; empty where it waits for nothing
+  std::string waits_for;             ///< `a number at line 20`; empty where it waits for nothing
   std::optional<bool> robot_stopped; ///< the robot elsewhere has acknowledged the stop at the end
   std::string_view only_interpreted; ///< why there was no machine code though it was wanted
   std::vector<vm::NativeCode::Piece> machine_code; ///< where it was, for profilers

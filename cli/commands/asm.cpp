@@ -44,95 +44,110 @@ bool report(const Context& context, const Source& source, assembler::Assembly& a
   return fatal;
 }
 
-ExitCode write_text(const Context& context, const std::string& path, const std::string& text) {
-  if (path.empty()) {
-    print_out(text);
-    return ExitCode::Done;
-  }
-  const auto written = disk::write(path, as_bytes(text));
-  if (written)
-    return ExitCode::Done;
-  print_error(context, written.error().message);
-  return ExitCode::File;
+bool to_folder(const AsmOptions& options) {
+  return !to_stdout(options) &&
+         (options.out.ends_with('/') || fs::is_directory(disk::as_path(options.out)));
 }
 
-/// Writes into the folder OUT a file for each macro.
-ExitCode write_folder(const Context& context, const std::string& out, std::string_view ending,
-                      const std::vector<Written>& macros) {
-  std::error_code error;
-  fs::create_directories(disk::as_path(out), error);
-  if (error) {
-    print_error(context, fmt::format("cannot create {}: {}", out, error.message()));
-    return ExitCode::File;
-  }
-  for (const auto& macro : macros) {
-    const auto path = disk::as_path(out) / disk::as_path(fmt::format("{}{}", macro.name, ending));
-    const auto exit = write_text(context, path.generic_string(), macro.text);
-    if (exit != ExitCode::Done)
-      return exit;
-    print_note(context, macro.size);
-  }
-  return ExitCode::Done;
-}
-
-/// Writes the macros in their format: into a folder, or the only one into a file or to stdout.
-ExitCode write_macros(const Context& context, const AsmOptions& options,
-                      const assembler::Format& format, const std::vector<Written>& macros) {
-  if (!to_stdout(options) &&
-      (options.out.ends_with('/') || fs::is_directory(disk::as_path(options.out))))
-    return write_folder(context, options.out, format.endings.substr(0, format.endings.find(' ')),
-                        macros);
-  if (macros.size() > 1) {
-    print_error(context,
-                fmt::format("{} holds {} macros; pick one with `--macro {}`, or name a folder: "
-                            "`-o DIR/`",
-                            disk::display_name(options.file), macros.size(), macros[0].name));
-    return ExitCode::Usage;
-  }
-  if (to_stdout(options) && format.is_binary && is_terminal(Stream::Out)) {
-    print_error(context, "binary is not written to a terminal; add `-o FILE.sphero`, "
-                         "`--format hex` or `--listing`");
-    return ExitCode::Usage;
-  }
-  const auto exit = write_text(context, to_stdout(options) ? "" : options.out, macros[0].text);
-  if (exit == ExitCode::Done)
-    print_note(context, macros[0].size);
-  return exit;
-}
-
-ExitCode write_listing(const Context& context, const AsmOptions& options,
-                       const std::vector<Written>& macros) {
+/// A file to write; standard output where it has no path.
+struct Output {
+  std::string path;
   std::string text;
+  std::string note; ///< what to say once it is written
+};
+
+using Outputs = tl::expected<std::vector<Output>, Failure>;
+
+Outputs misuse(std::string message) {
+  return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
+}
+
+/// A file for each macro in the folder OUT.
+std::vector<Output> in_folder(const std::string& out, std::string_view ending,
+                              const std::vector<Written>& macros) {
+  std::vector<Output> outputs;
+  for (const auto& [name, text, size] : macros) {
+    const auto path = disk::as_path(out) / disk::as_path(fmt::format("{}{}", name, ending));
+    outputs.push_back({path.generic_string(), text, size});
+  }
+  return outputs;
+}
+
+/// Where the macros go in their format: into a folder, or the only one into a file or to stdout.
+Outputs outputs_of(const AsmOptions& options, const assembler::Format& format,
+                   const std::vector<Written>& macros) {
+  if (to_folder(options))
+    return in_folder(options.out, format.endings.substr(0, format.endings.find(' ')), macros);
+  if (macros.size() > 1)
+    return misuse(fmt::format("{} holds {} macros; pick one with `--macro {}`, or name a folder: "
+                              "`-o DIR/`",
+                              disk::display_name(options.file), macros.size(), macros[0].name));
+  if (to_stdout(options) && format.is_binary && is_terminal(Stream::Out))
+    return misuse("binary is not written to a terminal; add `-o FILE.sphero`, `--format hex` or "
+                  "`--listing`");
+  return std::vector<Output>{
+      {to_stdout(options) ? "" : options.out, macros[0].text, macros[0].size}};
+}
+
+/// The listings of all macros, one below the other.
+Output listing_of(const AsmOptions& options, const std::vector<Written>& macros) {
+  Output output{to_stdout(options) ? "" : options.out, {}, {}};
   for (const auto& macro : macros)
-    text += (text.empty() ? "" : "\n") + macro.text;
-  return write_text(context, to_stdout(options) ? "" : options.out, text);
+    output.text += (output.text.empty() ? "" : "\n") + macro.text;
+  return output;
+}
+
+tl::expected<void, Failure> write(const Context& context, const Output& output) {
+  if (output.path.empty()) {
+    print_out(output.text);
+  } else if (const auto written = disk::write(output.path, as_bytes(output.text)); !written) {
+    return tl::unexpected(Failure{ExitCode::File, written.error().message});
+  }
+  if (!output.note.empty())
+    print_note(context, output.note);
+  return {};
+}
+
+tl::expected<void, Failure> make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(disk::as_path(path), error);
+  if (error)
+    return tl::unexpected(
+        Failure{ExitCode::File, fmt::format("cannot create {}: {}", path, error.message())});
+  return {};
 }
 
 } // namespace
 
-ExitCode run_asm(const Context& context, const AsmOptions& options) {
+void run_asm(Context& context, const AsmOptions& options) {
   auto text = disk::read(options.file);
-  if (!text) {
-    print_error(context, text.error().message);
-    return ExitCode::File;
-  }
+  if (!text)
+    return fail(context, {ExitCode::File, text.error().message});
   const Source source(disk::display_name(options.file), std::move(*text));
   auto assembly = assembler::assemble(source, options.fold_delays ? assembler::Folding::Fold
                                                                   : assembler::Folding::Keep);
-  if (report(context, source, assembly))
-    return ExitCode::BadInput;
+  if (report(context, source, assembly)) {
+    context.exit = ExitCode::BadInput;
+    return;
+  }
   const auto& format =
       assembler::format_of(options.format, disk::as_path(options.out).extension().string());
   const auto macros =
       assembler::write(source, assembly,
                        {options.file == "-" ? "macro" : disk::as_path(options.file).stem().string(),
                         options.macro, options.listing ? nullptr : &format});
-  if (!macros) {
-    print_error(context, macros.error());
-    return ExitCode::Usage;
-  }
-  return options.listing ? write_listing(context, options, *macros)
-                         : write_macros(context, options, format, *macros);
+  if (!macros)
+    return fail(context, {ExitCode::Usage, macros.error()});
+  const auto outputs = options.listing ? Outputs({listing_of(options, *macros)})
+                                       : outputs_of(options, format, *macros);
+  if (!outputs)
+    return fail(context, outputs.error());
+  if (!options.listing && to_folder(options))
+    if (const auto made = make_folder(options.out); !made)
+      return fail(context, made.error());
+  for (const auto& output : *outputs)
+    if (const auto written = write(context, output); !written)
+      return fail(context, written.error());
 }
 
 void add_asm(const Command& orb, Context& context) {
@@ -156,7 +171,7 @@ void add_asm(const Command& orb, Context& context) {
                    "print offset, bytes, times and source instead of the bytes alone");
   command.add_flag("--fold-delays", options->fold_delays,
                    "fold `delay` into the command before it where all times stay the same");
-  command.callback([&context, options] { context.exit = run_asm(context, *options); });
+  command.callback([&context, options] { run_asm(context, *options); });
 }
 
 } // namespace orb::cli

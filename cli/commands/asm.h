@@ -16,6 +16,6 @@ struct AsmOptions {
 };
 
 /// `orb asm`; `orb build` of macro source does the same.
-ExitCode run_asm(const Context& context, const AsmOptions& options);
+void run_asm(Context& context, const AsmOptions& options);
 
 } // namespace orb::cli

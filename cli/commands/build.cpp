@@ -145,7 +145,7 @@ void build(Context& context, const BuildOptions& options) {
   if (options.native)
     return fail(context, {ExitCode::Usage, "`--native` is for orbBasic; macros never become "
                                            "machine code"});
-  context.exit = run_asm(context, macros);
+  run_asm(context, macros);
 }
 
 } // namespace

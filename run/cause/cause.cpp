@@ -259,7 +259,7 @@ public:
       calls_itself |= from != nullptr && from->number == line_.number;
     }
     cause.seen =
-        fmt::format("{} subroutines are open, called in lines {}", core.frames.call_depth, lines);
+        fmt::format("{} subroutines are open, called on lines {}", core.frames.call_depth, lines);
     if (calls_itself && statement_.kind == Statement::Gosub)
       cause.help = fmt::format("to repeat, write `{} goto {}`", line_.number,
                                program_.as<compiler::BranchView>(statement_).target.value);

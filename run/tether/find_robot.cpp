@@ -50,7 +50,7 @@ public:
       }
     }
     return tl::unexpected(Failure{
-        ExitCode::NoBall, "no robot answers; wake it, bring it nearer, or run `orb doctor`"});
+        ExitCode::NoBall, "no robot answers; wake it, bring it closer, or run `orb doctor`"});
   }
 
 private:

@@ -103,7 +103,7 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
                                        what, wire_->describe(*refusal))});
   return tl::unexpected(
       Failure{ExitCode::LinkLost,
-              fmt::format("the robot does not answer command {}; wake it, bring it nearer, or run "
+              fmt::format("the robot does not answer command {}; wake it, bring it closer, or run "
                           "`orb doctor`",
                           what)});
 }
@@ -378,7 +378,7 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
   if (sample_age() >= budgets_.gone)
     return tl::unexpected(Failure{
         ExitCode::LinkLost,
-        fmt::format("no sensor data came for {} s; bring the robot nearer", budgets_.gone / 1s)});
+        fmt::format("no sensor data came for {} s; bring the robot closer", budgets_.gone / 1s)});
   return {};
 }
 

@@ -265,7 +265,7 @@ private:
       return stop(
           state,
           fmt::format(
-              "this `next` sometimes belongs to the loop in line {} and sometimes to the one in "
+              "this `next` sometimes belongs to the loop on line {} and sometimes to the one on "
               "line {}",
               number_of(first), number_of(second)),
           "give each loop its own `next`");
@@ -337,9 +337,9 @@ private:
     const auto loop = state.loops[state.loop_depth - 1];
     blame(
         from,
-        fmt::format("this jump leaves the loop in line {}, which stays open; at {} in line {}, {}",
+        fmt::format("this jump leaves the loop on line {}, which stays open; at {} on line {}, {}",
                     number_of(loop), then, number_of(state.step), error_text(error)),
-        fmt::format("set `{}` to its last value and jump to its `next` in line {}",
+        fmt::format("set `{}` to its last value and jump to its `next` on line {}",
                     spec::letter_name(variable_of(loop)), number_of(next_below(loop))));
   }
 
@@ -358,8 +358,8 @@ private:
     } else if (is(loop, spec::Statement::For)) {
       if (const auto in = last_crossing(loop, state.step, true); in && in->to != loop)
         return blame(in->from,
-                     fmt::format("this jump enters the loop in line {}, skipping its `for`; at "
-                                 "`next {}` in line {}, {}",
+                     fmt::format("this jump enters the loop on line {}, skipping its `for`; at "
+                                 "`next {}` on line {}, {}",
                                  number_of(loop), name, number_of(state.step),
                                  error_text(BasicError::NextWithoutFor)),
                      fmt::format("jump to line {}, where the loop begins", number_of(loop)));
@@ -404,7 +404,7 @@ private:
     const auto sub = number_of(*std::prev(above));
     const bool jumps = !ways_.steps[in->from].targets.empty();
     blame(in->from,
-          fmt::format("{} into the subroutine in line {} without a `gosub`; at its `return` in "
+          fmt::format("{} into the subroutine on line {} without a `gosub`; at its `return` on "
                       "line {} {}",
                       jumps ? "this jump goes" : "the program runs on from here", sub,
                       number_of(state.step), error_text(BasicError::ReturnWithoutGosub)),
@@ -420,7 +420,7 @@ private:
       if (is(from, spec::Statement::Goto) && !in_main_[from] && in_main_[states_[at].state.step])
         return blame(from,
                      fmt::format("this jump leaves a subroutine, whose call stays open; at the {} "
-                                 "open call in line {}, {}",
+                                 "open call on line {}, {}",
                                  fifth, number_of(state.step),
                                  error_text(BasicError::GosubDepthExceeded)),
                      "let the subroutine run to its `return`");

@@ -96,7 +96,7 @@ void FileReader::read_test(Cursor& cursor, Span span, std::uint32_t line) {
     if (other.name.text == test.name.text && !cursor.failed())
       cursor.fail_at(test.name.span, rules::Name,
                      fmt::format("duplicate test name \"{}\"", test.name.text),
-                     fmt::format("the other one is in line {}", other.line));
+                     fmt::format("the other one is on line {}", other.line));
   while (!cursor.failed() && !cursor.at_end())
     read_test_option(cursor, test);
   file_.tests.push_back(std::move(test));

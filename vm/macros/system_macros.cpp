@@ -45,7 +45,7 @@ constexpr std::uint8_t heartbeat[] = {4, byte(spec::MacroFlag::Unkillable),
 constexpr SystemMacro macros[] = {
     {1, "stops without turning",                    stop},
     {2, "blinks white three times",                blink},
-    {3, "turns round once in one second",            spin},
+    {3, "turns around once in one second",            spin},
     {4, "fades red in and out; cannot be aborted", heartbeat},
 };
 // clang-format on

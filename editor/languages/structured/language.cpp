@@ -152,7 +152,7 @@ std::string lines_where(const Part& part, bool is_set) {
   }
   return lines.empty()
              ? "nowhere"
-             : fmt::format("in line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "));
+             : fmt::format("on line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "));
 }
 
 std::string variable_markdown(const Source& source, const Part& part,

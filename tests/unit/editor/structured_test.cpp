@@ -60,13 +60,13 @@ TEST(Structured, IsCheckedAsWhatItIs) {
 TEST(Structured, HoverSaysWhatANameStandsFor) {
   StructuredSession session;
   EXPECT_NE(session.hover(12, 14).find("**`turns`** (variable)"), std::string::npos);
-  EXPECT_NE(session.hover(12, 14).find("- set: in line 12\n"), std::string::npos);
+  EXPECT_NE(session.hover(12, 14).find("- set: on line 12\n"), std::string::npos);
   EXPECT_NE(session.hover(12, 14).find("- the robot's `"), std::string::npos);
   EXPECT_NE(session.hover(13, 3).find("sub leg(n)\n```\ndrives one side"), std::string::npos);
   EXPECT_NE(session.hover(5, 9).find("the number 1500 (ms)"), std::string::npos);
   EXPECT_NE(session.hover(6, 4).find("elements 1 to 4"), std::string::npos);
   EXPECT_NE(session.hover(4, 10).find("(parameter)"), std::string::npos);
-  EXPECT_NE(session.hover(19, 24).find("(label): jumps to it: in line 20"), std::string::npos);
+  EXPECT_NE(session.hover(19, 24).find("(label): jumps to it: on line 20"), std::string::npos);
   EXPECT_NE(session.hover(4, 4).find("goroll"), std::string::npos);
   EXPECT_NE(session.hover(4, 4).find("```orbstructured\ngoroll 90,128,1\n"), std::string::npos);
   EXPECT_NE(session.hover(3, 1).find("sub"), std::string::npos);
@@ -216,8 +216,8 @@ TEST_F(TwoFiles, HoverSaysWhatTheOtherFileSays) {
   };
   EXPECT_EQ(hover(main, 2, 1),
             "```orbstructured\nsub leg(way)\n```\ngoes a way\n\nin `a lib.orb`\n");
-  EXPECT_NE(hover(main, 1, 1).find("set: in lines 2, a lib.orb:3\n"), std::string::npos);
-  EXPECT_NE(hover(lib, 2, 3).find("set: in lines main.orb:2, 3\n"), std::string::npos);
+  EXPECT_NE(hover(main, 1, 1).find("set: on lines 2, a lib.orb:3\n"), std::string::npos);
+  EXPECT_NE(hover(lib, 2, 3).find("set: on lines main.orb:2, 3\n"), std::string::npos);
 }
 
 TEST_F(TwoFiles, NamesOfTheOtherFileAreSuggested) {
