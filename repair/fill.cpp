@@ -337,6 +337,15 @@ bool has(const std::vector<std::string_view>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// The name of a test function as people write a title: `test_stops_early`, "stops early".
+std::string title(std::string name) {
+  for (const auto* const begin : {"test_", "it_", "should_"})
+    if (name.starts_with(begin))
+      name.erase(0, std::string_view(begin).size());
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return fmt::format("\"{}\"", name);
+}
+
 struct Function {
   std::string_view name;
   Text (*call)(const Holding&);
@@ -436,6 +445,7 @@ constexpr auto functions = std::to_array<Function>({
     {"alone", // what other lines read was not meant for the ball
      [](const Holding& held) { return only(!has(held.around.elsewhere, held.holes.choice), ""); }},
     {"parameters", [](const Holding& held) { return Text(parameters(held.a)); }},
+    {"title", [](const Holding& held) { return Text(title(join(held.a))); }},
     {"bare", [](const Holding& held) { return bare(held.a); }},
     {"lower", [](const Holding& held) { return Text(lower(join(held.a))); }},
 
@@ -461,6 +471,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
   };
   if (name == "here")
     return known(around.line_number);
+  if (name == "first")
+    return known(around.first_number);
   if (name == "free")
     return known(around.free_letter);
   if (name == "nought" || name == "second") // what was left out

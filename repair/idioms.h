@@ -43,6 +43,7 @@ struct Idiom {
 struct Surroundings {
   Language language = Language::Basic;
   std::string line_number;             ///< of an orbBasic line
+  std::string first_number;            ///< of the program's first line, where it is not this one
   std::string free_letter;             ///< a variable that nobody uses; empty without one
   std::string loop;                    ///< the variable of the innermost `for` that is open
   int heading = 0;                     ///< of the last roll above, where it is a number

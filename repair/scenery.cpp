@@ -187,6 +187,8 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     const auto free = free_letters();
     all.free_letter = free.empty() ? "" : free.front();
     all.loop = loop_above(line);
+    const auto first = number_below(0);
+    all.first_number = first == all.line_number ? "" : first;
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
     all.closer = closers_[line - 1];
     all.label = labels_.size() == 1 ? labels_.front() : "";

@@ -285,6 +285,8 @@ private:
     if ((line_[i].is_number() && line_[i + 1].is_number()) || line_[i].is("$") ||
         line_[i + 1].is("$"))
       return; // `A$` is a text elsewhere
+    if (line_[i].is(",") && i > 0 && line_[i - 1].is_number() && line_[i + 1].is_number())
+      return; // what parts two numbers
     if (!(line_[i].kind == Token::Kind::Sign) == !(line_[i + 1].kind == Token::Kind::Sign) &&
         line_[i].kind != Token::Kind::Sign)
       return;
