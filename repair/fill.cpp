@@ -103,7 +103,8 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
   const auto value = thousandths(first);
   if (!value)
     return std::nullopt;
-  const bool fraction = *value % second_ms != 0;
+  const bool fraction = *value % second_ms != 0 || (first.text.find('.') != std::string::npos &&
+                                                    *value <= most_seconds * second_ms);
   if (used < tokens.size()) {
     const auto* const unit = tokens[used].is_word() ? unit_called(tokens[used].text) : nullptr;
     if (unit == nullptr || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
@@ -444,6 +445,15 @@ constexpr auto functions = std::to_array<Function>({
      }},
     {"alone", // what other lines read was not meant for the ball
      [](const Holding& held) { return only(!has(held.around.elsewhere, held.holes.choice), ""); }},
+    {"apart", // where the other does not count
+     [](const Holding& held) {
+       const auto& other = held.b;
+       const bool has_it = std::search(held.a.begin(), held.a.end(), other.begin(), other.end(),
+                                       [](const Token& a, const Token& b) {
+                                         return equal_words(a.text, b.text);
+                                       }) != held.a.end();
+       return only(!has_it, join(held.a));
+     }},
     {"parameters", [](const Holding& held) { return Text(parameters(held.a)); }},
     {"title", [](const Holding& held) { return Text(title(join(held.a))); }},
     {"bare", [](const Holding& held) { return bare(held.a); }},
@@ -584,6 +594,8 @@ Tokens bared(Tokens tokens) {
 } // namespace
 
 std::optional<std::string> opposite(Tokens condition, Language language) {
+  if (condition.size() <= 2 && condition.front().is_number())
+    return std::nullopt; // a number or a time is no condition
   if (language != Language::Basic)
     return condition.size() == 1 ? "not " + join(condition)
                                  : fmt::format("not ({})", join(condition));

@@ -125,6 +125,12 @@ std::string LineRepair::shown(std::string_view text) const {
 
 /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
 void LineRepair::canonical() {
+  auto& tokens = parts_.tokens; // `print "A is " A"`: the last quote is too many
+  if (tokens.size() > 2 && tokens.back().is_text() && !tokens.back().closed &&
+      tokens.back().text.empty() &&
+      std::any_of(tokens.begin(), tokens.end() - 1,
+                  [](const Token& token) { return token.is_text(); }))
+    tokens.pop_back();
   for (auto& token : parts_.tokens) {
     if (token.is_word() && judge_.language != Language::Structured &&
         std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
@@ -379,7 +385,8 @@ void LineRepair::own_words() {
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     auto& token = tokens[i];
     const bool acts = i == 0 && !(tokens.size() > 1 && tokens[1].is("="));
-    if (acts || !token.is_word() || milliseconds_of(token.text) > 0 ||
+    const bool unit = i > 0 && tokens[i - 1].is_number();
+    if (acts || unit || !token.is_word() || milliseconds_of(token.text) > 0 ||
         meanings_of(token.text).empty() || !is_foreign(token.text))
       continue;
     const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {

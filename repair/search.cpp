@@ -105,13 +105,30 @@ private:
     if (line_[i].is_word() && text.size() > 1 && to_lower(text[0]) == 'x' &&
         is_count(std::string_view(text).substr(1)))
       number_instead(i, text.substr(1), 1, 3); // `x2`: twice
-    if (const auto point = text.find('.');
-        number && point != std::string::npos &&
+    const auto point = text.find('.');
+    if (number && point != std::string::npos && point > 0 && point + 1 < text.size())
+      two_numbers(i, point);
+    if (number && point != std::string::npos &&
         text.find_first_not_of('0', point + 1) == std::string::npos)
       number_instead(i, text.substr(0, point), 1, 8); // `3.0`, which of times is in seconds
     if (number && goes_on)
       wrong_ending(i);
     letters_for_digits(i, number && goes_on);
+  }
+
+  /// `40.140` where a comma was meant.
+  void two_numbers(std::size_t i, std::size_t point) {
+    auto changed = line_;
+    changed[i].text = line_[i].text.substr(0, point);
+    Token comma;
+    comma.kind = Token::Kind::Sign;
+    comma.text = ",";
+    auto second = line_[i];
+    second.text = line_[i].text.substr(point + 1);
+    second.gap = true;
+    const auto next = changed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    changed.insert(next, {comma, second});
+    add(changed, 10);
   }
 
   /// `1ss`, `20mss`, and what C writes behind a number: `1000UL`.
@@ -180,11 +197,11 @@ private:
         right.remove_prefix(1);
       const bool value =
           is_count(right) || (right.size() == 1 && language_ == Language::Basic) || is_known(right);
-      if (!value || std::none_of(words_.begin(), words_.end(),
-                                 [&](std::string_view one) { return equal_words(one, left); }))
+      const auto meant = value ? statement_called(left, is_count(right)) : std::string_view();
+      if (meant.empty())
         continue;
       auto changed = line_;
-      changed[i].text = left;
+      changed[i].text = meant;
       Token rest;
       rest.kind = is_digit(right[0]) ? Token::Kind::Number : Token::Kind::Word;
       rest.text = right;
@@ -194,13 +211,27 @@ private:
     }
   }
 
+  /// The word of the language that `left` is, or nearly is in front of a number: `dleay2s`.
+  std::string_view statement_called(std::string_view left, bool nearly) const {
+    for (const auto one : words_)
+      if (equal_words(one, left))
+        return one;
+    constexpr std::size_t shortest = 4;
+    if (nearly && left.size() >= shortest)
+      for (const auto one : words_)
+        if (one.size() >= shortest && edit_distance(one, left) == 1)
+          return one;
+    return {};
+  }
+
   void joined(std::size_t i) {
     const auto& a = line_[i];
     const auto& b = line_[i + 1];
     if (!a.is_word() || !(b.is_word() || b.is("_") || b.is("-")))
       return;
     if (language_ == Language::Structured && b.is("-") && !b.gap && i + 2 < line_.size() &&
-        line_[i + 2].is_word() && !line_[i + 2].gap && !is_known(a.text)) {
+        line_[i + 2].is_word() && !line_[i + 2].gap &&
+        (!is_known(a.text) || is_known(a.text + "_" + line_[i + 2].text))) {
       auto changed = line_; // a name with a hyphen
       changed[i].text = a.text + "_" + line_[i + 2].text;
       const auto next = changed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
@@ -357,11 +388,12 @@ private:
     return condition || !related;
   }
 
-  /// `print hello"`: the quote that opens is missing.
+  /// `print hello"`: the quote that opens is missing, or the one that closes is too many.
   void closed() {
     if (line_.empty() || !line_.back().is_text() || line_.back().closed ||
         !line_.back().text.empty())
       return;
+    add(Tokens(line_.begin(), line_.end() - 1), 6);
     for (std::size_t i = 1; i + 1 < line_.size(); ++i) {
       Tokens changed(line_.begin(), line_.begin() + static_cast<std::ptrdiff_t>(i));
       Tokens inner(line_.begin() + static_cast<std::ptrdiff_t>(i), line_.end() - 1);

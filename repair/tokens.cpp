@@ -136,7 +136,7 @@ private:
     const auto next = text_.find_first_not_of(" \t", at_ + 2);
     if (tokens.size() < 3 || next == std::string_view::npos)
       return false;
-    const auto end = text_.find_first_of(" \t)", next);
+    const auto end = text_.find_first_of(" \t),", next);
     const auto word = text_.substr(next, end == std::string_view::npos ? end : end - next);
     return std::all_of(word.begin(), word.end(), is_digit) ||
            (word.size() == 1 && end == std::string_view::npos);

@@ -429,7 +429,10 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return finding(rules::MisplacedStatement, found,
                    fmt::format("`{}` is not allowed in a one-line `if`", text),
                    "write `if … then`, the statement below it, and `end if`");
-  case Reason::LineNumber: return numbered_line(program, found);
+  case Reason::LineNumber:
+    return std::all_of(text.begin(), text.end(), is_digit)
+               ? numbered_line(program, found)
+               : finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
   case Reason::Gosub:
     return finding(rules::ForeignWord, found, "there is no `gosub`",
                    "write `sub name` … `end sub` and call it by its name");

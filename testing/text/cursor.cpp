@@ -357,11 +357,13 @@ Duration Cursor::time() {
     return {};
   }
   if (!found) {
+    constexpr double most_seconds = 100; // a larger number without a unit is milliseconds
+    const auto number = parse_number<double>(text, std::chars_format::fixed);
     fail(rules::Value,
          at_end() ? std::string("missing time")
                   : fmt::format("expected a number and a unit of time, found `{}`", text),
-         parse_number<double>(text, std::chars_format::fixed) ? fmt::format("write `{}s`", text)
-                                                              : "write it like `2.5s` or `800ms`");
+         number ? fmt::format("write `{}{}`", text, *number < most_seconds ? "s" : "ms")
+                : "write it like `2.5s` or `800ms`");
     return {};
   }
   at_ += text.size();

@@ -497,6 +497,15 @@ std::optional<Rephrased> arrange_joined(const Tokens& line, bool never,
       text += " " + repair::join(phrases.times);
     return text;
   };
+  // An exact time between the two needs a tolerance.
+  if (joint->is("after") && !left->when.empty() && left->when[0].is_number()) {
+    const auto by = right->by.empty() ? std::string("200ms") : repair::join(right->by);
+    right->by.clear();
+    return Rephrased{fmt::format("{} {} {} after {} by {}", never ? "never" : "expect",
+                                 with(first, *left), repair::join(left->when), with(second, *right),
+                                 by),
+                     true};
+  }
   auto when = left->when.empty() ? right->when : left->when;
   // Neither of two, or both of two that happen: a line for each.
   const bool each = joint->is("or") ? never : joint->is("and") && second.row->kind == Kind::Event;
