@@ -224,10 +224,12 @@ Text parameters(const Tokens& tokens) {
   for (std::size_t i = 0; i < tokens.size(); ++i)
     if (tokens[i].is(","))
       out += ", ";
-    else if (tokens[i].is_word() && (i + 1 == tokens.size() || tokens[i + 1].is(",") ||
-                                     tokens[i + 1].is("as") || tokens[i + 1].is(":")))
+    else if (tokens[i].is_word() &&
+             (i + 1 == tokens.size() || tokens[i + 1].is(",") || tokens[i + 1].is("as") ||
+              tokens[i + 1].is(":") || tokens[i + 1].is("=")))
       out += tokens[i].text;
-    else if ((tokens[i].is("as") || tokens[i].is(":")) && i + 1 < tokens.size())
+    else if ((tokens[i].is("as") || tokens[i].is(":") || tokens[i].is("=")) &&
+             i + 1 < tokens.size())
       ++i;
   return out.empty() ? std::nullopt : Text(out);
 }
@@ -420,9 +422,10 @@ constexpr auto functions = std::to_array<Function>({
      }},
 
     // words
-    {"operand", // and no unit
+    {"operand", // no unit, and no digit in the shape of a letter
      [](const Holding& held) {
-       return held.a.size() == 1 && milliseconds_of(held.a[0].text) == 0 ? Text(held.a[0].text)
+       return held.a.size() == 1 && milliseconds_of(held.a[0].text) == 0 &&
+                      (held.a[0].gap || !has({"O", "o", "l", "I"}, held.a[0].text)) ? Text(held.a[0].text)
                                                                    : std::nullopt;
      }},
     {"items", [](const Holding& held) { return print_items(held.a); }},
@@ -454,10 +457,13 @@ constexpr auto functions = std::to_array<Function>({
                                        }) != held.a.end();
        return only(!has_it, join(held.a));
      }},
+    {"index", // which is not `Y` already
+     [](const Holding& held) {
+       return only(held.a.size() != 1 || !held.a[0].is("Y"), join(held.a));
+     }},
     {"parameters", [](const Holding& held) { return Text(parameters(held.a)); }},
     {"title", [](const Holding& held) { return Text(title(join(held.a))); }},
     {"bare", [](const Holding& held) { return bare(held.a); }},
-    {"lower", [](const Holding& held) { return Text(lower(join(held.a))); }},
 
     // colours; the rest are those of write_colour()
     {"most", brightest},

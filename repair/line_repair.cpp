@@ -398,7 +398,7 @@ void LineRepair::own_words() {
     token.text = *own;
     any = true;
   }
-  if (any && !attempt(join(tokens), {}, false))
+  if (any && !attempt(join(tokens), {}, false) && !tokens[0].is("print")) // words are printed
     parts_.tokens = std::move(tokens); // something else is wrong, too
 }
 

@@ -111,6 +111,9 @@ private:
     if (number && point != std::string::npos &&
         text.find_first_not_of('0', point + 1) == std::string::npos)
       number_instead(i, text.substr(0, point), 1, 8); // `3.0`, which of times is in seconds
+    if (number && i + 1 < line_.size() && line_[i + 1].is_number() && text[0] != '0' &&
+        !line_[0].is("data"))
+      number_instead(i, text + line_[i + 1].text, 2, 5); // `70 0`
     if (number && goes_on)
       wrong_ending(i);
     letters_for_digits(i, number && goes_on);
@@ -134,6 +137,8 @@ private:
   /// `1ss`, `20mss`, and what C writes behind a number: `1000UL`.
   void wrong_ending(std::size_t i) {
     const auto& ending = line_[i + 1].text;
+    if (ending.size() > 2 && ending[0] == '_' && is_count(std::string_view(ending).substr(1)))
+      number_instead(i, line_[i].text + ending.substr(1), 2, 3); // `1_280ms`
     if (ending.find_first_not_of("uUlLfF") == std::string::npos)
       number_instead(i, line_[i].text, 2, 3);
     auto unit = ending;

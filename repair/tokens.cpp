@@ -100,7 +100,8 @@ private:
       sign = 2;
     else if (sees("/*"))
       sign = 2;
-    else if (sees("--") && tokens.empty() && at_ + 2 < text_.size() && is_blank(text_[at_ + 2]))
+    else if (sees("--") && at_ + 3 < text_.size() && is_blank(text_[at_ + 2]) &&
+             (tokens.empty() || (gap_ && is_letter(text_[at_ + 3]))))
       sign = 2;
     else if (sees("#") && !colour_here() &&
              !(tokens.empty() && (sees("#include") || sees("#define"))))
