@@ -244,8 +244,12 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     const auto& token = line[i];
     if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
       continue;
-    const bool is_id = equal_words(token.text, "id") || equal_words(token.text, "number");
-    const bool is_flags = equal_words(token.text, "flags") || equal_words(token.text, "flag");
+    // `numero=40` and `options=endsig`: what is given says what it is.
+    const bool given = !name.empty() && i + 2 < line.size() && line[i + 1].is("=");
+    const bool is_id = equal_words(token.text, "id") || equal_words(token.text, "number") ||
+                       (given && line[i + 2].is_number());
+    const bool is_flags = equal_words(token.text, "flags") || equal_words(token.text, "flag") ||
+                          (given && line[i + 2].is_word());
     if (token.is_word() && (is_id || is_flags)) {
       if (!end_flag())
         return {};
