@@ -340,6 +340,18 @@ bool has(const std::vector<std::string_view>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// Numbers side by side, with the commas that are missing.
+Text values_apart(const Holding& held) {
+  std::string out;
+  for (const auto& token : held.a) {
+    if (!token.is_number() && !token.is(",") && !token.is("-"))
+      return std::nullopt;
+    const bool lacks = !out.empty() && out.back() != ',' && out.back() != '-' && !token.is(",");
+    out += (lacks ? "," : "") + token.text;
+  }
+  return out;
+}
+
 /// The name of a test function as people write a title: `test_stops_early`, "stops early".
 std::string title(std::string name) {
   for (const auto* const begin : {"test_", "it_", "should_"})
@@ -361,6 +373,21 @@ constexpr auto functions = std::to_array<Function>({
      }},
     {"wait", [](const Holding& held) { return written_time(held.a, Assume::Either, held.language()); }},
     {"ms", [](const Holding& held) { return written_time(held.a, Assume::Milliseconds, held.language()); }},
+    {"lasting", // no `go` of a roll, 0 or 1
+     [](const Holding& held) {
+       const auto value = whole(held.a);
+       return value == 0 || value == 1 ? std::nullopt
+                                       : written_time(held.a, Assume::Seconds, held.language());
+     }},
+    {"brief", // no speed, and no heading
+     [](const Holding& held) {
+       const bool other = whole(held.a).value_or(0) >= most_seconds ||
+                          (held.a.size() == 1 && is_called("heading", held.a[0].text));
+       return other ? std::nullopt : written_time(held.a, Assume::Seconds, held.language());
+     }},
+    {"pace", // too long for seconds
+     [](const Holding& held) { return only(whole(held.a).value_or(0) >= most_seconds, join(held.a)); }},
+    {"commas", values_apart},
     {"later", // no part of a colour
      [](const Holding& held) {
        return whole(held.a).value_or(UINT8_MAX + 1) > UINT8_MAX

@@ -364,7 +364,12 @@ private:
         insert(at, "(", 12, Token::Kind::Sign);
     }
     if (value_before)
-      insert(at, ")", at == line_.size() ? 8 : ends_sum(at) ? 5 : 11, Token::Kind::Sign);
+      insert(at, ")",
+             at == line_.size()  ? 8
+             : ends_sum(at)      ? 5
+             : line_[at].is(",") ? 7
+                                 : 11,
+             Token::Kind::Sign);
     if (value_before && open_brackets_ > 0)
       insert(at, "]", at == line_.size() ? 8 : 11, Token::Kind::Sign);
   }

@@ -2,6 +2,7 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
+#include "repair/idioms.h"
 
 namespace orb::structured {
 
@@ -24,6 +25,16 @@ void Checker::check_jumps() {
   for (const auto i : program_.order)
     if (at(i).kind == Kind::Goto)
       check_goto(i, labels);
+  for (const auto label : labels)
+    check_label(label);
+}
+
+/// `sonst:` is a label, but nobody meant one.
+void Checker::check_label(std::uint32_t label) {
+  const auto word = program_.text_of(at(label).name_span);
+  if (repair::word_at(repair::tokens_of(word, repair::Language::Structured), 0) == "else")
+    report(rules::ForeignWord, at(label).name_span,
+           fmt::format("`{}` is not part of this language", word));
 }
 
 void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labels) {

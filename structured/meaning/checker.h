@@ -153,6 +153,7 @@ private:
   void check_jumps();
 
   void check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labels);
+  void check_label(std::uint32_t label);
 
   void report_unknown_label(std::uint32_t i, const std::vector<std::uint32_t>& labels);
 
