@@ -398,23 +398,15 @@ private:
       auto i = *number;
       while (i < lines_.size() && lines_[i].gone())
         ++i;
-      if (i == lines_.size() && !end_)
-        end_ = end_of_program();
-      if (i == lines_.size() && !end_)
+      if (i < lines_.size()) {
+        out += std::to_string(lines_[i].number);
+        continue;
+      }
+      constexpr std::string_view jump = "goto "; // past the last line the program ends
+      if (!out.ends_with(jump))
         return std::nullopt;
-      out += std::to_string(i == lines_.size() ? *end_ : lines_[i].number);
+      out.replace(out.size() - jump.size(), jump.size(), "end");
     }
-  }
-
-  /// A line that only ends: the last one, where that has nothing else to do.
-  std::optional<std::uint32_t> end_of_program() {
-    const auto last = lines_.size() - 1;
-    if (lines_[last].gone()) {
-      write(last, "end");
-      return lines_[last].number;
-    }
-    const auto number = between(last);
-    return number && add_below(last, "end") ? number : std::nullopt;
   }
 
   std::optional<BlockRewrite> finished(std::vector<std::size_t> changed) {
@@ -453,8 +445,7 @@ private:
   std::vector<BlockLine> lines_;
   std::vector<Open> open_;
   std::vector<BlockRewrite> found_;
-  std::set<std::string> taken_;      ///< letters of loops
-  std::optional<std::uint32_t> end_; ///< the number of a line that only ends the program
+  std::set<std::string> taken_; ///< letters of loops
   bool sure_ = true;
 };
 

@@ -257,6 +257,8 @@ void Scenery::open_or_close(const Tokens& line) {
     open_.push_back(is("for") ? "next" : "end " + first);
   else if (is("def") || is("void"))
     open_.emplace_back(line.size() > 1 && line[1].is("loop") ? "end loop" : "end sub");
+  else if (is("switch") || is("match"))
+    open_.emplace_back("end select");
   else if (is("forever") || is("do"))
     open_.emplace_back("end loop");
   else if (is("if") &&

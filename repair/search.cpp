@@ -283,7 +283,9 @@ private:
     const bool is_kind = one && i > 0 && line_[i - 1].is_word() && !token.gap &&
                          (kinds.find(token.text[0]) != std::string_view::npos ||
                           (token.is("$") && !line_[0].is("print"))); // which prints a text
-    const bool is_idle = (one && idle.find(token.text[0]) != std::string_view::npos) || is_kind;
+    const bool indexes = token.is("[") && i > 0 && line_[i - 1].is_word() && !token.gap;
+    const bool is_idle =
+        (one && !indexes && idle.find(token.text[0]) != std::string_view::npos) || is_kind;
     // Fewer values are not what was meant: a comma goes where no value follows it.
     const bool parts_values = token.is(",") && i > 1 && i + 1 < line_.size() &&
                               (line_[i + 1].is_number() || line_[i + 1].text.size() == 1) &&

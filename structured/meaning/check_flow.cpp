@@ -29,10 +29,11 @@ void Checker::check_jumps() {
     check_label(label);
 }
 
-/// `sonst:` is a label, but nobody meant one.
+/// `sonst:` and `forever:` are labels, but nobody meant one.
 void Checker::check_label(std::uint32_t label) {
   const auto word = program_.text_of(at(label).name_span);
-  if (repair::word_at(repair::tokens_of(word, repair::Language::Structured), 0) == "else")
+  const auto meant = repair::word_at(repair::tokens_of(word, repair::Language::Structured), 0);
+  if (meant == "else" || meant == "forever")
     report(rules::ForeignWord, at(label).name_span,
            fmt::format("`{}` is not part of this language", word));
 }

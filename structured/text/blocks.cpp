@@ -134,12 +134,13 @@ private:
     const auto where = program_.statements[i].word;
     const auto word = std::string(program_.text_of(where));
     const auto end = fmt::format("`{}` after its last line", block.end_words);
+    if (!report(rules::UnclosedBlock, i, fmt::format("unterminated `{}`", word),
+                equal_words(word, block.word)
+                    ? fmt::format("write {}", end)
+                    : fmt::format("write `{}` instead, and {}", block.word, end)))
+      return;
     alone_.insert(where.begin);
-    if (report(rules::UnclosedBlock, i, fmt::format("unterminated `{}`", word),
-               equal_words(word, block.word)
-                   ? fmt::format("write {}", end)
-                   : fmt::format("write `{}` instead, and {}", block.word, end)))
-      offer_end(i, block, program_.diagnostics.back());
+    offer_end(i, block, program_.diagnostics.back());
   }
 
   /// The number of a statement's line in its file.
@@ -250,12 +251,13 @@ private:
 
   void report_stray(std::uint32_t i) {
     auto& statement = program_.statements[i];
-    alone_.insert(statement.word.begin);
     auto mend = mend_stray(i);
     if (report(rules::BlockEnd, i,
                fmt::format("`{}` without a matching block", program_.text_of(statement.word)),
-               std::move(mend.help)))
+               std::move(mend.help))) {
       program_.diagnostics.back().fix = std::move(mend.fix);
+      alone_.insert(statement.word.begin);
+    }
     statement.kind = statement.meant = Kind::Broken;
   }
 
