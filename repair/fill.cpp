@@ -484,6 +484,8 @@ constexpr auto functions = std::to_array<Function>({
                                        }) != held.a.end();
        return only(!has_it, join(held.a));
      }},
+    {"called", // in a program that calls subroutines
+     [](const Holding& held) { return only(has(held.around.elsewhere, "gosub"), ""); }},
     {"index", // which is not `Y` already
      [](const Holding& held) {
        return only(held.a.size() != 1 || !held.a[0].is("Y"), join(held.a));

@@ -95,6 +95,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     attempt(start, {}, true);
   if (const auto earlier = closed_earlier(); best_ && !earlier.empty())
     other_ = attempt_line(whole(earlier), {}, false, false);
+  if (const auto opened = opened_earlier(); !best_ && !opened.empty())
+    attempt(opened, {}, true);
   if (!best_ && !is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line))
     by_changes(surely);
   if (!best_ || !best_->settles())
@@ -218,6 +220,9 @@ std::string LineRepair::several(std::string_view statements) const {
 
 /// Tries a line in its place; true when it cannot be better.
 bool LineRepair::attempt(const std::string& statement, std::string_view note, bool sure) {
+  if (const auto equals = statement.find(" = ");
+      equals != std::string::npos && statement.substr(0, equals) == statement.substr(equals + 3))
+    return false; // nobody sets a variable to itself
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));
   return (one || !text.empty()) && attempt_line(text, note, sure) && best_ && best_->settles();
@@ -318,6 +323,20 @@ std::string LineRepair::closed_earlier() const {
   tokens.back().text = text.substr(0, comma);
   tokens.back().closed = true;
   return join(tokens) + ", " + values[0].text;
+}
+
+/// A text whose first quote is missing, so that the last one opens what stands outside:
+/// `print tempo", T`. Empty where there is none.
+std::string LineRepair::opened_earlier() const {
+  const auto& tokens = parts_.tokens;
+  if (tokens.size() < 3 || !tokens[0].is("print") || !tokens.back().is_text() ||
+      tokens.back().closed || !tokens.back().text.starts_with(',') || !tokens[1].is_word())
+    return {};
+  Token text;
+  text.kind = Token::Kind::Text;
+  text.text = join(Tokens(tokens.begin() + 1, tokens.end() - 1));
+  text.gap = true;
+  return join({tokens[0], text}) + tokens.back().text;
 }
 
 /// Whether a line has a word that means nothing to the language and that no other line has.

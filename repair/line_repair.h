@@ -72,6 +72,7 @@ private:
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
   std::string closed_earlier() const;
+  std::string opened_earlier() const;
   bool is_foreign(std::string_view line) const;
   bool rephrase(const Tokens& line);
   bool begins_alike(std::string_view lines) const;

@@ -135,8 +135,13 @@ private:
   /// `A // 2`: a division, not a remark.
   bool divides(const Tokens& tokens) const {
     const auto next = text_.find_first_not_of(" \t", at_ + 2);
-    if (tokens.size() < 3 || next == std::string_view::npos)
+    if (tokens.size() < 2 || next == std::string_view::npos)
       return false;
+    const auto opened =
+        std::count_if(tokens.begin(), tokens.end(), [](const Token& one) { return one.is("("); });
+    if (opened >
+        std::count_if(tokens.begin(), tokens.end(), [](const Token& one) { return one.is(")"); }))
+      return true; // what closes it follows
     const auto end = text_.find_first_of(" \t),", next);
     const auto word = text_.substr(next, end == std::string_view::npos ? end : end - next);
     return std::all_of(word.begin(), word.end(), is_digit) ||
@@ -255,8 +260,9 @@ private:
         return add(tokens, is_letter(one.means[0]) ? Token::Kind::Word : Token::Kind::Sign,
                    std::string(one.means));
       }
+    const bool two = sees("<-") && !gap_; // `x<-90`
     for (const auto one : long_signs)
-      if (sees(one)) {
+      if (sees(one) && !two) {
         at_ += one.size();
         return add(tokens, Token::Kind::Sign, std::string(one));
       }

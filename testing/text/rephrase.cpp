@@ -480,6 +480,7 @@ std::optional<Rephrased> arrange_joined(const Tokens& line, bool never,
   auto first = what_of(*left, never, elsewhere);
   if (first.row == nullptr)
     return std::nullopt;
+  never = first.never;
   const bool has_word = std::any_of(right->what.begin(), right->what.end(), [](const Token& token) {
     return expectation(token) != nullptr;
   });
