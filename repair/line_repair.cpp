@@ -63,6 +63,8 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
   canonical();
   if (judge.language == Language::Basic)
     resolve_labels(scenery);
+  if (judge.language == Language::Structured)
+    index_arrays(scenery);
 }
 
 std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
@@ -147,6 +149,27 @@ void LineRepair::canonical() {
         to_lower(token.text[1]) == 'x')
       if (const auto value = parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
         token.text = std::to_string(*value);
+  }
+}
+
+/// `values(3)` of an array becomes `values[3]`.
+void LineRepair::index_arrays(const Scenery& scenery) {
+  auto& tokens = parts_.tokens;
+  for (std::size_t i = 1; i < tokens.size(); ++i) {
+    if (!tokens[i].is("(") || !tokens[i - 1].is_word() || !scenery.is_array(tokens[i - 1].text))
+      continue;
+    int depth = 0;
+    auto end = i;
+    for (; end < tokens.size(); ++end) {
+      depth += tokens[end].is("(") ? 1 : tokens[end].is(")") ? -1 : 0;
+      if (depth == 0)
+        break;
+    }
+    if (end == tokens.size())
+      return;
+    tokens[i].text = "[";
+    tokens[i].gap = false;
+    tokens[end].text = "]";
   }
 }
 

@@ -61,6 +61,7 @@ public:
 
 private:
   void canonical();
+  void index_arrays(const Scenery& scenery);
   void resolve_labels(const Scenery& scenery);
   std::string whole(std::string_view statement) const;
   std::string several(std::string_view statements) const;

@@ -159,6 +159,11 @@ private:
     return holes.find(hole) != std::string_view::npos;
   }
 
+  /// `step()`: what people call a sub or a macro, too.
+  bool is_called_step(std::size_t at) const {
+    return at == 0 && tokens_.size() > 2 && tokens_[0].is("step") && tokens_[1].is("(");
+  }
+
   /// Within extent().
   bool balanced(std::size_t begin, std::size_t end) const {
     return line_.depth[begin] == line_.depth[end];
@@ -199,7 +204,7 @@ private:
     switch (hole) {
     case 'n':
     case 'm': return first.is_number();
-    case 'w': return first.is_word() && !parts_line(first);
+    case 'w': return first.is_word() && (!parts_line(first) || is_called_step(begin));
     case 't': return first.is_text();
     case 'k': return find_colour(first).has_value();
     case 'o':

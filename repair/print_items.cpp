@@ -139,7 +139,7 @@ std::optional<std::string> print_items(const Tokens& tokens) {
 
 std::optional<std::string> quoted(const Tokens& tokens) {
   std::string text;
-  constexpr std::string_view plain = ".!?:,";
+  constexpr std::string_view plain = ".!?:,()-/&";
   const auto is_value = [](const Token& token) { // `A` and `x`; `a` and `I` are said, too
     return token.is_word() && token.text.size() == 1 && !token.is("a") && !token.is("I");
   };

@@ -60,6 +60,8 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
     if (language == Language::Structured && tokens.size() > 1 && tokens[1].is_word())
       if (const auto first = word_at(tokens, 0); first == "sub" || first == "function")
         subs_.push_back({tokens[1].text, values_between(tokens, 2)});
+    if (tokens.size() > 1 && tokens[0].is("array") && tokens[1].is_word())
+      arrays_.insert(lower(tokens[1].text));
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;
@@ -68,6 +70,10 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
         ++set_[tokens[i].text];
     }
   }
+}
+
+bool Scenery::is_array(std::string_view word) const {
+  return arrays_.contains(lower(word));
 }
 
 std::string Scenery::sub_of(const Tokens& line) const {

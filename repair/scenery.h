@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,9 @@ public:
   /// Where other lines of an orbBasic program jump to a number.
   std::vector<Span> jumps_to(std::string_view number) const;
 
+  /// Whether a structured program declares an array of that name.
+  bool is_array(std::string_view word) const;
+
   /// The sub or function of a structured program that a line calls, rightly or not: its first word,
   /// or its second (`call drive`), or all its words (`wait for shake`); empty without.
   std::string sub_of(const Tokens& line) const;
@@ -86,6 +90,7 @@ private:
   std::vector<Roll> rolls_;          ///< from the top
   std::vector<std::string> labels_;  ///< of a structured program
   std::vector<Sub> subs_;            ///< and its subs and functions
+  std::set<std::string> arrays_;     ///< in lower case
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };

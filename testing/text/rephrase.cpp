@@ -724,8 +724,9 @@ Tokens translate(const Tokens& line) {
         next < line.size() && (line[next].is("end") || repair::is_called("end", line[next].text));
     const auto called = [&](std::string_view name) { return repair::is_called(name, token.text); };
     const bool after_near = !all.empty() && all.back().is("near");
-    const bool turns = std::any_of(all.begin(), all.end(),
-                                   [](const Token& before) { return before.is("heading"); });
+    const bool turns = std::any_of(all.begin(), all.end(), [](const Token& before) {
+      return before.is("heading") || before.is("color");
+    });
     if (called("within") && timed)
       add("within");
     else if (called("by") && number && (long_ || turns || !called("at")) && !timed && !after_near)
