@@ -398,15 +398,23 @@ private:
       auto i = *number;
       while (i < lines_.size() && lines_[i].gone())
         ++i;
-      if (i < lines_.size()) {
-        out += std::to_string(lines_[i].number);
-        continue;
-      }
-      constexpr std::string_view jump = "goto "; // past the last line the program ends
-      if (!out.ends_with(jump))
+      if (i == lines_.size() && !end_)
+        end_ = end_of_program();
+      if (i == lines_.size() && !end_)
         return std::nullopt;
-      out.replace(out.size() - jump.size(), jump.size(), "end");
+      out += std::to_string(i == lines_.size() ? *end_ : lines_[i].number);
     }
+  }
+
+  /// A line that only ends: the last one, where that has nothing else to do.
+  std::optional<std::uint32_t> end_of_program() {
+    const auto last = lines_.size() - 1;
+    if (lines_[last].gone()) {
+      write(last, "end");
+      return lines_[last].number;
+    }
+    const auto number = between(last);
+    return number && add_below(last, "end") ? number : std::nullopt;
   }
 
   std::optional<BlockRewrite> finished(std::vector<std::size_t> changed) {
@@ -427,7 +435,7 @@ private:
       const auto span = source_.line_span(line.line);
       const auto text = line.gone() ? "" : fmt::format("{} {}", line.number, line.text);
       if (line.changed) {
-        made.lines.emplace(line.line, text);
+        made.lines.emplace(line.line, text + (line.below.empty() ? "" : "\n" + line.below));
         const auto both = text + (text.empty() || line.comment.empty() ? "" : " ") + line.comment;
         made.edits.push_back(
             {both.empty() ? Span{span.begin, source_.line_start(line.line + 1)} : span, both});
@@ -445,7 +453,8 @@ private:
   std::vector<BlockLine> lines_;
   std::vector<Open> open_;
   std::vector<BlockRewrite> found_;
-  std::set<std::string> taken_; ///< letters of loops
+  std::set<std::string> taken_;      ///< letters of loops
+  std::optional<std::uint32_t> end_; ///< the number of a line that only ends the program
   bool sure_ = true;
 };
 

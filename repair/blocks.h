@@ -17,7 +17,7 @@ namespace orb::repair {
 /// Blocks of other languages (`if c then` … `else` … `end if`, `while c:` …), over several lines of
 /// a program with line numbers, as the jumps that they are there.
 struct BlockRewrite {
-  std::map<std::uint32_t, std::string> lines; ///< what becomes of each line; empty: it is left out
+  std::map<std::uint32_t, std::string> lines; ///< what each becomes; empty: it is left out
   std::vector<Edit> edits;                    ///< all of it, lines that are added included
   bool sure = true;                           ///< its end was written
 };

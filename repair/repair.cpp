@@ -176,8 +176,9 @@ private:
         if (!is_error(finding) || written == block.lines.end() ||
             !lines_.insert(written->first).second)
           continue;
-        finding.help = written->second.empty() ? "remove the line"
-                                               : fmt::format("write `{}`", written->second);
+        finding.help = written->second.empty()
+                           ? "remove the line"
+                           : in_turn(written->second, [](std::string_view line) { return line; });
         finding.fix = fix;
         mended_.insert(&finding);
       }
@@ -599,15 +600,20 @@ private:
   }
 
   /// One line after the other: "write `print "hi"`, then `delay 2s`".
-  static std::string in_turn(const LineRepair& repair, std::string_view lines) {
+  template <typename Shown>
+  static std::string in_turn(std::string_view lines, Shown shown) {
     std::string all;
     for (std::size_t at = 0; at < lines.size();) {
       const auto end = std::min(lines.find_first_of("\r\n", at), lines.size());
-      all += fmt::format("{} `{}`", at == 0 ? "write" : ", then",
-                         repair.shown(lines.substr(at, end - at)));
+      all +=
+          fmt::format("{} `{}`", at == 0 ? "write" : ", then", shown(lines.substr(at, end - at)));
       at = std::min(lines.find_first_not_of("\r\n", end), lines.size());
     }
     return all;
+  }
+
+  static std::string in_turn(const LineRepair& repair, std::string_view lines) {
+    return in_turn(lines, [&](std::string_view line) { return repair.shown(line); });
   }
 
   void write(Diagnostic& finding, const LineRepair& repair, std::uint32_t at,

@@ -6,6 +6,7 @@
 #include "repair/idioms.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <utility>
@@ -106,7 +107,11 @@ private:
         is_count(std::string_view(text).substr(1)))
       number_instead(i, text.substr(1), 1, 3); // `x2`: twice
     const auto point = text.find('.');
-    if (number && point != std::string::npos && point > 0 && point + 1 < text.size())
+    constexpr auto of_several = std::to_array<std::string_view>(
+        {"RGB", "goroll", "roll", "fade", "raw", "locate", "data"}); // take several values
+    const bool several = std::any_of(of_several.begin(), of_several.end(),
+                                     [&](auto word) { return equal_words(line_[0].text, word); });
+    if (number && several && point != std::string::npos && point > 0 && point + 1 < text.size())
       two_numbers(i, point);
     if (number && point != std::string::npos &&
         text.find_first_not_of('0', point + 1) == std::string::npos)

@@ -95,7 +95,7 @@ private:
     if (const auto [other, is_new] = known_.emplace(where, member.name); !is_new)
       return refuse(ExitCode::Usage,
                     other->second == member.name
-                        ? fmt::format("{}duplicate `{}`; name it once", member.place, member.port)
+                        ? fmt::format("{}duplicate `{}`; give it only once", member.place, member.port)
                         : fmt::format("{}`{}` and `{}` are the same robot, {}; omit one of them",
                                       member.place, other->second, member.name, endpoint->text));
     roster_.members.push_back(std::move(member));
@@ -110,7 +110,7 @@ private:
     };
     if (member.port.starts_with("@") && taken(member.name))
       return refuse(ExitCode::Usage,
-                    fmt::format("{}duplicate `{}`; name it once", member.place, member.port));
+                    fmt::format("{}duplicate `{}`; give it only once", member.place, member.port));
     const auto name = member.name;
     for (int i = 2; taken(member.name); ++i)
       member.name = fmt::format("{} {}", name, i);

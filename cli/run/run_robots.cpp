@@ -13,14 +13,14 @@ namespace {
 /// Why not all robots can run it, as the options have it; empty where they can.
 std::string_view for_one_robot(const RunOptions& options) {
   return options.open || options.report == "-"
-             ? "`--open` and `--report -` show one robot; with several write `--report OUT.html`, "
-               "which writes a page for each"
+             ? "`--open` and `--report -` show only one robot; with several, use `--report "
+               "OUT.html`, which writes a page for each"
          : !options.trace.empty() && options.trace_out.empty()
-             ? "a trace covers one robot; with several write `--trace-out FILE`, which writes a "
-               "file for each"
-         : !options.compare.empty()    ? "`--compare` shows one robot; with several, omit it"
-         : options.input == from_stdin ? "numbers that are typed go to one robot; with several "
-                                         "write them, as in `--input 1,2`"
+             ? "a trace covers only one robot; with several, use `--trace-out FILE`, which writes "
+               "a file for each"
+         : !options.compare.empty()    ? "`--compare` shows only one robot; with several, omit it"
+         : options.input == from_stdin ? "typed numbers go to only one robot; with several, put "
+                                         "them on the command line, as in `--input 1,2`"
                                        : "";
 }
 

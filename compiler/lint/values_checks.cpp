@@ -245,10 +245,9 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
 
 void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
   const auto speed = range_of(last);
-  auto& d =
-      findings_.add(rules::MissingGo, statement.span,
-                    "`goroll` has taken 3 values since orbBasic 1.2 (August 2012), found 2; the "
-                    "third is 1 to drive, 0 to brake");
+  auto& d = findings_.add(rules::MissingGo, statement.span,
+                          "since orbBasic 1.2 (August 2012), `goroll` takes 3 values, found 2; the "
+                          "third is 1 to drive, 0 to brake");
   d.fix =
       single_fix("add the go value", last.span,
                  fmt::format("{},{}", program_.text_of(last.span), speed == Range::only(0) ? 0 : 1),

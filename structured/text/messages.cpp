@@ -435,7 +435,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                : finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
   case Reason::Gosub:
     return finding(rules::ForeignWord, found, "there is no `gosub`",
-                   "write `sub name` … `end sub` and call it by its name");
+                   "write `sub name` … `end sub` and call it by name");
   case Reason::On:
     return finding(rules::ForeignWord, found, "there is no `on`",
                    "write `select e`, `case 1` … `end select`");

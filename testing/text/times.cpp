@@ -70,7 +70,7 @@ void FileReader::read_joined(Cursor& cursor, Expectation& one, const Said& said)
   if (info(state.word).kind != Kind::State)
     return cursor.fail_at(
         word_span, rules::When, fmt::format("`{}` is not a state", info(state.word).word),
-        "`and` is followed by a state, such as `color red` or `resting`; events come before it");
+        "`and` must be followed by a state, such as `color red` or `resting`; events go before it");
   read_operands(cursor, state);
   one.joined.push_back(std::move(state));
 }
