@@ -11,20 +11,20 @@
 namespace orb::repair {
 namespace {
 
-struct ForeignWord {
-  std::string_view meaning;
-  std::string_view patterns;
-};
-constexpr auto words = std::to_array<ForeignWord>({
-#define ORB_WORD(meaning, patterns) {meaning, patterns},
+// The rows lie in one text, column by column: an address of each would be as long as the table
+// again. Every compiler here takes a literal of that length.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Woverlength-strings"
+constexpr char word_rows[] =
+#define ORB_WORD(meaning, patterns) meaning "\x1f" patterns "\x1e"
 #include "repair/idioms.def"
-});
-/// The columns of a row lie in one text: an address of each would be as long as the table again.
-constexpr auto idiom_rows = std::to_array<std::string_view>({
+    ;
+constexpr char idiom_rows[] =
 #define ORB_IDIOM(where, patterns, basic, structured, macro, test, note)                           \
-#where "\x1f" patterns "\x1f" basic "\x1f" structured "\x1f" macro "\x1f" test "\x1f" note,
+#where "\x1f" patterns "\x1f" basic "\x1f" structured "\x1f" macro "\x1f" test "\x1f" note "\x1e"
 #include "repair/idioms.def"
-});
+    ;
+#pragma GCC diagnostic pop
 
 constexpr auto hints = std::to_array<Hint>({
 #define ORB_HINT(patterns, basic, structured) {patterns, basic, structured},
@@ -49,11 +49,19 @@ std::vector<std::string_view> pieces(std::string_view text, std::string_view bet
   }
 }
 
+/// The columns of each row of a text.
+std::vector<std::vector<std::string_view>> rows_of(std::string_view text) {
+  std::vector<std::vector<std::string_view>> rows;
+  for (const auto row : pieces(text, "\x1e"))
+    if (!row.empty())
+      rows.push_back(pieces(row, "\x1f"));
+  return rows;
+}
+
 const std::vector<Idiom>& idioms() {
   static const auto all = [] {
     std::vector<Idiom> rows;
-    for (const auto row : idiom_rows) {
-      const auto columns = pieces(row, "\x1f");
+    for (const auto& columns : rows_of(idiom_rows)) {
       rows.push_back({columns[0] == "Line" ? Where::Line : Where::Inside, columns[1], columns[2],
                       columns[3], columns[4], columns[5], columns[6]});
     }
@@ -154,8 +162,8 @@ const Patterns& patterns_of(Language language) {
   static const auto all = [] {
     std::array<Patterns, 4> each;
     for (std::size_t i = 0; i < each.size(); ++i) {
-      for (const auto& word : words)
-        add_patterns(each[i].all, word.patterns, nullptr, word.meaning, static_cast<Language>(i));
+      for (const auto& word : rows_of(word_rows)) // its meaning, then patterns
+        add_patterns(each[i].all, word[1], nullptr, word[0], static_cast<Language>(i));
       for (const auto& idiom : idioms())
         if (!form_of(idiom, static_cast<Language>(i)).empty())
           add_patterns(each[i].all, idiom.patterns, &idiom, {}, static_cast<Language>(i));
