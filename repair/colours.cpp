@@ -91,11 +91,12 @@ std::optional<std::string> write_colour(std::string_view function, const Tokens&
   if (named == nullptr)
     return hex;
   if (function == "testcolour")
-    return std::string(named->name == "lime"    ? "green"
-                       : named->name == "black" ? "off"
+    return std::string(named->name == "lime" && !equal_words("lime", tokens[0].text) ? "green"
+                       : named->name == "black"                                      ? "off"
                        : named->name == "purple" || named->name == "orange" ||
                                named->name == "red" || named->name == "blue" ||
-                               named->name == "white" || named->name == "yellow"
+                               named->name == "lime" || named->name == "white" ||
+                               named->name == "yellow"
                            ? named->name
                            : std::string_view(hex));
   // A word is translated by a word: the `green` of web pages is the darker one.

@@ -257,6 +257,10 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     } else if (in == In::Id && id.empty()) {
       id = token.text;
       in = In::Name;
+      if (i + 1 < line.size() && !line[i + 1].gap && (line[i + 1].is("O") || line[i + 1].is("o"))) {
+        id += '0'; // a letter that looks like a digit
+        ++i;
+      }
     } else if (in == In::Flags && (token.is(",") || token.is("|") || token.is("+"))) {
       if (!end_flag())
         return {};

@@ -663,7 +663,7 @@ bool is_vocabulary(std::string_view word, bool first) {
   return in(expectations) || in(when_words) || in(join_words) || in(vm::stimulus_words) ||
          word == "by" || word == "times" || word == "to" || word == "points" || word == "end" ||
          word == "on" || word == "off" || word == "then" || word == "until" || word == "expect" ||
-         word == "never" || word == "seeds";
+         word == "never" || word == "seeds" || word == "between";
 }
 
 /// How often a word says that something happens: `three` before `times`, `dreimal`; 0 for others.
@@ -690,6 +690,10 @@ Tokens translate(const Tokens& line) {
       token.text = word;
       all.push_back(token);
     };
+    if (token.is("+-")) {
+      add("by");
+      continue;
+    }
     const bool signed_ =
         i + 1 < line.size() && (line[i + 1].is("=") || line[i + 1].is(">") || line[i + 1].is("<"));
     const bool unit = i > 0 && line[i - 1].is_number() &&
@@ -744,6 +748,27 @@ Tokens translate(const Tokens& line) {
       else if (!repair::is_called("", token.text) || token.text == "A")
         all.push_back(token);
     }
+  }
+  return all;
+}
+
+/// `8m to 10m` and `between 8m and 10m` of what takes a range.
+Tokens with_ranges(Tokens all) {
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const bool between = all[i - 1].is("between");
+    if (!all[i].is_number() || !(between || all[i - 1].is("distance") || all[i - 1].is("speed")))
+      continue;
+    auto to = i + 1;
+    to += to < all.size() && all[to].is_word() && !all[to].gap ? 1 : 0; // its unit
+    const bool goes_on =
+        to + 1 < all.size() && all[to + 1].is_number() &&
+        (all[to].is("to") || all[to].is("until") || (between && all[to].is("and")));
+    if (!goes_on)
+      continue;
+    all[to] = Token{Token::Kind::Sign, "..", false};
+    all[to + 1].gap = false;
+    if (between)
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(i) - 1);
   }
   return all;
 }
@@ -823,7 +848,7 @@ std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) 
     if (const auto& last = line.back(); !last.is_text() || line[0].is("-"))
       if (line.size() == (line[0].is("-") ? 2U : 1U) && (last.is_text() || last.is_number()))
         return {{fmt::format("\"{}\"", last.text), false}}; // whole of those below `prints`
-  const auto translated = translate(line);
+  const auto translated = with_ranges(translate(line));
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};
   if (translated.size() > 1 && repair::join(translated) != repair::join(line))
