@@ -46,7 +46,8 @@ struct Line {
     for (const auto& token : tokens) {
       const int step = token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
       depth.push_back(depth.back() + step);
-      ends_value.push_back(token.is_text() || parts_line(token) || token.is(";") || token.is("{") ||
+      parts.push_back(parts_line(token));
+      ends_value.push_back(token.is_text() || parts.back() || token.is(";") || token.is("{") ||
                            token.is("}") || token.is(":"));
       ends_condition.push_back(token.is("then") || token.is("else") || token.is_text() ||
                                token.is("goto") || token.is("{"));
@@ -54,7 +55,8 @@ struct Line {
   }
 
   const Tokens& tokens;
-  std::vector<int> depth; ///< of brackets, before each token and after the last one
+  std::vector<int> depth;  ///< of brackets, before each token and after the last one
+  std::vector<bool> parts; ///< as parts_line() says
   std::vector<bool> ends_value;
   std::vector<bool> ends_condition;
 };
@@ -172,8 +174,8 @@ private:
   bool is_operand(std::size_t begin, std::size_t end) const {
     const auto& first = tokens_[begin];
     if (end == begin + 1)
-      return first.is_word() ? !parts_line(first) : first.is_number();
-    return (first.is("(") || (first.is_word() && !parts_line(first) &&
+      return first.is_word() ? !line_.parts[begin] : first.is_number();
+    return (first.is("(") || (first.is_word() && !line_.parts[begin] &&
                               (tokens_[begin + 1].is("(") || tokens_[begin + 1].is("[")))) &&
            (tokens_[end - 1].is(")") || tokens_[end - 1].is("]"));
   }
@@ -204,20 +206,20 @@ private:
     switch (hole) {
     case 'n':
     case 'm': return first.is_number();
-    case 'w': return first.is_word() && (!parts_line(first) || is_called_step(begin));
+    case 'w': return first.is_word() && (!line_.parts[begin] || is_called_step(begin));
     case 't': return first.is_text();
     case 'k': return find_colour(first).has_value();
     case 'o':
     case 'p': return (hole == 'p' && is_time(begin, end)) || is_operand(begin, end);
     case 'q': return is_time(begin, end) || is_value(begin, end);
     case 'v':
-      return first.is_word() && !parts_line(first) &&
+      return first.is_word() && !line_.parts[begin] &&
              (end == begin + 1 || (tokens_[begin + 1].is("[") && tokens_[end - 1].is("]")));
     case 'c':
     case 'd':
     case 'l': return true;
     case 'j': // one word is a label
-      return end > begin + 1 && !parts_line(first) && !first.is("for") && !first.is("while") &&
+      return end > begin + 1 && !line_.parts[begin] && !first.is("for") && !first.is("while") &&
              !first.is("}");
     default: return is_value(begin, end);
     }
