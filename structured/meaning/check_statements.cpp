@@ -1,5 +1,7 @@
 #include "structured/meaning/checker.h"
 
+#include "repair/arrange.h"
+
 namespace orb::structured {
 
 void Checker::check_place(std::uint32_t i, const Statement& statement) {
@@ -77,6 +79,26 @@ void Checker::check_robot(const Statement& statement) {
     if (auto* const d = check_range(item(statement, n), row.word, row.parameters()[n]);
         d != nullptr && n == 1 && statement.robot == spec::Statement::Goroll)
       help_backwards(statement, *d);
+  if (statement.robot == spec::Statement::Goroll && size(statement) > 1)
+    check_swapped(statement);
+}
+
+/// `goroll 100, direction, 1`: names say which value is meant.
+void Checker::check_swapped(const Statement& statement) {
+  const auto& heading = item(statement, 0);
+  const auto& speed = item(statement, 1);
+  const auto is = [&](std::string_view what, const Item& one) {
+    return program_.nodes[one.value].kind == NodeKind::Name &&
+           repair::is_called(what, program_.text_of(one.span));
+  };
+  if (!is("heading", speed) || is("speed", speed) || is("heading", heading))
+    return;
+  const auto name = program_.text_of(speed.span);
+  const Span rest{speed.span.end, item(statement, size(statement) - 1).span.end};
+  report(rules::SwappedValues, speed.span,
+         fmt::format("heading and speed seem to be swapped: `{}` is the speed here", name),
+         fmt::format("write `goroll {}, {}{}`", name, program_.text_of(heading.span),
+                     program_.text_of(rest)));
 }
 
 void Checker::help_backwards(const Statement& statement, Diagnostic& d) {

@@ -109,6 +109,7 @@ private:
   void check_assign(const Statement& statement);
 
   /// Offers the other heading where a speed is below 0, to the finding about that.
+  void check_swapped(const Statement& statement);
   void help_backwards(const Statement& statement, Diagnostic& d);
   /// The finding, where there is one; until the next.
   Diagnostic* check_range(const Item& part, std::string_view word,
