@@ -462,6 +462,14 @@ constexpr auto functions = std::to_array<Function>({
        return held.language() == Language::Basic && holds_name(held.a, held.around) ? std::nullopt
                                                                            : Text(quoted(held.a));
      }},
+    {"said", // all of it, with no time behind
+     [](const Holding& held) {
+       const bool timed = std::any_of(held.a.begin(), held.a.end(), [](const Token& token) {
+         return token.is("within") || token.is("at") || token.is("during") || token.is("times") ||
+                token.is("after") || token.is("before");
+       });
+       return timed ? std::nullopt : Text(quoted(held.a));
+     }},
     {"letter",
      [](const Holding& held) {
        return held.a.size() == 1 && !holds_name(held.a, held.around) && is_letter(held.a[0].text[0])
@@ -526,6 +534,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return known(around.loop);
   if (name == "label")
     return known(around.label);
+  if (name == "closer" && around.closer == "-")
+    return Text(""); // what begins the program needs no end
   if (name == "closer")
     return known(around.closer);
   if (name == "fn")

@@ -262,7 +262,9 @@ void Scenery::open_or_close(const Tokens& line) {
              is("function") || is("for"))
     open_.push_back(is("for") ? "next" : "end " + first);
   else if (is("def") || is("void"))
-    open_.emplace_back(line.size() > 1 && line[1].is("loop") ? "end loop" : "end sub");
+    open_.emplace_back(line.size() < 2 || line[1].is("loop")       ? "end loop"
+                       : line[1].is("setup") || line[1].is("main") ? "-"
+                                                                   : "end sub");
   else if (is("switch") || is("match"))
     open_.emplace_back("end select");
   else if (is("forever") || is("do"))

@@ -361,7 +361,10 @@ private:
       const bool value_after = after.is_number() || after.is_word() || after.is("(");
       if (value_before && value_after) {
         insert(at, ",", 9, Token::Kind::Sign);
-        if (wants_relation(at))
+        const bool calls = after.is("(") && !after.gap;
+        const bool sets = at > 1 || before.text.size() == 1 ||
+                          (is_known(before.text) && !is_known_word(before.text, Where::Line));
+        if (wants_relation(at) && sets && !calls)
           insert(at, "=", 14, Token::Kind::Sign);
         insert(at, "to", 14, Token::Kind::Word);
       }

@@ -321,6 +321,12 @@ Diagnostic second_index(const Program& program, Span found) {
 
 } // namespace
 
+/// `4.times`: no line number.
+bool goes_on_as_word(const Program& program, Span number) {
+  const std::string_view text = program.text;
+  return number.end < text.size() && text[number.end] == '.';
+}
+
 /// A number in front of a line: of a few lines it is a slip, of all another language.
 Diagnostic numbered_line(const Program& program, Span found) {
   auto d = finding(rules::NumberedLine, found, "structured programs have no line numbers",
@@ -430,7 +436,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                    fmt::format("`{}` is not allowed in a one-line `if`", text),
                    "write `if … then`, the statement below it, and `end if`");
   case Reason::LineNumber:
-    return std::all_of(text.begin(), text.end(), is_digit)
+    return std::all_of(text.begin(), text.end(), is_digit) && !goes_on_as_word(program, found)
                ? numbered_line(program, found)
                : finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
   case Reason::Gosub:
