@@ -127,64 +127,6 @@ std::string LineRepair::shown(std::string_view text) const {
   return std::string(trim(join(parts)));
 }
 
-/// Words in their documented spelling where the robot looks at case, numbers without `0x`.
-void LineRepair::canonical() {
-  auto& tokens = parts_.tokens; // `print "A is " A"`: the last quote is too many
-  if (tokens.size() > 2 && tokens.back().is_text() && !tokens.back().closed &&
-      tokens.back().text.empty() &&
-      std::any_of(tokens.begin(), tokens.end() - 1,
-                  [](const Token& token) { return token.is_text(); }))
-    tokens.pop_back();
-  for (auto& token : parts_.tokens) {
-    if (token.is_word() && judge_.language != Language::Structured &&
-        std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
-      const auto same =
-          std::find_if(judge_.words.begin(), judge_.words.end(), [&](std::string_view one) {
-            return one.size() > 1 && equal_words(one, token.text);
-          });
-      if (same != judge_.words.end())
-        token.text = *same;
-    }
-    if (token.is_number() && judge_.language == Language::Basic && token.text.size() > 2 &&
-        to_lower(token.text[1]) == 'x')
-      if (const auto value = parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
-        token.text = std::to_string(*value);
-  }
-}
-
-/// `values(3)` of an array becomes `values[3]`.
-void LineRepair::index_arrays(const Scenery& scenery) {
-  auto& tokens = parts_.tokens;
-  for (std::size_t i = 1; i < tokens.size(); ++i) {
-    if (!tokens[i].is("(") || !tokens[i - 1].is_word() || !scenery.is_array(tokens[i - 1].text))
-      continue;
-    int depth = 0;
-    auto end = i;
-    for (; end < tokens.size(); ++end) {
-      depth += tokens[end].is("(") ? 1 : tokens[end].is(")") ? -1 : 0;
-      if (depth == 0)
-        break;
-    }
-    if (end == tokens.size())
-      return;
-    tokens[i].text = "[";
-    tokens[i].gap = false;
-    tokens[end].text = "]";
-  }
-}
-
-/// Jumps to labels, as other languages have them, become jumps to their lines.
-void LineRepair::resolve_labels(const Scenery& scenery) {
-  auto& tokens = parts_.tokens;
-  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
-    const bool jumps = equal_words(tokens[i].text, "goto") || equal_words(tokens[i].text, "gosub");
-    if (!jumps || !tokens[i + 1].is_word())
-      continue;
-    if (const auto number = scenery.number_of(tokens[i + 1].text); !number.empty())
-      tokens[i + 1].text = number;
-  }
-}
-
 std::string LineRepair::whole(std::string_view statement) const {
   if (statement.empty() && parts_.comment.empty())
     return {};
@@ -327,39 +269,6 @@ bool LineRepair::begins_alike(std::string_view lines) const {
   const auto& word = parts_.tokens.front().text;
   const auto begin = lines.substr(std::min(parts_.head.size(), lines.size()));
   return begin.starts_with(word) && begin.substr(word.size()).starts_with(' ');
-}
-
-/// A text without its end, closed before the last values that stand in it: `print "A is, A`. Empty
-/// where none do.
-std::string LineRepair::closed_earlier() const {
-  if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
-    return {};
-  const auto& text = parts_.tokens.back().text;
-  const auto comma = text.rfind(',');
-  if (comma == std::string::npos || comma == 0)
-    return {};
-  const auto values = tokens_of(text.substr(comma + 1), judge_.language);
-  const bool one = values.size() == 1 && values[0].is_word();
-  if (!one || is_foreign(values[0].text))
-    return {};
-  auto tokens = parts_.tokens;
-  tokens.back().text = text.substr(0, comma);
-  tokens.back().closed = true;
-  return join(tokens) + ", " + values[0].text;
-}
-
-/// A text whose first quote is missing, so that the last one opens what stands outside:
-/// `print tempo", T`. Empty where there is none.
-std::string LineRepair::opened_earlier() const {
-  const auto& tokens = parts_.tokens;
-  if (tokens.size() < 3 || !tokens[0].is("print") || !tokens.back().is_text() ||
-      tokens.back().closed || !tokens.back().text.starts_with(',') || !tokens[1].is_word())
-    return {};
-  Token text;
-  text.kind = Token::Kind::Text;
-  text.text = join(Tokens(tokens.begin() + 1, tokens.end() - 1));
-  text.gap = true;
-  return join({tokens[0], text}) + tokens.back().text;
 }
 
 /// Whether a line has a word that means nothing to the language and that no other line has.
