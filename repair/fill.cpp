@@ -68,7 +68,8 @@ struct Unit {
   std::int64_t ms; ///< per one
 };
 constexpr auto units = std::to_array<Unit>(
-    {{"ms msec millis millisecond milliseconds millisekunden milisegundos millisecondes msecs "
+    {{"ms msec millis millisec millisecond milliseconds millisekunden milisegundos millisecondes "
+      "msecs "
       "millisecondi milissegundos milliseconde",
       1},
      {"s sec secs second seconds sekunde sekunden sek segundo segundos seconden seconde secondes "

@@ -144,6 +144,9 @@ private:
     const auto& ending = line_[i + 1].text;
     if (ending.size() > 2 && ending[0] == '_' && is_count(std::string_view(ending).substr(1)))
       number_instead(i, line_[i].text + ending.substr(1), 2, 3); // `1_280ms`
+    if (ending.size() == 2 && to_lower(ending[0]) == 'e' && ending[1] > '0' && ending[1] < '7')
+      number_instead(i, line_[i].text + std::string(static_cast<std::size_t>(ending[1] - '0'), '0'),
+                     2, 3); // `1e3`
     if (ending.find_first_not_of("uUlLfF") == std::string::npos)
       number_instead(i, line_[i].text, 2, 3);
     auto unit = ending;

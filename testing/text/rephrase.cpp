@@ -752,6 +752,38 @@ Tokens translate(const Tokens& line) {
   return all;
 }
 
+/// What is printed, in quotes: `print 25 primes`, `"25" is printed`.
+Tokens with_quotes(Tokens all) {
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].is("print") && all[i - 1].is_text())
+      std::swap(all[i], all[i - 1]);
+  const auto print =
+      std::find_if(all.begin(), all.end(), [](const Token& token) { return token.is("print"); });
+  const auto begin = print == all.end() ? print : print + 1;
+  if (begin == all.end() || begin->is_text() || !(begin->is_word() || begin->is_number()))
+    return all;
+  const auto end = std::find_if(begin, all.end(), [&](const Token& token) {
+    const auto next = &token + 1 == all.data() + all.size() ? nullptr : &token + 1;
+    return is_vocabulary(token.text, false) || !(token.is_word() || token.is_number()) ||
+           (token.is_number() && next != nullptr && next->is("times"));
+  });
+  if (end == begin)
+    return all;
+  const Token text{Token::Kind::Text, repair::join(Tokens(begin, end)), true};
+  all.insert(all.erase(begin, end), text);
+  return all;
+}
+
+/// Without the second of two words that say the same: `stands still`.
+Tokens once_each(Tokens all) {
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const Token& a, const Token& b) {
+                          return a.is_word() && a.text == b.text && expectation(a) != nullptr;
+                        }),
+            all.end());
+  return all;
+}
+
 /// `8m to 10m` and `between 8m and 10m` of what takes a range.
 Tokens with_ranges(Tokens all) {
   for (std::size_t i = 1; i < all.size(); ++i) {
@@ -848,7 +880,7 @@ std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) 
     if (const auto& last = line.back(); !last.is_text() || line[0].is("-"))
       if (line.size() == (line[0].is("-") ? 2U : 1U) && (last.is_text() || last.is_number()))
         return {{fmt::format("\"{}\"", last.text), false}}; // whole of those below `prints`
-  const auto translated = with_ranges(translate(line));
+  const auto translated = with_ranges(with_quotes(once_each(translate(line))));
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};
   if (translated.size() > 1 && repair::join(translated) != repair::join(line))
