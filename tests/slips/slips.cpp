@@ -551,8 +551,8 @@ counts as follows. Held out:
 The others:
 
 {}
-An older batch that has been read through, and 120 mistakes at random places of examples and lessons, typed by who made
-the rows for them (`tests/slips/programs.txt`):
+An older batch that has been read through, and mistakes at random places of examples and lessons, most of them typed by
+who made the rows for them, thirteen by a stranger (`tests/slips/programs.txt`):
 
 {}
 {} programs without a mistake (`tests/slips/clean.txt`) have {} findings.
