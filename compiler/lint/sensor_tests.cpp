@@ -79,7 +79,9 @@ std::optional<SensorAnswer> judge(const SensorQuestion& question, std::string_vi
     return passed(question, row, timers.counts_down(question.sensor));
   const auto* unit = spec::find_small_unit(row.unit);
   const bool tiny = unit != nullptr && question.written > 1 && question.written < unit->least_meant;
-  if (tiny && (!timer || question.relation == Relation::Greater))
+  // A timer that counts down is below a few milliseconds when it has nearly passed.
+  if (tiny &&
+      (!timer || question.relation == Relation::Greater || !timers.counts_down(question.sensor)))
     return in_unit(question, row, *unit);
   if (const auto answer = only_answer(question, row))
     return constant(question, row, *answer, text);

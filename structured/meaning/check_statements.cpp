@@ -91,14 +91,18 @@ void Checker::check_swapped(const Statement& statement) {
     return program_.nodes[one.value].kind == NodeKind::Name &&
            repair::is_called(what, program_.text_of(one.span));
   };
-  if (!is("heading", speed) || is("speed", speed) || is("heading", heading))
+  const bool is_heading = is("heading", speed) && !is("speed", speed) && !is("heading", heading);
+  const bool is_speed = is("speed", heading) && !is("heading", heading) && !is("speed", speed) &&
+                        heading.span.size() > 1;
+  if (!is_heading && !is_speed)
     return;
-  const auto name = program_.text_of(speed.span);
   const Span rest{speed.span.end, item(statement, size(statement) - 1).span.end};
-  report(rules::SwappedValues, speed.span,
-         fmt::format("heading and speed seem to be swapped: `{}` is the speed here", name),
-         fmt::format("write `goroll {}, {}{}`", name, program_.text_of(heading.span),
-                     program_.text_of(rest)));
+  const auto& named = is_heading ? speed : heading;
+  report(rules::SwappedValues, named.span,
+         fmt::format("heading and speed seem to be swapped: `{}` is the {} here",
+                     program_.text_of(named.span), is_heading ? "speed" : "heading"),
+         fmt::format("write `goroll {}, {}{}`", program_.text_of(speed.span),
+                     program_.text_of(heading.span), program_.text_of(rest)));
 }
 
 void Checker::help_backwards(const Statement& statement, Diagnostic& d) {
