@@ -137,8 +137,7 @@ void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
     d.help = fmt::format("write `{} {}` on {} lines", word, range_of(value).lo / parts, parts);
 }
 
-bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
-                                  const spec::Parameter& parameter) {
+bool ValuesPass::is_counted(const Item& value) const {
   const auto& root = program_.nodes[value.value];
   std::uint32_t counters = 0;
   for (auto n = root.first; n <= value.value; ++n) {
@@ -150,8 +149,14 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
       return false;
   }
   const bool wraps = range_of(value) == Range{};
-  if (counters != 1 || conditional_ || wraps)
+  return counters == 1 && !conditional_ && !wraps;
+}
+
+bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
+                                  const spec::Parameter& parameter) {
+  if (!is_counted(value))
     return false;
+  const auto& root = program_.nodes[value.value];
   const auto text = program_.text_of(value.span);
   auto& d = findings_.add(rules::LoopLeavesRange, value.span,
                           fmt::format("`{}` takes {} {} to {}, but `{}` ranges from {} here", word,
@@ -406,7 +411,7 @@ void ValuesPass::check_on(const OnView& on) {
     findings_.add(rules::SelectorRange, selector.span,
                   fmt::format("the list has {}, found {}", plural(targets.size(), "line number"),
                               shown(range)));
-  else if (exact_[selector.value] == 0)
+  else if (exact_[selector.value] == 0 && !is_counted(selector))
     doubt(selector, 1, count);
   else if (range.lo < 1 || range.hi > count)
     add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line number")),

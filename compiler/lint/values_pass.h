@@ -180,8 +180,9 @@ private:
   void add_out_of_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   /// A loop that nothing leaves early reaches both ends of its range, and so does what is computed
-  /// from its letter by `+`, `-` and `*` alone.
-  /// Whether it said so.
+  /// from its letter by `+`, `-` and `*` alone: whether a value is that.
+  bool is_counted(const Item& value) const;
+  /// Whether it said that a loop leaves the range of a parameter.
   bool check_loop_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   static bool keeps_ends(const Node& node);
