@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/command_line.h"
+#include "reference/command_data.h"
 
 #include <span>
 #include <string>

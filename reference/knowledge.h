@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/style.h"
-#include "reference/command_line.h"
+#include "reference/command_data.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/model/command.h"
-#include "reference/command_line.h"
+#include "reference/command_data.h"
 
 #include <functional>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "cli/robot/driven_robot.h"
 
-#include "run/tether/held_robot.h"
+#include "run/tether/hold_robot.h"
 
 namespace orb::cli {
 namespace {

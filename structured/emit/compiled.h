@@ -3,7 +3,7 @@
 #include "structured/emit/letters.h"
 #include "structured/emit/print.h"
 #include "structured/lower/code.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
 #include <cstddef>

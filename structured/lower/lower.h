@@ -2,7 +2,7 @@
 
 #include "structured/lower/code.h"
 #include "structured/lower/plan.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
 namespace orb::structured {

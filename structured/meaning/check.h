@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/lint/lint.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
 namespace orb::structured {

@@ -1,5 +1,5 @@
 #include "bytecode/arithmetic.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "base/text/text.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 
 #include "spec/limits.h"
 #include "structured/meaning/unknown_names.h"

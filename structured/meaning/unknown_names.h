@@ -3,7 +3,7 @@
 // Private to resolve.cpp.
 
 #include "repair/idioms.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 
 #include <cstddef>
 #include <cstdint>

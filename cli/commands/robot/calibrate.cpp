@@ -7,7 +7,7 @@
 #include "cli/terminal/interrupt.h"
 #include "disk/disk.h"
 #include "run/calibrate/fit.h"
-#include "run/tether/held_robot.h"
+#include "run/tether/hold_robot.h"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 
 #include "editor/language.h"
 #include "structured/compile.h"
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structured/meaning/names.h"
+#include "structured/meaning/symbols.h"
 #include "structured/text/blocks.h"
 #include "structured/text/program.h"
 #include "structured/text/words.h"

@@ -1,4 +1,4 @@
-#include "run/tether/held_robot.h"
+#include "run/tether/hold_robot.h"
 
 #include "run/tether/driven.h"
 
