@@ -262,7 +262,7 @@ $("new-file").addEventListener("click", () => ask_name("New file", "new.orb", na
 function new_words(name) {
   const kind = kind_of(name);
   return kind.program ? `${name} is a separate ${kind.words}: Run runs the program that is shown.`
-    : ending_of(name) === "test" ? `${name} says what the program must do: ${program_of(workspace, name) || "no program"} is tested.`
+    : ending_of(name) === "test" ? `${name} says what the program must do; it tests ${program_of(workspace, name) || "no program"}.`
     : `${name} is a ${kind.words}: choose it under More.`;
 }
 $("rename-file").addEventListener("click", () => ask_name("Rename", workspace.active, name => {

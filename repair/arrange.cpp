@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace orb::repair {
@@ -279,7 +280,10 @@ private:
         token.kind = Token::Kind::Word;
     Tokens all;
     for (auto& token : bare)
-      if (token.is_word() && is_digit(token.text[0]))
+      if (token.is("=-")) {
+        all.push_back(Token{Token::Kind::Sign, "=", token.gap});
+        all.push_back(Token{Token::Kind::Sign, "-"});
+      } else if (token.is_word() && is_digit(token.text[0]))
         for (auto& part : tokens_of(token.text, Language::Macro))
           all.push_back(part);
       else
@@ -288,6 +292,7 @@ private:
     several_channels_ = std::count_if(all.begin(), all.end(), [](const Token& token) {
                           return token.is("red") || token.is("green") || token.is("blue");
                         }) > 1;
+    drop_false_percents(all);
     Values values(all, known_, operands_.size() == 1);
     std::string name;
     while (!values.at_end()) {
@@ -301,6 +306,17 @@ private:
         return false;
     }
     return name.empty();
+  }
+
+  /// `0% 255% 120%` are no parts of a hundred.
+  static void drop_false_percents(Tokens& all) {
+    constexpr int most = 100;
+    bool any = false;
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      any = any || (all[i + 1].is("%") && all[i].is_number() &&
+                    parse_number<int>(all[i].text).value_or(0) > most);
+    if (any)
+      std::erase_if(all, [](const Token& token) { return token.is("%"); });
   }
 
   bool read_value(Values& values, std::string& name) {
@@ -513,6 +529,12 @@ private:
     }
     if (operand.counts == Counts::Milliseconds && number.measure == Measure::None && !whole)
       return written({number.thousandths * one, Measure::Time}); // so many seconds
+    constexpr std::int64_t circle = 6284;                        // thousandths of a radian
+    if (!whole && operand.counts == Counts::Degrees && number.measure == Measure::None &&
+        std::abs(number.thousandths) <= circle) {
+      constexpr double degrees = 57.29577951308232; // of a radian
+      return std::to_string(std::lround(static_cast<double>(number.thousandths) / one * degrees));
+    }
     if (!whole)
       return std::nullopt;
     if (operand.counts == Counts::Degrees && operand.least >= 0) {

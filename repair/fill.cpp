@@ -264,6 +264,39 @@ Text counted(const Tokens& list) {
   return list.size() > 2 ? Text(list.front().text + " to " + list.back().text) : std::nullopt;
 }
 
+/// `c = 1 or c = 2` for a list and `c`.
+Text any_of(const Tokens& list, const Tokens& value) {
+  std::string all;
+  for (const auto& token : list) {
+    if (token.is(","))
+      continue;
+    if (!token.is_number() && !token.is_word())
+      return std::nullopt;
+    all += fmt::format("{}{} = {}", all.empty() ? "" : " or ", join(value), token.text);
+  }
+  return all;
+}
+
+/// Scratch's parameters: `(r) (g) (b)` are `(r, g, b)`.
+Text groups(const Tokens& tokens) {
+  std::string all;
+  for (std::size_t i = 0; i < tokens.size(); i += 3) {
+    if (i + 2 >= tokens.size() || !tokens[i].is("(") || !tokens[i + 1].is_word() ||
+        !tokens[i + 2].is(")"))
+      return std::nullopt;
+    all += (all.empty() ? "" : ", ") + tokens[i + 1].text;
+  }
+  return "(" + all + ")";
+}
+
+/// A range of lengths: few are metres, many centimetres.
+Text span(const Tokens& from, const Tokens& to) {
+  constexpr std::int64_t most_metres = 20;
+  const auto most = whole(to);
+  const auto* const unit = most && *most <= most_metres ? "m" : "cm";
+  return whole(from) && most ? Text(join(from) + unit + ".." + join(to) + unit) : std::nullopt;
+}
+
 /// What a function of a template works with.
 struct Holding {
   const Tokens& a; ///< the hole
@@ -442,6 +475,9 @@ constexpr auto functions = std::to_array<Function>({
     {"factor", [](const Holding& held) { return held.a.empty() ? Text("") : Text(as_factor(held.a)); }},
     {"unit", [](const Holding& held) { return Text(as_factor(held.a)); }},
     {"not", [](const Holding& held) { return opposite(held.a, held.language()); }},
+    {"groups", [](const Holding& held) { return groups(held.a); }},
+    {"span", [](const Holding& held) { return span(held.a, held.b); }},
+    {"anyof", [](const Holding& held) { return any_of(held.a, held.b); }},
     {"true", [](const Holding& held) { return Text(as_comparison(held.a)); }},
     {"dice", [](const Holding& held) { return dice(held.a, held.b, held.language()); }},
     {"below", // the second value is not one of them

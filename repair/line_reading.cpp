@@ -18,6 +18,20 @@ void LineRepair::canonical() {
       std::any_of(tokens.begin(), tokens.end() - 1,
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
+  part_numbers();
+  drop_sigils();
+  for (std::size_t i = 3; i < tokens.size(); ++i) { // `if open = "true"`
+    if (!tokens[i].is_text() || !tokens[i - 1].is_relation())
+      continue;
+    if (equal_words(tokens[i].text, "true") && judge_.language == Language::Structured &&
+        tokens[i - 1].is("=")) {
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i) - 1,
+                   tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      i -= 2;
+    } else if (equal_words(tokens[i].text, "true") || equal_words(tokens[i].text, "false")) {
+      tokens[i].kind = Token::Kind::Word;
+    }
+  }
   for (auto& token : parts_.tokens) {
     if (token.is_word() && judge_.language != Language::Structured &&
         std::find(judge_.words.begin(), judge_.words.end(), token.text) == judge_.words.end()) {
@@ -32,6 +46,45 @@ void LineRepair::canonical() {
         to_lower(token.text[1]) == 'x')
       if (const auto value = parse_number<std::int32_t>(std::string_view(token.text).substr(2), 16))
         token.text = std::to_string(*value);
+  }
+}
+
+/// `GOTO150` becomes `GOTO 150`.
+void LineRepair::part_numbers() {
+  auto& tokens = parts_.tokens;
+  for (std::size_t i = 0; i < tokens.size() && judge_.language == Language::Basic; ++i) {
+    const std::string_view word = tokens[i].text;
+    const auto digits = word.find_last_not_of("0123456789") + 1;
+    if (!tokens[i].is_word() || digits == word.size() ||
+        !has_word({"goto", "gosub", "then", "else", "to", "step"}, word.substr(0, digits)))
+      continue;
+    auto number = tokens[i];
+    number.kind = Token::Kind::Number;
+    number.text = word.substr(digits);
+    number.gap = true;
+    tokens[i].text.resize(digits);
+    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1, number);
+  }
+}
+
+/// `A% = B%`: signs behind a variable that tell its type elsewhere.
+void LineRepair::drop_sigils() {
+  auto& tokens = parts_.tokens;
+  const auto names_variable = [&](const Token& token) {
+    return token.is_word() &&
+           (judge_.language == Language::Basic ? token.text.size() == 1
+                                               : has_word(around_.elsewhere, token.text));
+  };
+  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+    return;
+  for (std::size_t i = 1; i < tokens.size(); ++i) {
+    const bool sigil =
+        !tokens[i].gap && (tokens[i].is("%") || tokens[i].is("&") || tokens[i].is("!"));
+    const bool operand =
+        i + 1 < tokens.size() &&
+        (tokens[i + 1].is_number() || tokens[i + 1].is_word() || tokens[i + 1].is("("));
+    if (sigil && !operand && names_variable(tokens[i - 1]))
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i--));
   }
 }
 
@@ -74,17 +127,20 @@ std::string LineRepair::closed_earlier() const {
   if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
     return {};
   const auto& text = parts_.tokens.back().text;
-  const auto comma = text.rfind(',');
-  if (comma == std::string::npos || comma == 0)
-    return {};
-  const auto values = tokens_of(text.substr(comma + 1), judge_.language);
-  const bool one = values.size() == 1 && values[0].is_word();
-  if (!one || is_foreign(values[0].text))
+  auto comma = text.size(); // the first of those that only words and numbers follow
+  for (auto at = text.rfind(','); at != std::string::npos && at > 0; at = text.rfind(',', at - 1)) {
+    const auto value =
+        tokens_of(std::string_view(text).substr(at + 1, comma - at - 1), judge_.language);
+    if (value.size() != 1 || !value[0].is_word() || is_foreign(value[0].text))
+      break;
+    comma = at;
+  }
+  if (comma == text.size())
     return {};
   auto tokens = parts_.tokens;
   tokens.back().text = text.substr(0, comma);
   tokens.back().closed = true;
-  return join(tokens) + ", " + values[0].text;
+  return join(tokens) + text.substr(comma);
 }
 
 /// A text whose first quote is missing, so that the last one opens what stands outside:

@@ -3,6 +3,7 @@
 #include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/fill.h"
+#include "repair/gist.h"
 #include "repair/idioms.h"
 
 #include <algorithm>
@@ -20,12 +21,6 @@ constexpr int surely = 6;                // one letter of a word
 constexpr int clearly = 4;               // by so much the best change is cheaper than the next
 constexpr std::uint32_t usual_step = 10; // of line numbers
 
-/// Whether a word is one of them, in capitals or not.
-bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view one) { return equal_words(one, word); });
-}
-
 /// Errors that no fix mends by itself.
 std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(
@@ -35,6 +30,11 @@ std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
 }
 
 } // namespace
+
+bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view one) { return equal_words(one, word); });
+}
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
@@ -99,14 +99,21 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     other_ = attempt_line(whole(earlier), {}, false, false);
   if (const auto opened = opened_earlier(); !best_ && !opened.empty())
     attempt(opened, {}, true);
-  if (!best_ && !is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line))
-    by_changes(surely);
+  if (!best_ && !is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line)) {
+    by_gist();
+    if (!best_)
+      by_changes(surely);
+  }
   if (!best_ || !best_->settles())
     habits(start, {deepest, most_states});
   if (!best_ || !best_->quiet)
     by_fix(finding);
   if (!best_)
+    by_gist();
+  if (!best_)
     by_changes(1000);
+  if (!best_)
+    among_unknown();
   std::vector<Accepted> all;
   if (best_)
     all.push_back(*best_);
@@ -280,6 +287,15 @@ bool LineRepair::is_foreign(std::string_view line) const {
   });
 }
 
+/// Whether a token is a word that neither the language nor the program knows, and that turns
+/// nothing into its opposite.
+bool LineRepair::is_unknown(const Token& token) const {
+  const bool article = judge_.language != Language::Basic && token.is("a") &&
+                       !has_word(around_.elsewhere, token.text);
+  return token.is_word() && (article || (token.text.size() > 1 && is_foreign(token.text))) &&
+         !is_called("never", token.text) && !mean_the_same("not", token.text);
+}
+
 /// Tries what the language makes of the line's values; true when that cannot be better.
 bool LineRepair::rephrase(const Tokens& line) {
   if (!judge_.rephrase || line.empty())
@@ -308,7 +324,10 @@ void LineRepair::own_call(const std::string& statement) {
   if (sub_.empty() || parts_.tokens.size() < 2)
     return;
   const bool spread = parts_.tokens[0].text != sub_ && parts_.tokens[1].text != sub_;
-  if (spread && attempt(sub_, {}, true))
+  const bool adds_words = parts_.tokens[0].text == sub_ &&
+                          std::all_of(parts_.tokens.begin() + 1, parts_.tokens.end(),
+                                      [&](const Token& token) { return is_unknown(token); });
+  if ((spread || adds_words) && attempt(sub_, {}, true))
     return;
   std::unordered_set<std::string> seen;
   explore(statement, around_, {1, few_states}, seen, rewrites_, [&](const Rewritten& one) {
@@ -344,7 +363,8 @@ void LineRepair::own_words() {
       return milliseconds_of(name) == 0 && !has_word(judge_.words, name) &&
              mean_the_same(name, token.text);
     });
-    if (own == names_.end())
+    const bool said = own != names_.end() && i + 1 < tokens.size() && tokens[i + 1].text == *own;
+    if (own == names_.end() || said) // `direction course` names it already
       continue;
     token.text = *own;
     any = true;
@@ -372,6 +392,43 @@ std::optional<std::string> LineRepair::fixed(const Diagnostic& finding) const {
     text.replace(edit->span.begin - begin_, edit->span.size(), edit->text);
   }
   return text;
+}
+
+/// What the words are about.
+void LineRepair::by_gist() {
+  if (judge_.language == Language::Basic || judge_.language == Language::Structured)
+    for (const auto& one : gist_of(parts_.tokens, around_))
+      attempt(one, {}, false);
+}
+
+/// A statement that has words before or behind it that nobody knows: `well, goto 20 again`.
+void LineRepair::among_unknown() {
+  constexpr std::size_t most = 3; // such words on either side
+  const auto& all = parts_.tokens;
+  const auto at = [&](std::size_t place) {
+    return all.begin() + static_cast<std::ptrdiff_t>(place);
+  };
+  for (std::size_t front = 0; front < all.size() && front <= most; ++front) {
+    if (front > 0 && !is_unknown(all[front - 1]))
+      return;
+    for (auto end = all.size(); end > front + 1 && end + most >= all.size(); --end) {
+      if (end < all.size() && !is_unknown(all[end]))
+        break;
+      if (end - front == all.size())
+        continue;
+      const Tokens rest(at(front), at(end));
+      if (attempt(join(rest), {}, false) || rephrase(rest))
+        return;
+      const bool own = rest.size() > 2 && rest[1].is_word() && !is_foreign(rest[0].text);
+      if (rest[0].text.size() == 1 || !(own || has_word(judge_.words, rest[0].text)))
+        continue; // what is left is no statement
+      habits(join(rest), {2, seen_.size() + few_states});
+      if (best_) {
+        best_->sure = false;
+        return;
+      }
+    }
+  }
 }
 
 /// What the language itself offers.

@@ -16,6 +16,9 @@
 
 namespace orb::repair {
 
+/// Whether a word is one of them, in capitals or not.
+bool has_word(const std::vector<std::string_view>& words, std::string_view word);
+
 std::size_t errors_in(const std::vector<Diagnostic>& findings);
 
 /// Lines that were tried in the place of one.
@@ -61,6 +64,8 @@ public:
 
 private:
   void canonical();
+  void part_numbers();
+  void drop_sigils();
   void index_arrays(const Scenery& scenery);
   void resolve_labels(const Scenery& scenery);
   std::string whole(std::string_view statement) const;
@@ -75,6 +80,7 @@ private:
   std::string closed_earlier() const;
   std::string opened_earlier() const;
   bool is_foreign(std::string_view line) const;
+  bool is_unknown(const Token& token) const;
   bool rephrase(const Tokens& line);
   bool begins_alike(std::string_view lines) const;
   void habits(const std::string& statement, Bounds bounds);
@@ -82,6 +88,8 @@ private:
   void own_words();
   void own_sub();
   void several_lines(const std::string& statement);
+  void by_gist();
+  void among_unknown();
   void by_fix(const Diagnostic& finding);
   void by_changes(int most);
 

@@ -69,6 +69,8 @@ public:
       const auto before = at_;
       blanks();
       gap_ = at_ > before;
+      if (immediate_here(tokens))
+        ++at_;
       if (at_ == text_.size() || comment(tokens))
         return tokens;
       start_ = at_;
@@ -158,9 +160,27 @@ private:
            (at_ + 1 + digits == text_.size() || !is_part(text_[at_ + 1 + digits]));
   }
 
+  /// A colour that cannot be a number: with letters, or of six digits.
+  bool long_colour_here() const {
+    constexpr std::size_t short_ = 3;
+    const auto end = text_.find_first_not_of("0123456789", at_ + 1);
+    const auto digits = std::min(end, text_.size()) - at_ - 1;
+    return colour_here() && digits != short_;
+  }
+
+  /// `#90`, as assemblers write numbers; no remark begins so.
+  bool immediate_here(const Tokens& tokens) const {
+    const auto digit =
+        at_ + (text_.substr(std::min(at_ + 1, text_.size())).starts_with('-') ? 2 : 1);
+    return language_ == Language::Macro && sees("#") && !tokens.empty() && digit < text_.size() &&
+           is_digit(text_[digit]) && !long_colour_here();
+  }
+
   /// A `'` that begins a text: another one closes it and what stands before wants a value.
   bool quoted_here(const Tokens& tokens) const {
     const auto close = text_.find('\'', at_ + 1);
+    if (close != std::string_view::npos && language_ == Language::Test)
+      return true; // remarks begin with `#` there
     if (close == std::string_view::npos || tokens.empty())
       return false;
     const auto& last = tokens.back();

@@ -4,6 +4,8 @@
 
 #include "base/duration.h"
 #include "base/text/text.h"
+#include "repair/arrange.h"
+#include "repair/idioms.h"
 #include "repair/tokens.h"
 #include "spec/macro.h"
 
@@ -85,11 +87,12 @@ std::string_view usual_of(const spec::MacroCommandInfo& info, const Operand& ope
   return info.command == spec::MacroCommand::Stabilization && operand.name == "mode" ? "on" : "";
 }
 
-/// `left 90` turns by -90.
+/// `left 90` and `back 90` turn by -90.
 void turn_left(Tokens& values) {
   bool left = false;
   std::erase_if(values, [&](const Token& token) {
-    const bool to_left = token.is_word() && repair::is_called("270", token.text);
+    const bool to_left = token.is_word() && (repair::is_called("270", token.text) ||
+                                             repair::is_called("180", token.text));
     left = left || to_left;
     return to_left || (token.is_word() && repair::is_called("90", token.text));
   });
@@ -158,6 +161,14 @@ std::string plain_name(const Tokens& tokens) {
   return name.empty() || !is_digit(name[0]) ? name : "m" + name;
 }
 
+/// `jmp`, `goto`: words of which the command already says all.
+bool is_jump(const Token& token) {
+  constexpr auto words = std::to_array<std::string_view>(
+      {"jmp", "goto", "jump", "call", "gosub", "run", "do", "go", "to", "bra", "br", "jsr"});
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return equal_words(word, token.text); });
+}
+
 std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
                                         const Elsewhere& elsewhere) {
   auto operands = std::vector<Operand>();
@@ -179,6 +190,8 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
     say_modes(values);
   if (operands.size() == 1 && operands[0].counts == Counts::Milliseconds)
     join_decimals(values);
+  if (operands.size() == 1 && operands[0].counts == Counts::Name && values.size() > 1)
+    std::erase_if(values, [](const Token& token) { return token.is(":") || is_jump(token); });
   if (operands.size() == 1 && operands[0].counts == Counts::Name)
     for (auto& token : values)
       if (token.is_word() || token.is_text())
@@ -199,17 +212,24 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
       std::any_of(line.begin(), line.end(), [](const Token& token) { return token.is(","); });
   std::string text(info.mnemonic);
   bool first = true;
+  bool in_seconds = false;
   for (std::size_t i = 0; i < operands.size(); ++i) {
     if (arranged->values[i].empty())
       continue;
+    constexpr int most_seconds = 20; // of a time without a unit in a call, as Python writes them
+    const auto& value = arranged->values[i];
+    const auto number = parse_number<int>(value);
+    const bool seconds = line.size() > 1 && line[1].is("(") && number && *number > 0 &&
+                         *number <= most_seconds && operands[i].counts == Counts::Milliseconds;
+    in_seconds = in_seconds || seconds;
     text += first || !commas ? " " : ", ";
     first = false;
     if (all_named || (operands[i].optional && arranged->named[i]))
       text += fmt::format("{}=", operands[i].name);
-    text += arranged->values[i];
+    text += value + (seconds ? "s" : "");
   }
   if (arranged->wait.empty())
-    return {{text, arranged->sure}};
+    return {{text, arranged->sure && !in_seconds}};
   const auto waits = delays(arranged->wait);
   return waits.empty() ? std::vector<Rephrased>()
                        : std::vector<Rephrased>{{text + "\n" + waits, arranged->sure}};
@@ -257,6 +277,9 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     } else if (in == In::Id && id.empty()) {
       id = token.text;
       in = In::Name;
+      const bool unit = i + 1 < line.size() && !line[i + 1].gap && line[i + 1].is_word() &&
+                        line[i + 1].text.size() > 1;
+      i += unit ? 1 : 0; // `id=64deg`
       if (i + 1 < line.size() && !line[i + 1].gap && (line[i + 1].is("O") || line[i + 1].is("o"))) {
         id += '0'; // a letter that looks like a digit
         ++i;
@@ -342,11 +365,138 @@ Tokens joined(const Tokens& line) {
   return line;
 }
 
+/// The words in a mnemonic, or in what was written for one.
+std::vector<std::string> parts_of(std::string_view word) {
+  std::vector<std::string> parts(1);
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const bool capital =
+        i > 0 && to_lower(word[i]) != word[i] && to_lower(word[i - 1]) == word[i - 1];
+    if ((word[i] == '_' || capital) && !parts.back().empty())
+      parts.emplace_back();
+    if (word[i] != '_')
+      parts.back() += to_lower(word[i]);
+  }
+  return parts;
+}
+
+/// Whether a word can stand for a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
+bool stands_for(const std::string& word, const std::string& part) {
+  constexpr std::size_t stem = 3; // letters
+  constexpr std::size_t little = 2;
+  const auto translated = repair::word_at(repair::tokens_of(word, repair::Language::Macro), 0);
+  return word == part || translated == part || repair::is_called(part, word) ||
+         (word.size() >= stem && part.size() >= stem &&
+          (word.starts_with(part) || part.starts_with(word))) ||
+         (part.size() <= little && word.size() <= little + 1 && !is_digit(word[0]));
+}
+
+/// The command whose mnemonic a word has part for part: `warte_bis_stopp`.
+const spec::MacroCommandInfo* command_in_parts(std::string_view word) {
+  const auto said = parts_of(word);
+  if (said.size() < 2)
+    return nullptr;
+  const spec::MacroCommandInfo* found = nullptr;
+  for (const auto& info : spec::macro_commands) {
+    const auto parts = parts_of(info.mnemonic);
+    if (!std::equal(said.begin(), said.end(), parts.begin(), parts.end(), stands_for))
+      continue;
+    if (found != nullptr)
+      return nullptr;
+    found = &info;
+  }
+  return found;
+}
+
+/// The command whose mnemonic's parts all stand in the line, those before its values first: `roll
+/// with spd1 and sd1 to 315`. They are taken out.
+const spec::MacroCommandInfo* command_among(Tokens& line) {
+  const auto place = [&](const std::string& part) {
+    return std::find_if(line.begin(), line.end(), [&](const Token& token) {
+      return token.is_word() && equal_words(token.text, part);
+    });
+  };
+  const spec::MacroCommandInfo* found = nullptr;
+  std::size_t most = 1;
+  for (const auto& info : spec::macro_commands) {
+    const auto parts = parts_of(info.mnemonic);
+    if (parts.size() > most &&
+        std::all_of(parts.begin(), parts.end(),
+                    [&](const std::string& part) { return place(part) != line.end(); })) {
+      found = &info;
+      most = parts.size();
+    }
+  }
+  if (found != nullptr)
+    for (const auto& part : parts_of(found->mnemonic))
+      line.erase(place(part));
+  return found;
+}
+
+const spec::MacroCommandInfo* command_called(const Token& token) {
+  const auto* info = spec::find_macro_command(token.text);
+  if (info == nullptr && token.text.starts_with('.'))
+    info = spec::find_macro_command(std::string_view(token.text).substr(1));
+  for (const auto name : repair::meanings_of(token.text))
+    info = info == nullptr ? spec::find_macro_command(name) : info;
+  return info == nullptr ? command_in_parts(token.text) : info;
+}
+
+/// The command that a line means, which then is its first word.
+const spec::MacroCommandInfo* command_of(Tokens& line) {
+  auto rest = line;
+  const auto* among = command_among(rest);
+  if (const auto* info = command_called(line[0]);
+      info != nullptr && (among == nullptr || spec::find_macro_command(line[0].text) == nullptr))
+    return info;
+  if (among != nullptr) {
+    rest.insert(rest.begin(), Token{Token::Kind::Word, std::string(among->mnemonic)});
+    line = rest;
+    return among;
+  }
+  constexpr std::size_t most = 2; // words before it: `mov rgb`, `turn the rgb`
+  for (std::size_t i = 1; i <= most && i < line.size() && line[i].is_word(); ++i)
+    if (const auto* info = spec::find_macro_command(line[i].text)) {
+      line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(i));
+      return info;
+    }
+  return nullptr;
+}
+
+/// Without the signs of JSON and YAML: `"fade": [50, 0, 8, 140],`, `- delay: 500`.
+Tokens without_signs(Tokens line) {
+  std::erase_if(line, [](const Token& token) {
+    return token.is("[") || token.is("]") || token.is("{") || token.is("}");
+  });
+  if (line.size() > 1 && line[0].is("-"))
+    line.erase(line.begin());
+  for (auto& token : line)
+    if (token.is_text() && (spec::find_macro_command(token.text) != nullptr ||
+                            token.text == "macro" || token.text == "id"))
+      token.kind = Token::Kind::Word;
+  for (std::size_t i = 1; i < line.size(); ++i) // `0h`, `80h`
+    if (line[i].is("h") && !line[i].gap && line[i - 1].is_number()) {
+      const auto value = parse_number<std::uint32_t>(line[i - 1].text, 16);
+      line[i - 1].text = std::to_string(value.value_or(0));
+      line.erase(line.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  if (line.size() > 2 && line[0].is_word() && line[1].is(":") && line[2].is(".macro")) { // a label
+    std::swap(line[0], line[2]);
+    std::swap(line[1], line[2]);
+  }
+  if (!line.empty() && line[0].is_word() && line[0].text.starts_with('.')) {
+    const auto bare = repair::tokens_of(line[0].text.substr(1), repair::Language::Macro);
+    const auto own = bare.empty() ? std::string() : repair::word_at(bare, 0);
+    if (own == "const")
+      line[0].text = ".const";
+  }
+  return line;
+}
+
 } // namespace
 
 std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
   const auto& constants = elsewhere.constants;
-  const auto line = joined(written);
+  auto line = joined(without_signs(written));
   if (line.empty() || !line[0].is_word())
     return {};
   if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro")))
@@ -369,11 +519,7 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
     return known ? std::vector<Rephrased>{{fmt::format(".const {} = {}", line[1].text, *known)}}
                  : std::vector<Rephrased>();
   }
-  const auto* info = spec::find_macro_command(line[0].text);
-  if (info == nullptr && line[0].text.starts_with('.'))
-    info = spec::find_macro_command(std::string_view(line[0].text).substr(1));
-  for (const auto name : repair::meanings_of(line[0].text))
-    info = info == nullptr ? spec::find_macro_command(name) : info;
+  const auto* info = command_of(line);
   return info == nullptr ? std::vector<Rephrased>() : rephrase_command(*info, line, elsewhere);
 }
 

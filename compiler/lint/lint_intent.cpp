@@ -417,7 +417,7 @@ private:
     const auto speed = number_in(program_, items[1]);
     if (items.size() == 3 && speed.value_or(0) > 0 && number_in(program_, items[2]) == 0)
       add_go(rules::GoZero, roll,
-             fmt::format("go 0 brakes whatever the speed: {} has no effect", *speed), '1');
+             fmt::format("go 0 brakes, whatever the speed: {} has no effect", *speed), '1');
   }
 
   void add_go(const Rule& rule, const StatementNode& roll, std::string message, char go) {

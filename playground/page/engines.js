@@ -13,7 +13,7 @@ export function watch_engines({ language, machine, on_machine_gone }) {
       if (client === machine) on_machine_gone();
       if (has_run && lives-- > 0) return client.restart();
       broken.add(client);
-      show_trouble("engine", `orb's engine is not running: ${message}. Nothing can be checked or run until it does.`);
+      show_trouble("engine", `orb's engine is not running: ${message}. Nothing can be checked or run until it is.`);
       if (client === language) $("count").textContent = "not checked";
     });
     client.on("late", () => show_trouble("engine", "orb's engine is still loading. On a slow network this takes a while."));

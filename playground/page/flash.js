@@ -21,14 +21,14 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   async function open() {
     const { names } = request(workspace());
     const serial = can_serial(), bluetooth = can_bluetooth();
-    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} onto a robot that is awake and nearby.` : "There is no program to write yet.";
+    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} to a robot that is awake and nearby.` : "There is no program to send yet.";
     $("flash-serial").disabled = !serial || !names[0];
     $("flash-bluetooth").disabled = !bluetooth || !names[0];
     $("flash-file").disabled = !names[0];
     $("drive-serial").disabled = !serial || !names[0];
     $("drive-bluetooth").disabled = !bluetooth || !names[0];
     $("flash-lacks").textContent = !serial && !bluetooth ? "This browser cannot reach robots. Chrome and Edge can; or save the file and write it with `orb upload`."
-      : !serial ? "This browser does not support serial ports: classic balls need Chrome or Edge on a computer, or the file and `orb upload`."
+      : !serial ? "This browser does not support serial ports: classic balls need Chrome or Edge on a computer, or the saved file and `orb upload`."
       : !bluetooth ? "This browser does not support Bluetooth LE." : "";
     if (!held) {
       $("flash-status").textContent = "";
@@ -78,7 +78,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     } catch (error) {
       if (error.findings) {
         on_mistakes(error.findings);
-        say("The program has errors; it was not written.", true);
+        say("The program has errors; it was not written to the robot.", true);
       } else {
         say(error.name === "NotFoundError" ? "No ball was chosen." : error.message, error.name !== "NotFoundError");
       }

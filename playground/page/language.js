@@ -19,6 +19,6 @@ export async function speak() {
   try {
     await (await import("./translate.js")).translate(code, `languages/${code}.json`);
   } catch {
-    say(`${languages[code]} could not be loaded; this is English. Check your network connection and reload the page.`, "bad");
+    say(`${languages[code]} could not be loaded, so the page is in English. Check your network connection and reload the page.`, "bad");
   }
 }

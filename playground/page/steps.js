@@ -23,7 +23,7 @@ export function first_steps({ on_next }) {
   let at = -1; // the step that is next; none
   const words = [["Press ", element("b", {}, "Run"), ": the ball drives a square."],
     ["Change the ", element("code", {}, "4"), " after ", element("code", {}, "corners"), " to a ", element("code", {}, "3"), "."],
-    ["Run it again. What does it drive now?"]];
+    ["Run it again. What path does it drive now?"]];
   function draw() {
     $("task").hidden = false;
     $("task").classList.add("first");

@@ -20,7 +20,7 @@ export class Store {
       if (told) return;
       told = true;
       on_trouble(is_full(error)
-        ? "This browser has no space left, so what you write from now on is not saved: save it on this computer."
+        ? "This browser has no space left, so what you write from now on will not be kept: save it on this computer."
         : "This browser stores nothing for this page, perhaps because the window is private: save what you write on this computer.");
     };
   }

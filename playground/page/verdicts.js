@@ -55,7 +55,7 @@ export class Verdicts {
       element("span", { class: "sign", role: "img", "aria-label": verdict }, signs[verdict] ?? "!"),
       element("b", {}, test.test),
       element("span", { class: "hint" }, `${verdict === "passed" ? "" : "seed " + one.seed + ", "}${(one.ns / 1e9 || 0).toFixed(1)} s`),
-      button("Watch", () => this.replay(test, one, files), { "aria-label": `Watch the run of ${test.test}` }));
+      button("Watch", () => this.replay(test, one, files), { "aria-label": `Watch ${test.test} run` }));
     item.append(head);
     for (const miss of failed?.misses ?? []) {
       const where = button(`line ${miss.line}`, () => this.on_place(test.file, miss.line), { class: "link" });

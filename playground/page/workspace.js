@@ -29,7 +29,7 @@ const stem_of = name => name.slice(0, name.lastIndexOf("."));
 
 /** Why a name cannot be a file's; "" where it can. */
 export function name_trouble(name) {
-  if (!/^[A-Za-z0-9][A-Za-z0-9 _.-]*$/.test(name)) return "A name can have only letters, digits, - and _.";
+  if (!/^[A-Za-z0-9][A-Za-z0-9 _.-]*$/.test(name)) return "A name can contain only letters, digits, - and _.";
   if (name.length > 60) return "That name is too long.";
   if (!kind_of(name) || !stem_of(name)) return `A name must end in ${Object.keys(kinds).map(kind => "." + kind).join(", ")}.`;
   return "";
@@ -115,7 +115,7 @@ const through = (bytes, transform) => new Blob([bytes]).stream().pipeThrough(tra
 export class AddressError extends Error {}
 const packs = () => {
   if (typeof CompressionStream === "undefined")
-    throw new AddressError("This browser cannot pack programs into addresses: it is older than 2023. Save the files, or use another browser.");
+    throw new AddressError("This browser is too old to put a program into a link (it dates from before 2023). Save the files, or use another browser.");
 };
 
 /** The part of an address behind `#` that holds a workspace. */

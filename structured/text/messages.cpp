@@ -247,7 +247,7 @@ Diagnostic read_only(const Program& program, Span found) {
   if (edits.size() < 2)
     return d;
   d.help =
-      fmt::format("`{}` is what the ball measures: write `{}` in all these lines", sensor, name);
+      fmt::format("`{}` is what the ball measures: write `{}` on all these lines", sensor, name);
   d.fix = Fix{fmt::format("call it `{}`", name), std::move(edits), Safety::Unsafe};
   return d;
 }

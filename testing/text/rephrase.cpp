@@ -3,6 +3,7 @@
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "spec/ball.h"
+#include "testing/text/foreign.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
 
@@ -221,6 +222,22 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
       numbers.push_back(number);
     else
       return std::nullopt;
+  }
+  const auto part_of_metre = [](const std::string& number) {
+    return number.find("0.") != std::string::npos;
+  };
+  if (numbers.size() >= 2 && distance.find_first_of("cm") == std::string::npos &&
+      std::all_of(numbers.begin(), numbers.end(), part_of_metre) &&
+      (distance.empty() || part_of_metre(distance))) { // `near 0.37,0.37 by 0.08`
+    const auto in_cm = [](std::string& number) {
+      constexpr double metre_cm = 100;
+      number = fmt::format(
+          "{}", std::round(parse_number<double>(number, std::chars_format::fixed).value_or(0) *
+                           metre_cm));
+    };
+    std::for_each(numbers.begin(), numbers.end(), in_cm);
+    if (!distance.empty())
+      in_cm(distance);
   }
   if (numbers.size() == 3 && distance.empty()) { // `near 90 90 15`
     distance = numbers[2] + "cm";
@@ -608,6 +625,11 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
       i += 2;
     } else if (i + 1 < line.size() && line[i].is("/") && line[i + 1].is("s")) {
       ++i; // degrees a second
+    } else if (i > 1 && line[i - 1].is("=") && (line[i - 2].is("x") || line[i - 2].is("y"))) {
+      values.push_back(line[i]);
+      values.back().gap = true;
+    } else if (i + 1 < line.size() && (line[i].is("x") || line[i].is("y")) && line[i + 1].is("=")) {
+      ++i; // `tilt x=-8 y=-12`
     } else {
       values.push_back(line[i]);
     }
@@ -861,7 +883,8 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
     rest.erase(rest.begin() + (verb - line.begin()));
   else if (auto stimulus = arrange_stimulus(line))
     return stimulus;
-  else if (!line[0].is("at") && !line[0].is("within") && !line[0].is("during"))
+  else if (!line[0].is("at") && !line[0].is("within") && !line[0].is("during") &&
+           expectation(line[0]) == nullptr)
     return std::nullopt;
   if (auto one = arrange_expectation(rest, never, elsewhere))
     return one;
@@ -880,11 +903,14 @@ std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) 
     if (const auto& last = line.back(); !last.is_text() || line[0].is("-"))
       if (line.size() == (line[0].is("-") ? 2U : 1U) && (last.is_text() || last.is_number()))
         return {{fmt::format("\"{}\"", last.text), false}}; // whole of those below `prints`
-  const auto translated = with_ranges(with_quotes(once_each(translate(line))));
+  const auto chain = words_of_chain(line);
+  const auto& said = chain.empty() ? without_signs(line) : chain;
+  const auto translated =
+      with_ranges(with_spans(with_quotes(once_each(translate(plain_places(said))))));
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};
   if (translated.size() > 1 && repair::join(translated) != repair::join(line))
-    return {{repair::join(translated), true}};
+    return {{repair::join(translated), chain.empty()}};
   return {};
 }
 

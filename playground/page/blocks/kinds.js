@@ -345,7 +345,7 @@ export function define_blocks(Blockly, words) {
     print: block => `goto ${text_of(block, "NAME")}` };
 
   // ---- what is no statement ----
-  kinds.program = { style: "start", hat: true, tip: "What hangs below runs from top to bottom when the program starts.",
+  kinds.program = { style: "start", hat: true, tip: "The blocks below run from top to bottom when the program starts.",
     build: block => row(block, "ROW", "when the program starts"), print: () => "" };
   kinds.comment = { style: "note", statement: true, tip: "a comment for people; the robot does not see it",
     build: block => row(block, "ROW", ["TEXT", new LongField("what this is for")]),

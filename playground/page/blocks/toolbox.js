@@ -24,7 +24,7 @@ export function drawers(words, { made, routines, labels }) {
   const list = [
     ["Start", "start", [
       block("comment", { fields: { TEXT: "what this is for" } }),
-      label("The ball waits for things in loops:"),
+      label("The ball uses loops to wait for things:"),
       block("loop", { inputs: { DO: inside(block("if", { memory: { one_line: false }, inputs: { COND: shaken, DO: inside(colour("red")) }, next: state_of(robot("delay", "50ms")) })) } }),
       robot("end"), robot("reset")]],
     ["Drive", "drive", [label("heading 0 is ahead, 90 to the right"), robot("goroll", "0", "80", "1"), label("brake"), robot("goroll", "0", "0", "0"),
@@ -61,7 +61,7 @@ export function drawers(words, { made, routines, labels }) {
       return [...own.length ? [label("in this program"), ...own.map(name)] : [],
         block("assign", { fields: { NAME: some, SIGN: "=" }, inputs: { VALUE: number("0") } }), block("assign", { fields: { NAME: some, SIGN: "+=" }, inputs: { VALUE: number("1") } }),
         ...own.length ? [] : [name(some)], block("const", { fields: { NAME: "side" }, inputs: { VALUE: number("80") } }), block("local", { fields: { NAMES: "n" } }),
-        label("many under one name"), block("array", { fields: { NAME: "list" }, inputs: { VALUE: number("5") } }),
+        label("many values under one name"), block("array", { fields: { NAME: "list" }, inputs: { VALUE: number("5") } }),
         block("assign element", { fields: { NAME: made(["array"])[0] ?? "list", SIGN: "=" }, inputs: { INDEX: number("1"), VALUE: number("0") } }), block("element", { fields: { TEXT: made(["array"])[0] ?? "list" }, inputs: { A0: number("1") } }),
         label("a row of numbers to read"), block("robot data", { memory: { n: 3 }, inputs: { A0: number("1"), A1: number("2"), A2: number("3") } }),
         block("robot read", { memory: { n: 1 }, inputs: { A0: { shadow: { type: "name", fields: { TEXT: some } } } } }), robot("rstr")];

@@ -1,0 +1,314 @@
+#include "testing/text/foreign.h"
+
+#include "base/duration.h"
+#include "base/text/text.h"
+#include "repair/arrange.h"
+#include "repair/colours.h"
+#include "repair/idioms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+
+namespace orb::testing {
+namespace {
+
+using repair::holds;
+using repair::Token;
+using repair::Tokens;
+
+Token word(std::string_view text) {
+  return Token{Token::Kind::Word, std::string(text), true};
+}
+
+/// Where the parenthesis ends that token `open` opens; the size of the line without an end.
+std::size_t close_of(const Tokens& line, std::size_t open) {
+  int depth = 0;
+  for (auto at = open; at < line.size(); ++at) {
+    depth += line[at].is("(") ? 1 : line[at].is(")") ? -1 : 0;
+    if (depth == 0)
+      return at;
+  }
+  return line.size();
+}
+
+Tokens between(const Tokens& line, std::size_t begin, std::size_t end) {
+  return {line.begin() + static_cast<std::ptrdiff_t>(begin),
+          line.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+void append(Tokens& to, const Tokens& tokens) {
+  to.insert(to.end(), tokens.begin(), tokens.end());
+}
+
+/// What is tested, as test files call it.
+std::string_view subject_of(std::string_view written) {
+  struct Subject {
+    std::string_view word;
+    std::string_view words;
+  };
+  constexpr auto subjects = std::to_array<Subject>({
+      {"print", "print prints printed output console log stdout text message result"},
+      {"near", "position pos location place robot ball sphero near"},
+      {"color", "color colour led light leds"},
+      {"distance", "distance path"},
+      {"end", "duration runtime program"},
+  });
+  for (const auto& subject : subjects)
+    if (holds(subject.words, written))
+      return subject.word;
+  return written;
+}
+
+/// A number without a unit as a time: few are seconds, many milliseconds.
+Tokens timed(Tokens values) {
+  constexpr int most_seconds = 200;
+  if (values.size() == 1 && values[0].is_text())
+    values = repair::tokens_of(values[0].text, repair::Language::Test);
+  if (values.size() != 1 || !values[0].is_number())
+    return values;
+  const auto number = parse_number<double>(values[0].text, std::chars_format::fixed).value_or(0);
+  const auto ms = std::lround(number <= most_seconds ? number * 1000 : number);
+  return repair::tokens_of(time_text(ms), repair::Language::Test);
+}
+
+/// The words of a call of the chain, put behind those before it.
+class Chain {
+public:
+  /// False where a call says nothing that is known.
+  bool add(std::string_view method, Tokens values) {
+    if (holds("not never", method))
+      never_ = true;
+    else if (holds("to be and it should have been that with resolves eventually", method) &&
+             values.empty())
+      ;
+    else if (holds("toBeLessThan toBeBelow lessThan below toBeLessThanOrEqual", method))
+      append_with("<", values);
+    else if (holds("toBeGreaterThan toBeAbove greaterThan above toBeGreaterThanOrEqual", method))
+      append_with(">", values);
+    else if (holds("toHaveBeenCalledTimes times toBeCalledTimes toHaveBeenPrintedTimes", method) &&
+             values.size() == 1)
+      append(tail_, {word(values[0].text), word("times")});
+    else if (holds("within toBeWithin before under in withinTime timeout toHappenWithin", method))
+      within(values);
+    else if (holds("at after", method) && !values.empty()) {
+      tail_.push_back(word("at"));
+      append(tail_, values[0].is("end") || (values[0].is_text() && values[0].text == "end")
+                        ? Tokens{word("end")}
+                        : timed(values));
+    } else if (holds("by tolerance closeTo", method) && !values.empty()) {
+      tail_.push_back(word("by"));
+      append(tail_, plain(values));
+    } else if (method.starts_with("to") ||
+               holds("equals equal is contains contain matches match near", method))
+      equals(method, std::move(values));
+    else
+      return false;
+    return true;
+  }
+
+  void set_subject(Tokens subject) {
+    if (subject.size() > 3 && subject[1].is("(") && subject.back().is(")")) { // `near(37, 37)`
+      values_ = between(subject, 2, subject.size() - 1);
+      subject.resize(1);
+    }
+    subject_ = subject.empty() ? std::string() : std::string(subject_of(subject.back().text));
+  }
+
+  Tokens words() const {
+    Tokens all{word(never_ ? "never" : "expect")};
+    const bool axis = subject_ == "x" || subject_ == "y";
+    if (reach_)
+      all = {word(never_ ? "never" : "reach")};
+    else if (axis)
+      all.push_back(word("beyond"));
+    append(all, repair::tokens_of(subject_, repair::Language::Test));
+    all.back().gap = true;
+    append(all, values_);
+    append(all, tail_);
+    return all;
+  }
+
+private:
+  /// Quoted values are values; only what is printed keeps its quotes.
+  Tokens plain(const Tokens& values) const {
+    Tokens all;
+    for (auto token : values)
+      if (token.is_text() && subject_ != "print")
+        append(all, repair::tokens_of(token.text, repair::Language::Test));
+      else if (!token.is("{") && !token.is("}"))
+        all.push_back(token);
+    if (!all.empty())
+      all[0].gap = true;
+    return all;
+  }
+
+  void append_with(std::string_view relation, const Tokens& values) {
+    if (subject_ == "end") {
+      within(values);
+      return;
+    }
+    values_.push_back(Token{Token::Kind::Sign, std::string(relation)});
+    append(values_, plain(values));
+  }
+
+  void within(const Tokens& values) {
+    const auto said = plain(values);
+    const bool length = said.size() == 2 && holds("cm m mm", said[1].text);
+    tail_.push_back(word(length ? "by" : "within"));
+    append(tail_, length ? said : timed(said));
+  }
+
+  void equals(std::string_view method, Tokens values) {
+    if (const auto brace = std::find_if(values.begin(), values.end(),
+                                        [](const Token& token) { return token.is("{"); });
+        brace != values.end()) { // `{ within: 10000 }`
+      const Tokens options(brace + 1, values.end());
+      values.erase(brace, values.end());
+      if (options.size() > 2 && options[1].is(":"))
+        add(options[0].text,
+            between(options, 2, options.size() - (options.back().is("}") ? 1 : 0)));
+    }
+    while (!values.empty() && values.back().is(","))
+      values.pop_back();
+    reach_ = holds("toBeReached toReach toHaveReached", method);
+    const auto comma = std::find_if(values.begin(), values.end(),
+                                    [](const Token& token) { return token.is(","); });
+    const bool second = comma != values.end() &&
+                        (subject_ == "color" || subject_ == "heading" || subject_ == "print");
+    if (second) { // how near
+      const Tokens tolerance(comma + 1, values.end());
+      values.erase(comma, values.end());
+      if (subject_ != "print")
+        add("by", tolerance);
+    }
+    const bool part =
+        never_ && subject_ == "print" && holds("toContain contain contains toInclude", method);
+    if (part && values.size() == 1 && values[0].is_text())
+      values_.push_back(Token{Token::Kind::Sign, "~", true});
+    auto said = plain(values);
+    if (part && !said.empty())
+      said[0].gap = false;
+    append(values_, said);
+  }
+
+  std::string subject_;
+  Tokens values_;
+  Tokens tail_; ///< by, times, when
+  bool never_ = false;
+  bool reach_ = false;
+};
+
+/// `at(8000).shake()`
+Tokens timed_event(const Tokens& line) {
+  const auto close = close_of(line, 1);
+  if (close + 2 >= line.size() || !line[close + 1].is("."))
+    return {};
+  Tokens all{word("at")};
+  append(all, timed(between(line, 2, close)));
+  for (auto at = close + 2; at < line.size(); ++at)
+    if (!line[at].is("(") && !line[at].is(")") && !line[at].is(";"))
+      all.push_back(line[at]);
+  return all;
+}
+
+} // namespace
+
+Tokens words_of_chain(const Tokens& line) {
+  if (line.size() < 4 || !line[0].is_word() || !line[1].is("("))
+    return {};
+  if (equal_words(line[0].text, "at"))
+    return timed_event(line);
+  if (!holds("expect assert assertThat verify should", line[0].text))
+    return {};
+  Chain chain;
+  auto at = close_of(line, 1);
+  if (at + 1 >= line.size() || !line[at + 1].is("."))
+    return {};
+  chain.set_subject(between(line, 2, at));
+  for (++at; at + 1 < line.size() && line[at].is(".");) {
+    const auto& method = line[at + 1].text;
+    at += 2;
+    Tokens values;
+    if (at < line.size() && line[at].is("(")) {
+      const auto close = close_of(line, at);
+      values = between(line, at + 1, close);
+      at = std::min(close + 1, line.size());
+    }
+    if (!chain.add(method, values))
+      return {};
+  }
+  auto all = chain.words();
+  for (; at < line.size(); ++at) // `… within 5s`
+    if (!line[at].is(";") && !line[at].is(","))
+      all.push_back(line[at]);
+  return all;
+}
+
+Tokens without_signs(const Tokens& line) {
+  Tokens all;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto& token = line[i];
+    const bool names = token.is(":") && i > 0 && line[i - 1].is_word();
+    const bool axis = names && (line[i - 1].is("x") || line[i - 1].is("y"));
+    const bool item = i == 0 && token.is("-") && line.size() > 1 && line[1].is_word();
+    if (axis) {
+      all.push_back(Token{Token::Kind::Sign, "="});
+      continue;
+    }
+    if (names || item || token.is("[") || token.is("]") || token.is("{") || token.is("}"))
+      continue;
+    all.push_back(token);
+  }
+  return all;
+}
+
+Tokens plain_places(const Tokens& line) {
+  Tokens all;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    auto token = line[i];
+    const bool axis = !all.empty() && (all.back().is("x") || all.back().is("y"));
+    if (axis && (token.is(">>") || token.is("<<")))
+      token.text.resize(1);
+    const auto sign = all.empty() || !all.back().is("-") ? all.size() : all.size() - 1;
+    const bool place =
+        sign > 1 && all[sign - 1].is_relation() && (all[sign - 2].is("x") || all[sign - 2].is("y"));
+    const bool unit = place && token.is_number() && i + 1 < line.size() && !line[i + 1].gap &&
+                      (line[i + 1].is("m") || line[i + 1].is("cm"));
+    if (unit) {
+      constexpr double metre_cm = 100;
+      const auto value = parse_number<double>(token.text, std::chars_format::fixed).value_or(0);
+      token.text = fmt::format("{}", value * (line[i + 1].is("m") ? metre_cm : 1));
+      ++i;
+    }
+    all.push_back(token);
+  }
+  return all;
+}
+
+Tokens with_spans(const Tokens& line) {
+  const auto unit = [&](std::size_t at) {
+    return at + 1 < line.size() && line[at].is_number() &&
+           (line[at + 1].is("s") || line[at + 1].is("ms") || line[at + 1].is("min"));
+  };
+  for (std::size_t i = 0; i + 5 < line.size(); ++i) {
+    const bool between_ = line[i].is("between") && line[i + 3].is("and");
+    const bool from = holds("from von de desde da", line[i].text) &&
+                      (line[i + 3].is("to") || line[i + 3].is("until") || line[i + 3].is("till"));
+    if (!(between_ || from) || !unit(i + 1) || !unit(i + 4))
+      continue;
+    auto all = between(line, 0, i);
+    all.push_back(word("during"));
+    append(all, between(line, i + 1, i + 3));
+    all.push_back(Token{Token::Kind::Sign, ".."});
+    append(all, between(line, i + 4, line.size()));
+    all[i + 4].gap = false;
+    return all;
+  }
+  return line;
+}
+
+} // namespace orb::testing

@@ -1,0 +1,28 @@
+#pragma once
+
+// Private to testing/.
+
+#include "repair/tokens.h"
+
+#include <vector>
+
+// Lines of other test frameworks, in the words of test files as far as their grammar goes; what the
+// words mean is not asked here.
+
+namespace orb::testing {
+
+/// `expect(color).not.toBe("red").within(3000)` as `never color red within 3s`, `at(8000).shake()`
+/// as `at 8s shake`; empty where a line is no such chain of calls.
+repair::Tokens words_of_chain(const repair::Tokens& line);
+
+/// Without the signs of YAML and JSON: `at: 1s push: [90, 120]`.
+repair::Tokens without_signs(const repair::Tokens& line);
+
+/// Places in centimetres without their unit, as `beyond` and `wall` take them: `x>0.7m` is `x>70`;
+/// doubled relations once.
+repair::Tokens plain_places(const repair::Tokens& line);
+
+/// `from 2s to 3s` as `during 2s..3s`.
+repair::Tokens with_spans(const repair::Tokens& line);
+
+} // namespace orb::testing
