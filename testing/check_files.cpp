@@ -76,7 +76,7 @@ void check_structured(const SourceFile& file, Call& call) {
 
 /// A kind of file, and what checks one.
 struct FileKind {
-  bool (*takes)(const SourceFile& file);
+  bool (*is_of_kind)(const SourceFile& file);
   void (*check)(const SourceFile& file, Call& call);
 };
 
@@ -92,7 +92,7 @@ constexpr std::array<FileKind, 5> kinds = {{
 
 const FileKind& kind_of(const SourceFile& file) {
   return *std::find_if(kinds.begin(), kinds.end(),
-                       [&](const FileKind& kind) { return kind.takes(file); });
+                       [&](const FileKind& kind) { return kind.is_of_kind(file); });
 }
 
 } // namespace

@@ -80,7 +80,7 @@ private:
   /// `print 'hello'` prints an empty line, because `'` begins a comment.
   void check_single_quotes(const StatementNode& statement, Span comment);
 
-  void add_semicolon(const Item& semicolon, const Item& next);
+  void add_semicolon(const Item& semicolon, const Item& next, const std::string& spaced);
 
   void check_data(std::span<const Item> values);
 

@@ -179,9 +179,21 @@ void TextPass::add_missing_target(const Item& target) {
 }
 
 void TextPass::check_print(std::span<const Item> items) {
+  std::string spaced; // the list with a blank in the place of each
+  bool blank = false;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool inside = items[i].kind == ItemKind::Semicolon && i + 1 < items.size();
+    if (i > 0 && !inside)
+      spaced += blank ? " "
+                      : program_.text.substr(items[i - 1].span.end,
+                                             items[i].span.begin - items[i - 1].span.end);
+    if (!inside)
+      spaced += program_.text_of(items[i].span);
+    blank = inside;
+  }
   for (std::size_t i = 0; i + 1 < items.size(); ++i)
     if (items[i].kind == ItemKind::Semicolon)
-      add_semicolon(items[i], items[i + 1]);
+      add_semicolon(items[i], items[i + 1], spaced);
 }
 
 void TextPass::check_single_quotes(const StatementNode& statement, Span comment) {
@@ -201,10 +213,11 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
         d.help, {comment.begin, comment.begin + static_cast<std::uint32_t>(last) + 1}, quoted);
 }
 
-void TextPass::add_semicolon(const Item& semicolon, const Item& next) {
-  auto& d = findings_.add(rules::SemicolonInPrint, semicolon.span,
-                          "`;` only has an effect at the end of a `print`",
-                          "remove it, or write `,` for a space");
+void TextPass::add_semicolon(const Item& semicolon, const Item& next, const std::string& spaced) {
+  auto& d =
+      findings_.add(rules::SemicolonInPrint, semicolon.span,
+                    "`;` only has an effect at the end of a `print`",
+                    fmt::format("write `print {}`, with `,` where a space is to be printed", spaced));
   // A blank keeps what stands on both sides apart; a minus sign would join them.
   if (program_.text[next.span.begin] != '-')
     d.fix = single_fix("write a space", {semicolon.span.begin, next.span.begin}, " ");
