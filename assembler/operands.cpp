@@ -223,7 +223,7 @@ std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand
     for (std::size_t i = 0; i < operand.word_count; ++i)
       help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
   else if (operand.kind == MacroOperandKind::MacroId)
-    help = fmt::format("`.macro {} id={}` defines it, or write an id", program_.text_of(span),
+    help = fmt::format("define it with `.macro {} id={}`, or write an id", program_.text_of(span),
                        spec::macro_id_user_first);
   else
     help = fmt::format("`{}` is {}; `.const {} = {}` gives the name a value", operand.name,

@@ -153,8 +153,8 @@ tl::expected<void, Failure> check_for_robot(const Launched& launched) {
                                    "`disconnected`");
   for (const auto& event : options.stimuli)
     if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
-      return failed(ExitCode::Usage, "with a robot a stimulus can only be an `input`: shake and "
-                                     "push it by hand, or omit the port");
+      return failed(ExitCode::Usage, "with a robot, a stimulus can only be an `input`: shake and "
+                                     "push the robot by hand, or omit the port");
   return {};
 }
 

@@ -34,7 +34,7 @@ inline constexpr auto ble_steps = std::to_array<BleStepInfo>({
     {BleStep::Find, "find", "looking for the robot"},
     {BleStep::Connect, "connect", "connecting"},
     {BleStep::Services, "services", "asking what the robot can do"},
-    {BleStep::AntiDos, "anti-dos", "opening the robot to commands"},
+    {BleStep::AntiDos, "anti-dos", "unlocking the robot for commands"},
     {BleStep::TxPower, "tx-power", "setting its transmit power"},
     {BleStep::Wake, "wake", "waking the robot"},
     {BleStep::Subscribe, "subscribe", "subscribing to its answers"},

@@ -60,7 +60,7 @@ tl::expected<void, std::string> read_step(std::string_view item, std::string_vie
       step = row.step;
   }
   if (!step)
-    return wrong_word(item, fmt::format("the steps are {}", fmt::join(words, " ")));
+    return wrong_word(item, fmt::format("the steps are {}", fmt::join(words, ", ")));
   return {};
 }
 
@@ -79,7 +79,7 @@ tl::expected<void, std::string> read_value(std::string_view item, std::string_vi
                                            std::string_view value, BleFaultPlan& plan) {
   if (name == "pieces=") {
     if (!read_pieces(value, plan))
-      return wrong_word(item, fmt::format("pieces have 1 to {0} bytes, such as `pieces=1..{0}`",
+      return wrong_word(item, fmt::format("pieces have 1 to {0} bytes, as in `pieces=1..{0}`",
                                           spec::ble_piece_bytes));
     return {};
   }

@@ -569,6 +569,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return name == "second" ? "1s" : "0";
   if (name == "loop")
     return known(around.loop);
+  if (name == "returns") // in a program that calls subroutines
+    return has(around.elsewhere, "gosub") ? Text("return") : std::nullopt;
   if (name == "label")
     return known(around.label);
   if (name == "closer" && around.closer == "-")

@@ -64,7 +64,7 @@ public:
     std::size_t at = 0;
     while (at < line.size()) {
       const auto from = at;
-      if (begins_value(line, at))
+      if (begins_value(line, at) && !names_value(line, at))
         take_value(line, at);
       else if (!take_word(line, at))
         return false;
@@ -123,11 +123,28 @@ private:
     return sign || line[at].is_number() || is_own(line[at]);
   }
 
+  /// `direction` before a value, which it names, though the program has such a name, too.
+  bool names_value(const Tokens& line, std::size_t at) const {
+    return is_own(line[at]) && line[at].text.size() > 1 && at + 1 < line.size() && !about_.empty() &&
+           (is_own(line[at + 1]) || line[at + 1].is_number()) &&
+           (is_called("heading", line[at].text) || line[at].is("heading") || line[at].is("speed") ||
+            is_called("speed", line[at].text));
+  }
+
   /// `side * 2`, `90 deg`, `seen[i + 1]`
   void take_value(const Tokens& line, std::size_t& at) {
     const auto from = at;
     at += line[at].is("-") ? 2 : 1;
-    const bool called = is_own(line[from]) && at < line.size() && line[at].is("(");
+    bool called = is_own(line[from]) && at < line.size() && line[at].is("(");
+    if (called && !about_.empty()) { // a function gives the value
+      for (int depth = 0; at < line.size(); ++at) {
+        depth += line[at].is("(") ? 1 : line[at].is(")") ? -1 : 0;
+        if (depth == 0)
+          break;
+      }
+      at = std::min(at + 1, line.size());
+      called = false;
+    }
     for (int depth = 0; at < line.size() && !called; ++at) {
       const bool opens = line[at].is("[") && is_own(line[at - 1]);
       const bool operates =
@@ -199,7 +216,8 @@ private:
     for (const auto* const heading : {"0", "90", "180", "270"})
       if (is_called(heading, word) && (heading_.empty() || heading_ == heading)) {
         heading_ = heading;
-        if (!topics_of(word).empty() && word == "back")
+        const auto topics = topics_of(word);
+        if (std::find(topics.begin(), topics.end(), "rear") != topics.end())
           about_.insert("rear");
         return true;
       }
@@ -287,6 +305,8 @@ private:
     const auto heading = pick(named("heading").empty() ? heading_ : named("heading"));
     const auto speed = pick(named("speed"));
     const auto go = pick("");
+    if (heading.empty() && speed == "0" && next == plain.end())
+      return "goroll " + list({std::to_string(around_.heading), "0", "0"});
     if (heading.empty() || speed.empty() || next != plain.end())
       return std::nullopt;
     const auto roll =

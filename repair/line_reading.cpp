@@ -4,6 +4,7 @@
 #include "repair/fill.h"
 
 #include <algorithm>
+#include <array>
 
 // How a line that is to be mended is read: spellings, labels, arrays and quotes, before anything is
 // tried.
@@ -18,7 +19,7 @@ void LineRepair::canonical() {
       std::any_of(tokens.begin(), tokens.end() - 1,
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
-  part_numbers();
+  part_glued();
   drop_sigils();
   for (std::size_t i = 3; i < tokens.size(); ++i) { // `if open = "true"`
     if (!tokens[i].is_text() || !tokens[i - 1].is_relation())
@@ -49,21 +50,54 @@ void LineRepair::canonical() {
   }
 }
 
-/// `GOTO150` becomes `GOTO 150`.
-void LineRepair::part_numbers() {
+namespace {
+
+constexpr auto glued = std::to_array<std::string_view>(
+    {"goto", "gosub", "print", "return", "input", "then", "else", "next", "read", "step", "data",
+     "for", "let", "rnd", "and", "if", "or", "to"});
+
+/// `THENLETT` in its parts: keywords, and at the end a letter, a number or a known word. Empty where
+/// it has none.
+std::vector<std::string> parts_of_glued(std::string_view word,
+                                        const std::vector<std::string_view>& words) {
+  for (const auto keyword : glued) {
+    if (word.size() <= keyword.size() || !equal_words(word.substr(0, keyword.size()), keyword))
+      continue;
+    const auto rest = word.substr(keyword.size());
+    const bool ends = rest.size() == 1 || has_word(words, rest) ||
+                      rest.find_first_not_of("0123456789") == std::string_view::npos;
+    auto more = ends ? std::vector<std::string>{std::string(rest)} : parts_of_glued(rest, words);
+    if (more.empty())
+      continue;
+    more.insert(more.begin(), std::string(keyword));
+    return more;
+  }
+  return {};
+}
+
+} // namespace
+
+/// `GOTO150` becomes `goto 150`, and `THENLETT` `then let T`.
+void LineRepair::part_glued() {
   auto& tokens = parts_.tokens;
   for (std::size_t i = 0; i < tokens.size() && judge_.language == Language::Basic; ++i) {
-    const std::string_view word = tokens[i].text;
-    const auto digits = word.find_last_not_of("0123456789") + 1;
-    if (!tokens[i].is_word() || digits == word.size() ||
-        !has_word({"goto", "gosub", "then", "else", "to", "step"}, word.substr(0, digits)))
+    if (!tokens[i].is_word() || tokens[i].text.size() < 3 || has_word(judge_.words, tokens[i].text) ||
+        (!is_digit(tokens[i].text.back()) && to_lower(tokens[i].text[0]) == tokens[i].text[0]))
       continue;
-    auto number = tokens[i];
-    number.kind = Token::Kind::Number;
-    number.text = word.substr(digits);
-    number.gap = true;
-    tokens[i].text.resize(digits);
-    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1, number);
+    const auto parts = parts_of_glued(tokens[i].text, judge_.words);
+    auto token = tokens[i];
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+      token.kind = is_digit(parts[n][0]) ? Token::Kind::Number : Token::Kind::Word;
+      token.text = parts[n];
+      token.gap = token.gap || n > 0 || (i > 0 && tokens[i - 1].kind != Token::Kind::Sign);
+      if (n == 0)
+        tokens[i] = token;
+      else
+        tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i + n), token);
+    }
+    i += parts.empty() ? 0 : parts.size() - 1;
+    if (!parts.empty() && i + 1 < tokens.size())
+      tokens[i + 1].gap = tokens[i + 1].gap || tokens[i + 1].is_word() || tokens[i + 1].is_number();
   }
 }
 

@@ -56,6 +56,7 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
     is_target_ = !scenery.jumps_to(scenery.number(line)).empty();
     number_below_ = scenery.number_below(line);
     around_.names = scenery.set_without(parts_.tokens);
+    letters_ = scenery.letters_without(parts_.tokens);
   }
   for (const auto name : names_)
     if (!has_word(judge.words, name))
@@ -93,6 +94,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (!best_ && !leaves_out && own && !is_foreign(*own) &&
       (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
     by_fix(finding); // it knows the names and the blocks
+  if (parts_.tokens.empty() && !parts_.comment.empty()) // `#end while`
+    attempt(std::string(trim(std::string_view(parts_.comment).substr(1))), {}, false);
   if (!best_ && whole(start) != line_)
     attempt(start, {}, true);
   if (const auto earlier = closed_earlier(); best_ && !earlier.empty())
@@ -110,10 +113,14 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     by_fix(finding);
   if (!best_)
     by_gist();
+  if (!best_ && judge_.language == Language::Basic)
+    by_initials();
   if (!best_)
     by_changes(1000);
   if (!best_)
     among_unknown();
+  if (!best_)
+    by_leaving_out();
   std::vector<Accepted> all;
   if (best_)
     all.push_back(*best_);
@@ -195,6 +202,12 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
   if (const auto equals = statement.find(" = ");
       equals != std::string::npos && statement.substr(0, equals) == statement.substr(equals + 3))
     return false; // nobody sets a variable to itself
+  constexpr std::string_view function = "function ";
+  if (statement.starts_with(function)) { // what returns nothing ends with `end sub`
+    const bool settled = attempt_line(whole(statement), note, sure) && best_ && best_->settles();
+    const auto sub = "sub " + statement.substr(function.size());
+    return settled || (attempt_line(whole(sub), note, sure) && best_ && best_->settles());
+  }
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));
   return (one || !text.empty()) && attempt_line(text, note, sure) && best_ && best_->settles();
@@ -392,6 +405,60 @@ std::optional<std::string> LineRepair::fixed(const Diagnostic& finding) const {
     text.replace(edit->span.begin - begin_, edit->span.size(), edit->text);
   }
   return text;
+}
+
+/// `Down = 255 - Up` in a program that uses `D` and `U`; `13o delay 500` is `130 delay 500`.
+void LineRepair::by_initials() {
+  auto tokens = parts_.tokens;
+  bool any = false;
+  for (auto& token : tokens) {
+    if (!token.is_word() || token.text.size() < 2 || !is_foreign(token.text))
+      continue;
+    const std::string initial(1, to_upper(token.text[0]));
+    if (!is_letter(initial[0]) || std::find(letters_.begin(), letters_.end(), initial) == letters_.end())
+      return;
+    token.text = initial;
+    any = true;
+  }
+  if (any)
+    attempt(join(tokens), {}, false);
+}
+
+/// A unit where none is counted (`score += 5 points`, `if s > longest steps then`), names of values
+/// (`leg(towards=90)`), and a quantity behind a statement that takes none.
+void LineRepair::by_leaving_out() {
+  const auto& all = parts_.tokens;
+  const auto operand = [&](std::size_t at) {
+    return all[at].is_number() || all[at].is(")") || (all[at].is_word() && !is_unknown(all[at]));
+  };
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const bool unit = all[i].is("%") || all[i].is("cm") || all[i].is("x");
+    const bool timed = milliseconds_of(all[i].text) > 0; // which unit was meant is not clear
+    if (!operand(i - 1) || timed || !(unit || is_unknown(all[i])))
+      continue;
+    auto less = all;
+    less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+    if (attempt(join(less), {}, false))
+      return;
+  }
+  auto unnamed = all;
+  for (std::size_t i = 2; i + 1 < unnamed.size(); ++i)
+    if (unnamed[i].is("=") && unnamed[i - 1].is_word() &&
+        (unnamed[i - 2].is("(") || unnamed[i - 2].is(","))) {
+      unnamed.erase(unnamed.begin() + static_cast<std::ptrdiff_t>(i) - 1,
+                    unnamed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      i -= 2;
+    }
+  if (unnamed.size() < all.size() && all.size() > 2 && all[1].is("(") &&
+      attempt(join(unnamed), {}, false))
+    return;
+  if (std::any_of(all.begin(), all.end(), [](const Token& token) { return token.is("print"); }))
+    return; // a number may be how often
+  const auto size = all.size();
+  for (const std::size_t count : {1U, 2U}) // `flicker 12 times`, `expect reach goal 1m`
+    if (size > count && all[size - count].is_number() &&
+        attempt(join(Tokens(all.begin(), all.end() - static_cast<std::ptrdiff_t>(count))), {}, false))
+      return;
 }
 
 /// What the words are about.

@@ -64,7 +64,7 @@ public:
 
 private:
   void canonical();
-  void part_numbers();
+  void part_glued();
   void drop_sigils();
   void index_arrays(const Scenery& scenery);
   void resolve_labels(const Scenery& scenery);
@@ -90,6 +90,8 @@ private:
   void several_lines(const std::string& statement);
   void by_gist();
   void among_unknown();
+  void by_initials();
+  void by_leaving_out();
   void by_fix(const Diagnostic& finding);
   void by_changes(int most);
 
@@ -102,6 +104,7 @@ private:
   SplitLine parts_;
   Surroundings around_;
   std::vector<std::string_view> names_;
+  std::vector<std::string> letters_; ///< of orbBasic: that other lines use
   std::string number_below_;
   std::string sub_;             ///< of the program, which the line calls, rightly or not
   std::string meant_;           ///< the sub that a call of an unknown one can only mean

@@ -64,6 +64,19 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
   return false;
 }
 
+/// Whether a line that becomes several parses then.
+bool parses_after(const Edit& edit, std::string_view line, Span span, const Judge& judge) {
+  std::string text(line);
+  text.replace(edit.span.begin - span.begin, edit.span.size(), edit.text);
+  for (std::string_view rest = text; !rest.empty();) {
+    const auto end = std::min(rest.find('\n'), rest.size());
+    if (!judge.parses(rest.substr(0, end)))
+      return false;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return true;
+}
+
 /// Whether a finding is about how its line is written: a line that parses is only looked at where a
 /// word in it means nothing, and a fix of several lines knows better.
 bool is_about_writing(const Diagnostic& finding, const Source& source, const Judge& judge,
@@ -73,7 +86,7 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
   if (finding.fix)
     for (const auto& edit : finding.fix->edits)
       if (edit.span.begin < span.begin || edit.span.end > span.end ||
-          edit.text.find('\n') != std::string::npos)
+          (edit.text.find('\n') != std::string::npos && parses_after(edit, text, span, judge)))
         return false;
   if (finding.rule->id == "test-pattern")
     return false; // what is between the slashes is another language

@@ -33,6 +33,9 @@ public:
   /// Words of several letters that other lines set: `count = 0`.
   std::vector<std::string_view> set_without(const Tokens& line) const;
 
+  /// Variables of one letter that other lines of an orbBasic program use.
+  std::vector<std::string> letters_without(const Tokens& line) const;
+
   /// A name that is written once and is near `word`, or means the same: its wrong definition.
   std::optional<std::string> misspelt(std::string_view word,
                                       const std::vector<std::string_view>& known) const;

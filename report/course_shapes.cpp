@@ -257,7 +257,7 @@ void Reader::move_to(const Arrow& start, Point ahead) {
   }
   if (narrow)
     say(rules::CourseNarrow, start.span,
-        fmt::format("a wall is closer to the start than {} cm, the radius of the ball",
+        fmt::format("a wall is less than {} cm, the radius of the ball, from the start",
                     spec::ball::radius),
         "move the start or the wall");
   for (auto& zone : out_.course.zones) {

@@ -132,7 +132,7 @@ std::optional<Failure> objection(const Load& load) {
       return Failure{
           ExitCode::BadInput,
           fmt::format("macro `{}` has an id and is {} bytes long; a ball stores at most "
-                      "{} under an id. Without `id=` it runs as a temporary or streamed macro",
+                      "{} under an id; without `id=` it runs as a temporary or streamed macro",
                       macro->name, size, spec::macro_max_packet)};
   return std::nullopt;
 }

@@ -46,7 +46,7 @@ void find_variable(const Expectation& one, const Prepared& program, Lookup& foun
     found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
   } else {
     found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
-    found.help = "a program with line numbers has A to Y";
+    found.help = "a program with line numbers has only the variables A to Y";
   }
   if (!found.meaning.problem.empty())
     found.rule = &rules::Variable;

@@ -97,7 +97,7 @@ public:
     if (!written || !connected())
       return failed(
           BleFailure::Refused,
-          step_ ? fmt::format("the robot refused what was written while {}", info(*step_).doing)
+          step_ ? fmt::format("the robot refused a write while {}", info(*step_).doing)
                 : std::string("the robot does not accept what is written to it"),
           written ? CallError{} : written.error());
     return {};
@@ -253,11 +253,11 @@ private:
       else if (is_near(device))
         ++others;
     }
-    const auto robots = names.empty() ? std::string(", nor any other robot")
-                                      : fmt::format(", but {}", fmt::join(names, ", "));
+    const auto robots = names.empty() ? std::string(", and no other robot")
+                                      : fmt::format(", only {}", fmt::join(names, ", "));
     return tl::unexpected(
         BleError{BleFailure::NotFound,
-                 fmt::format("no `{}` was seen within {:.1f} s{}{}",
+                 fmt::format("`{}` was not seen within {:.1f} s{}{}",
                              endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
                              seconds(budget), robots,
                              others > 0 ? fmt::format("; devices that are not robots: {}", others)

@@ -79,7 +79,7 @@ private:
     const auto said = count_said(command);
     auto help = said > 1 ? fmt::format("write `loop_start {}`", said) : std::string();
     if (command.value[0] == 0)
-      report(rules::LoopZero, command.operand, "a loop count of 0 runs once",
+      report(rules::LoopZero, command.operand, "a loop with a count of 0 runs once",
              help.empty() ? "write 1, or remove it" : help);
     else
       report(rules::LoopOne, command.operand, "a loop with 1 iteration repeats nothing",

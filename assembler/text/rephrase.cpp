@@ -169,6 +169,38 @@ bool is_jump(const Token& token) {
                      [&](std::string_view word) { return equal_words(word, token.text); });
 }
 
+/// `rgb 0 255120`: two bytes side by side, where only one way parts them.
+void part_bytes(Tokens& values, std::size_t wanted) {
+  const auto numbers = std::count_if(values.begin(), values.end(),
+                                     [](const Token& token) { return token.is_number(); });
+  if (static_cast<std::size_t>(numbers) + 1 != wanted)
+    return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto text = values[i].text;
+    if (!values[i].is_number() || parse_number<int>(text).value_or(0) <= UINT8_MAX)
+      continue;
+    std::size_t place = 0;
+    for (std::size_t at = 1; at < text.size(); ++at) {
+      const auto left = parse_number<int>(std::string_view(text).substr(0, at));
+      const auto right = parse_number<int>(std::string_view(text).substr(at));
+      const bool padded = text[at] == '0' && at + 1 < text.size();
+      if (!left || !right || *left > UINT8_MAX || *right > UINT8_MAX || padded)
+        continue;
+      if (place != 0)
+        return; // more than one
+      place = at;
+    }
+    if (place == 0)
+      return;
+    auto second = values[i];
+    values[i].text = text.substr(0, place);
+    second.text = text.substr(place);
+    second.gap = true;
+    values.insert(values.begin() + static_cast<std::ptrdiff_t>(i) + 1, second);
+    return;
+  }
+}
+
 std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
                                         const Elsewhere& elsewhere) {
   auto operands = std::vector<Operand>();
@@ -196,6 +228,10 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
     for (auto& token : values)
       if (token.is_word() || token.is_text())
         token = Token{Token::Kind::Word, plain_name({token}), token.gap};
+  if (std::all_of(operands.begin(), operands.end(), [](const Operand& operand) {
+        return operand.counts == Counts::Plain && operand.most == UINT8_MAX;
+      }))
+    part_bytes(values, operands.size());
   if (info.command == spec::MacroCommand::Roll) // a longer delay makes it a roll2
     operands.back().most = UINT16_MAX;
   const auto arranged = repair::arrange(values, operands, elsewhere.constants);
@@ -260,10 +296,26 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     }
     return false;
   };
+  const bool says_id = std::any_of(line.begin(), line.end(),
+                                   [](const Token& token) { return equal_words(token.text, "id"); });
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto& token = line[i];
     if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
       continue;
+    const bool labels = token.is("name") && i + 1 < line.size() &&
+                        (line[i + 1].is(":") || line[i + 1].is("="));
+    if (labels || (!name.empty() && in == In::Name && token.is_word() && repair::is_called("", token.text)))
+      continue;
+    if (i + 1 < line.size() && !name.empty() && in == In::Name && token.is_word() && line[i + 1].is_word())
+      if (const auto* known = spec::find_macro_flag(lower(token.text) + "_" + lower(line[i + 1].text))) {
+        flags.emplace_back(known->word); // `motor control`
+        ++i;
+        continue;
+      }
+    if (says_id && in == In::Name && !name.empty() && token.is_number() && token.gap) {
+      i += i + 1 < line.size() && line[i + 1].is_word() && !line[i + 1].gap ? 1 : 0;
+      continue; // `spin 12s id=53`
+    }
     // `numero=40` and `options=endsig`: what is given says what it is.
     const bool given = !name.empty() && i + 2 < line.size() && line[i + 1].is("=");
     const bool is_id = equal_words(token.text, "id") || equal_words(token.text, "number") ||
@@ -445,8 +497,10 @@ const spec::MacroCommandInfo* command_called(const Token& token) {
 const spec::MacroCommandInfo* command_of(Tokens& line) {
   auto rest = line;
   const auto* among = command_among(rest);
-  if (const auto* info = command_called(line[0]);
-      info != nullptr && (among == nullptr || spec::find_macro_command(line[0].text) == nullptr))
+  constexpr std::size_t several = 3; // parts
+  const bool surely = among != nullptr && (parts_of(among->mnemonic).size() >= several ||
+                                           spec::find_macro_command(line[0].text) != nullptr);
+  if (const auto* info = command_called(line[0]); info != nullptr && !surely)
     return info;
   if (among != nullptr) {
     rest.insert(rest.begin(), Token{Token::Kind::Word, std::string(among->mnemonic)});
@@ -462,6 +516,36 @@ const spec::MacroCommandInfo* command_of(Tokens& line) {
   return nullptr;
 }
 
+/// `80h`, `0C8h`, `0xFEh` and `$FF` in decimal.
+void read_hexadecimal(Tokens& line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    std::string digits = line[i].text;
+    std::size_t used = 1;
+    if (line[i].is("$") && i + 1 < line.size() && !line[i + 1].gap) {
+      digits = line[i + 1].text;
+      used = 2;
+    } else if (!line[i].is_number()) {
+      continue;
+    } else if (i + 1 < line.size() && line[i + 1].is_word() && !line[i + 1].gap &&
+               to_lower(line[i + 1].text.back()) == 'h') {
+      digits += line[i + 1].text;
+      digits.pop_back();
+      used = 2;
+    } else if (digits.size() > 2 && to_lower(digits[1]) == 'x' && to_lower(digits.back()) == 'h') {
+      digits = digits.substr(2, digits.size() - 3);
+    } else {
+      continue;
+    }
+    const auto value = parse_number<std::uint32_t>(digits, 16);
+    if (!value)
+      continue;
+    const bool gap = line[i].gap;
+    line[i] = Token{Token::Kind::Number, std::to_string(*value), gap};
+    line.erase(line.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+               line.begin() + static_cast<std::ptrdiff_t>(i + used));
+  }
+}
+
 /// Without the signs of JSON and YAML: `"fade": [50, 0, 8, 140],`, `- delay: 500`.
 Tokens without_signs(Tokens line) {
   std::erase_if(line, [](const Token& token) {
@@ -473,12 +557,22 @@ Tokens without_signs(Tokens line) {
     if (token.is_text() && (spec::find_macro_command(token.text) != nullptr ||
                             token.text == "macro" || token.text == "id"))
       token.kind = Token::Kind::Word;
-  for (std::size_t i = 1; i < line.size(); ++i) // `0h`, `80h`
-    if (line[i].is("h") && !line[i].gap && line[i - 1].is_number()) {
-      const auto value = parse_number<std::uint32_t>(line[i - 1].text, 16);
-      line[i - 1].text = std::to_string(value.value_or(0));
-      line.erase(line.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+  read_hexadecimal(line);
+  if (line.size() > 3 && line[1].is(":") && line[2].is(".") && line[3].is("macro")) {
+    line[2] = Token{Token::Kind::Word, ".macro", true};
+    line.erase(line.begin() + 3);
+  }
+  const bool has_id = std::any_of(line.begin(), line.end(),
+                                  [](const Token& token) { return token.is("id"); });
+  if (line.size() > 2 && line[0].is_text() && line[1].is(":") && has_id) // `"brass": {"id": 41}`
+    line.insert(line.begin(), Token{Token::Kind::Word, ".macro"});
+  if (line.size() > 2 && line[1].is("macro") && line[0].is_word()) // `start macro right with id 61`
+    line.erase(line.begin());
+  constexpr auto defines = std::to_array<std::string_view>(
+      {"def", "sub", "proc", "function", "routine", "define", "func"});
+  if (has_id && std::any_of(defines.begin(), defines.end(),
+                            [&](std::string_view word) { return line[0].is(word); }))
+    line[0].text = ".macro";
   if (line.size() > 2 && line[0].is_word() && line[1].is(":") && line[2].is(".macro")) { // a label
     std::swap(line[0], line[2]);
     std::swap(line[1], line[2]);
@@ -488,6 +582,8 @@ Tokens without_signs(Tokens line) {
     const auto own = bare.empty() ? std::string() : repair::word_at(bare, 0);
     if (own == "const")
       line[0].text = ".const";
+    else if (!bare.empty() && (bare[0].is("makro") || bare[0].is("Makro") || bare[0].is("Macro")))
+      line[0].text = ".macro";
   }
   return line;
 }

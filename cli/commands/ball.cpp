@@ -162,7 +162,7 @@ void add_ball(const Command& orb, Context& context) {
       .show_default();
   command
       .add_option("--robot", arguments->robot,
-                  "which robot to be; those after SPRK+ speak v2 packets")
+                  "which robot to be; those after SPRK+ use v2 packets")
       .check(one_of(names_of(spec::robots)))
       .show_default();
   add_ball_option(command, arguments->profile,

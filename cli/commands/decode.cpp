@@ -237,7 +237,7 @@ void add_decode(const Command& orb, Context& context) {
   command
       .add_option(
           "--from", arguments->from,
-          "who sent the bytes; auto: the side whose checksums match; a recording says so itself")
+          "which side sent the bytes; auto: the one whose checksums match; a recording names its side itself")
       .check(one_of({"auto", "client", "ball"}))
       .show_default();
   command.callback([&context, arguments] { decode(context, *arguments); });

@@ -383,7 +383,7 @@ void add_ball_options(const Command& command, RunOptions& options) {
   add_course_option(command, options.course);
   command
       .add_option("--lines-per-second", options.run.lines_per_second,
-                  "how fast the robot's interpreter is, 1 to 1000000000")
+                  "speed of the robot's interpreter in lines per second, 1 to 1000000000")
       .check(whole_number(1, 1'000'000'000))
       .show_default();
   command

@@ -141,7 +141,7 @@ tl::expected<testing::Shard, Failure> read_shard(const std::string& text) {
   if (index < 1 || index > count)
     return tl::unexpected(
         Failure{ExitCode::Usage,
-                fmt::format("`--shard {}` is not a share; write it like 3/16, the third of sixteen",
+                fmt::format("`--shard {}` is not a shard; write it like 3/16, the third of sixteen",
                             text)});
   return testing::Shard{index, count};
 }

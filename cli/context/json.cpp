@@ -25,7 +25,7 @@ std::string_view kind_name(Item::Kind kind) {
 } // namespace
 
 void add_format_option(const Command& command, std::string& format) {
-  command.add_option("--format", format, "text, or JSON for programs")
+  command.add_option("--format", format, "text, or JSON for other programs")
       .check(one_of({"text", "json"}))
       .show_default();
 }

@@ -94,8 +94,8 @@ public:
     for (const auto& folder : listing.folders)
       add_pupil(folder);
     if (found_.programs.size() == before)
-      return Failure{ExitCode::Usage, fmt::format("no program in {}: neither {}, nor a .link file "
-                                                  "with an address, nor a folder with one",
+      return Failure{ExitCode::Usage, fmt::format("no program in {}: it has no {}, no .link file "
+                                                  "with an address, and no folder with either",
                                                   path, wanted())};
     std::sort(found_.programs.begin() + static_cast<std::ptrdiff_t>(before), found_.programs.end());
     return std::nullopt;

@@ -88,7 +88,7 @@ void add_robot_options(const Command& command, PortOptions& options, std::string
   command
       .add_option(
           "--robot", robot,
-          "which robot it is; the virtual one drives like it, and a real one says so by its name")
+          "which robot it is; the virtual one drives like it, and the name of a real one tells which")
       .check(one_of(names_of(spec::robots)));
   add_waits(command, options);
 }

@@ -42,7 +42,7 @@ tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::
     if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
       return refuse(
           ExitCode::Usage,
-          "with a robot, a stimulus can only be an `input`: shake and push it by hand, or "
+          "with a robot, a stimulus can only be an `input`: shake and push the robot by hand, or "
           "omit `--port`");
   return {};
 }

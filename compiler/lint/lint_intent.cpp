@@ -537,7 +537,7 @@ private:
     const auto bounded = fmt::format("({}) % {}", inner, turn);
     auto& d = findings_.add(
         heading ? rules::HeadingGrows : rules::ValueGrows, sum.span,
-        !heading ? fmt::format("`{}` grows without limit; the {} of `{}` ends at {}", letter,
+        !heading ? fmt::format("`{}` grows without limit; the {} of `{}` is at most {}", letter,
                                given.parameter->name, given.row->word, turn - 1)
         : grown.step > 0
             ? fmt::format("`{}` is a heading and grows without limit; headings end at {}", letter,

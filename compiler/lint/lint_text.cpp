@@ -83,7 +83,7 @@ void TextPass::check_line_ends() {
   const bool pair = at + 1 < program_.text.size() && program_.text[at + 1] == '\n';
   auto& d = findings_.add(rules::LineEnding, {begin, begin},
                           fmt::format("lines end in {}", pair ? "CRLF" : "CR"),
-                          "the robot's documents require LF");
+                          "the robot's documentation requires LF");
   Fix fix{"end lines in LF", {}, Safety::Safe};
   for (auto i = begin; i < program_.text.size(); ++i)
     if (program_.text[i] == '\r') {

@@ -236,7 +236,7 @@ void TextPass::check_data(std::span<const Item> values) {
         root.kind == NodeKind::Negate && program_.nodes[value.value - 1].kind == NodeKind::Number;
     if (root.kind != NodeKind::Number && !negative) {
       findings_.add(rules::DataExpression, value.span,
-                    "the documents only allow plain numbers in `data`");
+                    "the documentation allows only plain numbers in `data`");
       break;
     }
   }

@@ -312,7 +312,7 @@ void ValuesPass::check_for(const ForView& loop) {
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
     auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
-                            fmt::format("the loop counts from {} away from {}, so it runs once",
+                            fmt::format("the loop starts at {} and counts away from {}, so it runs once",
                                         shown(start), shown(end)));
     if (loop.step == nullptr) {
       const auto counts = program_.text_of({variable.span.begin, loop.last().span.end});

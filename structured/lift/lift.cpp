@@ -138,7 +138,7 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
       const auto line = nth < lifted.lines.size() ? lifted.lines[nth] : 0;
       findings.push_back(lifting::obstacle(
           program.lines[line].span,
-          fmt::format("as a structured program, the line would have an error: {}", found.message)));
+          fmt::format("in a structured program, the line would have an error: {}", found.message)));
       return;
     }
 }

@@ -155,7 +155,7 @@ private:
                        (step.kind == compiler::NodeKind::Negate &&
                         program_.nodes[loop.step->value - 1].kind == compiler::NodeKind::Number);
     if (!known)
-      stop(state, "the step of a structured loop must be a number, not computed",
+      stop(state, "the step of a structured loop must be a literal number, not an expression",
            "write the number after `step`");
   }
 

@@ -208,7 +208,7 @@ void Checker::check_direction(const Statement& statement) {
                                  : fmt::format("{} step {}", program_.text_of(counted), -step);
   auto& d = report(
       rules::LoopNeverRuns, counted,
-      fmt::format("the loop counts from {} away from {}, so it never runs", from->value, to->value),
+      fmt::format("the loop starts at {} and counts away from {}, so it never runs", from->value, to->value),
       fmt::format("write `{}`", turned));
   d.fix = Fix{d.help,
               {{{counted.begin, item(statement, size(statement) >= 4 ? 3 : 2).span.end}, turned}},

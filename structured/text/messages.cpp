@@ -79,8 +79,8 @@ Diagnostic trailing(const Program& program, Span found) {
                                  trim(all.substr(found.end, end - found.end))));
   }
   if (text == "=" && before == ']' && equal_words(statement, "array"))
-    return malformed(program, found, "the elements of an array are 0 at first",
-                     "set each in a line of its own, as in `a[1] = 5`");
+    return malformed(program, found, "an array takes no initial values: its elements start as 0",
+                     "set each on a line of its own, as in `a[1] = 5`");
   if (text == ":")
     return finding(rules::ForeignWord, found, "`:` does not separate statements",
                    "write one statement per line");
@@ -93,7 +93,7 @@ Diagnostic trailing(const Program& program, Span found) {
         program, found, "a unit directly follows its number",
         fmt::format("write `{}{}`", program.text_of(word_before(program.text, found.begin)), text));
   if (equal_words(statement, "loop"))
-    return malformed(program, found, "`loop` repeats forever",
+    return malformed(program, found, "`loop` takes no count: it repeats forever",
                      "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
   const auto word = find_word(statement);
   if (word.kind == WordKind::Statement &&

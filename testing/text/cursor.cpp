@@ -353,7 +353,7 @@ Duration Cursor::time() {
   const auto found = parse_duration(text);
   if (!found && is_too_long(text)) {
     fail(rules::Value, fmt::format("`{}` is longer than a year", text),
-         "a run lasts a year at most: write it like `60s` or `10min`");
+         "a run lasts at most a year; write its length like `60s` or `10min`");
     return {};
   }
   if (!found) {

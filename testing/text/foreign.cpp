@@ -202,9 +202,21 @@ private:
   bool reach_ = false;
 };
 
+/// `at(500, () => roll(0, 160))`
+Tokens timed_callback(const Tokens& line) {
+  Tokens all{word("at")};
+  append(all, timed({line[2]}));
+  for (std::size_t at = 4; at < line.size(); ++at)
+    if (line[at].is_word() || line[at].is_number() || line[at].is("-") || line[at].is(","))
+      all.push_back(line[at]);
+  return all;
+}
+
 /// `at(8000).shake()`
 Tokens timed_event(const Tokens& line) {
   const auto close = close_of(line, 1);
+  if (line.size() > 6 && line[2].is_number() && line[3].is(",") && line[4].is("("))
+    return timed_callback(line);
   if (close + 2 >= line.size() || !line[close + 1].is("."))
     return {};
   Tokens all{word("at")};
@@ -217,7 +229,33 @@ Tokens timed_event(const Tokens& line) {
 
 } // namespace
 
+namespace {
+
+/// `assert robot.inside("garage") at end`, `robot.roll(0, 160) at 500ms`
+Tokens words_of_method(const Tokens& line) {
+  const std::size_t from = holds("assert expect", line[0].text) ? 1 : 0;
+  if (line.size() < from + 4 || !holds("robot ball sphero bot", line[from].text) ||
+      !line[from + 1].is("."))
+    return {};
+  Tokens all;
+  if (from == 1)
+    all.push_back(word("expect"));
+  const bool prints = holds("print prints printed", line[from + 2].text);
+  for (auto at = from + 2; at < line.size(); ++at)
+    if (line[at].is_text() && !prints)
+      append(all, repair::tokens_of(line[at].text, repair::Language::Test));
+    else if (!line[at].is("(") && !line[at].is(")") && !line[at].is(";"))
+      all.push_back(line[at]);
+  for (auto& token : all)
+    token.gap = true;
+  return all;
+}
+
+} // namespace
+
 Tokens words_of_chain(const Tokens& line) {
+  if (auto method = line.size() > 4 ? words_of_method(line) : Tokens(); !method.empty())
+    return method;
   if (line.size() < 4 || !line[0].is_word() || !line[1].is("("))
     return {};
   if (equal_words(line[0].text, "at"))
@@ -249,6 +287,8 @@ Tokens words_of_chain(const Tokens& line) {
 }
 
 Tokens without_signs(const Tokens& line) {
+  if (std::any_of(line.begin(), line.end(), [](const Token& token) { return token.is("/"); }))
+    return line; // a pattern
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const auto& token = line[i];
@@ -286,6 +326,27 @@ Tokens plain_places(const Tokens& line) {
     }
     all.push_back(token);
   }
+  return all;
+}
+
+Tokens with_units(const Tokens& line) {
+  struct Unit {
+    std::string_view word;
+    std::string_view words;
+  };
+  constexpr auto units = std::to_array<Unit>({
+      {"m", "metre metres meter meters mètre mètres metro metros metri m"},
+      {"cm", "centimetre centimetres centimeter centimeters zentimeter centímetros cm"},
+      {"s", "second seconds secs sec sekunde sekunden segundo segundos seconde secondes secondi s"},
+      {"ms", "milliseconds millisecond millis msec ms"},
+  });
+  auto all = line;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    for (const auto& unit : units)
+      if (all[i].is_word() && all[i - 1].is_number() && holds(unit.words, all[i].text)) {
+        all[i].text = unit.word;
+        all[i].gap = false;
+      }
   return all;
 }
 

@@ -22,6 +22,9 @@ repair::Tokens without_signs(const repair::Tokens& line);
 /// doubled relations once.
 repair::Tokens plain_places(const repair::Tokens& line);
 
+/// Units as test files write them: `8 metres` as `8m`.
+repair::Tokens with_units(const repair::Tokens& line);
+
 /// `from 2s to 3s` as `during 2s..3s`.
 repair::Tokens with_spans(const repair::Tokens& line);
 

@@ -223,6 +223,11 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
     else
       return std::nullopt;
   }
+  if (const auto point = numbers.empty() ? std::string::npos : numbers[0].find('.');
+      numbers.size() == 1 && point != std::string::npos) { // `near 90.90`
+    numbers.push_back(numbers[0].substr(point + 1));
+    numbers[0].resize(point);
+  }
   const auto part_of_metre = [](const std::string& number) {
     return number.find("0.") != std::string::npos;
   };
@@ -403,6 +408,8 @@ What what_of(Phrases& phrases, bool never, const Elsewhere& elsewhere) {
       }
     }
   } else if (row.word == info(Word::Color).word && values.size() == 1) {
+    if (values[0].is("0"))
+      values[0] = Token{Token::Kind::Word, "off", true};
     if (const auto colour = repair::test_colour(values[0]))
       values[0] = Token{Token::Kind::Word, *colour, true};
   } else if (row.word == info(Word::Distance).word) {
@@ -716,6 +723,8 @@ Tokens translate(const Tokens& line) {
       add("by");
       continue;
     }
+    if (!all.empty() && token.is_word() && repair::is_called("program", token.text))
+      continue; // what ends, prints and drives
     const bool signed_ =
         i + 1 < line.size() && (line[i + 1].is("=") || line[i + 1].is(">") || line[i + 1].is("<"));
     const bool unit = i > 0 && line[i - 1].is_number() &&
@@ -784,7 +793,10 @@ Tokens with_quotes(Tokens all) {
   const auto begin = print == all.end() ? print : print + 1;
   if (begin == all.end() || begin->is_text() || !(begin->is_word() || begin->is_number()))
     return all;
+  const bool signs = begin + 1 != all.end() && (begin + 1)->is("("); // `F(12) = 144`
   const auto end = std::find_if(begin, all.end(), [&](const Token& token) {
+    if (signs && token.kind == Token::Kind::Sign)
+      return false;
     const auto next = &token + 1 == all.data() + all.size() ? nullptr : &token + 1;
     return is_vocabulary(token.text, false) || !(token.is_word() || token.is_number()) ||
            (token.is_number() && next != nullptr && next->is("times"));
@@ -821,6 +833,8 @@ Tokens with_ranges(Tokens all) {
       continue;
     all[to] = Token{Token::Kind::Sign, "..", false};
     all[to + 1].gap = false;
+    if (to == i + 1 && to + 2 < all.size() && all[to + 2].is_word() && !all[to + 2].gap)
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(to), Token(all[to + 2])); // of both
     if (between)
       all.erase(all.begin() + static_cast<std::ptrdiff_t>(i) - 1);
   }
@@ -886,6 +900,9 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
   else if (!line[0].is("at") && !line[0].is("within") && !line[0].is("during") &&
            expectation(line[0]) == nullptr)
     return std::nullopt;
+  for (std::size_t i = 1; i + 1 < rest.size(); ++i) // `inside garage, resting`
+    if (rest[i].is(",") && expectation(rest[i + 1]) != nullptr)
+      rest[i] = Token{Token::Kind::Word, "and", true};
   if (auto one = arrange_expectation(rest, never, elsewhere))
     return one;
   return arrange_joined(rest, never, elsewhere);
@@ -906,7 +923,7 @@ std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) 
   const auto chain = words_of_chain(line);
   const auto& said = chain.empty() ? without_signs(line) : chain;
   const auto translated =
-      with_ranges(with_spans(with_quotes(once_each(translate(plain_places(said))))));
+      with_ranges(with_spans(with_quotes(once_each(translate(plain_places(with_units(said)))))));
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};
   if (translated.size() > 1 && repair::join(translated) != repair::join(line))

@@ -141,8 +141,8 @@ TEST(Ble, ARemedyNamesTheRobotByItsAddress) {
   plan.held = true;
   const Robot robot(plan);
   ASSERT_TRUE(robot.error);
-  EXPECT_EQ(remedy(*robot.error), "close that program; `bluetoothctl disconnect 68:86:E7:00:00:01` "
-                                  "disconnects it");
+  EXPECT_EQ(remedy(*robot.error), "close that program, or disconnect the robot with "
+                                  "`bluetoothctl disconnect 68:86:E7:00:00:01`");
 }
 
 TEST(Ble, BudgetsCountPieces) {
