@@ -475,6 +475,11 @@ constexpr auto functions = std::to_array<Function>({
     {"factor", [](const Holding& held) { return held.a.empty() ? Text("") : Text(as_factor(held.a)); }},
     {"unit", [](const Holding& held) { return Text(as_factor(held.a)); }},
     {"not", [](const Holding& held) { return opposite(held.a, held.language()); }},
+    {"parts", // of a second
+     [](const Holding& held) {
+       const bool point = held.a.size() == 1 && held.a[0].text.find('.') != std::string::npos;
+       return point ? written_time(held.a, Assume::Seconds, held.language()) : std::nullopt;
+     }},
     {"groups", [](const Holding& held) { return groups(held.a); }},
     {"span", [](const Holding& held) { return span(held.a, held.b); }},
     {"anyof", [](const Holding& held) { return any_of(held.a, held.b); }},

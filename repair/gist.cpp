@@ -125,8 +125,8 @@ private:
 
   /// `direction` before a value, which it names, though the program has such a name, too.
   bool names_value(const Tokens& line, std::size_t at) const {
-    return is_own(line[at]) && line[at].text.size() > 1 && at + 1 < line.size() && !about_.empty() &&
-           (is_own(line[at + 1]) || line[at + 1].is_number()) &&
+    return is_own(line[at]) && line[at].text.size() > 1 && at + 1 < line.size() &&
+           !about_.empty() && (is_own(line[at + 1]) || line[at + 1].is_number()) &&
            (is_called("heading", line[at].text) || line[at].is("heading") || line[at].is("speed") ||
             is_called("speed", line[at].text));
   }
@@ -216,8 +216,8 @@ private:
     for (const auto* const heading : {"0", "90", "180", "270"})
       if (is_called(heading, word) && (heading_.empty() || heading_ == heading)) {
         heading_ = heading;
-        const auto topics = topics_of(word);
-        if (std::find(topics.begin(), topics.end(), "rear") != topics.end())
+        const auto about = topics_of(word);
+        if (std::find(about.begin(), about.end(), "rear") != about.end())
           about_.insert("rear");
         return true;
       }

@@ -20,6 +20,7 @@ void LineRepair::canonical() {
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
   part_glued();
+  same_letters();
   drop_sigils();
   for (std::size_t i = 3; i < tokens.size(); ++i) { // `if open = "true"`
     if (!tokens[i].is_text() || !tokens[i - 1].is_relation())
@@ -56,8 +57,8 @@ constexpr auto glued = std::to_array<std::string_view>(
     {"goto", "gosub", "print", "return", "input", "then", "else", "next", "read", "step", "data",
      "for", "let", "rnd", "and", "if", "or", "to"});
 
-/// `THENLETT` in its parts: keywords, and at the end a letter, a number or a known word. Empty where
-/// it has none.
+/// `THENLETT` in its parts: keywords, and at the end a letter, a number or a known word. Empty
+/// where it has none.
 std::vector<std::string> parts_of_glued(std::string_view word,
                                         const std::vector<std::string_view>& words) {
   for (const auto keyword : glued) {
@@ -81,7 +82,8 @@ std::vector<std::string> parts_of_glued(std::string_view word,
 void LineRepair::part_glued() {
   auto& tokens = parts_.tokens;
   for (std::size_t i = 0; i < tokens.size() && judge_.language == Language::Basic; ++i) {
-    if (!tokens[i].is_word() || tokens[i].text.size() < 3 || has_word(judge_.words, tokens[i].text) ||
+    if (!tokens[i].is_word() || tokens[i].text.size() < 3 ||
+        has_word(judge_.words, tokens[i].text) ||
         (!is_digit(tokens[i].text.back()) && to_lower(tokens[i].text[0]) == tokens[i].text[0]))
       continue;
     const auto parts = parts_of_glued(tokens[i].text, judge_.words);
@@ -98,6 +100,26 @@ void LineRepair::part_glued() {
     i += parts.empty() ? 0 : parts.size() - 1;
     if (!parts.empty() && i + 1 < tokens.size())
       tokens[i + 1].gap = tokens[i + 1].gap || tokens[i + 1].is_word() || tokens[i + 1].is_number();
+  }
+}
+
+/// `isRecord` where the program has `is_record`.
+void LineRepair::same_letters() {
+  if (judge_.language != Language::Structured)
+    return;
+  const auto bare = [](std::string_view word) {
+    auto letters = lower(word);
+    std::erase(letters, '_');
+    return letters;
+  };
+  for (auto& token : parts_.tokens) {
+    if (!token.is_word() || !is_foreign(token.text))
+      continue;
+    const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {
+      return name != token.text && bare(name) == bare(token.text);
+    });
+    if (own != names_.end())
+      token.text = *own;
   }
 }
 

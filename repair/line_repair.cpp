@@ -93,7 +93,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     several_lines(start);
   if (!best_ && !leaves_out && own && !is_foreign(*own) &&
       (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
-    by_fix(finding); // it knows the names and the blocks
+    by_fix(finding);                                    // it knows the names and the blocks
   if (parts_.tokens.empty() && !parts_.comment.empty()) // `#end while`
     attempt(std::string(trim(std::string_view(parts_.comment).substr(1))), {}, false);
   if (!best_ && whole(start) != line_)
@@ -210,6 +210,10 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
   }
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));
+  if (one && judge_.language == Language::Structured && parts_.head.empty() &&
+      statement.find(" = ") != std::string::npos && statement.find(' ') == statement.find(" = "))
+    if (const auto plain = attempt_line(text, note, sure); plain && plain->errors > 0)
+      attempt_line(whole("const " + statement), note, sure); // what sizes an array
   return (one || !text.empty()) && attempt_line(text, note, sure) && best_ && best_->settles();
 }
 
@@ -415,7 +419,8 @@ void LineRepair::by_initials() {
     if (!token.is_word() || token.text.size() < 2 || !is_foreign(token.text))
       continue;
     const std::string initial(1, to_upper(token.text[0]));
-    if (!is_letter(initial[0]) || std::find(letters_.begin(), letters_.end(), initial) == letters_.end())
+    if (!is_letter(initial[0]) ||
+        std::find(letters_.begin(), letters_.end(), initial) == letters_.end())
       return;
     token.text = initial;
     any = true;
@@ -456,8 +461,10 @@ void LineRepair::by_leaving_out() {
     return; // a number may be how often
   const auto size = all.size();
   for (const std::size_t count : {1U, 2U}) // `flicker 12 times`, `expect reach goal 1m`
-    if (size > count && all[size - count].is_number() &&
-        attempt(join(Tokens(all.begin(), all.end() - static_cast<std::ptrdiff_t>(count))), {}, false))
+    if (size > count && all[size - count].is_number() && !all[1].is("=") &&
+        (count == 1 || all.back().is_word()) &&
+        attempt(join(Tokens(all.begin(), all.end() - static_cast<std::ptrdiff_t>(count))), {},
+                false))
       return;
 }
 

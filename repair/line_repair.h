@@ -65,6 +65,7 @@ public:
 private:
   void canonical();
   void part_glued();
+  void same_letters();
   void drop_sigils();
   void index_arrays(const Scenery& scenery);
   void resolve_labels(const Scenery& scenery);

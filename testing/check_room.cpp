@@ -32,8 +32,8 @@ void check_room(SuiteFile& file, structured::Files& files) {
         finding(rules::Value, balls[clash.ball].name.span,
                 clash.other ? fmt::format("`{}` starts inside `{}`", placed[clash.ball].name,
                                           placed[*clash.other].name)
-                            : fmt::format("`{}` starts too close to the wall {}", placed[clash.ball].name,
-                                          vm::to_string(*clash.wall)),
+                            : fmt::format("`{}` starts too close to the wall {}",
+                                          placed[clash.ball].name, vm::to_string(*clash.wall)),
                 "give it another place: `at X,Y`"));
 }
 

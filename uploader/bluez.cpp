@@ -95,11 +95,10 @@ public:
         bus_->call(path_of(characteristic), bluez::characteristic_interface, "WriteValue", patience,
                    Bytes(bytes.begin(), bytes.end()), options);
     if (!written || !connected())
-      return failed(
-          BleFailure::Refused,
-          step_ ? fmt::format("the robot refused a write while {}", info(*step_).doing)
-                : std::string("the robot does not accept what is written to it"),
-          written ? CallError{} : written.error());
+      return failed(BleFailure::Refused,
+                    step_ ? fmt::format("the robot refused a write while {}", info(*step_).doing)
+                          : std::string("the robot does not accept what is written to it"),
+                    written ? CallError{} : written.error());
     return {};
   }
 

@@ -353,9 +353,9 @@ private:
           asks = &command;
       }
     if (asks != nullptr && !any_error(assembly_.diagnostics))
-      report(
-          rules::CollisionsOff, asks->span, "nothing here turns on collision detection",
-          "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, unless a client does that");
+      report(rules::CollisionsOff, asks->span, "nothing here turns on collision detection",
+             "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, unless a client does "
+             "that");
   }
 
   /// The only roll has speed 0, and then the ball is stopped: speed and heading are exchanged.

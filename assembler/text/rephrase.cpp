@@ -201,6 +201,16 @@ void part_bytes(Tokens& values, std::size_t wanted) {
   }
 }
 
+/// `mov`, `please`: words before a command that add nothing.
+bool is_move(const Token& token) {
+  constexpr auto words = std::to_array<std::string_view>(
+      {"mov", "ld",    "ldi",    "lda", "li",   "move", "set",   "do",  "turn",
+       "let", "make",  "please", "now", "then", "the",  "my",    "put", "use",
+       "run", "start", "db",     "cmd", "out",  "call", "change"});
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return equal_words(word, token.text); });
+}
+
 std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
                                         const Elsewhere& elsewhere) {
   auto operands = std::vector<Operand>();
@@ -296,18 +306,21 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     }
     return false;
   };
-  const bool says_id = std::any_of(line.begin(), line.end(),
-                                   [](const Token& token) { return equal_words(token.text, "id"); });
+  const bool says_id = std::any_of(
+      line.begin(), line.end(), [](const Token& token) { return equal_words(token.text, "id"); });
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto& token = line[i];
     if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
       continue;
-    const bool labels = token.is("name") && i + 1 < line.size() &&
-                        (line[i + 1].is(":") || line[i + 1].is("="));
-    if (labels || (!name.empty() && in == In::Name && token.is_word() && repair::is_called("", token.text)))
+    const bool labels =
+        token.is("name") && i + 1 < line.size() && (line[i + 1].is(":") || line[i + 1].is("="));
+    if (labels ||
+        (!name.empty() && in == In::Name && token.is_word() && repair::is_called("", token.text)))
       continue;
-    if (i + 1 < line.size() && !name.empty() && in == In::Name && token.is_word() && line[i + 1].is_word())
-      if (const auto* known = spec::find_macro_flag(lower(token.text) + "_" + lower(line[i + 1].text))) {
+    if (i + 1 < line.size() && !name.empty() && in == In::Name && token.is_word() &&
+        line[i + 1].is_word())
+      if (const auto* known =
+              spec::find_macro_flag(lower(token.text) + "_" + lower(line[i + 1].text))) {
         flags.emplace_back(known->word); // `motor control`
         ++i;
         continue;
@@ -508,7 +521,8 @@ const spec::MacroCommandInfo* command_of(Tokens& line) {
     return among;
   }
   constexpr std::size_t most = 2; // words before it: `mov rgb`, `turn the rgb`
-  for (std::size_t i = 1; i <= most && i < line.size() && line[i].is_word(); ++i)
+  for (std::size_t i = 1; i <= most && i < line.size() && line[i].is_word() && is_move(line[i - 1]);
+       ++i)
     if (const auto* info = spec::find_macro_command(line[i].text)) {
       line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(i));
       return info;
@@ -558,12 +572,16 @@ Tokens without_signs(Tokens line) {
                             token.text == "macro" || token.text == "id"))
       token.kind = Token::Kind::Word;
   read_hexadecimal(line);
-  if (line.size() > 3 && line[1].is(":") && line[2].is(".") && line[3].is("macro")) {
-    line[2] = Token{Token::Kind::Word, ".macro", true};
-    line.erase(line.begin() + 3);
-  }
-  const bool has_id = std::any_of(line.begin(), line.end(),
-                                  [](const Token& token) { return token.is("id"); });
+  if (line.size() > 3 && line[1].is(":") && line[2].is(".") && line[3].is("macro"))
+    line.erase(line.begin() + 2);
+  if (line.size() > 3 && line[1].is(":") && line[2].is("macro"))
+    line[2].text = ".macro";
+  if (line.size() > 2 && line[1].is(":"))
+    for (std::size_t i = 2; i < line.size(); ++i) // `loop_start: mov 8`
+      if (is_move(line[i]))
+        line.erase(line.begin() + static_cast<std::ptrdiff_t>(i));
+  const bool has_id =
+      std::any_of(line.begin(), line.end(), [](const Token& token) { return token.is("id"); });
   if (line.size() > 2 && line[0].is_text() && line[1].is(":") && has_id) // `"brass": {"id": 41}`
     line.insert(line.begin(), Token{Token::Kind::Word, ".macro"});
   if (line.size() > 2 && line[1].is("macro") && line[0].is_word()) // `start macro right with id 61`

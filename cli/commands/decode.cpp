@@ -235,9 +235,9 @@ void add_decode(const Command& orb, Context& context) {
   command.add_flag("--v2", arguments->v2, "packets of the newer robots");
   add_format_option(command, arguments->format);
   command
-      .add_option(
-          "--from", arguments->from,
-          "which side sent the bytes; auto: the one whose checksums match; a recording names its side itself")
+      .add_option("--from", arguments->from,
+                  "which side sent the bytes; auto: the one whose checksums match; a recording "
+                  "names its side itself")
       .check(one_of({"auto", "client", "ball"}))
       .show_default();
   command.callback([&context, arguments] { decode(context, *arguments); });

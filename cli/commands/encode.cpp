@@ -134,8 +134,9 @@ void add_encode(const Command& orb, Context& context) {
     if (row.packets == spec::Packets::V2)
       robots.emplace_back(row.name);
   command
-      .add_option("--robot", arguments->robot,
-                  "the newer robot that the packet is for; some robots name a processor in each packet")
+      .add_option(
+          "--robot", arguments->robot,
+          "the newer robot that the packet is for; some robots name a processor in each packet")
       .check(one_of(std::move(robots)));
   command.callback([&context, arguments] {
     const bool only_v2 = spec::find_command(arguments->name) == nullptr &&

@@ -93,11 +93,12 @@ private:
       return add_virtual(std::move(member));
     const auto where = same_where(*endpoint);
     if (const auto [other, is_new] = known_.emplace(where, member.name); !is_new)
-      return refuse(ExitCode::Usage,
-                    other->second == member.name
-                        ? fmt::format("{}duplicate `{}`; give it only once", member.place, member.port)
-                        : fmt::format("{}`{}` and `{}` are the same robot, {}; omit one of them",
-                                      member.place, other->second, member.name, endpoint->text));
+      return refuse(
+          ExitCode::Usage,
+          other->second == member.name
+              ? fmt::format("{}duplicate `{}`; give it only once", member.place, member.port)
+              : fmt::format("{}`{}` and `{}` are the same robot, {}; omit one of them",
+                            member.place, other->second, member.name, endpoint->text));
     roster_.members.push_back(std::move(member));
     return {};
   }

@@ -86,9 +86,9 @@ void add_robot_port_options(const Command& command, PortOptions& options, std::s
 
 void add_robot_options(const Command& command, PortOptions& options, std::string& robot) {
   command
-      .add_option(
-          "--robot", robot,
-          "which robot it is; the virtual one drives like it, and the name of a real one tells which")
+      .add_option("--robot", robot,
+                  "which robot it is; the virtual one drives like it, and the name of a real one "
+                  "tells which")
       .check(one_of(names_of(spec::robots)));
   add_waits(command, options);
 }

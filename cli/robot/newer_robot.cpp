@@ -8,7 +8,8 @@ namespace orb::cli {
 
 void add_newer_robot_option(const Command& command, std::string& robot) {
   command
-      .add_option("--robot", robot, "which robot answers there; over Bluetooth LE its name tells which")
+      .add_option("--robot", robot,
+                  "which robot answers there; over Bluetooth LE its name tells which")
       .check(one_of(names_of(spec::robots)));
 }
 

@@ -116,9 +116,9 @@ tl::expected<void, Failure> check_places(const Furnished& room) {
     return {};
   const auto& clash = found.front();
   const auto& ball = room.plan.balls[clash.ball];
-  const auto what = clash.other
-                        ? fmt::format("starts inside ball `{}`", room.balls[*clash.other].name)
-                        : fmt::format("starts too close to the wall {}", vm::to_string(*clash.wall));
+  const auto what =
+      clash.other ? fmt::format("starts inside ball `{}`", room.balls[*clash.other].name)
+                  : fmt::format("starts too close to the wall {}", vm::to_string(*clash.wall));
   constexpr double digits = 10; // of a centimetre
   return refuse(ExitCode::Usage,
                 fmt::format("{}{}ball `{}` {}: {:g} cm from it; at least {:g} cm is needed",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <initializer_list>
 
 namespace orb::compiler {
@@ -160,6 +161,13 @@ std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Ran
     break;
   }
   return lo > hi ? std::nullopt : std::optional(narrow(lo, hi));
+}
+
+std::string allowed_values(std::string_view word, const spec::Parameter& parameter) {
+  return parameter.name.empty()
+             ? fmt::format("`{}` takes {} to {}", word, parameter.least, parameter.greatest)
+             : fmt::format("the {} of `{}` must be {} to {}", parameter.name, word, parameter.least,
+                           parameter.greatest);
 }
 
 std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace orb::compiler {
@@ -51,6 +53,9 @@ std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Ran
 /// What was most likely meant by a value that a parameter does not take: the same heading within
 /// one turn, the nearest brightness or speed; nothing where that is not clear.
 std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value);
+
+/// What the value may be: `the heading of `goroll` must be 0 to 359`.
+std::string allowed_values(std::string_view word, const spec::Parameter& parameter);
 
 /// The heading to drive in instead, for a speed below 0: who writes that wants to drive back.
 /// Nothing where one of them is too far out.

@@ -214,10 +214,9 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
 }
 
 void TextPass::add_semicolon(const Item& semicolon, const Item& next, const std::string& spaced) {
-  auto& d =
-      findings_.add(rules::SemicolonInPrint, semicolon.span,
-                    "`;` only has an effect at the end of a `print`",
-                    fmt::format("write `print {}`, with `,` where a space is to be printed", spaced));
+  auto& d = findings_.add(
+      rules::SemicolonInPrint, semicolon.span, "`;` only has an effect at the end of a `print`",
+      fmt::format("write `print {}`, with `,` where a space is to be printed", spaced));
   // A blank keeps what stands on both sides apart; a minus sign would join them.
   if (program_.text[next.span.begin] != '-')
     d.fix = single_fix("write a space", {semicolon.span.begin, next.span.begin}, " ");

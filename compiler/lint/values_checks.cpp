@@ -103,10 +103,7 @@ void ValuesPass::check_may_leave(const Item& value, std::string_view word,
   else
     help = fmt::format("set it to {} or {} first when it is out of range", parameter.least,
                        parameter.greatest);
-  const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
-  add_may_leave(
-      value, fmt::format("`{}` takes {}{} to {}", word, name, parameter.least, parameter.greatest),
-      help);
+  add_may_leave(value, allowed_values(word, parameter), help);
 }
 
 void ValuesPass::add_may_leave(const Item& value, const std::string& allowed,
@@ -119,10 +116,9 @@ void ValuesPass::add_may_leave(const Item& value, const std::string& allowed,
 
 void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
                                   const spec::Parameter& parameter) {
-  const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
-  auto& d = findings_.add(rules::ValueOutOfRange, value.span,
-                          fmt::format("`{}` takes {}{} to {}, found {}", word, name,
-                                      parameter.least, parameter.greatest, shown(range_of(value))));
+  auto& d = findings_.add(
+      rules::ValueOutOfRange, value.span,
+      fmt::format("{}, found {}", allowed_values(word, parameter), shown(range_of(value))));
   const auto nodes = nodes_of(program_, value);
   const bool written = std::all_of(nodes.begin(), nodes.end(), [](const Node& node) {
     return node.kind == NodeKind::Number || node.kind == NodeKind::Negate;
@@ -158,10 +154,10 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
     return false;
   const auto& root = program_.nodes[value.value];
   const auto text = program_.text_of(value.span);
-  auto& d = findings_.add(rules::LoopLeavesRange, value.span,
-                          fmt::format("`{}` takes {} {} to {}, but `{}` ranges from {} here", word,
-                                      parameter.name, parameter.least, parameter.greatest, text,
-                                      shown(range_of(value))));
+  auto& d =
+      findings_.add(rules::LoopLeavesRange, value.span,
+                    fmt::format("{}, but `{}` ranges from {} here", allowed_values(word, parameter),
+                                text, shown(range_of(value))));
   const bool heading = parameter.greatest + 1 == full_turn && range_of(value).lo >= 0;
   const bool single = root.kind == NodeKind::Letter;
   if (heading) {
@@ -311,9 +307,10 @@ void ValuesPass::check_for(const ForView& loop) {
     findings_.add(rules::ZeroStep, loop.step->span, step_of_zero().message, step_of_zero().help);
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
-    auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
-                            fmt::format("the loop starts at {} and counts away from {}, so it runs once",
-                                        shown(start), shown(end)));
+    auto& d =
+        findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
+                      fmt::format("the loop starts at {} and counts away from {}, so it runs once",
+                                  shown(start), shown(end)));
     if (loop.step == nullptr) {
       const auto counts = program_.text_of({variable.span.begin, loop.last().span.end});
       d.help = fmt::format("to count down, write `for {} step -1`", counts);

@@ -40,7 +40,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     const there = await navigator.bluetooth.getAvailability?.().catch(() => true) ?? true;
     if (there || running) return;
     $("flash-bluetooth").disabled = $("drive-bluetooth").disabled = true;
-    $("flash-lacks").textContent = "This device has no Bluetooth, or it is switched off; switch it on and open this again.";
+    $("flash-lacks").textContent = "This device has no Bluetooth, or Bluetooth is switched off; switch it on and open this again.";
   }
   function say(words, bad = false) {
     $("flash-status").textContent = words;

@@ -263,10 +263,9 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
   const auto value = part.kind == ItemKind::Expression ? value_of(part) : std::nullopt;
   if (!value || (value->value >= parameter.least && value->value <= parameter.greatest))
     return nullptr;
-  const auto name = parameter.name.empty() ? "" : fmt::format("{} ", parameter.name);
-  auto& d = report(compiler::rules::ValueOutOfRange, part.span,
-                   fmt::format("`{}` takes {}{} to {}, found {}", word, name, parameter.least,
-                               parameter.greatest, value->value));
+  auto& d =
+      report(compiler::rules::ValueOutOfRange, part.span,
+             fmt::format("{}, found {}", compiler::allowed_values(word, parameter), value->value));
   const auto text = program_.text_of(part.span);
   const bool negative = // a number, no sum
       text.starts_with('-') && text.find_first_of(" \t+-*/%(", 1) == std::string_view::npos;

@@ -206,10 +206,10 @@ void Checker::check_direction(const Statement& statement) {
   const Span counted{statement.word.begin, item(statement, 2).span.end};
   const auto turned = step == -1 ? std::string(program_.text_of(counted))
                                  : fmt::format("{} step {}", program_.text_of(counted), -step);
-  auto& d = report(
-      rules::LoopNeverRuns, counted,
-      fmt::format("the loop starts at {} and counts away from {}, so it never runs", from->value, to->value),
-      fmt::format("write `{}`", turned));
+  auto& d = report(rules::LoopNeverRuns, counted,
+                   fmt::format("the loop starts at {} and counts away from {}, so it never runs",
+                               from->value, to->value),
+                   fmt::format("write `{}`", turned));
   d.fix = Fix{d.help,
               {{{counted.begin, item(statement, size(statement) >= 4 ? 3 : 2).span.end}, turned}},
               Safety::Unsafe};

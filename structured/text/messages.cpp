@@ -194,7 +194,7 @@ Diagnostic foreign_character(const Program& program, Span found) {
 Diagnostic reserved(const Program& program, Span word) {
   return finding(rules::ReservedName, word,
                  fmt::format("`{}` is a reserved word", program.text_of(word)),
-                 fmt::format("write `my_{}` in all these lines", program.text_of(word)));
+                 fmt::format("write `my_{}` on all these lines", program.text_of(word)));
 }
 
 /// How the functions are written.

@@ -120,7 +120,7 @@ void FileReader::read_print(Cursor& cursor, Expectation& one) {
 
 void FileReader::read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most) {
   if (!cursor.take_word("by"))
-    return cursor.fail(rules::Syntax, "missing `by` with the tolerance",
+    return cursor.fail(rules::Syntax, "missing `by` and a tolerance",
                        fmt::format("write it like `by {}`", unit == "deg" ? "5" : "12cm"));
   const auto span = cursor.peek_span();
   auto text = cursor.peek();
@@ -145,7 +145,7 @@ void FileReader::read_near(Cursor& cursor, Expectation& one) {
   if (cursor.failed())
     return;
   if (!cursor.take_word("by"))
-    return cursor.fail(rules::Syntax, "missing `by` with the greatest distance",
+    return cursor.fail(rules::Syntax, "missing `by` and the greatest distance",
                        "give a tolerance such as `by 12cm`");
   one.by = cursor.length();
 }

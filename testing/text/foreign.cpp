@@ -295,6 +295,10 @@ Tokens without_signs(const Tokens& line) {
     const bool names = token.is(":") && i > 0 && line[i - 1].is_word();
     const bool axis = names && (line[i - 1].is("x") || line[i - 1].is("y"));
     const bool item = i == 0 && token.is("-") && line.size() > 1 && line[1].is_word();
+    const bool ends = token.is(",") && i + 2 < line.size() && line[i + 1].is_word() &&
+                      line[i + 2].is(":"); // of `color: blue, by: 10`
+    if (ends)
+      continue;
     if (axis) {
       all.push_back(Token{Token::Kind::Sign, "="});
       continue;

@@ -231,8 +231,12 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
   const auto part_of_metre = [](const std::string& number) {
     return number.find("0.") != std::string::npos;
   };
-  if (numbers.size() >= 2 && distance.find_first_of("cm") == std::string::npos &&
-      std::all_of(numbers.begin(), numbers.end(), part_of_metre) &&
+  const bool metres = std::all_of(numbers.begin(), numbers.end(), [&](const std::string& number) {
+    return part_of_metre(number) || number == "0";
+  });
+  const bool parts =
+      std::any_of(numbers.begin(), numbers.end(), part_of_metre) || part_of_metre(distance);
+  if (numbers.size() >= 2 && distance.find_first_of("cm") == std::string::npos && metres && parts &&
       (distance.empty() || part_of_metre(distance))) { // `near 0.37,0.37 by 0.08`
     const auto in_cm = [](std::string& number) {
       constexpr double metre_cm = 100;
@@ -623,8 +627,16 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
     return std::nullopt;
   std::string head;
   Tokens values;
+  bool left = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i].is(row->word))
+      continue;
+    if (row->word == "spin" && line[i].is_word() &&
+        (repair::is_called("270", line[i].text) || repair::is_called("90", line[i].text))) {
+      left = left || repair::is_called("270", line[i].text);
+      continue;
+    }
+    if (row->word == "spin" && line[i].is("by"))
       continue;
     if (i + 2 < line.size() && line[i].is("at") && line[i + 1].is_number() &&
         is_time_unit(line[i + 2]) && head.empty()) {
@@ -642,6 +654,9 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
     }
   }
   head += row->word;
+  for (auto& value : values)
+    if (left && value.is_number())
+      value.text.insert(0, "-");
   auto takes = takes_of(*row);
   const bool aims = takes.names.size() == 2 && takes.names[0] == "heading";
   if (aims) {
@@ -719,6 +734,13 @@ Tokens translate(const Tokens& line) {
       token.text = word;
       all.push_back(token);
     };
+    const auto* const following = i + 1 < line.size() ? &line[i + 1] : nullptr;
+    if (following != nullptr && token.is("and") && following->is("then"))
+      continue;
+    if (following != nullptr && token.is("to") && following->is("be")) {
+      ++i;
+      continue;
+    }
     if (token.is("+-")) {
       add("by");
       continue;

@@ -119,7 +119,7 @@ void FileReader::read_order(Cursor& cursor, Expectation& one, Said& said) {
                                 : "`before` takes no time; write that on a separate line");
   if (!cursor.failed() && one.lag) {
     if (!cursor.take_word("by"))
-      return cursor.fail(rules::Syntax, "missing `by` with the tolerance of the time",
+      return cursor.fail(rules::Syntax, "missing `by` and a tolerance for the time",
                          "write it like `by 200ms`");
     one.lag_by = cursor.time();
   }

@@ -60,7 +60,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     }
     const { name, text } = active(), question = ++asked;
     if (!is_structured(name)) {
-      explain(element("p", {}, "Blocks show structured programs. This one has line numbers, and jumps from line to line, for which there are no blocks."),
+      explain(element("p", {}, "Blocks show structured programs. This one uses line numbers and jumps, and there are no blocks for those."),
         element("p", {}, button("Turn it into a structured program", lift, { class: "strong", id: "lift" }), " in a separate file; this one stays as it is."));
       return;
     }
