@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <optional>
-#include <set>
 
 namespace orb::repair {
 namespace {
@@ -31,20 +29,6 @@ std::vector<std::string_view> topics_of(std::string_view word) {
   for (const auto topic : index.lists_of(word))
     found.push_back(topics[topic].name);
   return found;
-}
-
-/// `setRollHeading`, `set_roll_heading`: the words in a word.
-std::vector<std::string> words_inside(std::string_view word) {
-  std::vector<std::string> all(1);
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    const bool capital =
-        i > 0 && word[i] >= 'A' && word[i] <= 'Z' && to_lower(word[i - 1]) == word[i - 1];
-    if ((word[i] == '_' || capital) && !all.back().empty())
-      all.emplace_back();
-    if (word[i] != '_')
-      all.back() += to_lower(word[i]);
-  }
-  return all;
 }
 
 struct Value {
@@ -104,7 +88,9 @@ private:
                                                    word) != around_.names.end());
   }
 
-  bool about(std::string_view topic) const { return about_.contains(topic); }
+  bool about(std::string_view topic) const {
+    return std::find(about_.begin(), about_.end(), topic) != about_.end();
+  }
 
   static Holes holding(char letter, const Tokens& tokens) {
     Holes holes;
@@ -207,7 +193,7 @@ private:
       values_.back().tokens.push_back(token);
       return true;
     }
-    const auto words = words_inside(token.text);
+    const auto words = parts_of(token.text);
     return std::all_of(words.begin(), words.end(),
                        [&](const std::string& word) { return take(word); });
   }
@@ -218,41 +204,42 @@ private:
         heading_ = heading;
         const auto about = topics_of(word);
         if (std::find(about.begin(), about.end(), "rear") != about.end())
-          about_.insert("rear");
+          about_.push_back("rear");
         return true;
       }
     const auto found = topics_of(word);
     if (!found.empty()) {
       for (const auto topic : found)
         if (topic != "filler")
-          about_.insert(topic);
+          about_.push_back(topic);
       return true;
     }
     for (const auto* const name : {"heading", "speed", "time"})
       if (word == name || is_called(name, word)) {
         names_.push_back(name);
-        about_.insert(std::string_view(name) == "time" ? "wait" : "drive");
+        about_.push_back(std::string_view(name) == "time" ? "wait" : "drive");
         return true;
       }
     return false;
   }
 
-  std::string list(std::initializer_list<std::string> values) const {
-    return fmt::format("{}", fmt::join(values, around_.language == Language::Basic ? "," : ", "));
+  std::string list(const std::string& a, const std::string& b, const std::string& c) const {
+    const auto* const comma = around_.language == Language::Basic ? "," : ", ";
+    return a + comma + b + comma + c;
   }
 
   std::optional<std::string> call() const {
-    std::vector<std::string> texts;
+    std::string texts;
     for (const auto& value : values_) {
       const auto text = value.name == "time" ? fill("{ms:q}", holding('q', value.tokens), around_)
                                              : join(value.tokens);
       if (!text)
         return std::nullopt;
-      texts.push_back(*text);
+      texts += (texts.empty() ? "" : ", ") + *text;
     }
     if (around_.language != Language::Structured || colour_ || !heading_.empty())
       return std::nullopt;
-    return texts.empty() ? subs_ : fmt::format("{}({})", subs_, fmt::join(texts, ", "));
+    return texts.empty() ? subs_ : subs_ + "(" + texts + ")";
   }
 
   std::optional<std::string> light() const {
@@ -268,8 +255,7 @@ private:
     }
     if (values_.size() != 3 || colour_)
       return std::nullopt;
-    return "RGB " +
-           list({join(values_[0].tokens), join(values_[1].tokens), join(values_[2].tokens)});
+    return "RGB " + list(join(values_[0].tokens), join(values_[1].tokens), join(values_[2].tokens));
   }
 
   /// The value of that name; of no name the next in order.
@@ -285,8 +271,8 @@ private:
     if (values_.empty() && around_.pace.empty())
       return std::nullopt;
     return "goroll " +
-           list({values_.empty() ? std::to_string(around_.heading) : join(values_[0].tokens), "0",
-                 "0"});
+           list(values_.empty() ? std::to_string(around_.heading) : join(values_[0].tokens), "0",
+                "0");
   }
 
   std::optional<std::string> drive() const {
@@ -306,21 +292,21 @@ private:
     const auto speed = pick(named("speed"));
     const auto go = pick("");
     if (heading.empty() && speed == "0" && next == plain.end())
-      return "goroll " + list({std::to_string(around_.heading), "0", "0"});
+      return "goroll " + list(std::to_string(around_.heading), "0", "0");
     if (heading.empty() || speed.empty() || next != plain.end())
       return std::nullopt;
     const auto roll =
-        "goroll " + list({heading, speed, go.empty() ? (speed == "0" ? "0" : "1") : go});
+        "goroll " + list(heading, speed, go.empty() ? (speed == "0" ? "0" : "1") : go);
     const auto* const time = value("time");
     if (time == nullptr)
       return roll;
     const auto wait = fill("delay {sec:q}", holding('q', time->tokens), around_);
-    return wait ? std::optional(roll + "\n" + *wait + "\ngoroll " + list({heading, "0", "0"}))
+    return wait ? std::optional(roll + "\n" + *wait + "\ngoroll " + list(heading, "0", "0"))
                 : std::nullopt;
   }
 
   const Surroundings& around_;
-  std::set<std::string_view> about_;
+  std::vector<std::string_view> about_; ///< topics
   std::vector<Value> values_;
   std::vector<std::string_view> names_; ///< of the next values
   std::string heading_;                 ///< by a word: `left`

@@ -19,8 +19,10 @@ void LineRepair::canonical() {
       std::any_of(tokens.begin(), tokens.end() - 1,
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
+  close_text();
   part_glued();
   same_letters();
+  count_percents();
   drop_sigils();
   for (std::size_t i = 3; i < tokens.size(); ++i) { // `if open = "true"`
     if (!tokens[i].is_text() || !tokens[i - 1].is_relation())
@@ -100,6 +102,34 @@ void LineRepair::part_glued() {
     i += parts.empty() ? 0 : parts.size() - 1;
     if (!parts.empty() && i + 1 < tokens.size())
       tokens[i + 1].gap = tokens[i + 1].gap || tokens[i + 1].is_word() || tokens[i + 1].is_number();
+  }
+}
+
+/// `"touches no wall'`: a text that another quote closes.
+void LineRepair::close_text() {
+  if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
+    return;
+  auto& text = parts_.tokens.back();
+  const auto end = text.text.find_last_not_of(":,;");
+  if (end == std::string::npos || end == 0 || text.text[end] != '\'')
+    return;
+  text.text.resize(end);
+  text.closed = true;
+}
+
+/// `RGB 0, 60%, 30%` in parts of 255.
+void LineRepair::count_percents() {
+  auto& tokens = parts_.tokens;
+  if (tokens.empty() || !tokens[0].is("RGB"))
+    return;
+  for (std::size_t i = 2; i < tokens.size(); ++i) {
+    const auto value = parse_number<int>(tokens[i - 1].text);
+    constexpr int all = 100;
+    const bool ends = i + 1 == tokens.size() || tokens[i + 1].is(",") || tokens[i + 1].is(")");
+    if (!tokens[i].is("%") || !tokens[i - 1].is_number() || !value || *value > all || !ends)
+      continue;
+    tokens[i - 1].text = std::to_string((*value * UINT8_MAX + all / 2) / all);
+    tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 

@@ -438,14 +438,28 @@ void LineRepair::by_leaving_out() {
   };
   for (std::size_t i = 1; i < all.size(); ++i) {
     const bool unit = all[i].is("%") || all[i].is("cm") || all[i].is("x");
-    const bool timed = milliseconds_of(all[i].text) > 0; // which unit was meant is not clear
-    if (!operand(i - 1) || timed || !(unit || is_unknown(all[i])))
+    const bool time = all[i].is_word() && milliseconds_of(all[i].text) > 0;
+    const bool compared = i > 1 && all[i - 2].is_relation() && !all[1].is("=");
+    const bool plain = all[i - 1].is_word() || compared; // else which unit was meant is not clear
+    if (!operand(i - 1) || !(time ? plain : unit || is_unknown(all[i])))
       continue;
     auto less = all;
     less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
     if (attempt(join(less), {}, false))
       return;
   }
+  auto bare = all;
+  for (std::size_t i = 1; i < bare.size(); ++i) { // `90deg,70%,1s`
+    const bool unit = bare[i - 1].is_number() &&
+                      (bare[i].is("%") || bare[i].is("cm") || is_called("degrees", bare[i].text) ||
+                       (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
+    const bool per = unit && i + 2 < bare.size() && bare[i + 1].is("/") && bare[i + 2].is("s");
+    if (unit)
+      bare.erase(bare.begin() + static_cast<std::ptrdiff_t>(i),
+                 bare.begin() + static_cast<std::ptrdiff_t>(i + (per ? 3 : 1)));
+  }
+  if (bare.size() + 1 < all.size() && attempt(join(bare), {}, false))
+    return;
   auto unnamed = all;
   for (std::size_t i = 2; i + 1 < unnamed.size(); ++i)
     if (unnamed[i].is("=") && unnamed[i - 1].is_word() &&

@@ -65,6 +65,8 @@ public:
 private:
   void canonical();
   void part_glued();
+  void close_text();
+  void count_percents();
   void same_letters();
   void drop_sigils();
   void index_arrays(const Scenery& scenery);

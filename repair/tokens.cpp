@@ -335,4 +335,17 @@ std::string join(const SplitLine& line) {
   return text;
 }
 
+std::vector<std::string> parts_of(std::string_view word) {
+  std::vector<std::string> parts(1);
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const bool capital =
+        i > 0 && to_lower(word[i]) != word[i] && to_lower(word[i - 1]) == word[i - 1];
+    if ((word[i] == '_' || capital) && !parts.back().empty())
+      parts.emplace_back();
+    if (word[i] != '_')
+      parts.back() += to_lower(word[i]);
+  }
+  return parts;
+}
+
 } // namespace orb::repair

@@ -57,4 +57,7 @@ Tokens tokens_of(std::string_view text, Language language);
 std::string join(const SplitLine& line);
 std::string join(const Tokens& tokens);
 
+/// The words in a word, in small letters: `setRoll` and `set_roll` are `set` and `roll`.
+std::vector<std::string> parts_of(std::string_view word);
+
 } // namespace orb::repair

@@ -349,7 +349,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
         id += '0'; // a letter that looks like a digit
         ++i;
       }
-    } else if (in == In::Flags && (token.is(",") || token.is("|") || token.is("+"))) {
+    } else if (in == In::Flags &&
+               (token.is(",") || token.is("|") || token.is("+") || token.is("and"))) {
       if (!end_flag())
         return {};
     } else if (in == In::Flags) {
@@ -427,21 +428,13 @@ Tokens joined(const Tokens& line) {
     all[0].text = word;
     return all;
   }
-  return line;
-}
-
-/// The words in a mnemonic, or in what was written for one.
-std::vector<std::string> parts_of(std::string_view word) {
-  std::vector<std::string> parts(1);
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    const bool capital =
-        i > 0 && to_lower(word[i]) != word[i] && to_lower(word[i - 1]) == word[i - 1];
-    if ((word[i] == '_' || capital) && !parts.back().empty())
-      parts.emplace_back();
-    if (word[i] != '_')
-      parts.back() += to_lower(word[i]);
+  if (line.size() > 2 && line[1].is_number() && line[0].is_word() && // `set_sd 2 70`
+      spec::find_macro_command(line[0].text + line[1].text) != nullptr) {
+    auto all = after(line, 1);
+    all[0] = Token{Token::Kind::Word, line[0].text + line[1].text};
+    return all;
   }
-  return parts;
+  return line;
 }
 
 /// Whether a word can stand for a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
@@ -457,12 +450,12 @@ bool stands_for(const std::string& word, const std::string& part) {
 
 /// The command whose mnemonic a word has part for part: `warte_bis_stopp`.
 const spec::MacroCommandInfo* command_in_parts(std::string_view word) {
-  const auto said = parts_of(word);
+  const auto said = repair::parts_of(word);
   if (said.size() < 2)
     return nullptr;
   const spec::MacroCommandInfo* found = nullptr;
   for (const auto& info : spec::macro_commands) {
-    const auto parts = parts_of(info.mnemonic);
+    const auto parts = repair::parts_of(info.mnemonic);
     if (!std::equal(said.begin(), said.end(), parts.begin(), parts.end(), stands_for))
       continue;
     if (found != nullptr)
@@ -483,7 +476,7 @@ const spec::MacroCommandInfo* command_among(Tokens& line) {
   const spec::MacroCommandInfo* found = nullptr;
   std::size_t most = 1;
   for (const auto& info : spec::macro_commands) {
-    const auto parts = parts_of(info.mnemonic);
+    const auto parts = repair::parts_of(info.mnemonic);
     if (parts.size() > most &&
         std::all_of(parts.begin(), parts.end(),
                     [&](const std::string& part) { return place(part) != line.end(); })) {
@@ -492,7 +485,7 @@ const spec::MacroCommandInfo* command_among(Tokens& line) {
     }
   }
   if (found != nullptr)
-    for (const auto& part : parts_of(found->mnemonic))
+    for (const auto& part : repair::parts_of(found->mnemonic))
       line.erase(place(part));
   return found;
 }
@@ -503,6 +496,11 @@ const spec::MacroCommandInfo* command_called(const Token& token) {
     info = spec::find_macro_command(std::string_view(token.text).substr(1));
   for (const auto name : repair::meanings_of(token.text))
     info = info == nullptr ? spec::find_macro_command(name) : info;
+  for (const auto& one : spec::macro_commands) { // `rotationrate`
+    std::string bare(one.mnemonic);
+    std::erase(bare, '_');
+    info = info == nullptr && equal_words(bare, token.text) ? &one : info;
+  }
   return info == nullptr ? command_in_parts(token.text) : info;
 }
 
@@ -511,10 +509,10 @@ const spec::MacroCommandInfo* command_of(Tokens& line) {
   auto rest = line;
   const auto* among = command_among(rest);
   constexpr std::size_t several = 3; // parts
-  const bool surely = among != nullptr && (parts_of(among->mnemonic).size() >= several ||
+  const bool surely = among != nullptr && (repair::parts_of(among->mnemonic).size() >= several ||
                                            spec::find_macro_command(line[0].text) != nullptr);
-  if (const auto* info = command_called(line[0]); info != nullptr && !surely)
-    return info;
+  if (spec::find_macro_command(line[0].text) != nullptr && !surely)
+    return spec::find_macro_command(line[0].text);
   if (among != nullptr) {
     rest.insert(rest.begin(), Token{Token::Kind::Word, std::string(among->mnemonic)});
     line = rest;
@@ -523,11 +521,11 @@ const spec::MacroCommandInfo* command_of(Tokens& line) {
   constexpr std::size_t most = 2; // words before it: `mov rgb`, `turn the rgb`
   for (std::size_t i = 1; i <= most && i < line.size() && line[i].is_word() && is_move(line[i - 1]);
        ++i)
-    if (const auto* info = spec::find_macro_command(line[i].text)) {
+    if (const auto* info = command_called(line[i]); info != nullptr && !is_move(line[i])) {
       line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(i));
       return info;
     }
-  return nullptr;
+  return command_called(line[0]);
 }
 
 /// `80h`, `0C8h`, `0xFEh` and `$FF` in decimal.
@@ -574,7 +572,7 @@ Tokens without_signs(Tokens line) {
   read_hexadecimal(line);
   if (line.size() > 3 && line[1].is(":") && line[2].is(".") && line[3].is("macro"))
     line.erase(line.begin() + 2);
-  if (line.size() > 3 && line[1].is(":") && line[2].is("macro"))
+  if (line.size() > 3 && line[1].is(":") && equal_words(line[2].text, "macro"))
     line[2].text = ".macro";
   if (line.size() > 2 && line[1].is(":"))
     for (std::size_t i = 2; i < line.size(); ++i) // `loop_start: mov 8`

@@ -211,8 +211,7 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
     return false;
   auto& d = findings_.add(
       rules::ValueOutOfRange, arguments[1].span,
-      fmt::format("`goroll` takes speed {} to {}, found {}", parameters[1].least,
-                  parameters[1].greatest, speed.lo),
+      fmt::format("{}, found {}", allowed_values("goroll", parameters[1]), speed.lo),
       fmt::format("write `goroll {},{}{}`; the heading comes first", speed.lo, heading.lo,
                   program_.text_of({arguments[1].span.end, arguments.back().span.end})));
   d.fix = Fix{"swap them",
@@ -235,10 +234,10 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
   const auto line =
       fmt::format("goroll {},{}{}", *back, -speed.lo,
                   program_.text_of({arguments[1].span.end, arguments.back().span.end}));
-  auto& d = findings_.add(rules::ValueOutOfRange, arguments[1].span,
-                          fmt::format("`goroll` takes speed {} to {}, found {}",
-                                      parameters[1].least, parameters[1].greatest, speed.lo),
-                          fmt::format("write `{}` to drive back", line));
+  auto& d =
+      findings_.add(rules::ValueOutOfRange, arguments[1].span,
+                    fmt::format("{}, found {}", allowed_values("goroll", parameters[1]), speed.lo),
+                    fmt::format("write `{}` to drive back", line));
   d.fix =
       single_fix(d.help, {statement.word.begin, arguments.back().span.end}, line, Safety::Unsafe);
   return true;

@@ -260,6 +260,18 @@ Tokens words_of_chain(const Tokens& line) {
     return {};
   if (equal_words(line[0].text, "at"))
     return timed_event(line);
+  if (equal_words(line[0].text, "setTimeout")) { // `setTimeout(() => spin(0), 7500)`
+    const auto close = close_of(line, 1);
+    if (close < 6 || close >= line.size() || !line[close - 1].is_number() ||
+        !line[close - 2].is(","))
+      return {};
+    Tokens all{word("at")};
+    append(all, timed({line[close - 1]}));
+    for (std::size_t at = 2; at + 2 < close; ++at)
+      if (line[at].is_word() || line[at].is_number() || line[at].is("-") || line[at].is(","))
+        all.push_back(line[at]);
+    return all;
+  }
   if (!holds("expect assert assertThat verify should", line[0].text))
     return {};
   Chain chain;

@@ -932,7 +932,32 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
 
 } // namespace
 
-std::vector<Rephrased> rephrase(const Tokens& line, const Elsewhere& elsewhere) {
+namespace {
+
+/// `inside("island")` as `inside island`; only what is printed is a text.
+Tokens unwrapped(const Tokens& line) {
+  Tokens all;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool call = i > 0 && i + 2 < line.size() && line[i].is("(") && line[i + 1].is_text() &&
+                      line[i + 2].is(")") && expectation(line[i - 1]) != nullptr &&
+                      !line[i - 1].is("print");
+    if (!call) {
+      all.push_back(line[i]);
+      continue;
+    }
+    for (auto token : repair::tokens_of(line[i + 1].text, Language::Test)) {
+      token.gap = true;
+      all.push_back(token);
+    }
+    i += 2;
+  }
+  return all;
+}
+
+} // namespace
+
+std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
+  const auto line = unwrapped(written);
   if (const auto closed = close_text(line)) {
     auto all = rephrase(*closed, elsewhere);
     all.push_back({repair::join(*closed), true});
