@@ -191,13 +191,16 @@ tl::expected<std::vector<Written>, std::string>
 write(const Source& source, const Assembly& assembly, const Wanted& wanted) {
   std::vector<Written> all;
   std::vector<std::string> names;
+  const auto& format = format_of(wanted.format, wanted.ending);
+  const auto ending = format.endings.substr(0, format.endings.find(' '));
   for (std::size_t i = 0; i < assembly.macros.size(); ++i) {
     const auto& given = assembly.macros[i].name;
     names.push_back(given.empty() ? wanted.unnamed : given);
     const auto& name = names.back();
     if (wanted.macro.empty() || wanted.macro == name)
-      all.push_back(
-          {name, print(wanted.format, name, source, assembly, i), size_of(name, assembly, i)});
+      all.push_back({name, fmt::format("{}{}", name, ending),
+                     print(wanted.listing ? nullptr : &format, name, source, assembly, i),
+                     format.is_binary && !wanted.listing, size_of(name, assembly, i)});
   }
   if (!all.empty())
     return all;

@@ -27,16 +27,19 @@ const Format& format_of(std::string_view name, std::string_view ending);
 
 /// What is to be written of a file of macros.
 struct Wanted {
-  std::string unnamed; ///< what a macro without a name is called
-  std::string macro;   ///< the name of the one that is wanted; empty for all
-  const Format* format =
-      formats; ///< null: a listing: offset, bytes, times and source, a line a command
+  std::string unnamed;  ///< what a macro without a name is called
+  std::string macro;    ///< the name of the one that is wanted; empty for all
+  std::string format;   ///< its name; empty: by the ending of the file
+  std::string ending;   ///< of the file to write: `.hex`
+  bool listing = false; ///< instead of the bytes: offset, bytes, times and source, a line a command
 };
 
 /// A macro, written.
 struct Written {
   std::string name;
+  std::string file_name; ///< `wink.hex`
   std::string text;
+  bool is_binary = false;
   std::string size; ///< `wink: 4 commands, 21 bytes (23 with id and flags), 1.2 s`
 };
 

@@ -21,8 +21,18 @@ namespace fs = std::filesystem;
 
 using assembler::Written;
 
-bool to_stdout(const AsmOptions& options) {
-  return options.out.empty() || options.out == "-";
+/// Where macros are written.
+struct Destination {
+  std::string path; ///< empty: stdout
+  bool is_folder = false;
+  std::string ending; ///< of a file
+};
+
+Destination destination_of(const std::string& out) {
+  if (out.empty() || out == "-")
+    return {};
+  const auto path = disk::as_path(out);
+  return {out, out.ends_with('/') || fs::is_directory(path), path.extension().string()};
 }
 
 /// The findings, and whether the bytes are of no use. What a macro does wrong while its bytes can
@@ -44,11 +54,6 @@ bool report(const Context& context, const Source& source, assembler::Assembly& a
   return fatal;
 }
 
-bool to_folder(const AsmOptions& options) {
-  return !to_stdout(options) &&
-         (options.out.ends_with('/') || fs::is_directory(disk::as_path(options.out)));
-}
-
 /// A file to write; standard output where it has no path.
 struct Output {
   std::string path;
@@ -62,36 +67,34 @@ Outputs misuse(std::string message) {
   return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
 }
 
-/// A file for each macro in the folder OUT.
-std::vector<Output> in_folder(const std::string& out, std::string_view ending,
-                              const std::vector<Written>& macros) {
+/// A file for each macro in a folder.
+std::vector<Output> in_folder(const std::string& folder, const std::vector<Written>& macros) {
   std::vector<Output> outputs;
-  for (const auto& [name, text, size] : macros) {
-    const auto path = disk::as_path(out) / disk::as_path(fmt::format("{}{}", name, ending));
-    outputs.push_back({path.generic_string(), text, size});
+  for (const auto& macro : macros) {
+    const auto path = disk::as_path(folder) / disk::as_path(macro.file_name);
+    outputs.push_back({path.generic_string(), macro.text, macro.size});
   }
   return outputs;
 }
 
-/// Where the macros go in their format: into a folder, or the only one into a file or to stdout.
-Outputs outputs_of(const AsmOptions& options, const assembler::Format& format,
-                   const std::vector<Written>& macros) {
-  if (to_folder(options))
-    return in_folder(options.out, format.endings.substr(0, format.endings.find(' ')), macros);
+/// Where the macros of a source go: into a folder, or the only one into a file or to stdout.
+Outputs outputs_of(const Source& source, const std::vector<Written>& macros,
+                   const Destination& destination) {
+  if (destination.is_folder)
+    return in_folder(destination.path, macros);
   if (macros.size() > 1)
     return misuse(fmt::format("{} holds {} macros; pick one with `--macro {}`, or name a folder: "
                               "`-o DIR/`",
-                              disk::display_name(options.file), macros.size(), macros[0].name));
-  if (to_stdout(options) && format.is_binary && is_terminal(Stream::Out))
+                              source.name(), macros.size(), macros[0].name));
+  if (destination.path.empty() && macros[0].is_binary && is_terminal(Stream::Out))
     return misuse("binary is not written to a terminal; add `-o FILE.sphero`, `--format hex` or "
                   "`--listing`");
-  return std::vector<Output>{
-      {to_stdout(options) ? "" : options.out, macros[0].text, macros[0].size}};
+  return std::vector<Output>{{destination.path, macros[0].text, macros[0].size}};
 }
 
 /// The listings of all macros, one below the other.
-Output listing_of(const AsmOptions& options, const std::vector<Written>& macros) {
-  Output output{to_stdout(options) ? "" : options.out, {}, {}};
+Output listing_of(const std::vector<Written>& macros, const std::string& path) {
+  Output output{path, {}, {}};
   for (const auto& macro : macros)
     output.text += (output.text.empty() ? "" : "\n") + macro.text;
   return output;
@@ -119,31 +122,29 @@ tl::expected<void, Failure> make_folder(const std::string& path) {
 
 } // namespace
 
-void run_asm(Context& context, const AsmOptions& options) {
-  auto text = disk::read(options.file);
+void run_asm(Context& context, const std::string& file, const AsmWay& way, const std::string& out) {
+  const auto destination = destination_of(out);
+  const auto stem = file == "-" ? std::string("macro") : disk::as_path(file).stem().string();
+  auto text = disk::read(file);
   if (!text)
     return fail(context, {ExitCode::File, text.error().message});
-  const Source source(disk::display_name(options.file), std::move(*text));
-  auto assembly = assembler::assemble(source, options.fold_delays ? assembler::Folding::Fold
-                                                                  : assembler::Folding::Keep);
+  const Source source(disk::display_name(file), std::move(*text));
+  auto assembly = assembler::assemble(source, way.fold_delays ? assembler::Folding::Fold
+                                                              : assembler::Folding::Keep);
   if (report(context, source, assembly)) {
     context.exit = ExitCode::BadInput;
     return;
   }
-  const auto& format =
-      assembler::format_of(options.format, disk::as_path(options.out).extension().string());
-  const auto macros =
-      assembler::write(source, assembly,
-                       {options.file == "-" ? "macro" : disk::as_path(options.file).stem().string(),
-                        options.macro, options.listing ? nullptr : &format});
+  const auto macros = assembler::write(
+      source, assembly, {stem, way.macro, way.format, destination.ending, way.listing});
   if (!macros)
     return fail(context, {ExitCode::Usage, macros.error()});
-  const auto outputs = options.listing ? Outputs({listing_of(options, *macros)})
-                                       : outputs_of(options, format, *macros);
+  const auto outputs = way.listing ? Outputs({listing_of(*macros, destination.path)})
+                                   : outputs_of(source, *macros, destination);
   if (!outputs)
     return fail(context, outputs.error());
-  if (!options.listing && to_folder(options))
-    if (const auto made = make_folder(options.out); !made)
+  if (!way.listing && destination.is_folder)
+    if (const auto made = make_folder(destination.path); !made)
       return fail(context, made.error());
   for (const auto& output : *outputs)
     if (const auto written = write(context, output); !written)
@@ -155,7 +156,12 @@ void add_asm(const Command& orb, Context& context) {
       orb.add_command("asm", "assemble macro source into bytes for the ball",
                       "orb asm dance.macro -o dance.sphero\norb asm dance.macro --listing\n"
                       "orb asm set.macro --format bin -o build/");
-  auto options = std::make_shared<AsmOptions>();
+  struct Options {
+    std::string file;
+    AsmWay way;
+    std::string out;
+  };
+  auto options = std::make_shared<Options>();
   command.add_option("FILE", options->file, "macro source; - is stdin").required();
   command.add_option("-o,--out", options->out,
                      "where to write; a folder (with a trailing /) gets one file per macro");
@@ -163,15 +169,16 @@ void add_asm(const Command& orb, Context& context) {
   for (const auto& format : assembler::formats)
     names.emplace_back(format.name);
   command
-      .add_option("--format", options->format,
+      .add_option("--format", options->way.format,
                   "output format; by default chosen by the extension of OUT, otherwise sphero")
       .check(one_of(names));
-  command.add_option("--macro", options->macro, "write only this macro from the file");
-  command.add_flag("--listing", options->listing,
+  command.add_option("--macro", options->way.macro, "write only this macro from the file");
+  command.add_flag("--listing", options->way.listing,
                    "print offset, bytes, times and source instead of the bytes alone");
-  command.add_flag("--fold-delays", options->fold_delays,
+  command.add_flag("--fold-delays", options->way.fold_delays,
                    "fold `delay` into the command before it where all times stay the same");
-  command.callback([&context, options] { run_asm(context, *options); });
+  command.callback(
+      [&context, options] { run_asm(context, options->file, options->way, options->out); });
 }
 
 } // namespace orb::cli

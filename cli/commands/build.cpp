@@ -138,14 +138,12 @@ void build(Context& context, const BuildOptions& options) {
                              file->source.name())});
   if (file->language == run::Language::Basic)
     return build_basic(context, options, file->source);
-  AsmOptions macros;
-  macros.file = options.file;
-  macros.out = options.out;
-  macros.listing = options.listing;
   if (options.native)
     return fail(context, {ExitCode::Usage, "`--native` is for orbBasic; macros never become "
                                            "machine code"});
-  run_asm(context, macros);
+  AsmWay way;
+  way.listing = options.listing;
+  run_asm(context, options.file, way, options.out);
 }
 
 } // namespace
