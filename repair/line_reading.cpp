@@ -20,6 +20,7 @@ void LineRepair::canonical() {
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
   close_text();
+  plain_signs();
   part_glued();
   same_letters();
   count_percents();
@@ -103,6 +104,22 @@ void LineRepair::part_glued() {
     if (!parts.empty() && i + 1 < tokens.size())
       tokens[i + 1].gap = tokens[i + 1].gap || tokens[i + 1].is_word() || tokens[i + 1].is_number();
   }
+}
+
+/// Operators of C and its children, which every such line has.
+void LineRepair::plain_signs() {
+  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+    return;
+  for (auto& token : parts_.tokens)
+    if (token.is("==") || token.is("===")) {
+      token.text = "=";
+    } else if (token.is("!==")) {
+      token.text = "!=";
+    } else if (token.is("&&") || token.is("||")) {
+      token.kind = Token::Kind::Word;
+      token.text = token.is("&&") ? "and" : "or";
+      token.gap = true;
+    }
 }
 
 /// `"touches no wall'`: a text that another quote closes.

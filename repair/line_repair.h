@@ -66,6 +66,7 @@ private:
   void canonical();
   void part_glued();
   void close_text();
+  void plain_signs();
   void count_percents();
   void same_letters();
   void drop_sigils();
