@@ -202,10 +202,15 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
       equals != std::string::npos && statement.substr(0, equals) == statement.substr(equals + 3))
     return false; // nobody sets a variable to itself
   constexpr std::string_view function = "function ";
-  if (statement.starts_with(function)) { // what returns nothing ends with `end sub`
-    const bool settled = attempt_line(whole(statement), note, sure) && best_ && best_->settles();
-    const auto sub = "sub " + statement.substr(function.size());
-    return settled || (attempt_line(whole(sub), note, sure) && best_ && best_->settles());
+  constexpr std::string_view sub = "sub ";
+  // What returns nothing ends with `end sub`; what returns a value is a function.
+  if (const bool returns = statement.starts_with(function); returns || statement.starts_with(sub)) {
+    const auto first = attempt_line(whole(statement), note, sure);
+    if (first && first->errors > 0) {
+      const auto rest = statement.substr((returns ? function : sub).size());
+      attempt_line(whole(std::string(returns ? sub : function) + rest), note, sure);
+    }
+    return first && best_ && best_->settles();
   }
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));
@@ -340,9 +345,10 @@ void LineRepair::own_call(const std::string& statement) {
   if (sub_.empty() || parts_.tokens.size() < 2)
     return;
   const bool spread = parts_.tokens[0].text != sub_ && parts_.tokens[1].text != sub_;
-  const bool adds_words = parts_.tokens[0].text == sub_ &&
-                          std::all_of(parts_.tokens.begin() + 1, parts_.tokens.end(),
-                                      [&](const Token& token) { return is_unknown(token); });
+  const bool adds_words =
+      parts_.tokens[0].text == sub_ &&
+      std::all_of(parts_.tokens.begin() + 1, parts_.tokens.end(),
+                  [&](const Token& token) { return is_unknown(token) || token.is_number(); });
   if ((spread || adds_words) && attempt(sub_, {}, true))
     return;
   std::unordered_set<std::string> seen;

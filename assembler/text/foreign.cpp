@@ -57,6 +57,7 @@ bool stands_for(const std::string& word, const std::string& part) {
   constexpr std::size_t little = 2;
   const auto translated = repair::word_at(repair::tokens_of(word, repair::Language::Macro), 0);
   return word == part || translated == part || repair::is_called(part, word) ||
+         (part == "stopped" && repair::is_called("resting", word)) ||
          (word.size() >= stem && part.size() >= stem &&
           (word.starts_with(part) || part.starts_with(word))) ||
          (part.size() <= little && word.size() <= little + 1 && !is_digit(word[0]));

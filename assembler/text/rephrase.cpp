@@ -295,6 +295,15 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     const auto& token = line[i];
     if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
       continue;
+    if (token.is("called") || token.is("named") || (token.is("with") && !name.empty()))
+      continue;
+    if (token.is("end") && i + 1 < line.size() && line[i + 1].is("signal")) {
+      if (!end_flag())
+        return {};
+      flags.emplace_back("endsig");
+      ++i;
+      continue;
+    }
     const bool labels =
         token.is("name") && i + 1 < line.size() && (line[i + 1].is(":") || line[i + 1].is("="));
     if (labels ||
