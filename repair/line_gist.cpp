@@ -100,7 +100,12 @@ void LineRepair::among_unknown() {
   for (std::size_t front = 0; front < all.size() && front <= most; ++front) {
     if (front > 0 && !is_unknown(all[front - 1]))
       return;
-    for (auto end = all.size(); end > front + 1 && end + most >= all.size(); --end) {
+    const bool orders_words = judge_.rephrase != nullptr; // what stands behind is put in its place
+    if (orders_words && !has_word(judge_.words, all[front].text))
+      continue;
+    const auto shortest =
+        orders_words ? all.size() - 1 : all.size() - std::min(all.size(), most + 1);
+    for (auto end = all.size(); end > front + 1 && end > shortest; --end) {
       if (end < all.size() && !is_unknown(all[end]))
         break;
       if (end - front == all.size())

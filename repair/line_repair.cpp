@@ -447,7 +447,7 @@ void LineRepair::by_changes(int most) {
       return;
     // a misspelt habit
     best_.reset();
-    habits(one.text, {3, seen_.size() + 20});
+    habits(one.text, {3, seen_.size() + 14});
     if (best_)
       good.emplace_back(one, *best_);
     best_.reset();
