@@ -82,11 +82,12 @@ function drawing({ files, run }, main, text = files[main]) {
   const path = [];
   for (let i = 0; i < t.length; ++i) {
     const lit = hex(led.rgb[changes.findLastIndex(change => change <= t[i])] ?? 0), open = path.at(-1), here = at(i);
-    if (!open || open[0] !== lit && path.length < 12) path.push([lit, `M${open?.last ?? here}L${here}`]);
+    if (!open || open[0] !== lit && path.length < 9) path.push([lit, `M${open?.last ?? here}L${here}`]);
     else if (open.last !== here) open[1] += ` ${here}`;
     path.at(-1).last = here;
   }
-  return { path: path.filter(([, d]) => d.includes("L")).map(([stroke, d]) => [stroke, straightened(d)]) };
+  const moves = ([, d]) => new Set(d.slice(1).split("L")).size > 1; // a change of colour at a stop draws nothing
+  return { path: path.map(([stroke, d]) => [stroke, straightened(d)]).filter(moves) };
 }
 /** Without the points that lie within one unit of the line between those that stay (Ramer, Douglas and Peucker). */
 function straightened(d) {

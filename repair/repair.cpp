@@ -632,7 +632,10 @@ private:
   void write(Diagnostic& finding, const LineRepair& repair, std::uint32_t at,
              const std::vector<Accepted>& found) const {
     const auto shown = repair.shown(found[0].text);
-    if (found.size() > 1 && repair.shown(found[1].text) != shown) {
+    const bool one_line = found.size() > 1 &&
+                          found[1].text.find_first_of("\r\n") == std::string::npos &&
+                          found[0].text.find_first_of("\r\n") == std::string::npos;
+    if (one_line && repair.shown(found[1].text) != shown) {
       finding.help = fmt::format("write `{}` or `{}`", shown, repair.shown(found[1].text));
       finding.fix.reset();
       return;

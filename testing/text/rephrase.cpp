@@ -728,6 +728,7 @@ int counted(const Tokens& line, std::size_t at) {
 /// A line in the words of test files, as far as it is in those of another language.
 Tokens translate(const Tokens& line) {
   Tokens all;
+  bool in_pattern = false; // between slashes
   for (std::size_t i = 0; i < line.size(); ++i) {
     auto token = line[i];
     const auto add = [&](std::string_view word) {
@@ -735,6 +736,13 @@ Tokens translate(const Tokens& line) {
       all.push_back(token);
     };
     const auto* const following = i + 1 < line.size() ? &line[i + 1] : nullptr;
+    const bool opens =
+        token.is("/") && !all.empty() && (all.back().is("print") || all.back().is("~"));
+    if (opens || in_pattern) { // another language
+      in_pattern = opens || !token.is("/");
+      all.push_back(token);
+      continue;
+    }
     if (following != nullptr && token.is("and") && following->is("then"))
       continue;
     if (following != nullptr && token.is("to") && following->is("be")) {
