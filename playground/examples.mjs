@@ -82,7 +82,7 @@ function drawing({ files, run }, main, text = files[main]) {
   const path = [];
   for (let i = 0; i < t.length; ++i) {
     const lit = hex(led.rgb[changes.findLastIndex(change => change <= t[i])] ?? 0), open = path.at(-1), here = at(i);
-    if (!open || open[0] !== lit && path.length < 9) path.push([lit, `M${open?.last ?? here}L${here}`]);
+    if (!open || open[0] !== lit && path.length < 5) path.push([lit, `M${open?.last ?? here}L${here}`]);
     else if (open.last !== here) open[1] += ` ${here}`;
     path.at(-1).last = here;
   }
