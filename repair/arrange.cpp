@@ -575,6 +575,15 @@ std::vector<std::string_view> meanings_of(std::string_view word) {
   return found;
 }
 
+std::vector<std::string_view> called_words() {
+  std::vector<std::string_view> all;
+  for (const auto& calling : callings)
+    if (!calling.name.empty())
+      for (const auto word : words_in(calling.words))
+        all.push_back(word);
+  return all;
+}
+
 bool mean_the_same(std::string_view a, std::string_view b) {
   const auto theirs = meanings_of(b);
   for (const auto mine : meanings_of(a))

@@ -62,6 +62,9 @@ bool is_called(std::string_view operand, std::string_view word);
 /// All that a word is called in one of the languages: `cerca` is `near`.
 std::vector<std::string_view> meanings_of(std::string_view word);
 
+/// All words that an operand, a unit or a value is called.
+std::vector<std::string_view> called_words();
+
 /// Whether two words stand for the same operand, unit or value: `Richtung` and `direction`.
 bool mean_the_same(std::string_view a, std::string_view b);
 

@@ -54,16 +54,6 @@ const Colour* named_colour(const Token& token) {
 
 } // namespace
 
-bool holds(std::string_view words, std::string_view word) {
-  for (std::size_t at = 0; at < words.size();) {
-    const auto end = std::min(words.find(' ', at), words.size());
-    if (equal_words(words.substr(at, end - at), word))
-      return true;
-    at = end + 1;
-  }
-  return false;
-}
-
 std::optional<std::uint32_t> find_colour(const Token& token) {
   if (token.kind == Token::Kind::Colour || (token.is_text() && token.text.starts_with('#'))) {
     auto digits = token.text.substr(1);

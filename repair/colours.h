@@ -11,9 +11,6 @@
 
 namespace orb::repair {
 
-/// Whether `word` is one of `words`, which have a blank between them; case does not count.
-bool holds(std::string_view words, std::string_view word);
-
 /// A colour as FUNCTION of a template writes it: `rgb` its three values, `code` that of LEDC,
 /// `testcolour` a word of a test file, anything else a word of structured programs.
 std::optional<std::string> write_colour(std::string_view function, const Tokens& tokens);

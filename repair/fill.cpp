@@ -120,7 +120,10 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
 Text written_time(const Tokens& tokens, Assume assume, Language language) {
   if (tokens.size() == 1 && tokens[0].is_text())
     return written_time(tokens_of(tokens[0].text, language), assume, language);
-  if (const auto time = time_of(tokens, assume)) {
+  constexpr std::int64_t longest_ms = 1'000'000; // nobody waits so long: `delay 1000s` counted in ms
+  if (auto time = time_of(tokens, assume)) {
+    if (time->ms >= longest_ms && time->ms % second_ms == 0)
+      time->ms /= second_ms;
     if (language == Language::Basic || !time->has_unit)
       return std::to_string(time->ms);
     return time_text(time->ms);

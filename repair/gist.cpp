@@ -178,7 +178,7 @@ private:
     const auto& token = line[at];
     if (token.kind == Token::Kind::Sign) {
       ++at;
-      return std::string_view("(),;=:.{}").find(token.text) != std::string_view::npos;
+      return std::string_view("(),;=:.{}[]").find(token.text) != std::string_view::npos;
     }
     if (find_colour(token) && !colour_) {
       colour_ = token;
@@ -250,7 +250,7 @@ private:
       return std::nullopt;
     if (colour_ && values_.empty()) {
       const auto colour =
-          write_colour(around_.language == Language::Basic ? "rgb" : "word", {*colour_});
+          write_colour(around_.language == Language::Basic ? "rgb" : "colour", {*colour_});
       return colour ? std::optional("RGB " + *colour) : std::nullopt;
     }
     if (values_.size() != 3 || colour_)

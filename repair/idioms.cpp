@@ -343,6 +343,16 @@ std::string word_at(const Tokens& line, std::size_t at) {
   return lower(meaning);
 }
 
+std::vector<std::string_view> spoken_words() {
+  std::vector<std::string_view> all;
+  for (const auto& word : rows_of(word_rows))
+    for (const auto pattern : pieces(word[1], " ;; "))
+      for (const auto part : pieces(pattern, " "))
+        for (const auto one : pieces(part, "|"))
+          all.push_back(one);
+  return all;
+}
+
 bool is_known_word(std::string_view word, Where where) {
   static const auto all = [] {
     std::array<std::set<std::string>, 2> each;

@@ -68,6 +68,9 @@ struct Rewritten {
   bool sure = true; ///< nothing else can have been meant
 };
 
+/// The words of the languages that people speak, as far as they stand for one of a program.
+std::vector<std::string_view> spoken_words();
+
 /// Calls `take` with what each row that fits makes of a line, in the order of the table, until it
 /// returns true.
 void rewrite(const Tokens& line, const Surroundings& around,

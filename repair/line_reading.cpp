@@ -1,7 +1,9 @@
 #include "repair/line_repair.h"
 
 #include "base/text/text.h"
+#include "repair/colours.h"
 #include "repair/fill.h"
+#include "repair/inflections.h"
 
 #include <algorithm>
 #include <array>
@@ -20,16 +22,22 @@ void LineRepair::canonical() {
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
   close_text();
+  read_logo();
+  drop_colons();
   plain_signs();
   part_glued();
   same_letters();
+  drop_prefixes();
+  without_accents();
+  names_in_quotes();
+  other_forms();
   count_percents();
   drop_sigils();
   for (std::size_t i = 3; i < tokens.size(); ++i) { // `if open = "true"`
     if (!tokens[i].is_text() || !tokens[i - 1].is_relation())
       continue;
-    if (equal_words(tokens[i].text, "true") && judge_.language == Language::Structured &&
-        tokens[i - 1].is("=")) {
+    const bool bare = judge_.language == Language::Structured || judge_.language == Language::Test;
+    if (equal_words(tokens[i].text, "true") && bare && tokens[i - 1].is("=")) {
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i) - 1,
                    tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       i -= 2;
@@ -134,6 +142,86 @@ void LineRepair::close_text() {
   text.closed = true;
 }
 
+/// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon.
+void LineRepair::read_logo() {
+  auto& tokens = parts_.tokens;
+  if (tokens.size() < 2 ||
+      !holds("make setpc setpencolor setcolor setcolour", tokens[0].text) || !tokens[1].is_text() ||
+      tokens[1].closed)
+    return;
+  const auto rest = tokens_of(tokens[1].text, judge_.language);
+  tokens.pop_back();
+  tokens.insert(tokens.end(), rest.begin(), rest.end());
+  if (tokens.size() > 1)
+    tokens[1].gap = true;
+}
+
+/// `if :n > 3`: values of Logo.
+void LineRepair::drop_colons() {
+  auto& tokens = parts_.tokens;
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
+    const auto& before = tokens[i - 1];
+    const bool operand = before.is_number() || before.is(")") || before.is("]") ||
+                         before.is_text() || (before.is_word() && before.text.size() == 1);
+    if (tokens[i].is(":") && tokens[i].gap && !operand && tokens[i + 1].is_word() &&
+        !tokens[i + 1].gap && !before.is("else") && !before.is("then")) {
+      tokens[i + 1].gap = true;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+/// `mín(` where there is `min`.
+void LineRepair::without_accents() {
+  if (judge_.language == Language::Test)
+    return;
+  for (auto& token : parts_.tokens)
+    if (token.is_word() && std::any_of(token.text.begin(), token.text.end(), is_utf8_tail))
+      if (const auto plain = plain_letters(token.text);
+          has_word(judge_.words, plain) || has_word(names_, plain))
+        token.text = plain;
+}
+
+/// `state = "open"` where the program has `open`.
+void LineRepair::names_in_quotes() {
+  auto& tokens = parts_.tokens;
+  if (judge_.language != Language::Structured || has_token(tokens, "print"))
+    return;
+  for (std::size_t i = 1; i < tokens.size(); ++i)
+    if (tokens[i].is_text() && tokens[i - 1].is_relation() && has_word(names_, tokens[i].text))
+      tokens[i].kind = Token::Kind::Word;
+}
+
+/// `Math.max(`, `Program.best(` and `FNmean` where `max`, `best` and `mean` are known.
+void LineRepair::drop_prefixes() {
+  auto& tokens = parts_.tokens;
+  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+    return;
+  const auto own = [&](std::string_view word) {
+    return word.size() > 1 && has_word(names_, word);
+  };
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    auto& token = tokens[i];
+    if (!token.is_word() || !is_foreign(token.text))
+      continue;
+    if (i + 3 < tokens.size() && tokens[i + 1].is(".") && tokens[i + 2].is_word() &&
+        tokens[i + 3].is("(") &&
+        (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text))) {
+      tokens[i + 2].gap = token.gap;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
+                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
+    } else {
+      for (const std::string_view prefix : {"FN", "PROC", "fn", "proc"})
+        if (token.text.starts_with(prefix) &&
+            own(std::string_view(token.text).substr(prefix.size()))) {
+          token.text.erase(0, prefix.size());
+          if (i + 1 == tokens.size() || !tokens[i + 1].is("("))
+            token.text += "()";
+        }
+    }
+  }
+}
+
 /// `RGB 0, 60%, 30%` in parts of 255.
 void LineRepair::count_percents() {
   auto& tokens = parts_.tokens;
@@ -167,6 +255,23 @@ void LineRepair::same_letters() {
     });
     if (own != names_.end())
       token.text = *own;
+  }
+}
+
+/// Words of the tables in the form that stands there: `attendez` for `attendre`.
+void LineRepair::other_forms() {
+  auto& tokens = parts_.tokens;
+  if (!tokens.empty() && (tokens[0].is("print") || tokens[0].is("test")))
+    return; // words without their quotes
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const bool named = (i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is("."))) ||
+                       (i > 0 && tokens[i - 1].is("."));
+    if (!tokens[i].is_word() || named || !is_foreign(tokens[i].text) ||
+        milliseconds_of(tokens[i].text) > 0 || find_colour(tokens[i]) ||
+        is_known_word(tokens[i].text, Where::Line) || is_known_word(tokens[i].text, Where::Inside))
+      continue;
+    if (const auto form = known_form_of(tokens[i].text, judge_.language); !form.empty())
+      tokens[i].text = form;
   }
 }
 

@@ -4,8 +4,10 @@
 #include "repair/arrange.h"
 #include "repair/fill.h"
 #include "repair/idioms.h"
+#include "repair/inflections.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <span>
 #include <utility>
 
@@ -29,6 +31,11 @@ std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
 }
 
 } // namespace
+
+bool has_token(const Tokens& tokens, std::string_view sign) {
+  return std::any_of(tokens.begin(), tokens.end(),
+                     [&](const Token& token) { return token.is(sign); });
+}
 
 bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
   return std::any_of(words.begin(), words.end(),
@@ -92,8 +99,9 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     several_lines(start);
   if (!best_ && !leaves_out && own && !is_foreign(*own) &&
       (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
-    by_fix(finding);                                    // it knows the names and the blocks
-  if (parts_.tokens.empty() && !parts_.comment.empty()) // `#end while`
+    by_fix(finding); // it knows the names and the blocks
+  const bool remark = parts_.tokens.empty() && !parts_.comment.empty();
+  if (remark) // `#end while`
     attempt(std::string(trim(std::string_view(parts_.comment).substr(1))), {}, false);
   if (!best_ && whole(start) != line_)
     attempt(start, {}, true);
@@ -101,7 +109,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     other_ = attempt_line(whole(earlier), {}, false, false);
   if (const auto opened = opened_earlier(); !best_ && !opened.empty())
     attempt(opened, {}, true);
-  if (!best_ && !is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line)) {
+  const bool known = is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line);
+  if (!best_ && !known) {
     by_gist();
     if (!best_)
       by_changes(surely);
@@ -110,7 +119,9 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     habits(start, {deepest, most_states});
   if (!best_ || !best_->quiet)
     by_fix(finding);
-  if (!best_)
+  if (!best_ && parts_.tokens.size() == 1 && parts_.tokens[0].text == around_.loop)
+    attempt("next " + around_.loop, {}, false);
+  if (!best_ && known)
     by_gist();
   if (!best_ && judge_.language == Language::Basic)
     by_initials();
@@ -196,29 +207,70 @@ std::string LineRepair::several(std::string_view statements) const {
   return text;
 }
 
+/// The same declaration by its other word, where the program may need that: what returns nothing is
+/// a sub, what gives a value a function, what sizes an array a constant. Empty where there is none.
+std::string LineRepair::declared_otherwise(const std::string& statement) const {
+  constexpr std::string_view function = "function ";
+  constexpr std::string_view sub = "sub ";
+  if (statement.starts_with(function))
+    return fmt::format("{}{}", sub, statement.substr(function.size()));
+  if (statement.starts_with(sub))
+    return fmt::format("{}{}", function, statement.substr(sub.size()));
+  const auto equals = statement.find(" = ");
+  const bool sets = judge_.language == Language::Structured && parts_.head.empty() &&
+                    equals != std::string::npos && statement.find(' ') == equals;
+  return sets ? "const " + statement : std::string();
+}
+
+/// Whether the line gives a value to a name that other lines use.
+bool LineRepair::sets_name() const {
+  const auto& tokens = parts_.tokens;
+  return judge_.language == Language::Structured && tokens.size() > 2 && tokens[1].is("=") &&
+         has_word(names_, tokens[0].text) && !has_word(judge_.words, tokens[0].text);
+}
+
+/// Whether the names of the program are still there that are the values of a statement: in a line
+/// of other words they may be words, too.
+bool LineRepair::keeps_names(std::string_view statement) const {
+  if (parts_.tokens.empty() || !has_word(judge_.words, parts_.tokens[0].text) ||
+      parts_.tokens[0].is("end"))
+    return true;
+  const auto is_name = [&](const std::string& word) {
+    return judge_.language == Language::Basic
+               ? word.size() == 1 && word[0] == to_upper(word[0])
+               : judge_.language == Language::Structured && has_word(names_, word) &&
+                     !has_word(judge_.words, word) && milliseconds_of(word) == 0;
+  };
+  const auto kept = tokens_of(statement, judge_.language);
+  return std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
+    return !token.is_word() || !is_name(token.text) || has_token(kept, token.text);
+  });
+}
+
 /// Tries a line in its place; true when it cannot be better.
 bool LineRepair::attempt(const std::string& statement, std::string_view note, bool sure) {
   if (const auto equals = statement.find(" = ");
       equals != std::string::npos && statement.substr(0, equals) == statement.substr(equals + 3))
     return false; // nobody sets a variable to itself
-  constexpr std::string_view function = "function ";
-  constexpr std::string_view sub = "sub ";
-  // What returns nothing ends with `end sub`; what returns a value is a function.
-  if (const bool returns = statement.starts_with(function); returns || statement.starts_with(sub)) {
-    const auto first = attempt_line(whole(statement), note, sure);
-    if (first && first->errors > 0) {
-      const auto rest = statement.substr((returns ? function : sub).size());
-      attempt_line(whole(std::string(returns ? sub : function) + rest), note, sure);
-    }
-    return first && best_ && best_->settles();
-  }
+  const bool branches = !parts_.tokens.empty() && !parts_.tokens.back().is("then") &&
+                        has_token(parts_.tokens, "then");
+  if (branches && statement.ends_with(" then"))
+    return false; // what is to be done was said
+  if (statement.find("\ncase ") != std::string::npos)
+    return false; // a case without lines of its own
+  if (!keeps_names(statement))
+    return false;
+  if (sets_name() && statement.find(" = ") == std::string::npos)
+    return false;
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));
-  if (one && judge_.language == Language::Structured && parts_.head.empty() &&
-      statement.find(" = ") != std::string::npos && statement.find(' ') == statement.find(" = "))
-    if (const auto plain = attempt_line(text, note, sure); plain && plain->errors > 0)
-      attempt_line(whole("const " + statement), note, sure); // what sizes an array
-  return (one || !text.empty()) && attempt_line(text, note, sure) && best_ && best_->settles();
+  if (!one && text.empty())
+    return false;
+  const auto accepted = attempt_line(text, note, sure);
+  if (accepted && accepted->errors > 0 && one)
+    if (const auto other = declared_otherwise(statement); !other.empty())
+      attempt_line(whole(other), note, sure);
+  return accepted && best_ && best_->settles();
 }
 
 bool LineRepair::parses(std::string_view lines) const {
@@ -363,7 +415,8 @@ void LineRepair::own_sub() {
   const bool calls =
       tokens.size() == 1 || (tokens.size() > 2 && tokens[1].is("(") && tokens.back().is(")"));
   if (meant_.empty() || !calls || !tokens[0].is_word() || !is_foreign(tokens[0].text) ||
-      is_known_word(tokens[0].text, Where::Line))
+      is_known_word(tokens[0].text, Where::Line) ||
+      !known_form_of(tokens[0].text, judge_.language).empty())
     return;
   auto called = tokens;
   called[0].text = meant_;

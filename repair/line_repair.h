@@ -19,6 +19,8 @@ namespace orb::repair {
 /// Whether a word is one of them, in capitals or not.
 bool has_word(const std::vector<std::string_view>& words, std::string_view word);
 
+bool has_token(const Tokens& tokens, std::string_view sign);
+
 std::size_t errors_in(const std::vector<Diagnostic>& findings);
 
 /// Lines that were tried in the place of one.
@@ -66,15 +68,24 @@ private:
   void canonical();
   void part_glued();
   void close_text();
+  void read_logo();
+  void drop_colons();
+  void without_accents();
+  void names_in_quotes();
   void plain_signs();
   void count_percents();
   void same_letters();
+  void drop_prefixes();
+  void other_forms();
   void drop_sigils();
   void index_arrays(const Scenery& scenery);
   void resolve_labels(const Scenery& scenery);
   std::string whole(std::string_view statement) const;
   std::string several(std::string_view statements) const;
   std::string spelled(const std::string& statements, int depth) const;
+  std::string declared_otherwise(const std::string& statement) const;
+  bool sets_name() const;
+  bool keeps_names(std::string_view statement) const;
   bool attempt(const std::string& statement, std::string_view note, bool sure);
   bool parses(std::string_view lines) const;
   bool keeps_texts(std::string_view lines) const;
@@ -108,7 +119,7 @@ private:
   SplitLine parts_;
   Surroundings around_;
   std::vector<std::string_view> names_;
-  std::vector<std::string> letters_; ///< of orbBasic: that other lines use
+  std::vector<std::string_view> letters_; ///< of orbBasic: that other lines use
   std::string number_below_;
   std::string sub_;             ///< of the program, which the line calls, rightly or not
   std::string meant_;           ///< the sub that a call of an unknown one can only mean

@@ -79,10 +79,10 @@ public:
   Holes holes() const {
     Holes holes;
     for (const auto& [hole, begin, end] : spans_)
-      holes[hole] = part(begin, end);
+      holes[hole] = slice(tokens_, begin, end);
     if (choice_.end > 0) {
       holes.choice = lower(tokens_[choice_.begin].text);
-      holes.rest = part(choice_.begin, choice_.end);
+      holes.rest = slice(tokens_, choice_.begin, choice_.end);
     }
     return holes;
   }
@@ -95,11 +95,6 @@ private:
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-
-  Tokens part(std::size_t begin, std::size_t end) const {
-    return {tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
-            tokens_.begin() + static_cast<std::ptrdiff_t>(end)};
-  }
 
   std::size_t from(const Pattern& pattern, std::size_t part, std::size_t at) {
     if (++steps_ > most_steps)

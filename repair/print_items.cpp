@@ -79,6 +79,8 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   std::string out;
   int depth = 0;
   bool apart = true;
+  const bool has_text = std::any_of(tokens.begin(), tokens.end(),
+                                    [](const Token& token) { return token.is_text(); });
   bool said = false; // a text, which makes each `+` behind it join texts
   const auto beside_text = [&](std::size_t i) {
     return (i > 0 && tokens[i - 1].is_text()) ||
@@ -121,6 +123,10 @@ std::optional<std::string> print_items(const Tokens& tokens) {
     if (token.is_text() && token.text.find("${") != std::string::npos) {
       out += (apart ? "" : " ") + parts_of(token.text, "${", "}");
       apart = false;
+      continue;
+    }
+    if (depth == 0 && token.is("and") && has_text) {
+      out += ',';
       continue;
     }
     depth += token.is("(") ? 1 : token.is(")") ? -1 : 0;

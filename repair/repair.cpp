@@ -454,10 +454,20 @@ private:
       mended_.insert(&finding);
       if (found.size() == 1 && (found[0].fewer || found[0].open))
         texts_[at] = found[0].text;
+    } else if (repair && finding.fix && finding.help.starts_with("write ") && !mends(finding)) {
+      finding.help.clear(); // one error would only take the place of another
+      finding.fix.reset();
     } else if (repair && says_little(finding)) {
       if (auto advice = repair->advice(); !advice.empty())
         finding.help = std::move(advice);
     }
+  }
+
+  /// Whether fewer errors are left with the fix of a finding alone.
+  bool mends(Diagnostic finding) const {
+    finding.fix->safety = Safety::Safe; // as it is taken
+    return errors_in(judge_.check(apply_fixes(source_.text(), {finding}).text)) <
+           errors_in(before_);
   }
 
   /// A line that is right once the others are mended stays as it is: it was judged before them. One

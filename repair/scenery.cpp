@@ -94,28 +94,24 @@ std::string Scenery::sub_of(const Tokens& line) const {
   return {};
 }
 
-std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {
+std::vector<std::string_view> Scenery::others(const Tokens& line, bool letters) const {
   std::vector<std::string_view> names;
   for (const auto& [word, count] : words_) {
     const auto here = std::count_if(line.begin(), line.end(), [&word = word](const Token& token) {
       return token.text == word;
     });
-    if (count > static_cast<std::size_t>(here) && word.size() > 1)
+    if (count > static_cast<std::size_t>(here) && (word.size() == 1) == letters)
       names.push_back(word);
   }
   return names;
 }
 
-std::vector<std::string> Scenery::letters_without(const Tokens& line) const {
-  std::vector<std::string> letters;
-  for (const auto& [word, count] : words_) {
-    const auto here = std::count_if(line.begin(), line.end(), [&word = word](const Token& token) {
-      return token.text == word;
-    });
-    if (count > static_cast<std::size_t>(here) && word.size() == 1)
-      letters.push_back(word);
-  }
-  return letters;
+std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {
+  return others(line, false);
+}
+
+std::vector<std::string_view> Scenery::letters_without(const Tokens& line) const {
+  return others(line, true);
 }
 
 std::vector<std::string_view> Scenery::set_without(const Tokens& line) const {

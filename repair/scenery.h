@@ -34,7 +34,7 @@ public:
   std::vector<std::string_view> set_without(const Tokens& line) const;
 
   /// Variables of one letter that other lines of an orbBasic program use.
-  std::vector<std::string> letters_without(const Tokens& line) const;
+  std::vector<std::string_view> letters_without(const Tokens& line) const;
 
   /// A name that is written once and is near `word`, or means the same: its wrong definition.
   std::optional<std::string> misspelt(std::string_view word,
@@ -69,6 +69,8 @@ public:
   std::vector<std::string> free_letters() const;
 
 private:
+  /// Words that other lines have: those of one letter, or of several.
+  std::vector<std::string_view> others(const Tokens& line, bool letters) const;
   std::string loop_above(std::uint32_t line) const;
 
   struct Sub {

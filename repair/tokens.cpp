@@ -335,6 +335,13 @@ std::string join(const SplitLine& line) {
   return text;
 }
 
+Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end) {
+  end = std::min(end, tokens.size());
+  const auto at = tokens.begin();
+  return {at + static_cast<std::ptrdiff_t>(std::min(begin, end)),
+          at + static_cast<std::ptrdiff_t>(end)};
+}
+
 std::vector<std::string> parts_of(std::string_view word) {
   std::vector<std::string> parts(1);
   for (std::size_t i = 0; i < word.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -56,6 +57,9 @@ Tokens tokens_of(std::string_view text, Language language);
 /// The line again; tokens are parted by a blank where they say so or must be.
 std::string join(const SplitLine& line);
 std::string join(const Tokens& tokens);
+
+/// The tokens from `begin` to before `end`, as far as there are some.
+Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end = SIZE_MAX);
 
 /// The words in a word, in small letters: `setRoll` and `set_roll` are `set` and `roll`.
 std::vector<std::string> parts_of(std::string_view word);

@@ -5,7 +5,6 @@
 #include "repair/idioms.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 
@@ -15,18 +14,12 @@ namespace {
 using repair::Token;
 using repair::Tokens;
 
-Tokens from(const Tokens& line, std::size_t begin) {
-  return {line.begin() + static_cast<std::ptrdiff_t>(std::min(begin, line.size())), line.end()};
-}
-
 /// `mov`, `please`: words before a command that add nothing.
 bool is_move(const Token& token) {
-  constexpr auto words = std::to_array<std::string_view>(
-      {"mov", "ld",    "ldi",    "lda", "li",   "move", "set",   "do",  "turn",
-       "let", "make",  "please", "now", "then", "the",  "my",    "put", "use",
-       "run", "start", "db",     "cmd", "out",  "call", "change"});
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view word) { return equal_words(word, token.text); });
+  return holds(
+      "mov ld ldi lda li move set do turn let make please now then the my put use run start "
+      "db cmd out call change",
+      token.text);
 }
 
 /// `loop-start` and `loop start` are one word.
@@ -38,13 +31,13 @@ Tokens joined(const Tokens& line) {
     const auto word = line[0].text + "_" + line[size - 1].text;
     if (spec::find_macro_command(word) == nullptr)
       continue;
-    auto all = from(line, size - 1);
+    auto all = repair::slice(line, size - 1);
     all[0].text = word;
     return all;
   }
   if (line.size() > 2 && line[1].is_number() && line[0].is_word() && // `set_sd 2 70`
       spec::find_macro_command(line[0].text + line[1].text) != nullptr) {
-    auto all = from(line, 1);
+    auto all = repair::slice(line, 1);
     all[0] = Token{Token::Kind::Word, line[0].text + line[1].text};
     return all;
   }
@@ -202,10 +195,7 @@ Tokens without_signs(Tokens line) {
     line.insert(line.begin(), Token{Token::Kind::Word, ".macro"});
   if (line.size() > 2 && line[1].is("macro") && line[0].is_word()) // `start macro right with id 61`
     line.erase(line.begin());
-  constexpr auto defines = std::to_array<std::string_view>(
-      {"def", "sub", "proc", "function", "routine", "define", "func"});
-  if (has_id && std::any_of(defines.begin(), defines.end(),
-                            [&](std::string_view word) { return line[0].is(word); }))
+  if (has_id && holds("def sub proc function routine define func", line[0].text))
     line[0].text = ".macro";
   if (line.size() > 2 && line[0].is_word() && line[1].is(":") && line[2].is(".macro")) { // a label
     std::swap(line[0], line[2]);
@@ -229,10 +219,7 @@ Tokens own_signs(const Tokens& line) {
 }
 
 bool is_jump(const Token& token) {
-  constexpr auto words = std::to_array<std::string_view>(
-      {"jmp", "goto", "jump", "call", "gosub", "run", "do", "go", "to", "bra", "br", "jsr"});
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view word) { return equal_words(word, token.text); });
+  return holds("jmp goto jump call gosub run do go to bra br jsr", token.text);
 }
 
 } // namespace orb::assembler

@@ -49,10 +49,6 @@ Operand operand_of(const spec::MacroOperand& row) {
   return operand;
 }
 
-Tokens after(const Tokens& line, std::size_t begin) {
-  return {line.begin() + static_cast<std::ptrdiff_t>(std::min(begin, line.size())), line.end()};
-}
-
 std::optional<std::int64_t> milliseconds(const std::string& text) {
   const auto value = repair::quantity_of(repair::tokens_of(text, repair::Language::Macro), {});
   return value && value->thousandths % whole == 0 && value->thousandths >= 0
@@ -208,7 +204,7 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
     return {}; // a function of another language, with the heading first
   for (auto& operand : operands)
     operand.usual = usual_of(info, operand, elsewhere);
-  Tokens values = after(line, 1);
+  Tokens values = repair::slice(line, 1);
   if (spec::MacroBackground::Rotate == info.background)
     turn_left(values);
   if (info.command == spec::MacroCommand::RawMotors)
@@ -385,7 +381,7 @@ Elsewhere look_elsewhere(std::string_view text) {
       continue;
     const auto tokens = repair::split(line, repair::Language::Macro).tokens;
     if (tokens.size() > 3 && tokens[0].is(".const") && tokens[2].is("="))
-      if (const auto value = repair::quantity_of(after(tokens, 3), found.constants))
+      if (const auto value = repair::quantity_of(repair::slice(tokens, 3), found.constants))
         found.constants.emplace(tokens[1].text, *value);
     if (tokens.size() > 2 && tokens.back().is_word() && tokens[tokens.size() - 2].is_number())
       found.times.insert_or_assign(tokens[0].text,
@@ -416,7 +412,7 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
     const std::size_t value = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;
     if (line.size() <= value || !line[1].is_word())
       return {};
-    auto rest = after(line, value);
+    auto rest = repair::slice(line, value);
     if (rest.size() == 1 && rest[0].is_text())
       rest = repair::tokens_of(rest[0].text, repair::Language::Macro);
     if (const auto part = repair::quantity_of(rest, constants);

@@ -47,6 +47,16 @@ std::string lower(std::string_view text) {
   return small;
 }
 
+bool holds(std::string_view words, std::string_view word) {
+  for (std::size_t at = 0; at < words.size();) {
+    const auto end = std::min(words.find(' ', at), words.size());
+    if (equal_words(words.substr(at, end - at), word))
+      return true;
+    at = end + 1;
+  }
+  return false;
+}
+
 std::vector<std::string_view> words_in(std::string_view text) {
   std::vector<std::string_view> words;
   while (!text.empty()) {

@@ -43,6 +43,9 @@ constexpr bool equal_words(std::string_view a, std::string_view b) {
 /// In small letters; bytes beyond ASCII stay.
 std::string lower(std::string_view text);
 
+/// Whether `word` is one of `words`, which have a blank between them; case does not count.
+bool holds(std::string_view words, std::string_view word);
+
 /// The words of a text that has one blank between two of them.
 std::vector<std::string_view> words_in(std::string_view text);
 

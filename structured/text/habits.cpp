@@ -29,8 +29,8 @@ constexpr auto no_braces = "blocks have no braces; they end with `next`, `end if
 
 /// Where structured programs say it in another way than numbered ones.
 constexpr auto structured_words = std::to_array<Habit>({
-    {"set", Where::Line, "", "remove it: `x = 5`"},
-    {"int", Where::Line, "", "remove it: `x = 5`"},
+    {"set", Where::Line, "", "an assignment is `x = 5`"},
+    {"int", Where::Line, "", "an assignment is `x = 5`"},
     {"clear", Where::Line, "", "variables start at 0; or write `x = 0`"},
     {"begin", Where::Line, "", "blocks need no `begin`; remove the line"},
     {"def", Where::Line, "", "write `sub name` … `end sub`"},

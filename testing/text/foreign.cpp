@@ -3,7 +3,6 @@
 #include "base/duration.h"
 #include "base/text/text.h"
 #include "repair/arrange.h"
-#include "repair/colours.h"
 #include "repair/idioms.h"
 
 #include <algorithm>
@@ -16,7 +15,6 @@
 namespace orb::testing {
 namespace {
 
-using repair::holds;
 using repair::Token;
 using repair::Tokens;
 
@@ -33,11 +31,6 @@ std::size_t close_of(const Tokens& line, std::size_t open) {
       return at;
   }
   return line.size();
-}
-
-Tokens between(const Tokens& line, std::size_t begin, std::size_t end) {
-  return {line.begin() + static_cast<std::ptrdiff_t>(begin),
-          line.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
 void append(Tokens& to, const Tokens& tokens) {
@@ -112,7 +105,7 @@ public:
 
   void set_subject(Tokens subject) {
     if (subject.size() > 3 && subject[1].is("(") && subject.back().is(")")) { // `near(37, 37)`
-      values_ = between(subject, 2, subject.size() - 1);
+      values_ = repair::slice(subject, 2, subject.size() - 1);
       subject.resize(1);
     }
     subject_ = subject.empty() ? std::string() : std::string(subject_of(subject.back().text));
@@ -170,7 +163,7 @@ private:
       values.erase(brace, values.end());
       if (options.size() > 2 && options[1].is(":"))
         add(options[0].text,
-            between(options, 2, options.size() - (options.back().is("}") ? 1 : 0)));
+            repair::slice(options, 2, options.size() - (options.back().is("}") ? 1 : 0)));
     }
     while (!values.empty() && values.back().is(","))
       values.pop_back();
@@ -220,7 +213,7 @@ Tokens timed_event(const Tokens& line) {
   if (close + 2 >= line.size() || !line[close + 1].is("."))
     return {};
   Tokens all{word("at")};
-  append(all, timed(between(line, 2, close)));
+  append(all, timed(repair::slice(line, 2, close)));
   for (auto at = close + 2; at < line.size(); ++at)
     if (!line[at].is("(") && !line[at].is(")") && !line[at].is(";"))
       all.push_back(line[at]);
@@ -278,14 +271,14 @@ Tokens words_of_chain(const Tokens& line) {
   auto at = close_of(line, 1);
   if (at + 1 >= line.size() || !line[at + 1].is("."))
     return {};
-  chain.set_subject(between(line, 2, at));
+  chain.set_subject(repair::slice(line, 2, at));
   for (++at; at + 1 < line.size() && line[at].is(".");) {
     const auto& method = line[at + 1].text;
     at += 2;
     Tokens values;
     if (at < line.size() && line[at].is("(")) {
       const auto close = close_of(line, at);
-      values = between(line, at + 1, close);
+      values = repair::slice(line, at + 1, close);
       at = std::min(close + 1, line.size());
     }
     if (!chain.add(method, values))
@@ -377,11 +370,11 @@ Tokens with_spans(const Tokens& line) {
                       (line[i + 3].is("to") || line[i + 3].is("until") || line[i + 3].is("till"));
     if (!(between_ || from) || !unit(i + 1) || !unit(i + 4))
       continue;
-    auto all = between(line, 0, i);
+    auto all = repair::slice(line, 0, i);
     all.push_back(word("during"));
-    append(all, between(line, i + 1, i + 3));
+    append(all, repair::slice(line, i + 1, i + 3));
     all.push_back(Token{Token::Kind::Sign, ".."});
-    append(all, between(line, i + 4, line.size()));
+    append(all, repair::slice(line, i + 4));
     all[i + 4].gap = false;
     return all;
   }

@@ -29,11 +29,6 @@ using repair::Tokens;
 constexpr auto whole = Quantity::one;
 constexpr std::int64_t full_circle = spec::ball::full_circle;
 
-Tokens part(const Tokens& tokens, std::size_t begin, std::size_t end) {
-  return {tokens.begin() + static_cast<std::ptrdiff_t>(begin),
-          tokens.begin() + static_cast<std::ptrdiff_t>(end)};
-}
-
 const ExpectationInfo* expectation(const Token& token) {
   const auto found =
       std::find_if(expectations.begin(), expectations.end(), [&](const ExpectationInfo& row) {
@@ -69,13 +64,14 @@ public:
         if (!phrases_.by.empty())
           return std::nullopt;
         const auto end = number_end(at_ + 1);
-        phrases_.by = part(line_, at_ + 1, end);
+        phrases_.by = repair::slice(line_, at_ + 1, end);
         at_ = end;
         continue;
       }
       if (is_time(at_) && at_ + 2 == line_.size() && !phrases_.what.empty() &&
           phrases_.when.empty()) {
-        phrases_.when = part(line_, at_, at_ + 2); // which of `at` and `within` is not said
+        phrases_.when =
+            repair::slice(line_, at_, at_ + 2); // which of `at` and `within` is not said
         at_ += 2;
         continue;
       }
@@ -97,7 +93,7 @@ private:
   bool phrase(Tokens& into, std::initializer_list<std::size_t> ends) {
     for (const auto end : ends)
       if (end > at_ && into.empty()) {
-        into = part(line_, at_, end);
+        into = repair::slice(line_, at_, end);
         at_ = end;
         return true;
       }
@@ -163,8 +159,8 @@ Tokens ascending(Tokens tokens) {
       ++end;
     if (end < tokens.size() && tokens[end].is_word() && !tokens[end].gap)
       ++end;
-    auto left = part(tokens, begin, i);
-    auto right = part(tokens, i + 1, end);
+    auto left = repair::slice(tokens, begin, i);
+    auto right = repair::slice(tokens, i + 1, end);
     if (left.empty() || right.empty() || !left[0].is_number() || !right[0].is_number())
       continue;
     const auto factor = [](const Tokens& value) {
@@ -183,7 +179,7 @@ Tokens ascending(Tokens tokens) {
     else if (left.size() == 1 && right.size() > 1)
       left.push_back(right[1]); // `110..90cm`
     std::swap(left[0].gap, right[0].gap);
-    Tokens all = part(tokens, 0, begin);
+    Tokens all = repair::slice(tokens, 0, begin);
     all.insert(all.end(), right.begin(), right.end());
     all.push_back(tokens[i]);
     all.insert(all.end(), left.begin(), left.end());
@@ -261,6 +257,31 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
   return fmt::format("near {},{} by {}", numbers[0], numbers[1], distance);
 }
 
+/// A line that is not to be crossed: `x -90`, `(x < -90)`; which side is told by the sign.
+std::optional<std::string> beyond(const Tokens& values) {
+  std::string axis;
+  std::string relation;
+  std::string number;
+  for (const auto& token : values) {
+    if ((token.is("x") || token.is("y")) && axis.empty())
+      axis = token.text;
+    else if ((token.is("<") || token.is(">")) && relation.empty())
+      relation = token.text;
+    else if (token.is("-") && number.empty())
+      number = "-";
+    else if (token.is_number() && number.size() < 2)
+      number += token.text;
+    else if (!token.is("(") && !token.is(")") && !token.is("=") && !token.is("cm") &&
+             !token.is(";"))
+      return std::nullopt;
+  }
+  if (axis.empty() || number.empty() || number == "-")
+    return std::nullopt;
+  if (relation.empty())
+    relation = number[0] == '-' ? "<" : ">";
+  return fmt::format("beyond {}{}{}", axis, relation, number);
+}
+
 /// An angle from 0 to 359.
 std::optional<std::string> heading(const Tokens& values) {
   const auto value = repair::quantity_of(values, {});
@@ -277,7 +298,7 @@ std::string when_of(const ExpectationInfo& row, const Tokens& when, bool never, 
   if (when.empty())
     return row.word == info(Word::End).word ? text : std::string();
   if (when[0].is("after")) {
-    const auto time = repair::join(part(when, 1, when.size()));
+    const auto time = repair::join(repair::slice(when, 1));
     return row.kind == Kind::Event
                ? fmt::format("during {}..{}s", time, (bound + 999ms) / Duration{1s})
            : row.kind == Kind::State && !never ? "at " + time
@@ -285,7 +306,7 @@ std::string when_of(const ExpectationInfo& row, const Tokens& when, bool never, 
   }
   const bool at_end = when.size() == 2;
   const bool moment = when[0].is("at") && !at_end;
-  const auto time = repair::join(part(when, 1, when.size()));
+  const auto time = repair::join(repair::slice(when, 1));
   switch (row.kind) {
   case Kind::State:
   case Kind::Stay: return never && when[0].is("within") ? "during 0s.." + time : text;
@@ -372,6 +393,11 @@ What what_of(Phrases& phrases, bool never, const Elsewhere& elsewhere) {
     all.text = fmt::format("{} {}", all.row->word, *repair::test_colour(what[0]));
     return all;
   }
+  if (what.size() == 2 && what[0].is("~") && what[1].is_text()) {
+    all.row = &info(Word::Print);
+    all.text = fmt::format("{} {}", all.row->word, repair::join(what));
+    return all;
+  }
   const auto numbers =
       std::count_if(what.begin(), what.end(), [](const Token& token) { return token.is_number(); });
   if (word == what.end() && numbers == 2 && !phrases.by.empty())
@@ -392,7 +418,7 @@ What what_of(Phrases& phrases, bool never, const Elsewhere& elsewhere) {
     return all;
   }
   std::rotate(what.begin(), word, word + 1);
-  auto values = ascending(part(what, 1, what.size()));
+  auto values = ascending(repair::slice(what, 1));
   count_events(row, values, phrases.times);
   all.text = std::string(row.word);
   if (row.word == info(Word::Near).word) {
@@ -401,6 +427,11 @@ What what_of(Phrases& phrases, bool never, const Elsewhere& elsewhere) {
       all.sure = near(values, phrases.by, {}).has_value();
       phrases.by.clear();
       return all;
+    }
+  } else if (row.word == info(Word::Beyond).word) {
+    if (const auto line = beyond(values)) {
+      all.text = *line;
+      values.clear();
     }
   } else if (row.word == info(Word::Heading).word) {
     if (const auto angle = heading(values)) {
@@ -466,7 +497,7 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
   if (!phrases->times.empty() && said.row->kind == Kind::Event)
     text += " " + repair::join(ascending(phrases->times));
   if (!phrases->when.empty() && phrases->when[0].is("until")) {
-    const auto time = repair::join(part(phrases->when, 1, phrases->when.size()));
+    const auto time = repair::join(repair::slice(phrases->when, 1));
     const auto all_along = fmt::format("{} during 0s..{}", text, time);
     const auto within = fmt::format("{} within {}", text, time);
     return said.row->kind != Kind::State ? Rephrased{within, true}
@@ -500,8 +531,8 @@ std::optional<Rephrased> arrange_joined(const Tokens& line, bool never,
   if (joint == line.end() || joint == line.begin())
     return std::nullopt;
   const auto at = static_cast<std::size_t>(joint - line.begin());
-  auto left = Reader(part(line, 0, at)).read(0);
-  auto right_tokens = part(line, at + 1, line.size());
+  auto left = Reader(repair::slice(line, 0, at)).read(0);
+  auto right_tokens = repair::slice(line, at + 1);
   auto right = Reader(right_tokens).read(0);
   if (!left || !right || left->what.empty() || right->what.empty())
     return std::nullopt;
@@ -566,8 +597,10 @@ std::optional<Tokens> close_text(const Tokens& line) {
     Phrases phrases;
     if (const auto read = Reader(rest).read(0))
       phrases = *read;
-    if (!phrases.what.empty() || !phrases.by.empty() ||
-        (phrases.when.empty() && phrases.times.empty()))
+    const bool seeds = line[0].is("test") && rest.size() > 1 && rest[0].is("seeds") &&
+                       rest[1].is_number();
+    if (!seeds && (!phrases.what.empty() || !phrases.by.empty() ||
+        (phrases.when.empty() && phrases.times.empty())))
       continue;
     Tokens all = line;
     all.back().text = text.substr(0, blank);
@@ -901,7 +934,7 @@ std::optional<Rephrased> arrange_bound(const Tokens& line) {
     if (!line[i].is_number())
       continue;
     const bool unit = i + 1 < line.size() && line[i + 1].is_word();
-    const auto found = repair::compute(part(line, i, i + (unit ? 2 : 1)), {});
+    const auto found = repair::compute(repair::slice(line, i, i + (unit ? 2 : 1)), {});
     if (time || !found || is_digit(found->back()))
       return std::nullopt;
     time = found;
@@ -937,10 +970,6 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
     return one;
   return arrange_joined(rest, never, elsewhere);
 }
-
-} // namespace
-
-namespace {
 
 /// `inside("island")` as `inside island`; only what is printed is a text.
 Tokens unwrapped(const Tokens& line) {

@@ -371,13 +371,13 @@ class Playground(unittest.TestCase):
 
     def test_a_browser_that_cannot_pack_says_so(self):
         page = self.open(fragment({"a.bas": "10 end\n"}), before="delete window.CompressionStream; delete window.DecompressionStream;")
-        page.wait(f"{by_id('status')}.textContent.includes('older than')")
+        page.wait(f"{by_id('status')}.textContent.includes('before 2023')")
         page.evaluate(click("share"))
-        page.wait(f"{by_id('status')}.textContent.includes('cannot pack')")
+        page.wait(f"{by_id('status')}.textContent.includes('too old to put')")
 
     def test_a_new_file_says_what_it_is_for(self):
         page = self.open(fragment({"a.bas": "10 end\n"}))
-        for name, words in (("b.orb", "a separate structured program"), ("a.test", "a.bas is tested"), ("c.svg", "under More")):
+        for name, words in (("b.orb", "a separate structured program"), ("a.test", "it tests a.bas"), ("c.svg", "under More")):
             page.evaluate(click("new-file"))
             page.evaluate(f"{by_id('name')}.value = '{name}'; document.querySelector('#name-form [value=ok]').click()")
             page.wait(f"{by_id('status')}.textContent.includes('{words}')")
