@@ -288,7 +288,9 @@ private:
     const auto pick = [&](std::string text) {
       return !text.empty() || next == plain.end() ? text : *next++;
     };
-    const auto heading = pick(named("heading").empty() ? heading_ : named("heading"));
+    constexpr std::size_t all = 3; // values of a roll
+    const auto by_word = plain.size() == all ? std::string() : heading_; // `forward 90, 80, 1`
+    const auto heading = pick(named("heading").empty() ? by_word : named("heading"));
     const auto speed = pick(named("speed"));
     const auto go = pick("");
     if (heading.empty() && speed == "0" && next == plain.end())

@@ -21,7 +21,11 @@ void LineRepair::canonical() {
       std::any_of(tokens.begin(), tokens.end() - 1,
                   [](const Token& token) { return token.is_text(); }))
     tokens.pop_back();
+  if (tokens.size() == 1 && tokens[0].is("]"))
+    tokens[0].text = "}";
+  close_before_else();
   close_text();
+  truths();
   read_logo();
   drop_colons();
   plain_signs();
@@ -142,6 +146,38 @@ void LineRepair::close_text() {
   text.closed = true;
 }
 
+/// `then print "low else print "high"`: a text that ends where the other branch begins.
+void LineRepair::close_before_else() {
+  auto& tokens = parts_.tokens;
+  if (!has_token(tokens, "then") || !tokens.back().is_text() || tokens.back().closed)
+    return;
+  const auto opened = std::find_if(tokens.begin(), tokens.end(), [](const Token& token) {
+    return token.is_text() && token.text.find(" else ") != std::string::npos;
+  });
+  if (opened == tokens.end())
+    return;
+  auto text = join(Tokens(opened, tokens.end()));
+  text.pop_back(); // the quote that closes what is not
+  text.insert(text.find(" else "), "\"");
+  tokens.erase(opened, tokens.end());
+  const auto rest = tokens_of(text, judge_.language);
+  const auto from = tokens.size();
+  tokens.insert(tokens.end(), rest.begin(), rest.end());
+  tokens[from].gap = true;
+}
+
+/// `warned = "False"`: what is true is 1.
+void LineRepair::truths() {
+  auto& tokens = parts_.tokens;
+  const bool programs =
+      judge_.language == Language::Basic || judge_.language == Language::Structured;
+  if (!programs || tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
+      !holds("true false", tokens[2].text))
+    return;
+  tokens[2].kind = Token::Kind::Number;
+  tokens[2].text = equal_words(tokens[2].text, "true") ? "1" : "0";
+}
+
 /// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon.
 void LineRepair::read_logo() {
   auto& tokens = parts_.tokens;
@@ -195,8 +231,10 @@ void LineRepair::names_in_quotes() {
 /// `Math.max(`, `Program.best(` and `FNmean` where `max`, `best` and `mean` are known.
 void LineRepair::drop_prefixes() {
   auto& tokens = parts_.tokens;
-  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+  if (judge_.language == Language::Macro)
     return;
+  if (judge_.language == Language::Test)
+    return drop_objects();
   const auto own = [&](std::string_view word) {
     return word.size() > 1 && has_word(names_, word);
   };
@@ -220,6 +258,26 @@ void LineRepair::drop_prefixes() {
         }
     }
   }
+}
+
+/// `Serial.print`, `Program.End()` and `Ball.Toss(820)` as test files say it: no file has such a
+/// name.
+void LineRepair::drop_objects() {
+  auto& tokens = parts_.tokens;
+  if (tokens.empty() || tokens[0].is("program") || tokens[0].is("with") || tokens[0].is("course"))
+    return;
+  for (std::size_t i = 0; i + 2 < tokens.size(); ++i)
+    if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
+        tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
+        !has_word(judge_.words, tokens[i].text) &&
+        has_word(judge_.words, tokens[i + 2].text)) {
+      tokens[i + 2].gap = tokens[i].gap;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
+                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
+      if (i + 2 < tokens.size() && tokens[i + 1].is("(") && tokens[i + 2].is(")"))
+        tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i + 1),
+                     tokens.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    }
 }
 
 /// `RGB 0, 60%, 30%` in parts of 255.

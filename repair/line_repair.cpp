@@ -260,7 +260,9 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
     return false; // a case without lines of its own
   if (!keeps_names(statement))
     return false;
-  if (sets_name() && statement.find(" = ") == std::string::npos)
+  const bool sets = statement.find(" = ") != std::string::npos || statement.starts_with("read ") ||
+                    statement.starts_with("input ");
+  if (sets_name() && !sets)
     return false;
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));

@@ -68,6 +68,8 @@ private:
   void canonical();
   void part_glued();
   void close_text();
+  void close_before_else();
+  void truths();
   void read_logo();
   void drop_colons();
   void without_accents();
@@ -76,6 +78,7 @@ private:
   void count_percents();
   void same_letters();
   void drop_prefixes();
+  void drop_objects();
   void other_forms();
   void drop_sigils();
   void index_arrays(const Scenery& scenery);

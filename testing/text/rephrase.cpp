@@ -263,14 +263,16 @@ std::optional<std::string> beyond(const Tokens& values) {
   std::string relation;
   std::string number;
   for (const auto& token : values) {
-    if ((token.is("x") || token.is("y")) && axis.empty())
-      axis = token.text;
+    if (axis.empty() && token.is_word() && holds("x xcor xpos y ycor ypos", token.text))
+      axis = token.text.substr(0, 1);
     else if ((token.is("<") || token.is(">")) && relation.empty())
       relation = token.text;
     else if (token.is("-") && number.empty())
       number = "-";
     else if (token.is_number() && number.size() < 2)
       number += token.text;
+    else if (token.is("mm") && number.ends_with('0'))
+      number.pop_back();
     else if (!token.is("(") && !token.is(")") && !token.is("=") && !token.is("cm") &&
              !token.is(";"))
       return std::nullopt;
