@@ -496,7 +496,9 @@ constexpr auto functions = std::to_array<Function>({
     // words
     {"operand", // no unit, and no digit in the shape of a letter
      [](const Holding& held) {
-       return held.a.size() == 1 && milliseconds_of(held.a[0].text) == 0 &&
+       const bool value = held.a.size() == 1 && (held.language() != Language::Basic ||
+                                                 held.a[0].text.size() > 1 || to_lower(held.a[0].text[0]) != held.a[0].text[0]);
+       return value && milliseconds_of(held.a[0].text) == 0 &&
                       (held.a[0].gap || !has({"O", "o", "l", "I"}, held.a[0].text)) ? Text(held.a[0].text)
                                                                    : std::nullopt;
      }},

@@ -30,6 +30,22 @@ void LineRepair::by_initials() {
     attempt(join(tokens), {}, false);
 }
 
+/// `i` for `next i`, and `count 0` for `count = 0`.
+void LineRepair::by_words_left_out() {
+  const auto& tokens = parts_.tokens;
+  if (tokens.size() == 1 && tokens[0].text == around_.loop) {
+    attempt("next " + around_.loop, {}, false);
+    return;
+  }
+  const auto names = [&](const Token& token) {
+    return judge_.language == Language::Basic ? is_letter(token.text[0]) && token.text.size() == 1
+                                              : has_word(names_, token.text);
+  };
+  if (tokens.size() == 2 && tokens[0].is_word() && names(tokens[0]) &&
+      (tokens[1].is_number() || tokens[1].is_word()))
+    attempt(join({tokens[0]}) + " = " + tokens[1].text, {}, false);
+}
+
 /// A unit where none is counted (`score += 5 points`, `if s > longest steps then`), names of values
 /// (`leg(towards=90)`), and a quantity behind a statement that takes none.
 void LineRepair::by_leaving_out() {
@@ -54,7 +70,7 @@ void LineRepair::by_leaving_out() {
   auto bare = all;
   for (std::size_t i = 1; i < bare.size(); ++i) { // `90deg,70%,1s`
     const bool unit = bare[i - 1].is_number() &&
-                      (bare[i].is("%") || bare[i].is("cm") || is_called("degrees", bare[i].text) ||
+                      ((!bare[i].gap && is_unknown(bare[i])) || bare[i].is("%") || bare[i].is("cm") || is_called("degrees", bare[i].text) ||
                        (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
     const bool per = unit && i + 2 < bare.size() && bare[i + 1].is("/") && bare[i + 2].is("s");
     if (unit)

@@ -1,5 +1,6 @@
 #include "repair/line_repair.h"
 
+#include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
@@ -30,6 +31,7 @@ void LineRepair::canonical() {
   drop_colons();
   plain_signs();
   part_glued();
+  part_next();
   same_letters();
   drop_prefixes();
   without_accents();
@@ -93,6 +95,20 @@ std::vector<std::string> parts_of_glued(std::string_view word,
 
 } // namespace
 
+/// `nexti` in a program with `i`.
+void LineRepair::part_next() {
+  constexpr std::string_view next = "next";
+  auto& tokens = parts_.tokens;
+  if (tokens.size() != 1 || judge_.language != Language::Structured || around_.loop.empty() ||
+      !equal_words(tokens[0].text, std::string(next) + around_.loop))
+    return;
+  auto name = tokens[0];
+  name.text = around_.loop;
+  name.gap = true;
+  tokens[0].text = next;
+  tokens.push_back(name);
+}
+
 /// `GOTO150` becomes `goto 150`, and `THENLETT` `then let T`.
 void LineRepair::part_glued() {
   auto& tokens = parts_.tokens;
@@ -120,7 +136,7 @@ void LineRepair::part_glued() {
 
 /// Operators of C and its children, which every such line has.
 void LineRepair::plain_signs() {
-  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+  if (judge_.language == Language::Macro)
     return;
   for (auto& token : parts_.tokens)
     if (token.is("==") || token.is("===")) {
@@ -242,6 +258,13 @@ void LineRepair::drop_prefixes() {
     auto& token = tokens[i];
     if (!token.is_word() || !is_foreign(token.text))
       continue;
+    const bool waits = token.is("await") && i + 1 < tokens.size() &&
+                       holds("delay sleep wait", tokens[i + 1].text); // counted in seconds
+    if (token.is("await") && !waits && i + 1 < tokens.size() && tokens[i + 1].is_word()) {
+      tokens[i + 1].gap = token.gap;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
+      continue;
+    }
     if (i + 3 < tokens.size() && tokens[i + 1].is(".") && tokens[i + 2].is_word() &&
         tokens[i + 3].is("(") &&
         (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text))) {
@@ -316,6 +339,12 @@ void LineRepair::same_letters() {
   }
 }
 
+/// Whether a word is one letter away from one of the language.
+bool LineRepair::is_misspelt(std::string_view word) const {
+  const auto near = closest(word, judge_.words);
+  return near && edit_distance(word, *near) == 1;
+}
+
 /// Words of the tables in the form that stands there: `attendez` for `attendre`.
 void LineRepair::other_forms() {
   auto& tokens = parts_.tokens;
@@ -326,6 +355,7 @@ void LineRepair::other_forms() {
                        (i > 0 && tokens[i - 1].is("."));
     if (!tokens[i].is_word() || named || !is_foreign(tokens[i].text) ||
         milliseconds_of(tokens[i].text) > 0 || find_colour(tokens[i]) ||
+        is_misspelt(tokens[i].text) ||
         is_known_word(tokens[i].text, Where::Line) || is_known_word(tokens[i].text, Where::Inside))
       continue;
     if (const auto form = known_form_of(tokens[i].text, judge_.language); !form.empty())
@@ -338,8 +368,8 @@ void LineRepair::drop_sigils() {
   auto& tokens = parts_.tokens;
   const auto names_variable = [&](const Token& token) {
     return token.is_word() &&
-           (judge_.language == Language::Basic ? token.text.size() == 1
-                                               : has_word(around_.elsewhere, token.text));
+           (token.text.size() == 1 || (judge_.language == Language::Structured &&
+                                       has_word(around_.elsewhere, token.text)));
   };
   if (judge_.language != Language::Basic && judge_.language != Language::Structured)
     return;
@@ -407,6 +437,22 @@ std::string LineRepair::closed_earlier() const {
   tokens.back().text = text.substr(0, comma);
   tokens.back().closed = true;
   return join(tokens) + text.substr(comma);
+}
+
+/// A text that has no end before the values behind it, so that all others are turned inside out:
+/// `print "toss, C ": " T`. Empty where no comma in it can have been that place.
+std::string LineRepair::closed_in_first() const {
+  const auto& tokens = parts_.tokens;
+  if (tokens.size() < 3 || !tokens.back().is_text() || tokens.back().closed ||
+      !tokens[0].is("print") || !tokens[1].is_text())
+    return {};
+  auto text = join(Tokens(tokens.begin() + 1, tokens.end()));
+  text.pop_back(); // the quote that closes what is not
+  const auto comma = text.find(',');
+  if (comma == std::string::npos || comma > tokens[1].text.size())
+    return {};
+  text.insert(comma, "\"");
+  return join({tokens[0]}) + " " + text;
 }
 
 /// A text whose first quote is missing, so that the last one opens what stands outside:

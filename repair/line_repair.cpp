@@ -32,11 +32,6 @@ std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
 
 } // namespace
 
-bool has_token(const Tokens& tokens, std::string_view sign) {
-  return std::any_of(tokens.begin(), tokens.end(),
-                     [&](const Token& token) { return token.is(sign); });
-}
-
 bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
   return std::any_of(words.begin(), words.end(),
                      [&](std::string_view one) { return equal_words(one, word); });
@@ -109,6 +104,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     other_ = attempt_line(whole(earlier), {}, false, false);
   if (const auto opened = opened_earlier(); !best_ && !opened.empty())
     attempt(opened, {}, true);
+  if (const auto closed = closed_in_first(); !closed.empty())
+    attempt(closed, {}, false);
   const bool known = is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line);
   if (!best_ && !known) {
     by_gist();
@@ -119,8 +116,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     habits(start, {deepest, most_states});
   if (!best_ || !best_->quiet)
     by_fix(finding);
-  if (!best_ && parts_.tokens.size() == 1 && parts_.tokens[0].text == around_.loop)
-    attempt("next " + around_.loop, {}, false);
+  if (!best_)
+    by_words_left_out();
   if (!best_ && known)
     by_gist();
   if (!best_ && judge_.language == Language::Basic)
@@ -434,7 +431,8 @@ void LineRepair::own_words() {
     const bool acts = i == 0 && !(tokens.size() > 1 && tokens[1].is("="));
     const bool unit = i > 0 && tokens[i - 1].is_number();
     if (acts || unit || !token.is_word() || milliseconds_of(token.text) > 0 ||
-        meanings_of(token.text).empty() || !is_foreign(token.text))
+        meanings_of(token.text).empty() || !is_foreign(token.text) ||
+        is_known_word(token.text, Where::Line))
       continue;
     const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {
       return milliseconds_of(name) == 0 && !has_word(judge_.words, name) &&

@@ -19,8 +19,6 @@ namespace orb::repair {
 /// Whether a word is one of them, in capitals or not.
 bool has_word(const std::vector<std::string_view>& words, std::string_view word);
 
-bool has_token(const Tokens& tokens, std::string_view sign);
-
 std::size_t errors_in(const std::vector<Diagnostic>& findings);
 
 /// Lines that were tried in the place of one.
@@ -67,6 +65,7 @@ public:
 private:
   void canonical();
   void part_glued();
+  void part_next();
   void close_text();
   void close_before_else();
   void truths();
@@ -79,6 +78,7 @@ private:
   void same_letters();
   void drop_prefixes();
   void drop_objects();
+  bool is_misspelt(std::string_view word) const;
   void other_forms();
   void drop_sigils();
   void index_arrays(const Scenery& scenery);
@@ -97,6 +97,7 @@ private:
                                        bool keep = true);
   std::string closed_earlier() const;
   std::string opened_earlier() const;
+  std::string closed_in_first() const;
   bool is_foreign(std::string_view line) const;
   bool is_unknown(const Token& token) const;
   bool rephrase(const Tokens& line);
@@ -108,6 +109,7 @@ private:
   void several_lines(const std::string& statement);
   void by_gist();
   void among_unknown();
+  void by_words_left_out();
   void by_initials();
   void by_leaving_out();
   void by_fix(const Diagnostic& finding);

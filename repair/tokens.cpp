@@ -213,6 +213,8 @@ private:
     token.closed = end != std::string_view::npos;
     token.plain = *quote == "\"";
     at_ = token.closed ? end + width : text_.size();
+    if (*quote == "«")
+      token.text = trim(std::string(token.text)); // French ones stand apart
     if (!token.closed)
       while (!token.text.empty() && is_blank(token.text.back()))
         token.text.pop_back();
@@ -333,6 +335,11 @@ std::string join(const SplitLine& line) {
   if (!line.comment.empty())
     text += (line.tokens.empty() ? "" : " ") + line.comment;
   return text;
+}
+
+bool has_token(const Tokens& tokens, std::string_view text) {
+  return std::any_of(tokens.begin(), tokens.end(),
+                     [&](const Token& token) { return token.is(text); });
 }
 
 Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end) {

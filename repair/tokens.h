@@ -58,6 +58,9 @@ Tokens tokens_of(std::string_view text, Language language);
 std::string join(const SplitLine& line);
 std::string join(const Tokens& tokens);
 
+/// Whether one of them is that word or sign.
+bool has_token(const Tokens& tokens, std::string_view text);
+
 /// The tokens from `begin` to before `end`, as far as there are some.
 Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end = SIZE_MAX);
 

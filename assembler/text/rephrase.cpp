@@ -235,23 +235,37 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
     all_named = all_named && (arranged->values[i].empty() || arranged->named[i]);
   const bool commas =
       std::any_of(line.begin(), line.end(), [](const Token& token) { return token.is(","); });
-  std::string text(info.mnemonic);
-  bool first = true;
   bool in_seconds = false;
-  for (std::size_t i = 0; i < operands.size(); ++i) {
-    if (arranged->values[i].empty())
-      continue;
-    constexpr int most_seconds = 20; // of a time without a unit in a call, as Python writes them
-    const auto& value = arranged->values[i];
-    const auto number = parse_number<int>(value);
-    const bool seconds = line.size() > 1 && line[1].is("(") && number && *number > 0 &&
-                         *number <= most_seconds && operands[i].counts == Counts::Milliseconds;
-    in_seconds = in_seconds || seconds;
-    text += first || !commas ? " " : ", ";
-    first = false;
-    if (all_named || (operands[i].optional && arranged->named[i]))
-      text += fmt::format("{}=", operands[i].name);
-    text += value + (seconds ? "s" : "");
+  const bool calls = line.size() > 1 && line[1].is("(");
+  const auto written = [&](const std::vector<std::string>& operand_values) {
+    std::string text(info.mnemonic);
+    bool first = true;
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      if (operand_values[i].empty())
+        continue;
+      constexpr int most_seconds = 20; // of a time without a unit in a call, as Python writes them
+      const auto& value = operand_values[i];
+      const auto number = parse_number<int>(value);
+      const bool seconds = calls && number && *number > 0 && *number <= most_seconds &&
+                           operands[i].counts == Counts::Milliseconds;
+      in_seconds = in_seconds || seconds;
+      text += first || !commas ? " " : ", ";
+      first = false;
+      if (all_named || (operands[i].optional && arranged->named[i]))
+        text += fmt::format("{}=", operands[i].name);
+      text += value + (seconds ? "s" : "");
+    }
+    return text;
+  };
+  const auto text = written(arranged->values);
+  // Who calls `roll(0, 100)` may think of the heading first, as other interfaces have it.
+  const bool positional = std::none_of(arranged->named.begin(), arranged->named.end(),
+                                       [](bool named) { return named; });
+  if (info.command == spec::MacroCommand::Roll && calls && positional && arranged->wait.empty()) {
+    auto exchanged = arranged->values;
+    std::swap(exchanged[0], exchanged[1]);
+    if (exchanged[0] != exchanged[1])
+      return {{text, false, written(exchanged)}};
   }
   if (arranged->wait.empty())
     return {{text, arranged->sure && !in_seconds}};
@@ -404,9 +418,13 @@ std::vector<std::int64_t> waits_of(std::int64_t ms) {
 std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
   const auto& constants = elsewhere.constants;
   auto line = own_signs(written);
+  if (line.size() > 3 && line[0].is_word() && line[1].is(".") && line[2].is_word())
+    line.erase(line.begin(), line.begin() + 2); // `LED.Fade(…)`
   if (line.empty() || !line[0].is_word())
     return {};
-  if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro")))
+  const bool defines = repair::has_token(line, "id") && repair::has_token(line, "=") &&
+                       holds("to def sub function procedure", line[0].text);
+  if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro") || defines))
     return rephrase_header(line);
   if (line[0].is(".const") || line[0].is("const")) {
     const std::size_t value = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;

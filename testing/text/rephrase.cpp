@@ -834,13 +834,19 @@ Tokens translate(const Tokens& line) {
     else if (called("at") && (ends || (number && (timed || all.empty()))))
       add("at");
     else {
-      const auto meanings = repair::meanings_of(token.text);
-      const auto found = std::find_if(meanings.begin(), meanings.end(), [&](std::string_view name) {
-        return !name.empty() && name != "at" && name != "by" && name != "within" &&
-               is_vocabulary(name, all.empty());
-      });
-      if (found != meanings.end())
-        add(*found);
+      const auto meaning_of = [&](std::string_view said) -> std::string_view {
+        for (const auto name : repair::meanings_of(said))
+          if (!name.empty() && name != "at" && name != "by" && name != "within" &&
+              is_vocabulary(name, all.empty()))
+            return name;
+        return {};
+      };
+      auto found = meaning_of(token.text);
+      if (const auto parts = repair::parts_of(token.text); found.empty() && parts.size() > 1)
+        for (const auto& part : parts) // `getHeading`, `isMoving`
+          found = found.empty() ? is_vocabulary(part, all.empty()) ? std::string_view(part) : meaning_of(part) : found;
+      if (!found.empty())
+        add(found);
       else if (!repair::is_called("", token.text) || token.text == "A")
         all.push_back(token);
     }
@@ -891,6 +897,11 @@ Tokens with_ranges(Tokens all) {
       continue;
     auto to = i + 1;
     to += to < all.size() && all[to].is_word() && !all[to].gap ? 1 : 0; // its unit
+    if (to < all.size() && all[to].is_number() && !between) { // `distance 3m 5m`
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(to), Token{Token::Kind::Sign, "..", false});
+      all[to + 1].gap = false;
+      continue;
+    }
     const bool goes_on =
         to + 1 < all.size() && all[to + 1].is_number() &&
         (all[to].is("to") || all[to].is("until") || (between && all[to].is("and")));
@@ -919,10 +930,15 @@ std::optional<Rephrased> arrange_wall(const Tokens& line) {
       continue;
     if (axis.empty())
       return std::nullopt;
-    const bool metres = i + 1 < line.size() && line[i + 1].is("m");
-    constexpr double metre_cm = 100;
+    const auto* const unit = i + 1 < line.size() && line[i + 1].is_word() ? &line[i + 1] : nullptr;
+    const double in_cm = unit == nullptr || unit->is("cm") ? 1
+                         : unit->is("m")                   ? 100
+                         : unit->is("mm")                  ? 0.1
+                                                           : 0;
+    if (in_cm == 0)
+      return std::nullopt;
     const auto cm = parse_number<double>(line[i].text, std::chars_format::fixed).value_or(0) *
-                    (metres ? metre_cm : 1) * (negative ? -1 : 1);
+                    in_cm * (negative ? -1 : 1);
     all += fmt::format("{}wall {}={}", all.empty() ? "" : "\n", axis, cm);
     axis.clear();
   }
@@ -977,9 +993,9 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
 Tokens unwrapped(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool call = i > 0 && i + 2 < line.size() && line[i].is("(") && line[i + 1].is_text() &&
-                      line[i + 2].is(")") && expectation(line[i - 1]) != nullptr &&
-                      !line[i - 1].is("print");
+    const bool value = i + 2 < line.size() && (line[i + 1].is_text() || line[i + 1].is_word());
+    const bool call = i > 0 && value && line[i].is("(") && line[i + 2].is(")") &&
+                      expectation(line[i - 1]) != nullptr && !line[i - 1].is("print");
     if (!call) {
       all.push_back(line[i]);
       continue;
