@@ -464,6 +464,7 @@ constexpr auto functions = std::to_array<Function>({
                   : std::nullopt;
      }},
     {"middle", [](const Holding& held) { return half_way(held, false); }},
+    {"using", [](const Holding& held) { return print_using(held.a, join(held.b)); }},
     {"half", [](const Holding& held) { return half_way(held, true); }},
     {"ratio", [](const Holding& held) { return fraction(held.a, false); }},
     {"inverse", [](const Holding& held) { return fraction(held.a, true); }},

@@ -67,10 +67,16 @@ void LineRepair::by_leaving_out() {
     if (attempt(join(less), {}, false))
       return;
   }
+  const auto is_unit = [&](const Token& token) { // `20pts`, `N < 1 sticks or N > 3 sticks`
+    const auto same = std::count_if(all.begin(), all.end(), [&](const Token& other) {
+      return other.is_word() && other.text == token.text;
+    });
+    return (same > 1 || !token.gap) && is_unknown(token);
+  };
   auto bare = all;
   for (std::size_t i = 1; i < bare.size(); ++i) { // `90deg,70%,1s`
     const bool unit = bare[i - 1].is_number() &&
-                      ((!bare[i].gap && is_unknown(bare[i])) || bare[i].is("%") || bare[i].is("cm") || is_called("degrees", bare[i].text) ||
+                      (is_unit(bare[i]) || bare[i].is("%") || bare[i].is("cm") || is_called("degrees", bare[i].text) ||
                        (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
     const bool per = unit && i + 2 < bare.size() && bare[i + 1].is("/") && bare[i + 2].is("s");
     if (unit)

@@ -14,13 +14,23 @@
 
 namespace orb::repair {
 
+/// Whether a text ends in a comma and a name: `"yes! in, tries "`.
+bool LineRepair::ends_in_name(const Token& text) const {
+  const auto comma = text.text.rfind(',');
+  if (!text.is_text() || comma == std::string::npos)
+    return false;
+  const auto name = trim(std::string_view(text.text).substr(comma + 1));
+  return has_word(names_, name) || (judge_.language == Language::Basic && name.size() == 1);
+}
+
 /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
 void LineRepair::canonical() {
   auto& tokens = parts_.tokens; // `print "A is " A"`: the last quote is too many
   if (tokens.size() > 2 && tokens.back().is_text() && !tokens.back().closed &&
       tokens.back().text.empty() &&
       std::any_of(tokens.begin(), tokens.end() - 1,
-                  [](const Token& token) { return token.is_text(); }))
+                  [](const Token& token) { return token.is_text(); }) &&
+      !ends_in_name(tokens[1]))
     tokens.pop_back();
   if (tokens.size() == 1 && tokens[0].is("]"))
     tokens[0].text = "}";
@@ -265,8 +275,14 @@ void LineRepair::drop_prefixes() {
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
       continue;
     }
-    if (i + 3 < tokens.size() && tokens[i + 1].is(".") && tokens[i + 2].is_word() &&
-        tokens[i + 3].is("(") &&
+    const bool member = i + 2 < tokens.size() && tokens[i + 1].is(".") && tokens[i + 2].is_word();
+    const bool calls = member && i + 3 < tokens.size() && tokens[i + 3].is("(");
+    if (member && !calls && i > 0 && has_word(judge_.words, tokens[i + 2].text) &&
+        !find_colour(tokens[i + 2])) { // `Ball.accelone`
+      tokens[i + 2].gap = token.gap;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
+                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
+    } else if (calls &&
         (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text))) {
       tokens[i + 2].gap = token.gap;
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
@@ -292,15 +308,18 @@ void LineRepair::drop_objects() {
   for (std::size_t i = 0; i + 2 < tokens.size(); ++i)
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
-        !has_word(judge_.words, tokens[i].text) &&
+        (i > 0 || !has_word(judge_.words, tokens[i].text)) &&
         has_word(judge_.words, tokens[i + 2].text)) {
       tokens[i + 2].gap = tokens[i].gap;
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
                    tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
-      if (i + 2 < tokens.size() && tokens[i + 1].is("(") && tokens[i + 2].is(")"))
-        tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i + 1),
-                     tokens.begin() + static_cast<std::ptrdiff_t>(i + 3));
     }
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
+    if (tokens[i].is("(") && tokens[i + 1].is(")") && tokens[i - 1].is_word())
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
+                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
+  if (tokens.back().is("?"))
+    tokens.pop_back();
 }
 
 /// `RGB 0, 60%, 30%` in parts of 255.
@@ -373,6 +392,9 @@ void LineRepair::drop_sigils() {
   };
   if (judge_.language != Language::Basic && judge_.language != Language::Structured)
     return;
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `STR$(F)`
+    if (tokens[i].is("$") && !tokens[i].gap && tokens[i - 1].is_word() && tokens[i + 1].is("("))
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
   for (std::size_t i = 1; i < tokens.size(); ++i) {
     const bool sigil =
         !tokens[i].gap && (tokens[i].is("%") || tokens[i].is("&") || tokens[i].is("!"));

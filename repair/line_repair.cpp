@@ -84,6 +84,10 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   // The same words in another order say what was meant, whatever else is told of the line.
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
+  if (const auto opened = opened_earlier(); !opened.empty())
+    attempt(opened, {}, true);
+  if (const auto closed = closed_in_first(); !closed.empty())
+    attempt(closed, {}, false);
   own_call(start);
   if (!best_ && judge_.language == Language::Structured)
     own_sub();
@@ -102,10 +106,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     attempt(start, {}, true);
   if (const auto earlier = closed_earlier(); best_ && !earlier.empty())
     other_ = attempt_line(whole(earlier), {}, false, false);
-  if (const auto opened = opened_earlier(); !best_ && !opened.empty())
-    attempt(opened, {}, true);
-  if (const auto closed = closed_in_first(); !closed.empty())
-    attempt(closed, {}, false);
+
   const bool known = is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line);
   if (!best_ && !known) {
     by_gist();
@@ -128,12 +129,28 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     among_unknown();
   if (!best_)
     by_leaving_out();
+  if (best_ && !other_ && !best_->sure)
+    other_ = in_milliseconds();
   std::vector<Accepted> all;
   if (best_)
     all.push_back(*best_);
   if (other_)
     all.push_back(*other_);
   return all;
+}
+
+/// The line as it would be if a time that was taken for seconds was one in milliseconds: from some
+/// number on, both are likely.
+std::optional<Accepted> LineRepair::in_milliseconds() {
+  constexpr int few = 5;
+  const auto& tokens = parts_.tokens;
+  if (tokens.size() != 2 || !tokens[1].is_number() ||
+      parse_number<int>(tokens[1].text).value_or(0) < few ||
+      best_->text.find('\n') != std::string::npos ||
+      !best_->text.ends_with(" " + tokens[1].text + "000"))
+    return std::nullopt;
+  const auto text = best_->text.substr(0, best_->text.size() - 3);
+  return attempt_line(text, best_->note, false, false);
 }
 
 std::string LineRepair::advice() const {

@@ -64,6 +64,7 @@ public:
 
 private:
   void canonical();
+  bool ends_in_name(const Token& text) const;
   void part_glued();
   void part_next();
   void close_text();
@@ -110,6 +111,7 @@ private:
   void by_gist();
   void among_unknown();
   void by_words_left_out();
+  std::optional<Accepted> in_milliseconds();
   void by_initials();
   void by_leaving_out();
   void by_fix(const Diagnostic& finding);

@@ -143,6 +143,21 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   return out.empty() ? std::nullopt : std::optional(out);
 }
 
+std::optional<std::string> print_using(const Tokens& format, const std::string& value) {
+  const auto& text = format[0].text;
+  const auto from = text.find('#');
+  const auto to = text.find_last_of('#');
+  if (from == std::string::npos)
+    return std::nullopt;
+  const auto part = [](std::string_view said) {
+    return said.empty() ? std::string() : fmt::format("\"{}\"", said);
+  };
+  const auto before = part(std::string_view(text).substr(0, from));
+  const auto after = part(std::string_view(text).substr(to + 1));
+  return fmt::format("{}{}{}{}{}", before, before.empty() ? "" : " ", value,
+                     after.empty() ? "" : " ", after);
+}
+
 std::optional<std::string> quoted(const Tokens& tokens) {
   std::string text;
   constexpr std::string_view plain = ".!?:,()-/&";

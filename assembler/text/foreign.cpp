@@ -64,7 +64,8 @@ const spec::MacroCommandInfo* command_in_parts(std::string_view word) {
   const spec::MacroCommandInfo* found = nullptr;
   for (const auto& info : spec::macro_commands) {
     const auto parts = repair::parts_of(info.mnemonic);
-    if (!std::equal(said.begin(), said.end(), parts.begin(), parts.end(), stands_for))
+    if (!std::equal(said.begin(), said.end(), parts.begin(), parts.end(), stands_for) &&
+        !std::equal(said.rbegin(), said.rend(), parts.begin(), parts.end(), stands_for))
       continue;
     if (found != nullptr)
       return nullptr;

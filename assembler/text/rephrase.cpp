@@ -195,7 +195,9 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
   auto operands = std::vector<Operand>();
   for (const auto& row : info) {
     if (row.kind == MacroOperandKind::Text)
-      return {};
+      return line.size() == 2 && line[1].is_text()
+                 ? std::vector<Rephrased>{{fmt::format("{} \"{}\"", info.mnemonic, line[1].text)}}
+                 : std::vector<Rephrased>();
     operands.push_back(operand_of(row));
   }
   if (info.command == spec::MacroCommand::Sleep)
@@ -288,6 +290,11 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     for (const auto& token : flag)
       joined += token.text;
     std::erase_if(joined, [](char c) { return c == '_' || c == '-'; });
+    if (equal_words(joined, "none")) {
+      flags.emplace_back("none");
+      flag.clear();
+      return true;
+    }
     for (const auto& row : spec::macro_flags) {
       std::string bare(row.word);
       std::erase(bare, '_');

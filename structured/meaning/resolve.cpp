@@ -381,6 +381,10 @@ private:
                              : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
                              : symbol.kind == SymbolKind::Array    ? "an element needs an index"
                                                                    : "it cannot be assigned to");
+      if (d != nullptr && symbol.kind == SymbolKind::Function && statement.kind == Kind::Assign &&
+          statement.operation == Statement::none_operation)
+        d->help = fmt::format("write `return {}`",
+                              program_.text_of(program_.items[statement.items_begin + 1].span));
       if (d != nullptr && symbol.kind == SymbolKind::Constant)
         make_variable(symbol, *d);
       if (d != nullptr && symbol.kind == SymbolKind::Sub && statement.kind == Kind::Assign &&
