@@ -301,7 +301,7 @@ std::vector<std::uint32_t> lines_of_labels(const Code& code) {
   return lines;
 }
 
-std::vector<std::uint32_t> tidy(Code& code) {
+std::vector<std::uint32_t> names_of_labels(const Code& code) {
   std::vector<std::uint32_t> named(code.labels, 0);
   const auto name = [&](std::uint32_t label) { ++named[label]; };
   for (const auto& line : code.lines) {
@@ -311,6 +311,11 @@ std::vector<std::uint32_t> tidy(Code& code) {
         if (branch != none)
           each_label(code, code.branches[branch], name);
   }
+  return named;
+}
+
+std::vector<std::uint32_t> tidy(Code& code) {
+  auto named = names_of_labels(code);
   std::erase_if(code.lines, [&](const CodeLine& line) {
     return line.kind == LineKind::Nothing ||
            (line.kind == LineKind::Label && named[line.label] == 0);
