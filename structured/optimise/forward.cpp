@@ -454,6 +454,7 @@ private:
     std::uint32_t index = none;
     std::uint32_t since = 0;     ///< this line
     std::uint32_t tested = none; ///< the same where its tests follow: it is 0 where they fail
+    bool sure = false;           ///< it is that: an element has been read or set since
     std::vector<Held> held;
   };
 
@@ -473,6 +474,7 @@ private:
         (known.index == none || known.tested != all.tested || !same(code_, all.index, known.index)))
       all.index = none;
     all.since = std::min(all.since, known.since);
+    all.sure = all.sure && known.sure;
     std::erase_if(all.held, [&](Held& held) {
       const auto other = std::find_if(known.held.begin(), known.held.end(), [&](const Held& one) {
         return one.variable == held.variable && same(code_, one.index, held.index);
@@ -548,7 +550,7 @@ private:
             drop(code_.lines[i]);
           continue;
         }
-        known = {is_still(line.term) ? line.term : none, i, i, {}};
+        known = {is_still(line.term) ? line.term : none, i, i, false, {}};
         i = end;
         continue;
       }
@@ -571,11 +573,13 @@ private:
         continue;
       }
       if (line.kind == LineKind::Let && line.variable == index_variable && index != none &&
-          tested == none && same(code_, line.term, index)) {
+          known.sure && same(code_, line.term, index)) {
         read_on(index_variable, since, i);
         drop(line);
         continue;
       }
+      known.sure = known.sure || facts_.sets_elements(line) ||
+                   (structured::effects_of(code_, line) & effect::elements) != 0;
       const bool loads = line.kind == LineKind::Let && index != none &&
                          code_.terms[line.term].kind == TermKind::Element;
       const auto at = index;
@@ -608,6 +612,7 @@ private:
         index = is_still(line.term) ? line.term : none;
         since = i;
         tested = none;
+        known.sure = true;
       } else if (loads && index != none && line.variable != index_variable) {
         elements.push_back({at, line.variable, i});
       } else if (line.kind == LineKind::SetElement && index != none &&
