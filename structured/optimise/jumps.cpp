@@ -69,7 +69,10 @@ private:
   void thread() {
     for (auto& line : code_.lines)
       if (line.kind != LineKind::Next) // its label says which loop it ends
-        each_target(code_, line, [&](std::uint32_t& label) { redirect(label); });
+        each_label(code_, line, [&](std::uint32_t& label) { redirect(label); });
+    for (std::size_t r = 1; r < code_.routines.size(); ++r)
+      if (code_.routines[r] != none)
+        code_.routines[r] = end_of(code_.routines[r]);
   }
 
   void remove_unreached() {
