@@ -520,7 +520,13 @@ private:
         return;
       }
     }
-    // if c goto L; s; L:
+    // if c goto L; s; L: or goto L
+    if (i + 2 < size && falls(first) && code_.lines[i + 2].kind == LineKind::Goto &&
+        code_.lines[i + 2].label == line.label && choose(i, none, add_branch(first))) {
+      first.kind = LineKind::Nothing;
+      sense_in(i);
+      return;
+    }
     if (is_label_there(i + 2, line.label)) {
       const auto target = line.label;
       if (choose(i, none, add_branch(first))) {
