@@ -153,8 +153,8 @@ private:
     if (!arms.has_both() || passed.kind != LineKind::Let || taken.kind != LineKind::Let ||
         variable != taken.variable || variable == index_variable || reads_[variable] != 1 ||
         code_.variables[variable].kept || !code_.is_leaf(passed.term) ||
-        !code_.is_leaf(taken.term) || named_[code_.lines[arms.taken_end].label] != 1 ||
-        below >= code_.lines.size())
+        !code_.is_leaf(taken.term) || code_.lines[arms.taken_end].kind != LineKind::Label ||
+        named_[code_.lines[arms.taken_end].label] != 1 || below >= code_.lines.size())
       return false;
     const auto& use = code_.lines[below];
     bool reads = false;
@@ -194,7 +194,6 @@ std::optional<Arms> arms_at(const Code& code, std::span<const std::uint32_t> nam
       ++n;
     return n;
   };
-  const auto is = [&](std::uint32_t n, LineKind kind) { return n < size && lines[n].kind == kind; };
   const auto& test = lines[i];
   if (test.kind != LineKind::If || test.guard)
     return std::nullopt;
@@ -204,15 +203,21 @@ std::optional<Arms> arms_at(const Code& code, std::span<const std::uint32_t> nam
   arms.taken = arms.taken_end = arms.passed_end;
   if (arms.passed == arms.passed_end)
     return std::nullopt;
-  if (is(arms.taken, LineKind::Label) && lines[arms.taken].label == test.label)
-    return arms;
-  if (!is(arms.taken, LineKind::Goto) || !is(arms.taken + 1, LineKind::Label) ||
-      lines[arms.taken + 1].label != test.label || named[test.label] != 1)
+  const auto is_at = [&](LineKind kind, std::uint32_t n, std::uint32_t label) {
+    return n < size && lines[n].kind == kind && lines[n].label == label;
+  };
+  for (const auto kind : {LineKind::Label, LineKind::Goto})
+    if (is_at(kind, arms.taken, test.label))
+      return arms;
+  if (arms.taken == size || !is_at(LineKind::Label, arms.taken + 1, test.label) ||
+      named[test.label] != 1)
     return std::nullopt;
-  const auto end = lines[arms.taken].label;
+  const auto& leave = lines[arms.taken];
   arms.taken += 2;
   arms.taken_end = arm_end(arms.taken);
-  const bool meets = is(arms.taken_end, LineKind::Label) && lines[arms.taken_end].label == end;
+  const bool meets = (leave.kind == LineKind::Goto || leave.kind == LineKind::Return) &&
+                     (is_at(leave.kind, arms.taken_end, leave.label) ||
+                      is_at(LineKind::Label, arms.taken_end, leave.label));
   return meets && arms.has_both() ? std::optional(arms) : std::nullopt;
 }
 

@@ -9,12 +9,12 @@ namespace orb::structured {
 
 /// A test with the lines of its two ways, which only set and show and then meet:
 /// `if c goto L; passed; goto E; L: taken; E:`, or without the second way
-/// `if c goto L; passed; L:`.
+/// `if c goto L; passed; L:`. Both may also end in the same jump or in a `return`.
 struct Arms {
   std::uint32_t passed = none; ///< the first line of each way
   std::uint32_t passed_end = none;
   std::uint32_t taken = none;
-  std::uint32_t taken_end = none; ///< the line of the label where they meet
+  std::uint32_t taken_end = none; ///< where they meet: a label, a jump or a `return`
   bool has_both() const { return taken != taken_end; }
   /// Whether the robot has one line for all of it.
   bool is_short() const { return passed_end - passed == 1 && taken_end - taken <= 1; }
