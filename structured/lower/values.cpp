@@ -132,10 +132,8 @@ std::uint32_t Lowering::name(std::uint32_t symbol) {
 }
 
 void Lowering::push_choice(Comparison keeps) {
-  auto second = pop();
-  auto first = pop();
-  if (code_.is_number(first))
-    std::swap(first, second); // `A = x; if A < 0 then A = 0`
+  const auto second = pop();
+  const auto first = pop();
   const auto effects =
       static_cast<std::uint8_t>(code_.terms[first].effects | code_.terms[second].effects);
   // `RGB min(h, 255), 255 - min(h, 255), 0`: nothing has happened in between.

@@ -19,17 +19,14 @@ public:
 
   bool run() {
     named_ = tidy(code_);
-    reads_ = reads_of(code_);
     bool any = false;
     for (auto i = static_cast<std::uint32_t>(code_.lines.size()); i-- > 0;)
       if (const auto arms = arms_at(code_, named_, i); arms && arms->is_short())
-        any = compute(i, *arms) || use_in_arms(i, *arms) || any;
+        any = compute(i, *arms) || any;
     return any;
   }
 
 private:
-  // ---- numbers
-
   /// A value as a sum: a term, or none, and a number.
   struct Sum {
     std::uint32_t base = none;
@@ -140,47 +137,8 @@ private:
     return true;
   }
 
-  // ---- what the arms set
-
-  /// `if c then v = a else v = b` above the only line that reads it: each arm is that line, with its
-  /// own value.
-  bool use_in_arms(std::uint32_t i, const Arms& arms) {
-    constexpr std::uint32_t slack = 12; // bytes that a line less may cost
-    const auto& passed = code_.lines[arms.passed];
-    const auto& taken = code_.lines[arms.has_both() ? arms.taken : arms.passed];
-    const auto variable = passed.variable;
-    const auto below = arms.taken_end + 1;
-    if (!arms.has_both() || passed.kind != LineKind::Let || taken.kind != LineKind::Let ||
-        variable != taken.variable || variable == index_variable || reads_[variable] != 1 ||
-        code_.variables[variable].kept || !code_.is_leaf(passed.term) ||
-        !code_.is_leaf(taken.term) || code_.lines[arms.taken_end].kind != LineKind::Label ||
-        named_[code_.lines[arms.taken_end].label] != 1 || below >= code_.lines.size())
-      return false;
-    const auto& use = code_.lines[below];
-    bool reads = false;
-    each_root(code_, use, [&](std::uint32_t root) {
-      each_read(code_, root, [&](std::uint32_t v) { reads = reads || v == variable; });
-    });
-    if (!reads || use.guard || !fits_arm(use) || may_fault(code_, use) ||
-        may_fault(code_, code_.lines[i]) || bytes_of(code_, use) > line_bytes + slack)
-      return false;
-    for (const auto arm : {arms.passed, arms.taken}) {
-      const auto value = code_.lines[arm].term;
-      auto line = copy_line(code_, code_.lines[below]);
-      each_root(code_, line, [&](std::uint32_t& root) {
-        root = with_variables(code_, root, [&](std::uint32_t term) {
-          return code_.terms[term].left == variable ? value : term;
-        });
-      });
-      code_.lines[arm] = line;
-    }
-    code_.lines[below].kind = LineKind::Nothing;
-    return true;
-  }
-
   Code& code_;
   std::vector<std::uint32_t> named_; ///< of each label: how often
-  std::vector<std::uint32_t> reads_; ///< of each variable: how often
 };
 
 } // namespace

@@ -454,7 +454,6 @@ private:
     std::uint32_t index = none;
     std::uint32_t since = 0;     ///< this line
     std::uint32_t tested = none; ///< the same where its tests follow: it is 0 where they fail
-    bool sure = false;           ///< it is that: an element has been read or set since
     std::vector<Held> held;
   };
 
@@ -474,7 +473,6 @@ private:
         (known.index == none || known.tested != all.tested || !same(code_, all.index, known.index)))
       all.index = none;
     all.since = std::min(all.since, known.since);
-    all.sure = all.sure && known.sure;
     std::erase_if(all.held, [&](Held& held) {
       const auto other = std::find_if(known.held.begin(), known.held.end(), [&](const Held& one) {
         return one.variable == held.variable && same(code_, one.index, held.index);
@@ -550,7 +548,7 @@ private:
             drop(code_.lines[i]);
           continue;
         }
-        known = {is_still(line.term) ? line.term : none, i, i, false, {}};
+        known = {is_still(line.term) ? line.term : none, i, i, {}};
         i = end;
         continue;
       }
@@ -573,13 +571,11 @@ private:
         continue;
       }
       if (line.kind == LineKind::Let && line.variable == index_variable && index != none &&
-          known.sure && same(code_, line.term, index)) {
+          tested == none && same(code_, line.term, index)) {
         read_on(index_variable, since, i);
         drop(line);
         continue;
       }
-      known.sure = known.sure || facts_.sets_elements(line) ||
-                   (structured::effects_of(code_, line) & effect::elements) != 0;
       const bool loads = line.kind == LineKind::Let && index != none &&
                          code_.terms[line.term].kind == TermKind::Element;
       const auto at = index;
@@ -612,7 +608,6 @@ private:
         index = is_still(line.term) ? line.term : none;
         since = i;
         tested = none;
-        known.sure = true;
       } else if (loads && index != none && line.variable != index_variable) {
         elements.push_back({at, line.variable, i});
       } else if (line.kind == LineKind::SetElement && index != none &&

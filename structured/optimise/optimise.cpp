@@ -5,7 +5,6 @@
 #include "structured/optimise/counted.h"
 #include "structured/optimise/elements.h"
 #include "structured/optimise/forward.h"
-#include "structured/optimise/hoist.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
@@ -66,7 +65,6 @@ void shorten(Code& code) {
   changes += compute_arms(code) ? 1 : 0; // no way is known by these numbers any more
   settle(code, passes, changes);
   clean_jumps(code);
-  hoist_arms(code);
 }
 
 } // namespace
