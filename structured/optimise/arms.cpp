@@ -103,9 +103,11 @@ private:
         line.parts_end - line.parts_begin != other.parts_end - other.parts_begin)
       return false;
     bool good = true;
+    bool differ = false; // else nothing would be computed from what is tested
     const auto compute_root = [&](std::uint32_t& root, std::uint32_t that) {
       if (!good || same(code_, root, that))
         return;
+      differ = true;
       const auto passed = sum_of(root);
       const auto taken = sum_of(that);
       root = between(relation, taken, passed);
@@ -126,7 +128,7 @@ private:
       }
     }
     line.proven = line.proven && other.proven;
-    return good && bytes_of(code_, line) < bytes_of(code_, code_.lines[i]) + bytes_of(code_, other) &&
+    return good && differ && bytes_of(code_, line) < bytes_of(code_, code_.lines[i]) + bytes_of(code_, other) &&
            replace(i, arms, line);
   }
 
