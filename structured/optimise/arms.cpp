@@ -50,8 +50,8 @@ private:
     const auto [lo, hi] = std::pair{relation.left_range.lo, relation.left_range.hi};
     if (std::int64_t{lo} + 1 != hi || !code_.is_number(relation.right) ||
         (taken.base == none) != (passed.base == none) ||
-        (taken.base != none && (code_.terms[taken.base].effects != 0 ||
-                                !same(code_, taken.base, passed.base))))
+        (taken.base != none &&
+         (code_.terms[taken.base].effects != 0 || !same(code_, taken.base, passed.base))))
       return none;
     const auto right = Range::only(code_.terms[relation.right].value);
     const bool at_lo = where(relation.comparison, Range::only(lo), right).has_value();
@@ -128,7 +128,8 @@ private:
       }
     }
     line.proven = line.proven && other.proven;
-    return good && differ && bytes_of(code_, line) < bytes_of(code_, code_.lines[i]) + bytes_of(code_, other) &&
+    return good && differ &&
+           bytes_of(code_, line) < bytes_of(code_, code_.lines[i]) + bytes_of(code_, other) &&
            replace(i, arms, line);
   }
 
