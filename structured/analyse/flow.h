@@ -95,8 +95,8 @@ void each_target(C& code, L& line, Visit visit) {
 }
 
 /// The same, and the subs that a line calls.
-template <typename Visit>
-void each_label(const Code& code, const CodeLine& line, Visit visit) {
+template <typename C, typename L, typename Visit>
+void each_label(C& code, L& line, Visit visit) {
   each_target(code, line, visit);
   if (line.kind == LineKind::Gosub)
     visit(line.label);

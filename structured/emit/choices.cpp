@@ -1,7 +1,9 @@
 #include "structured/emit/choices.h"
 
 #include "structured/analyse/flow.h"
+#include "structured/analyse/sizes.h"
 #include "structured/emit/fall.h"
+#include "structured/optimise/arms.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/tails.h"
 #include "structured/text/words.h"
@@ -63,11 +65,13 @@ public:
     while (join_tests())
       ;
     join_heads();
+    pair_arms();
     return_at_once();
     turn_branches();
     fold_branches();
     finish_tests();
     end_at_once();
+    call_last();
     while (remove_unreached())
       ;
   }
@@ -224,6 +228,66 @@ private:
     }
     if (any)
       clean_jumps(code_); // nothing may be left of a way
+  }
+
+  /// Arms of two lines, or of two and one: tested again, each line of one and that of the other are
+  /// one line of the robot.
+  void pair_arms() {
+    constexpr std::uint32_t most_bytes = 22; // of a test, which is as long as the jumps that go
+    named_ = tidy(code_);
+    for (auto i = static_cast<std::uint32_t>(code_.lines.size()); i-- > 0;) {
+      const auto arms = arms_at(code_, named_, i);
+      if (!arms || !arms->has_both() || arms->is_short() || arms->passed_end - arms->passed > 2 ||
+          arms->taken_end - arms->taken > 2 || !can_test_again(i, *arms) ||
+          bytes_of(code_, code_.lines[i]) > line_bytes + most_bytes)
+        continue;
+      const auto begin = code_.lines.begin();
+      const std::vector<CodeLine> passed(begin + arms->passed, begin + arms->passed_end);
+      const std::vector<CodeLine> taken(begin + arms->taken, begin + arms->taken_end);
+      const auto test = code_.lines[i];
+      std::vector<CodeLine> written;
+      const auto label = [&](std::uint32_t name) {
+        written.push_back(jump(test, name));
+        written.back().kind = LineKind::Label;
+      };
+      for (const bool first : {true, false}) {
+        const bool passes = !first || passed.size() == 2;
+        const bool takes = !first || taken.size() == 2;
+        const auto there = code_.labels++;
+        const auto end = code_.labels++;
+        written.push_back(copy_line(code_, test));
+        written.back().label = takes && passes ? there : end;
+        if (!passes) {
+          auto& condition = code_.conditions[written.back().condition];
+          condition = opposite_of(condition);
+        }
+        if (passes)
+          written.push_back(first ? passed.front() : passed.back());
+        if (passes && takes) {
+          written.push_back(jump(test, end));
+          label(there);
+        }
+        if (takes)
+          written.push_back(first ? taken.front() : taken.back());
+        label(end);
+      }
+      code_.lines.erase(begin + i, begin + arms->taken_end);
+      code_.lines.insert(code_.lines.begin() + i, written.begin(), written.end());
+    }
+  }
+
+  /// Whether a test ends the same after the first lines of its arms, and can be said before each.
+  bool can_test_again(std::uint32_t i, const Arms& arms) const {
+    const auto& lines = code_.lines;
+    const auto& condition = code_.conditions[lines[i].condition];
+    bool good = condition.glue == Glue::None && can_say(code_, condition) &&
+                can_say(code_, opposite_of(condition)) &&
+                (effects_of(condition) & ~effect::elements) == 0;
+    for (const auto& [first, last] :
+         {std::pair{arms.passed, arms.passed_end - 1}, std::pair{arms.taken, arms.taken_end - 1}})
+      good = good && (first == last || passes(lines[i], lines[first])) &&
+             !may_fault(code_, lines[last]) && !may_fault(code_, lines[first]);
+    return good;
   }
 
   /// Whether a line can run before a test instead of after it. Variables that share a letter are
@@ -456,7 +520,13 @@ private:
         return;
       }
     }
-    // if c goto L; s; L:
+    // if c goto L; s; L: or goto L
+    if (i + 2 < size && falls(first) && code_.lines[i + 2].kind == LineKind::Goto &&
+        code_.lines[i + 2].label == line.label && choose(i, none, add_branch(first))) {
+      first.kind = LineKind::Nothing;
+      sense_in(i);
+      return;
+    }
     if (is_label_there(i + 2, line.label)) {
       const auto target = line.label;
       if (choose(i, none, add_branch(first))) {
@@ -537,6 +607,27 @@ private:
       const auto origin = line.origin;
       line = last;
       line.origin = origin;
+    }
+  }
+
+  /// What a sub calls last returns for it.
+  void call_last() {
+    const auto call = [](CodeLine& line) {
+      if (line.kind == LineKind::Gosub)
+        line.kind = LineKind::Goto;
+    };
+    for (std::size_t i = 0; i < code_.lines.size(); ++i) {
+      auto after = i + 1;
+      while (after < code_.lines.size() && code_.lines[after].kind == LineKind::Label)
+        ++after;
+      if (after == code_.lines.size() || code_.lines[after].kind != LineKind::Return)
+        continue;
+      auto& line = code_.lines[i];
+      call(line);
+      if (line.kind == LineKind::Choice)
+        for (const auto branch : {line.term, line.end})
+          if (branch != none)
+            call(code_.branches[branch]);
     }
   }
 

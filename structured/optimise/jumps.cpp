@@ -69,7 +69,10 @@ private:
   void thread() {
     for (auto& line : code_.lines)
       if (line.kind != LineKind::Next) // its label says which loop it ends
-        each_target(code_, line, [&](std::uint32_t& label) { redirect(label); });
+        each_label(code_, line, [&](std::uint32_t& label) { redirect(label); });
+    for (std::size_t r = 1; r < code_.routines.size(); ++r)
+      if (code_.routines[r] != none)
+        code_.routines[r] = end_of(code_.routines[r]);
   }
 
   void remove_unreached() {
@@ -301,7 +304,7 @@ std::vector<std::uint32_t> lines_of_labels(const Code& code) {
   return lines;
 }
 
-std::vector<std::uint32_t> tidy(Code& code) {
+std::vector<std::uint32_t> names_of_labels(const Code& code) {
   std::vector<std::uint32_t> named(code.labels, 0);
   const auto name = [&](std::uint32_t label) { ++named[label]; };
   for (const auto& line : code.lines) {
@@ -311,6 +314,11 @@ std::vector<std::uint32_t> tidy(Code& code) {
         if (branch != none)
           each_label(code, code.branches[branch], name);
   }
+  return named;
+}
+
+std::vector<std::uint32_t> tidy(Code& code) {
+  auto named = names_of_labels(code);
   std::erase_if(code.lines, [&](const CodeLine& line) {
     return line.kind == LineKind::Nothing ||
            (line.kind == LineKind::Label && named[line.label] == 0);

@@ -1,10 +1,10 @@
 #include "structured/optimise/optimise.h"
 
+#include "structured/optimise/arms.h"
 #include "structured/optimise/copies.h"
 #include "structured/optimise/counted.h"
 #include "structured/optimise/elements.h"
 #include "structured/optimise/forward.h"
-#include "structured/optimise/hoist.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
@@ -62,9 +62,9 @@ void shorten(Code& code) {
   // Nothing is left that reads the original instead.
   changes += use_elements(code) ? 1 : 0;
   changes += join_copies(code) ? 1 : 0;
+  changes += compute_arms(code) ? 1 : 0; // no way is known by these numbers any more
   settle(code, passes, changes);
   clean_jumps(code);
-  hoist_arms(code);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "structured/optimise/split.h"
 
 #include "structured/analyse/sizes.h"
+#include "structured/optimise/arms.h"
 #include "structured/optimise/jumps.h"
 
 #include <algorithm>
@@ -84,13 +85,14 @@ private:
   void find_tests() {
     tests_.resize(flow_.blocks.size());
     State state(code_.variables.size());
+    const auto named = names_of_labels(code_);
     for (std::uint32_t b = 0; b < tests_.size(); ++b) {
       const auto& block = flow_.blocks[b];
       const auto& last = code_.lines[block.end - 1];
       auto& test = tests_[b];
       test.fits = last.kind == LineKind::If && is_pure_test(code_, last) &&
                   flow_.block_of_label[last.label] != none && ranges_.reaches(b) &&
-                  !is_choice(block.end - 1);
+                  !is_one_line(code_, named, block.end - 1);
       for (auto i = block.begin; test.fits && i + 1 < block.end; ++i) {
         test.fits =
             pass(code_, ranges_, code_.lines[i], state) && code_.lines[i].kind != LineKind::Gosub;
@@ -101,19 +103,6 @@ private:
     for (const auto entry : flow_.entries)
       if (entry != none)
         tests_[entry].fits = false;
-  }
-
-  /// Whether a test and what it leads to are one line of the robot.
-  bool is_choice(std::uint32_t i) const {
-    const auto& lines = code_.lines;
-    const auto is_label = [&](std::uint32_t n, std::uint32_t label) {
-      return n < lines.size() && lines[n].kind == LineKind::Label && lines[n].label == label;
-    };
-    if (i + 2 >= lines.size() || !fits_arm(lines[i + 1]))
-      return false;
-    return is_label(i + 2, lines[i].label) ||
-           (lines[i + 2].kind == LineKind::Goto && is_label(i + 3, lines[i].label) &&
-            i + 4 < lines.size() && fits_arm(lines[i + 4]) && is_label(i + 5, lines[i + 2].label));
   }
 
   void leave(std::uint32_t b, State& state) {

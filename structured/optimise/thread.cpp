@@ -1,5 +1,8 @@
 #include "structured/optimise/thread.h"
 
+#include "structured/optimise/arms.h"
+#include "structured/optimise/jumps.h"
+
 #include <algorithm>
 
 namespace orb::structured {
@@ -11,7 +14,8 @@ class Threader {
 public:
   Threader(Code& code, Ranges& ranges, std::vector<AddedLine>& added)
       : code_(code), ranges_(ranges), flow_(ranges.flow()),
-        liveness_(read_liveness(code, ranges.flow())), added_(added) {}
+        liveness_(read_liveness(code, ranges.flow())), named_(names_of_labels(code)),
+        added_(added) {}
 
   bool run() {
     block_at_.assign(code_.lines.size() + 1, none);
@@ -164,6 +168,10 @@ private:
   }
 
   void take(const Way& way) {
+    // A test that is in one line with its arm stays so, unless the test that it leads to goes.
+    if (way.label != nullptr && undecided_[way.to] > 0 &&
+        is_one_line(code_, named_, flow_.blocks[way.from].end - 1))
+      return;
     if (way.label != nullptr) {
       *way.label = label_of(way.end);
       changed_ = true;
@@ -204,6 +212,7 @@ private:
   Ranges& ranges_;
   const Flow& flow_;
   Liveness liveness_;
+  std::vector<std::uint32_t> named_; ///< of each label: how often
   std::vector<AddedLine>& added_;
   std::vector<std::uint32_t> block_at_;  ///< of each line: the block that begins there, or none
   std::vector<std::uint32_t> undecided_; ///< of each block: ways to it that nothing is known of

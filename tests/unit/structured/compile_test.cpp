@@ -176,8 +176,41 @@ TEST(Lines, ACallWithAKnownValueThatDoesLittleIsNone) {
   EXPECT_EQ(lines("sub show(s)\n  select s\n    case 0\n      LEDC 1\n    case 1\n      LEDC 2\n"
                   "    else\n      LEDC 3\n  end select\nend sub\n"
                   "for i = 0 to 9\n  show(rnd(3) - 1)\nnext i\nshow(1)\n"),
-            "1 for I = 0 to 9\n2 S = (rnd 3) - 1\n3 if S ! 0 then goto 6\n4 LEDC 1\n5 goto 7\n6 if "
-            "S ! 1 then LEDC 3 else LEDC 2\n7 next I\n8 LEDC 2\n");
+            "1 for I = 0 to 9\n2 S = (rnd 3) - 1\n3 if S ! 0 then LEDC S + 1 else LEDC 1\n4 next "
+            "I\n5 LEDC 2\n");
+}
+
+TEST(Lines, WhatFollowsFromATestedValueIsComputed) {
+  EXPECT_EQ(lines("loop\n  u = rnd(2)\n  print u\n  if u = 1 then backLED 255 else backLED 0\n"
+                  "end loop\n"),
+            "1 U = rnd 2\n2 print U\n3 backLED 510 - U * 255\n4 goto 1\n");
+  EXPECT_EQ(lines("loop\n  u = rnd(2) - 1\n  print u\n  if u = 1 then n += 5\n  print n\n"
+                  "end loop\n"),
+            "1 U = (rnd 2) - 1\n2 print U\n3 N = N + U * 5\n4 print N\n5 goto 1\n");
+  // A test that clears what it reads is still made where both ways do the same.
+  EXPECT_EQ(lines("data 1, 2\nif 8 <> 1 + dshake then read c else read c\nprint c\n"),
+            "1 data 1,2\n2 if 1 + dshake = 8 then goto 3\n3 read C\n4 print C\n");
+}
+
+TEST(Lines, ArmsOfTwoLinesShareTheirTest) {
+  EXPECT_EQ(lines("loop\n  input a\n  if a < 5 then\n    LEDC 1\n    print \"low\"\n  else\n"
+                  "    LEDC 2\n    print \"high\"\n  end if\nend loop\n"),
+            "1 input A\n2 if A < 5 then LEDC 1 else LEDC 2\n"
+            "3 if A < 5 then print \"low\" else print \"high\"\n4 goto 1\n");
+  // What the first line sets is tested: the second cannot be tested for again.
+  EXPECT_EQ(lines("input a\nif a < 5 then\n  a = 9\n  print \"low\"\nelse\n  a = 3\n"
+                  "  print \"high\"\nend if\nprint a\n"),
+            "1 input A\n2 if A < 5 then goto 6\n3 A = 3\n4 print \"high\"\n5 goto 8\n6 A = 9\n"
+            "7 print \"low\"\n8 print A\n");
+}
+
+TEST(Lines, ACallLeadsToTheTestOfALoopThatASubBeginsWith) {
+  EXPECT_EQ(lines("sub count(n)\n  while n > 0\n    print n\n    delay 50\n    RGB n, 0, n\n"
+                  "    n -= 1\n  end while\nend sub\nfor i = 1 to 9\n  count(i)\n"
+                  "  count(i / 2)\nnext i\n"),
+            "1 for I = 1 to 9\n2 N = I\n3 gosub 12\n4 N = I / 2\n5 gosub 12\n6 next I\n7 end\n"
+            "8 print N\n9 delay 50\n10 RGB N,0,N\n11 N = N - 1\n"
+            "12 if N > 0 then goto 8 else return\n");
 }
 
 TEST(Lines, DataIsReadIntoElements) {
