@@ -2,6 +2,7 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
+#include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
 #include "repair/inflections.h"
@@ -34,7 +35,6 @@ void LineRepair::canonical() {
     tokens.pop_back();
   if (tokens.size() == 1 && tokens[0].is("]"))
     tokens[0].text = "}";
-  close_before_else();
   close_text();
   truths();
   read_logo();
@@ -109,11 +109,13 @@ std::vector<std::string> parts_of_glued(std::string_view word,
 void LineRepair::part_next() {
   constexpr std::string_view next = "next";
   auto& tokens = parts_.tokens;
-  if (tokens.size() != 1 || judge_.language != Language::Structured || around_.loop.empty() ||
-      !equal_words(tokens[0].text, std::string(next) + around_.loop))
+  if (tokens.size() != 1 || judge_.language != Language::Structured ||
+      !tokens[0].text.starts_with(next) || tokens[0].text.size() == next.size())
     return;
   auto name = tokens[0];
-  name.text = around_.loop;
+  name.text.erase(0, next.size());
+  if (name.text.size() > 1 && !has_word(names_, name.text))
+    return;
   name.gap = true;
   tokens[0].text = next;
   tokens.push_back(name);
@@ -170,26 +172,6 @@ void LineRepair::close_text() {
     return;
   text.text.resize(end);
   text.closed = true;
-}
-
-/// `then print "low else print "high"`: a text that ends where the other branch begins.
-void LineRepair::close_before_else() {
-  auto& tokens = parts_.tokens;
-  if (!has_token(tokens, "then") || !tokens.back().is_text() || tokens.back().closed)
-    return;
-  const auto opened = std::find_if(tokens.begin(), tokens.end(), [](const Token& token) {
-    return token.is_text() && token.text.find(" else ") != std::string::npos;
-  });
-  if (opened == tokens.end())
-    return;
-  auto text = join(Tokens(opened, tokens.end()));
-  text.pop_back(); // the quote that closes what is not
-  text.insert(text.find(" else "), "\"");
-  tokens.erase(opened, tokens.end());
-  const auto rest = tokens_of(text, judge_.language);
-  const auto from = tokens.size();
-  tokens.insert(tokens.end(), rest.begin(), rest.end());
-  tokens[from].gap = true;
 }
 
 /// `warned = "False"`: what is true is 1.
@@ -309,7 +291,7 @@ void LineRepair::drop_objects() {
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
         (i > 0 || !has_word(judge_.words, tokens[i].text)) &&
-        has_word(judge_.words, tokens[i + 2].text)) {
+        (has_word(judge_.words, tokens[i + 2].text) || is_called("print", tokens[i + 2].text))) {
       tokens[i + 2].gap = tokens[i].gap;
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
                    tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
@@ -392,6 +374,11 @@ void LineRepair::drop_sigils() {
   };
   if (judge_.language != Language::Basic && judge_.language != Language::Structured)
     return;
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `print "macro", #M`
+    if (tokens[i].is("#") && tokens[i - 1].is(",") && !tokens[i + 1].gap) {
+      tokens[i + 1].gap = tokens[i].gap;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
+    }
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `STR$(F)`
     if (tokens[i].is("$") && !tokens[i].gap && tokens[i - 1].is_word() && tokens[i + 1].is("("))
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
@@ -461,34 +448,67 @@ std::string LineRepair::closed_earlier() const {
   return join(tokens) + text.substr(comma);
 }
 
-/// A text that has no end before the values behind it, so that all others are turned inside out:
-/// `print "toss, C ": " T`. Empty where no comma in it can have been that place.
-std::string LineRepair::closed_in_first() const {
-  const auto& tokens = parts_.tokens;
-  if (tokens.size() < 3 || !tokens.back().is_text() || tokens.back().closed ||
-      !tokens[0].is("print") || !tokens[1].is_text())
+/// A `print` with an odd number of quotes, and the places where one more can stand: the best first,
+/// which leaves the fewest names of the program in texts. `print "toss, C ": " T` is `print "toss",
+/// C ": " T`.
+std::vector<std::string> LineRepair::with_one_quote() const {
+  const std::string text(trim(line_.substr(std::min(parts_.head.size(), line_.size()))));
+  const bool programs =
+      judge_.language == Language::Basic || judge_.language == Language::Structured;
+  constexpr std::size_t longest = 160;
+  if (!programs || std::count(text.begin(), text.end(), '"') % 2 == 0 || text.size() > longest ||
+      !has_token(parts_.tokens, "print"))
     return {};
-  auto text = join(Tokens(tokens.begin() + 1, tokens.end()));
-  text.pop_back(); // the quote that closes what is not
-  const auto comma = text.find(',');
-  if (comma == std::string::npos || comma > tokens[1].text.size())
-    return {};
-  text.insert(comma, "\"");
-  return join({tokens[0]}) + " " + text;
-}
-
-/// A text whose first quote is missing, so that the last one opens what stands outside:
-/// `print tempo", T`. Empty where there is none.
-std::string LineRepair::opened_earlier() const {
-  const auto& tokens = parts_.tokens;
-  if (tokens.size() < 3 || !tokens[0].is("print") || !tokens.back().is_text() ||
-      tokens.back().closed || !tokens.back().text.starts_with(',') || !tokens[1].is_word())
-    return {};
-  Token text;
-  text.kind = Token::Kind::Text;
-  text.text = join(Tokens(tokens.begin() + 1, tokens.end() - 1));
-  text.gap = true;
-  return join({tokens[0], text}) + tokens.back().text;
+  const auto is_value = [&](const Token& token) {
+    return token.is_word() && (judge_.language == Language::Basic && token.text.size() == 1
+                                   ? to_lower(token.text[0]) != token.text[0]
+                                   : has_word(names_, token.text) ||
+                                         has_word(judge_.words, token.text));
+  };
+  constexpr int name = 2; // in a text
+  constexpr int odd = 3;
+  std::vector<std::pair<int, std::string>> all;
+  const auto consider = [&](const std::string& with, int cost) {
+    const auto tokens = tokens_of(with, judge_.language);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+      if (!tokens[i].is_text()) {
+        if (tokens[i].is_word() && !is_value(tokens[i]))
+          return;
+        continue;
+      }
+      const std::string_view said = tokens[i].text;
+      if (said.empty() || (i + 1 < tokens.size() && tokens[i + 1].is_text() && !tokens[i + 1].gap))
+        return;
+      for (const auto& token : tokens_of(said, judge_.language))
+        cost += is_value(token) ? name : 0;
+      const bool parts = said.find_first_of(",;") == 0 && said.find_first_not_of(",; ") != said.npos;
+      cost += parts ? odd : 0;
+    }
+    if (judge_.parses(parts_.head + with))
+      all.emplace_back(cost, with);
+  };
+  for (std::size_t at = 0; at <= text.size(); ++at) {
+    const bool end = at == text.size();
+    const bool sign = !end && (text[at] == ',' || text[at] == ';' || text[at] == '+');
+    const bool blank = !end && is_blank(text[at]);
+    const bool word = !end && at > 0 && is_letter(text[at]) && !is_letter(text[at - 1]);
+    const auto here = text.begin() + static_cast<std::ptrdiff_t>(at);
+    const bool closes = std::count(text.begin(), here, '"') % 2 == 1;
+    if (closes ? !end && !sign && !blank : !word && !sign)
+      continue;
+    auto with = text;
+    with.insert(at, "\"");
+    consider(with, closes && blank ? odd : !closes && sign ? 1 : 0);
+  }
+  if (text.ends_with('"')) // one too many
+    consider(text.substr(0, text.size() - 1), 0);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> best;
+  for (const auto& [cost, with] : all)
+    if (cost == all.front().first)
+      best.push_back(with);
+  return best;
 }
 
 } // namespace orb::repair

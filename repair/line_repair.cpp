@@ -70,8 +70,17 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
 }
 
 std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
-  if (parts_.tokens.size() > most_tokens)
+  const auto& tokens = parts_.tokens;
+  if (tokens.size() > most_tokens)
     return {};
+  if (tokens.size() > 1 && tokens[0].is_number() && tokens[1].is_number())
+    return {}; // of what?
+  if (judge_.language == Language::Macro && tokens.size() == 1 && !around_.closer.empty() &&
+      holds("loop end next repeat", tokens[0].text))
+    attempt(around_.closer, {}, false);
+  if (judge_.language == Language::Test && parts_.head.empty() && tokens.size() == 1 &&
+      tokens[0].is_text())
+    attempt("test " + join(tokens), {}, false);
   if (judge_.language == Language::Structured)
     own_words();
   const auto start = join(parts_.tokens);
@@ -84,10 +93,13 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   // The same words in another order say what was meant, whatever else is told of the line.
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
-  if (const auto opened = opened_earlier(); !opened.empty())
-    attempt(opened, {}, true);
-  if (const auto closed = closed_in_first(); !closed.empty())
-    attempt(closed, {}, false);
+  for (const auto& text : with_one_quote())
+    if (!best_)
+      attempt(text, {}, true);
+    else if (!other_)
+      other_ = attempt_line(whole(text), {}, false, false);
+  if (best_)
+    return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   own_call(start);
   if (!best_ && judge_.language == Language::Structured)
     own_sub();
@@ -129,7 +141,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     among_unknown();
   if (!best_)
     by_leaving_out();
-  if (best_ && !other_ && !best_->sure)
+  if (best_ && !other_)
     other_ = in_milliseconds();
   std::vector<Accepted> all;
   if (best_)
@@ -274,6 +286,14 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
     return false; // a case without lines of its own
   if (!keeps_names(statement))
     return false;
+  if (judge_.language == Language::Macro && statement.empty() &&
+      std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
+                  [](const Token& token) { return token.is_number(); }))
+    return false; // it has values
+  if (judge_.language == Language::Macro && parts_.tokens.size() == 2 &&
+      holds("goto gosub on_collision", parts_.tokens[0].text) && parts_.tokens[1].is_word() &&
+      is_digit(statement.back()))
+    return false; // a macro has a name
   const bool sets = statement.find(" = ") != std::string::npos || statement.starts_with("read ") ||
                     statement.starts_with("input ");
   if (sets_name() && !sets)
@@ -301,7 +321,12 @@ bool LineRepair::parses(std::string_view lines) const {
 
 /// Whether what was quoted is still there: nobody writes a text for nothing.
 bool LineRepair::keeps_texts(std::string_view lines) const {
-  return lines.empty() ||
+  const auto unquoted = [](std::string_view text) {
+    std::string plain(text);
+    std::erase(plain, '"');
+    return plain;
+  };
+  return lines.empty() || unquoted(lines) == unquoted(line_) ||
          std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
            const bool filled =
                token.text.find_first_of("{%\\") != std::string::npos ||

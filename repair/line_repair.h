@@ -68,7 +68,6 @@ private:
   void part_glued();
   void part_next();
   void close_text();
-  void close_before_else();
   void truths();
   void read_logo();
   void drop_colons();
@@ -97,8 +96,7 @@ private:
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
   std::string closed_earlier() const;
-  std::string opened_earlier() const;
-  std::string closed_in_first() const;
+  std::vector<std::string> with_one_quote() const;
   bool is_foreign(std::string_view line) const;
   bool is_unknown(const Token& token) const;
   bool rephrase(const Tokens& line);

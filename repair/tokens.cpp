@@ -105,7 +105,7 @@ private:
     else if (sees("--") && at_ + 3 < text_.size() && is_blank(text_[at_ + 2]) &&
              (tokens.empty() || (gap_ && is_letter(text_[at_ + 3]))))
       sign = 2;
-    else if (sees("#") && !colour_here() &&
+    else if (sees("#") && !colour_here() && !(!tokens.empty() && tokens.back().is(",")) &&
              !(tokens.empty() && (sees("#include") || sees("#define"))))
       sign = 1;
     else if (sees(";") && language_ == Language::Macro && (tokens.empty() || gap_))

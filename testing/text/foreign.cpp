@@ -308,6 +308,10 @@ Tokens without_signs(const Tokens& line) {
       all.push_back(Token{Token::Kind::Sign, "="});
       continue;
     }
+    if (token.is("!") && i + 1 < line.size() && line[i + 1].is_word() && !line[i + 1].gap) {
+      all.push_back(word("not"));
+      continue;
+    }
     if (names || item || token.is("[") || token.is("]") || token.is("{") || token.is("}"))
       continue;
     all.push_back(token);

@@ -710,8 +710,14 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
                        fmt::format("{} {} {}", head, values[0].text, usual.substr(between + 1))};
   }
   const auto arranged = repair::arrange(values, takes.operands, {});
-  if (!arranged || !arranged->wait.empty())
-    return std::nullopt;
+  if (!arranged || !arranged->wait.empty()) {
+    std::string plain; // `battery(6.4);`
+    for (const auto& value : values)
+      if (!value.is("(") && !value.is(")") && !value.is(";"))
+        plain += " " + value.text;
+    return values.empty() || !values[0].is("(") ? std::nullopt
+                                                : std::optional(Rephrased{head + plain, false});
+  }
   for (const auto& value : arranged->values) {
     auto text = value;
     if (const auto unit = text.find("deg"); unit != std::string::npos)
@@ -790,8 +796,12 @@ Tokens translate(const Tokens& line) {
     }
     if (!all.empty() && token.is_word() && repair::is_called("program", token.text))
       continue; // what ends, prints and drives
+    const bool counts = i > 0 && line[i - 1].is_number(); // `3 x`
+    const bool axis = (token.is("x") || token.is("y")) && !counts && following != nullptr &&
+                      (following->is_number() || following->is("-") || following->is("beyond"));
     const bool signed_ =
-        i + 1 < line.size() && (line[i + 1].is("=") || line[i + 1].is(">") || line[i + 1].is("<"));
+        axis || (following != nullptr &&
+                 (following->is("=") || following->is(">") || following->is("<")));
     const bool unit = i > 0 && line[i - 1].is_number() &&
                       (!token.gap || repair::is_called("degrees", token.text) ||
                        repair::is_called("turns", token.text));
@@ -994,6 +1004,15 @@ Tokens unwrapped(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool value = i + 2 < line.size() && (line[i + 1].is_text() || line[i + 1].is_word());
+    const bool prints = i > 0 && value && line[i].is("(") && line[i + 1].is_text() &&
+                        line[i + 2].is(")") && line[i - 1].is_word() &&
+                        (line[i - 1].is("print") || repair::is_called("print", line[i - 1].text));
+    if (prints) {
+      all.push_back(line[i + 1]);
+      all.back().gap = true;
+      i += 2;
+      continue;
+    }
     const bool call = i > 0 && value && line[i].is("(") && line[i + 2].is(")") &&
                       expectation(line[i - 1]) != nullptr && !line[i - 1].is("print");
     if (!call) {
