@@ -268,7 +268,8 @@ private:
   std::optional<std::string> stop() const {
     if (values_.size() > 1 || (values_.size() == 1 && value("time") != nullptr))
       return std::nullopt;
-    if (values_.empty() && around_.pace.empty())
+    const bool to_line = values_.size() == 1 && about("drive"); // `vai para 20`
+    if (to_line || (values_.empty() && around_.pace.empty()))
       return std::nullopt;
     return "goroll " +
            list(values_.empty() ? std::to_string(around_.heading) : join(values_[0].tokens), "0",

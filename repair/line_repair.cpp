@@ -326,10 +326,14 @@ bool LineRepair::keeps_texts(std::string_view lines) const {
     std::erase(plain, '"');
     return plain;
   };
+  const bool says_using =
+      std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
+                  [](const Token& token) { return equal_words(token.text, "using"); });
   return lines.empty() || unquoted(lines) == unquoted(line_) ||
          std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
            const bool filled =
                token.text.find_first_of("{%\\") != std::string::npos ||
+               (token.text.find('#') != std::string::npos && says_using) ||
                (judge_.language == Language::Macro && // quoted numbers
                 token.text.find_first_not_of("0123456789 ,.;") == std::string::npos);
            return !token.is_text() || !token.closed || filled || find_colour(token) ||

@@ -105,7 +105,7 @@ private:
     else if (sees("--") && at_ + 3 < text_.size() && is_blank(text_[at_ + 2]) &&
              (tokens.empty() || (gap_ && is_letter(text_[at_ + 3]))))
       sign = 2;
-    else if (sees("#") && !colour_here() && !(!tokens.empty() && tokens.back().is(",")) &&
+    else if (sees("#") && !colour_here() && !begins_value(tokens) &&
              !(tokens.empty() && (sees("#include") || sees("#define"))))
       sign = 1;
     else if (sees(";") && language_ == Language::Macro && (tokens.empty() || gap_))
@@ -148,6 +148,11 @@ private:
     const auto word = text_.substr(next, end == std::string_view::npos ? end : end - next);
     return std::all_of(word.begin(), word.end(), is_digit) ||
            (word.size() == 1 && end == std::string_view::npos);
+  }
+
+  /// Whether a value is to follow: `, #M` and `id=#28` are no remarks.
+  static bool begins_value(const Tokens& tokens) {
+    return !tokens.empty() && (tokens.back().is(",") || tokens.back().is("="));
   }
 
   bool colour_here() const {

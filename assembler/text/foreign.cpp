@@ -145,7 +145,7 @@ void read_hexadecimal(Tokens& line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     std::string digits = line[i].text;
     std::size_t used = 1;
-    if (line[i].is("$") && i + 1 < line.size() && !line[i + 1].gap) {
+    if ((line[i].is("$") || line[i].is("#")) && i + 1 < line.size() && !line[i + 1].gap) {
       digits = line[i + 1].text;
       used = 2;
     } else if (!line[i].is_number()) {
