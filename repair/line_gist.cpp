@@ -58,7 +58,7 @@ void LineRepair::by_leaving_out() {
     const bool time = all[i].is_word() && milliseconds_of(all[i].text) > 0;
     const bool compared = i > 1 && all[i - 2].is_relation() && !all[1].is("=");
     const bool plain = all[i - 1].is_word() || compared; // else which unit was meant is not clear
-    if (all[i].is("%") && compared && !all[i - 1].is("0"))
+    if (all[i].is("%") && all[i - 1].is_number() && !all[i - 1].is("0"))
       continue; // of what?
     if (!operand(i - 1) || !(time ? plain : unit || is_unknown(all[i])))
       continue;

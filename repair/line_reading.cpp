@@ -448,6 +448,20 @@ std::string LineRepair::closed_earlier() const {
   return join(tokens) + text.substr(comma);
 }
 
+/// A condition whose last bracket is not closed: `if not (a = 1 then`. Empty where it is.
+std::string LineRepair::with_bracket() const {
+  auto tokens = parts_.tokens;
+  const auto then = std::find_if(tokens.begin(), tokens.end(),
+                                 [](const Token& token) { return token.is("then"); });
+  int open = 0;
+  for (auto at = tokens.begin(); at != then; ++at)
+    open += at->is("(") ? 1 : at->is(")") ? -1 : 0;
+  if (then == tokens.end() || open != 1)
+    return {};
+  tokens.insert(then, Token{Token::Kind::Sign, ")"});
+  return join(tokens);
+}
+
 /// A `print` with an odd number of quotes, and the places where one more can stand: the best first,
 /// which leaves the fewest names of the program in texts. `print "toss, C ": " T` is `print "toss",
 /// C ": " T`.

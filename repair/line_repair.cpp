@@ -100,6 +100,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
       other_ = attempt_line(whole(text), {}, false, false);
   if (best_)
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
+  if (const auto closed = with_bracket(); !closed.empty())
+    attempt(closed, {}, true);
   own_call(start);
   if (!best_ && judge_.language == Language::Structured)
     own_sub();
@@ -158,11 +160,15 @@ std::optional<Accepted> LineRepair::in_milliseconds() {
   const auto& tokens = parts_.tokens;
   if (tokens.size() != 2 || !tokens[1].is_number() ||
       parse_number<int>(tokens[1].text).value_or(0) < few ||
-      best_->text.find('\n') != std::string::npos ||
-      !best_->text.ends_with(" " + tokens[1].text + "000"))
+      best_->text.find('\n') != std::string::npos)
     return std::nullopt;
-  const auto text = best_->text.substr(0, best_->text.size() - 3);
-  return attempt_line(text, best_->note, false, false);
+  const auto number = " " + tokens[1].text;
+  const std::string_view line = best_->text;
+  if (line.ends_with(number + "000"))
+    return attempt_line(best_->text.substr(0, line.size() - 3), best_->note, false, false);
+  if (line.ends_with(number + "s"))
+    return attempt_line(best_->text.substr(0, line.size() - 1) + "ms", best_->note, false, false);
+  return std::nullopt;
 }
 
 std::string LineRepair::advice() const {
@@ -255,6 +261,17 @@ bool LineRepair::sets_name() const {
          has_word(names_, tokens[0].text) && !has_word(judge_.words, tokens[0].text);
 }
 
+/// Whether a unit became a condition of its own: `if who = 0 people then`.
+bool LineRepair::adds_condition(std::string_view statement) const {
+  if (has_token(parts_.tokens, "and"))
+    return false;
+  const auto tokens = tokens_of(statement, judge_.language);
+  for (std::size_t i = 2; i < tokens.size(); ++i)
+    if (tokens[i].is("then") && tokens[i - 2].is("and"))
+      return true;
+  return false;
+}
+
 /// Whether the names of the program are still there that are the values of a statement: in a line
 /// of other words they may be words, too.
 bool LineRepair::keeps_names(std::string_view statement) const {
@@ -284,7 +301,7 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
     return false; // what is to be done was said
   if (statement.find("\ncase ") != std::string::npos)
     return false; // a case without lines of its own
-  if (!keeps_names(statement))
+  if (!keeps_names(statement) || adds_condition(statement))
     return false;
   if (judge_.language == Language::Macro && statement.empty() &&
       std::any_of(parts_.tokens.begin(), parts_.tokens.end(),

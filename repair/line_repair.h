@@ -88,6 +88,7 @@ private:
   std::string spelled(const std::string& statements, int depth) const;
   std::string declared_otherwise(const std::string& statement) const;
   bool sets_name() const;
+  bool adds_condition(std::string_view statement) const;
   bool keeps_names(std::string_view statement) const;
   bool attempt(const std::string& statement, std::string_view note, bool sure);
   bool parses(std::string_view lines) const;
@@ -96,6 +97,7 @@ private:
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
   std::string closed_earlier() const;
+  std::string with_bracket() const;
   std::vector<std::string> with_one_quote() const;
   bool is_foreign(std::string_view line) const;
   bool is_unknown(const Token& token) const;

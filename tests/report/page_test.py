@@ -588,8 +588,8 @@ class Report(unittest.TestCase):
 
     def test_variables_have_their_names_and_values_at_every_moment(self):
         text = ("array seen[3]\nturns = 0\nsub leg(n)\n  local twice\n  twice = n * 2 + speed\n"
-                "  seen[n] = twice\n  turns += twice\n  delay 20ms\nend sub\n"
-                "for i = 1 to 3\n  leg(i)\nnext i\nleg(3)\nprint turns, seen[2]\n")
+                "  seen[n] = twice\n  turns += twice\n  LEDC twice\n  delay 20ms\nend sub\n"
+                "for i = 1 to 3\n  leg(i)\nnext i\nleg(3)\nprint turns, seen[2]\nprint turns\n")
         run = Run(self.folder.name, "names", self.file("names.orb", text))
         page = self.open(run)
         page.evaluate(f"{seek}(document.getElementById('time').max)")
