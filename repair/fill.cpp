@@ -108,7 +108,8 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
                                                     *value <= most_seconds * second_ms);
   if (used < tokens.size()) {
     const auto* const unit = tokens[used].is_word() ? unit_called(tokens[used].text) : nullptr;
-    if (unit == nullptr || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
+    const bool metres = tokens[used].is("m") && first.text.find('.') != std::string::npos;
+    if (unit == nullptr || metres || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
       return std::nullopt;
     return Time{*value * unit->ms / second_ms, true};
   }

@@ -514,6 +514,14 @@ std::vector<std::string> LineRepair::with_one_quote() const {
     with.insert(at, "\"");
     consider(with, closes && blank ? odd : !closes && sign ? 1 : 0);
   }
+  for (std::size_t at = 0; at < text.size(); ++at) { // the key of `"` without shift
+    const bool opens = at > 0 && is_blank(text[at - 1]) && at + 1 < text.size() && is_letter(text[at + 1]);
+    const bool closes = at > 0 && at + 1 == text.size() && !is_blank(text[at - 1]) && !is_digit(text[at - 1]);
+    auto with = text;
+    with[at] = '"';
+    if (text[at] == '2' && (opens || closes))
+      consider(with, -1);
+  }
   if (text.ends_with('"')) // one too many
     consider(text.substr(0, text.size() - 1), 0);
   std::stable_sort(all.begin(), all.end(),

@@ -102,6 +102,9 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   if (const auto closed = with_bracket(); !closed.empty())
     attempt(closed, {}, true);
+  if (tokens.size() == 2 && tokens[1].text == around_.loop && is_foreign(tokens[0].text) &&
+      judge_.language == Language::Structured && !is_misspelt(tokens[0].text))
+    attempt("next " + around_.loop, {}, false); // `avanti i`
   own_call(start);
   if (!best_ && judge_.language == Language::Structured)
     own_sub();
@@ -303,6 +306,9 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
     return false; // a case without lines of its own
   if (!keeps_names(statement) || adds_condition(statement))
     return false;
+  if (statement == "print" && parts_.tokens.size() == 1 && is_foreign(parts_.tokens[0].text) &&
+      judge_.language == Language::Structured && !equal_words(parts_.tokens[0].text, "say"))
+    return false; // of what?
   if (judge_.language == Language::Macro && statement.empty() &&
       std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
                   [](const Token& token) { return token.is_number(); }))

@@ -204,6 +204,8 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     const auto first = number_below(0);
     all.first_number = first == all.line_number ? "" : first;
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
+    if (language_ == Language::Structured)
+      all.loop = loop_above(line);
     all.closer = closers_[line - 1];
     all.label = labels_.size() == 1 ? labels_.front() : "";
   }

@@ -379,6 +379,10 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
   }
   if (!end_flag() || name.empty())
     return {};
+  constexpr std::string_view procedure = "PROC"; // of BBC Basic
+  if (name.size() == 1 && name[0].text.starts_with(procedure) &&
+      name[0].text.size() > procedure.size())
+    name[0].text.erase(0, procedure.size());
   const auto plain = plain_name(name);
   if (plain.empty())
     return {};

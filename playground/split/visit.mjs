@@ -55,15 +55,6 @@ function play(engine, given) {
   attempt(() => engine.call("live_end"));
 }
 
-/** Somebody stops a run while the ball drives, on a clock that counts tenths of milliseconds from anywhere. */
-function stop(engine, given) {
-  for (const start of [88.09999990463257, 1234.4000000953674, 5021.699999809265, 71_893.29999995232]) {
-    if (!attempt(() => engine.call("live_start", { ...given, for: "0" }))) return;
-    for (let tenths = 1; tenths < 9000; tenths += 7) attempt(() => engine.call("live_advance", { ms: start + tenths / 10 - start }));
-    attempt(() => engine.call("live_end"));
-  }
-}
-
 function test(engine, files, name) {
   const done = attempt(() => engine.call("test", { files, names: [name] }));
   const [first] = done?.results?.tests ?? [];
@@ -93,8 +84,7 @@ export function visits(list) {
   return {
     first(engine) {
       engine.call("version");
-      for (const text of slips) edit(engine, { "robot.orb": text });
-      stop(engine, { files: { "robot.orb": welcome }, names: ["robot.orb"] });
+      for (const text of [welcome, ...slips]) edit(engine, { "robot.orb": text });
       for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
         run_all(engine, { "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
       for (const lesson of lessons.slice(0, half)) lesson(engine);

@@ -192,6 +192,13 @@ Diagnostic foreign_character(const Program& program, Span found) {
 }
 
 Diagnostic reserved(const Program& program, Span word) {
+  const auto first = first_word(program.text, word.begin);
+  const char before = sign_before(program.text, word.begin);
+  const bool declares = equal_words(first, "sub") || equal_words(first, "function");
+  if ((before == '(' || before == ',') && !declares)
+    return finding(rules::ReservedName, word,
+                   fmt::format("`{}` is a reserved word", program.text_of(word)),
+                   "it is no value");
   return finding(rules::ReservedName, word,
                  fmt::format("`{}` is a reserved word", program.text_of(word)),
                  fmt::format("write `my_{}` on all these lines", program.text_of(word)));
