@@ -89,7 +89,7 @@ function drawing({ files, run }, main, text = files[main]) {
   const moves = ([, d]) => new Set(d.slice(1).split("L")).size > 1; // a change of colour at a stop draws nothing
   return { path: path.map(([stroke, d]) => [stroke, straightened(d)]).filter(moves) };
 }
-/** Without the points that lie within one and a half units of the line between those that stay (Ramer, Douglas and Peucker). */
+/** Without the points that lie within two units of the line between those that stay (Ramer, Douglas and Peucker). */
 function straightened(d) {
   const numbers = d.slice(1).split(/[L ]/).map(Number), points = [];
   for (let i = 0; i < numbers.length; i += 2) points.push([numbers[i], numbers[i + 1]]);
@@ -100,7 +100,7 @@ function straightened(d) {
   const thin = list => {
     const [first, last] = [list[0], list.at(-1)];
     const far = list.map(point => off(point, first, last)), most = Math.max(...far), at = far.indexOf(most);
-    return most <= 1.5 ? [first, last] : [...thin(list.slice(0, at + 1)).slice(0, -1), ...thin(list.slice(at))];
+    return most <= 2 ? [first, last] : [...thin(list.slice(0, at + 1)).slice(0, -1), ...thin(list.slice(at))];
   };
   return `M${thin(points).map(point => point.join(" ")).join("L")}`;
 }

@@ -29,7 +29,8 @@ constexpr auto colours = std::to_array<Colour>({
     {"yellow", 0xFFFF00, 7,
      "yellow gelb amarillo jaune giallo gialla amarilla amarela amarelo geel"},
     {"black", 0x000000, 0,
-     "black off dark schwarz aus negro noir nero nera negra preta preto apagado éteint eteint spento zwart uit none"},
+     "black off dark schwarz aus negro noir nero nera negra preta preto apagado éteint eteint "
+     "spento zwart uit none"},
     {"aqua", 0x00FFFF, -1, "cyan aqua türkis turquoise lightblue hellblau skyblue celeste"},
     {"fuchsia", 0xFF00FF, -1, "magenta fuchsia"},
     {"#FF69B4", 0xFF69B4, -1, "pink rosa rose roze"},

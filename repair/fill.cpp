@@ -109,7 +109,8 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
   if (used < tokens.size()) {
     const auto* const unit = tokens[used].is_word() ? unit_called(tokens[used].text) : nullptr;
     const bool metres = tokens[used].is("m") && first.text.find('.') != std::string::npos;
-    if (unit == nullptr || metres || used + 1 != tokens.size() || (*value * unit->ms) % second_ms != 0)
+    if (unit == nullptr || metres || used + 1 != tokens.size() ||
+        (*value * unit->ms) % second_ms != 0)
       return std::nullopt;
     return Time{*value * unit->ms / second_ms, true};
   }
@@ -121,7 +122,8 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
 Text written_time(const Tokens& tokens, Assume assume, Language language) {
   if (tokens.size() == 1 && tokens[0].is_text())
     return written_time(tokens_of(tokens[0].text, language), assume, language);
-  constexpr std::int64_t longest_ms = 1'000'000; // nobody waits so long: `delay 1000s` counted in ms
+  constexpr std::int64_t longest_ms =
+      1'000'000; // nobody waits so long: `delay 1000s` counted in ms
   if (auto time = time_of(tokens, assume)) {
     if (time->ms >= longest_ms && time->ms % second_ms == 0)
       time->ms /= second_ms;

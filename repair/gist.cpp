@@ -289,7 +289,7 @@ private:
     const auto pick = [&](std::string text) {
       return !text.empty() || next == plain.end() ? text : *next++;
     };
-    constexpr std::size_t all = 3; // values of a roll
+    constexpr std::size_t all = 3;                                       // values of a roll
     const auto by_word = plain.size() == all ? std::string() : heading_; // `forward 90, 80, 1`
     const auto heading = pick(named("heading").empty() ? by_word : named("heading"));
     const auto speed = pick(named("speed"));

@@ -48,8 +48,8 @@ public:
       for (const auto& form : near->second) {
         if (equal_words(form.word, word))
           return form.word;
-        const auto differ = std::mismatch(letters.begin(), letters.end(), form.letters.begin(),
-                                          form.letters.end());
+        const auto differ =
+            std::mismatch(letters.begin(), letters.end(), form.letters.begin(), form.letters.end());
         const auto stem = static_cast<std::size_t>(differ.first - letters.begin());
         const auto end = std::string_view(letters).substr(stem);
         const auto other = std::string_view(form.letters).substr(stem);

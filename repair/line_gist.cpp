@@ -54,8 +54,7 @@ void LineRepair::by_leaving_out() {
     return all[at].is_number() || all[at].is(")") || (all[at].is_word() && !is_unknown(all[at]));
   };
   for (std::size_t i = 1; i < all.size(); ++i) {
-    const bool unit =
-        all[i].is("%") || all[i].is("cm") || all[i].is("m") || all[i].is("x");
+    const bool unit = all[i].is("%") || all[i].is("cm") || all[i].is("m") || all[i].is("x");
     const bool time = all[i].is_word() && milliseconds_of(all[i].text) > 0;
     const bool compared = i > 1 && all[i - 2].is_relation() && !all[1].is("=");
     const bool plain = all[i - 1].is_word() || compared; // else which unit was meant is not clear
@@ -76,9 +75,10 @@ void LineRepair::by_leaving_out() {
   };
   auto bare = all;
   for (std::size_t i = 1; i < bare.size(); ++i) { // `90deg,70%,1s`
-    const bool unit = bare[i - 1].is_number() &&
-                      (is_unit(bare[i]) || bare[i].is("%") || bare[i].is("cm") || bare[i].is("m") || is_called("degrees", bare[i].text) ||
-                       (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
+    const bool unit =
+        bare[i - 1].is_number() && (is_unit(bare[i]) || bare[i].is("%") || bare[i].is("cm") ||
+                                    bare[i].is("m") || is_called("degrees", bare[i].text) ||
+                                    (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
     const bool per = unit && i + 2 < bare.size() && bare[i + 1].is("/") && bare[i + 2].is("s");
     if (unit)
       bare.erase(bare.begin() + static_cast<std::ptrdiff_t>(i),

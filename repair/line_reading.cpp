@@ -189,9 +189,8 @@ void LineRepair::truths() {
 /// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon.
 void LineRepair::read_logo() {
   auto& tokens = parts_.tokens;
-  if (tokens.size() < 2 ||
-      !holds("make setpc setpencolor setcolor setcolour", tokens[0].text) || !tokens[1].is_text() ||
-      tokens[1].closed)
+  if (tokens.size() < 2 || !holds("make setpc setpencolor setcolor setcolour", tokens[0].text) ||
+      !tokens[1].is_text() || tokens[1].closed)
     return;
   const auto rest = tokens_of(tokens[1].text, judge_.language);
   tokens.pop_back();
@@ -243,9 +242,7 @@ void LineRepair::drop_prefixes() {
     return;
   if (judge_.language == Language::Test)
     return drop_objects();
-  const auto own = [&](std::string_view word) {
-    return word.size() > 1 && has_word(names_, word);
-  };
+  const auto own = [&](std::string_view word) { return word.size() > 1 && has_word(names_, word); };
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     auto& token = tokens[i];
     if (!token.is_word() || !is_foreign(token.text))
@@ -265,7 +262,7 @@ void LineRepair::drop_prefixes() {
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
                    tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
     } else if (calls &&
-        (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text))) {
+               (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text))) {
       tokens[i + 2].gap = token.gap;
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
                    tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
@@ -352,12 +349,13 @@ void LineRepair::other_forms() {
   if (!tokens.empty() && (tokens[0].is("print") || tokens[0].is("test")))
     return; // words without their quotes
   for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const bool named = (i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is("."))) ||
-                       (i > 0 && tokens[i - 1].is("."));
+    const bool named =
+        (i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is("."))) ||
+        (i > 0 && tokens[i - 1].is("."));
     if (!tokens[i].is_word() || named || !is_foreign(tokens[i].text) ||
         milliseconds_of(tokens[i].text) > 0 || find_colour(tokens[i]) ||
-        is_misspelt(tokens[i].text) ||
-        is_known_word(tokens[i].text, Where::Line) || is_known_word(tokens[i].text, Where::Inside))
+        is_misspelt(tokens[i].text) || is_known_word(tokens[i].text, Where::Line) ||
+        is_known_word(tokens[i].text, Where::Inside))
       continue;
     if (const auto form = known_form_of(tokens[i].text, judge_.language); !form.empty())
       tokens[i].text = form;
@@ -368,9 +366,8 @@ void LineRepair::other_forms() {
 void LineRepair::drop_sigils() {
   auto& tokens = parts_.tokens;
   const auto names_variable = [&](const Token& token) {
-    return token.is_word() &&
-           (token.text.size() == 1 || (judge_.language == Language::Structured &&
-                                       has_word(around_.elsewhere, token.text)));
+    return token.is_word() && (token.text.size() == 1 || (judge_.language == Language::Structured &&
+                                                          has_word(around_.elsewhere, token.text)));
   };
   if (judge_.language != Language::Basic && judge_.language != Language::Structured)
     return;
@@ -426,28 +423,6 @@ void LineRepair::resolve_labels(const Scenery& scenery) {
   }
 }
 
-/// A text without its end, closed before the last values that stand in it: `print "A is, A`. Empty
-/// where none do.
-std::string LineRepair::closed_earlier() const {
-  if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
-    return {};
-  const auto& text = parts_.tokens.back().text;
-  auto comma = text.size(); // the first of those that only words and numbers follow
-  for (auto at = text.rfind(','); at != std::string::npos && at > 0; at = text.rfind(',', at - 1)) {
-    const auto value =
-        tokens_of(std::string_view(text).substr(at + 1, comma - at - 1), judge_.language);
-    if (value.size() != 1 || !value[0].is_word() || is_foreign(value[0].text))
-      break;
-    comma = at;
-  }
-  if (comma == text.size())
-    return {};
-  auto tokens = parts_.tokens;
-  tokens.back().text = text.substr(0, comma);
-  tokens.back().closed = true;
-  return join(tokens) + text.substr(comma);
-}
-
 /// A condition whose last bracket is not closed: `if not (a = 1 then`. Empty where it is.
 std::string LineRepair::with_bracket() const {
   auto tokens = parts_.tokens;
@@ -474,10 +449,10 @@ std::vector<std::string> LineRepair::with_one_quote() const {
       !has_token(parts_.tokens, "print"))
     return {};
   const auto is_value = [&](const Token& token) {
-    return token.is_word() && (judge_.language == Language::Basic && token.text.size() == 1
-                                   ? to_lower(token.text[0]) != token.text[0]
-                                   : has_word(names_, token.text) ||
-                                         has_word(judge_.words, token.text));
+    return token.is_word() &&
+           (judge_.language == Language::Basic && token.text.size() == 1
+                ? to_lower(token.text[0]) != token.text[0]
+                : has_word(names_, token.text) || has_word(judge_.words, token.text));
   };
   constexpr int name = 2; // in a text
   constexpr int odd = 3;
@@ -495,7 +470,8 @@ std::vector<std::string> LineRepair::with_one_quote() const {
         return;
       for (const auto& token : tokens_of(said, judge_.language))
         cost += is_value(token) ? name : 0;
-      const bool parts = said.find_first_of(",;") == 0 && said.find_first_not_of(",; ") != said.npos;
+      const bool parts =
+          said.find_first_of(",;") == 0 && said.find_first_not_of(",; ") != said.npos;
       cost += parts ? odd : 0;
     }
     if (judge_.parses(parts_.head + with))
@@ -515,8 +491,10 @@ std::vector<std::string> LineRepair::with_one_quote() const {
     consider(with, closes && blank ? odd : !closes && sign ? 1 : 0);
   }
   for (std::size_t at = 0; at < text.size(); ++at) { // the key of `"` without shift
-    const bool opens = at > 0 && is_blank(text[at - 1]) && at + 1 < text.size() && is_letter(text[at + 1]);
-    const bool closes = at > 0 && at + 1 == text.size() && !is_blank(text[at - 1]) && !is_digit(text[at - 1]);
+    const bool opens =
+        at > 0 && is_blank(text[at - 1]) && at + 1 < text.size() && is_letter(text[at + 1]);
+    const bool closes =
+        at > 0 && at + 1 == text.size() && !is_blank(text[at - 1]) && !is_digit(text[at - 1]);
     auto with = text;
     with[at] = '"';
     if (text[at] == '2' && (opens || closes))

@@ -121,8 +121,6 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     attempt(std::string(trim(std::string_view(parts_.comment).substr(1))), {}, false);
   if (!best_ && whole(start) != line_)
     attempt(start, {}, true);
-  if (const auto earlier = closed_earlier(); best_ && !earlier.empty())
-    other_ = attempt_line(whole(earlier), {}, false, false);
 
   const bool known = is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line);
   if (!best_ && !known) {

@@ -96,7 +96,6 @@ private:
   std::size_t errors_of(const std::vector<Diagnostic>& findings, std::string_view text) const;
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
-  std::string closed_earlier() const;
   std::string with_bracket() const;
   std::vector<std::string> with_one_quote() const;
   bool is_foreign(std::string_view line) const;

@@ -79,8 +79,8 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   std::string out;
   int depth = 0;
   bool apart = true;
-  const bool has_text = std::any_of(tokens.begin(), tokens.end(),
-                                    [](const Token& token) { return token.is_text(); });
+  const bool has_text =
+      std::any_of(tokens.begin(), tokens.end(), [](const Token& token) { return token.is_text(); });
   bool said = false; // a text, which makes each `+` behind it join texts
   const auto beside_text = [&](std::size_t i) {
     return (i > 0 && tokens[i - 1].is_text()) ||

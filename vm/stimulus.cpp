@@ -214,7 +214,8 @@ void read_stimulus_line(const Source& source, std::uint32_t line, StimulusScript
         early_time
             ? finding(rules::StimulusSyntax, rest[0].span,
                       fmt::format("a time without `at`: `{}`", rest[0].text),
-                      fmt::format("write `at {}`", source.text({rest[0].span.begin, rest.back().span.end})))
+                      fmt::format("write `at {}`",
+                                  source.text({rest[0].span.begin, rest.back().span.end})))
             : finding(rules::StimulusEvent, rest[0].span,
                       fmt::format("`{}` is not an event", rest[0].text), event_help(rest[0].text)));
     return;

@@ -6,7 +6,7 @@ import { join, resolve } from "node:path";
 import { visits } from "./visit.mjs";
 
 /** What fewer lessons and fewer examples call is loaded when it is called: a sixth of the examples. */
-const enough = { lessons: 4, examples: 14 };
+const enough = { lessons: 6, examples: 14 };
 
 const [work, list] = process.argv.slice(2).map(path => resolve(path));
 const features = ["--enable-exception-handling", "--enable-bulk-memory", "--enable-nontrapping-float-to-int", "--enable-sign-ext", "--enable-mutable-globals"];

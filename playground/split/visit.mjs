@@ -24,7 +24,6 @@ function edit(engine, files) {
     tell("textDocument/didOpen", { textDocument: { ...textDocument, version: 1, languageId: "", text } });
     ask("textDocument/codeAction", { textDocument, range, context: { diagnostics: [] } });
     ask("textDocument/semanticTokens/full", { textDocument });
-    ask("textDocument/formatting", { textDocument, options: { tabSize: 2, insertSpaces: true } });
     lines.slice(0, 25).forEach((words, line) => {
       for (const { index } of [...words.matchAll(/[\w.$&]+/g)].slice(0, 6)) ask("textDocument/hover", { textDocument, position: { line, character: index + 1 } });
       const position = { line, character: words.length };
@@ -61,8 +60,8 @@ function test(engine, files, name) {
   if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
 }
 
-/** What visitors do, each part as a call with an engine. `first`: the first program, mistakes, half of the
- *  lessons; `lessons`: the others; `examples`: those in the structured language, of which somebody opens some. Who edits numbered programs, macros or tests, or drives through a
+/** What visitors do, each part as a call with an engine. `first`: the first program, mistakes, two
+ *  lessons and the beginning of a third; `lessons`: the others; `examples`: those in the structured language, of which somebody opens some. Who edits numbered programs, macros or tests, or drives through a
  *  course, loads the rest, as for a robot. `list`: the file that the page loads. */
 export function visits(list) {
   const run_all = (engine, files, main, run = {}) => {
@@ -71,24 +70,31 @@ export function visits(list) {
     play(engine, given);
     for (const name of Object.keys(files).filter(one => one.endsWith(".test"))) test(engine, files, name);
   };
-  const tried = ({ files, main, run, solution }) => engine => {
-    for (const given of solution ? [files, { ...files, [main]: solution }] : [files]) {
-      edit(engine, given);
-      run_all(engine, given, main, run);
-    }
-  };
+  const tried = ({ files, main, run, solution }) => ({
+    begin(engine) {
+      edit(engine, files);
+      for (const name of Object.keys(files).filter(one => one.endsWith(".test"))) test(engine, files, name);
+    },
+    whole(engine) {
+      for (const given of solution ? [files, { ...files, [main]: solution }] : [files]) {
+        edit(engine, given);
+        run_all(engine, given, main, run);
+      }
+    },
+  });
   const [lessons, examples] = JSON.parse(readFileSync(list, "utf8")).groups.map(({ items }) => items
     .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")))
     .map(tried));
-  const half = Math.ceil(lessons.length / 2);
+  const done = 2; // in a first visit
   return {
     first(engine) {
       engine.call("version");
       for (const text of [welcome, ...slips]) edit(engine, { "robot.orb": text });
       for (const text of [welcome, "goroll 0, 300, 1\n", "x = 0\nprint 1 / x\n", "input x\nprint x\n", "goroll 0, 90, 1\n"])
         run_all(engine, { "robot.orb": text, "robot.test": 'test "t"\n  expect print "1"\n' }, "robot.orb");
-      for (const lesson of lessons.slice(0, half)) lesson(engine);
+      for (const lesson of lessons.slice(0, done)) lesson.whole(engine);
+      lessons[done].begin(engine);
     },
-    lessons: lessons.slice(half), examples,
+    lessons: lessons.slice(done).map(one => one.whole), examples: examples.map(one => one.whole),
   };
 }

@@ -599,10 +599,10 @@ std::optional<Tokens> close_text(const Tokens& line) {
     Phrases phrases;
     if (const auto read = Reader(rest).read(0))
       phrases = *read;
-    const bool seeds = line[0].is("test") && rest.size() > 1 && rest[0].is("seeds") &&
-                       rest[1].is_number();
+    const bool seeds =
+        line[0].is("test") && rest.size() > 1 && rest[0].is("seeds") && rest[1].is_number();
     if (!seeds && (!phrases.what.empty() || !phrases.by.empty() ||
-        (phrases.when.empty() && phrases.times.empty())))
+                   (phrases.when.empty() && phrases.times.empty())))
       continue;
     Tokens all = line;
     all.back().text = text.substr(0, blank);
@@ -795,13 +795,12 @@ Tokens translate(const Tokens& line) {
       continue;
     }
     if (!all.empty() && token.is_word() && repair::is_called("program", token.text))
-      continue; // what ends, prints and drives
+      continue;                                           // what ends, prints and drives
     const bool counts = i > 0 && line[i - 1].is_number(); // `3 x`
     const bool axis = (token.is("x") || token.is("y")) && !counts && following != nullptr &&
                       (following->is_number() || following->is("-") || following->is("beyond"));
-    const bool signed_ =
-        axis || (following != nullptr &&
-                 (following->is("=") || following->is(">") || following->is("<")));
+    const bool signed_ = axis || (following != nullptr &&
+                                  (following->is("=") || following->is(">") || following->is("<")));
     const bool unit = i > 0 && line[i - 1].is_number() &&
                       (!token.gap || repair::is_called("degrees", token.text) ||
                        repair::is_called("turns", token.text));
@@ -854,7 +853,9 @@ Tokens translate(const Tokens& line) {
       auto found = meaning_of(token.text);
       if (const auto parts = repair::parts_of(token.text); found.empty() && parts.size() > 1)
         for (const auto& part : parts) // `getHeading`, `isMoving`
-          found = found.empty() ? is_vocabulary(part, all.empty()) ? std::string_view(part) : meaning_of(part) : found;
+          found = found.empty()
+                      ? is_vocabulary(part, all.empty()) ? std::string_view(part) : meaning_of(part)
+                      : found;
       if (!found.empty())
         add(found);
       else if (!repair::is_called("", token.text) || token.text == "A")
@@ -907,8 +908,9 @@ Tokens with_ranges(Tokens all) {
       continue;
     auto to = i + 1;
     to += to < all.size() && all[to].is_word() && !all[to].gap ? 1 : 0; // its unit
-    if (to < all.size() && all[to].is_number() && !between) { // `distance 3m 5m`
-      all.insert(all.begin() + static_cast<std::ptrdiff_t>(to), Token{Token::Kind::Sign, "..", false});
+    if (to < all.size() && all[to].is_number() && !between) {           // `distance 3m 5m`
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(to),
+                 Token{Token::Kind::Sign, "..", false});
       all[to + 1].gap = false;
       continue;
     }
