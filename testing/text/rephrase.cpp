@@ -795,7 +795,8 @@ Tokens translate(const Tokens& line) {
       continue;
     }
     if (!all.empty() && token.is_word() && repair::is_called("program", token.text))
-      continue;                                           // what ends, prints and drives
+      continue; // what ends, prints and drives
+
     const bool counts = i > 0 && line[i - 1].is_number(); // `3 x`
     const bool axis = (token.is("x") || token.is("y")) && !counts && following != nullptr &&
                       (following->is_number() || following->is("-") || following->is("beyond"));
@@ -850,12 +851,11 @@ Tokens translate(const Tokens& line) {
             return name;
         return {};
       };
-      auto found = meaning_of(token.text);
-      if (const auto parts = repair::parts_of(token.text); found.empty() && parts.size() > 1)
+      std::string found(meaning_of(token.text));
+      if (const auto parts = repair::parts_of(token.text); parts.size() > 1)
         for (const auto& part : parts) // `getHeading`, `isMoving`
-          found = found.empty()
-                      ? is_vocabulary(part, all.empty()) ? std::string_view(part) : meaning_of(part)
-                      : found;
+          if (found.empty())
+            found = is_vocabulary(part, all.empty()) ? part : meaning_of(part);
       if (!found.empty())
         add(found);
       else if (!repair::is_called("", token.text) || token.text == "A")
