@@ -14,15 +14,17 @@
 // tried.
 
 namespace orb::repair {
+namespace {
 
-/// Whether a text ends in a comma and a name: `"yes! in, tries "`.
-bool LineRepair::ends_in_name(const Token& text) const {
-  const auto comma = text.text.rfind(',');
-  if (!text.is_text() || comma == std::string::npos)
-    return false;
-  const auto name = trim(std::string_view(text.text).substr(comma + 1));
-  return has_word(names_, name) || (judge_.language == Language::Basic && name.size() == 1);
+/// Takes tokens out; what follows has the blank that stood before them.
+void take_out(Tokens& tokens, std::size_t at, std::size_t count) {
+  const auto first = tokens.begin() + static_cast<std::ptrdiff_t>(at);
+  if (at + count < tokens.size())
+    tokens[at + count].gap = first->gap;
+  tokens.erase(first, first + static_cast<std::ptrdiff_t>(count));
 }
+
+} // namespace
 
 /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
 void LineRepair::canonical() {
@@ -162,30 +164,6 @@ void LineRepair::plain_signs() {
     }
 }
 
-/// `"touches no wall'`: a text that another quote closes.
-void LineRepair::close_text() {
-  if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
-    return;
-  auto& text = parts_.tokens.back();
-  const auto end = text.text.find_last_not_of(":,;");
-  if (end == std::string::npos || end == 0 || text.text[end] != '\'')
-    return;
-  text.text.resize(end);
-  text.closed = true;
-}
-
-/// `warned = "False"`: what is true is 1.
-void LineRepair::truths() {
-  auto& tokens = parts_.tokens;
-  const bool programs =
-      judge_.language == Language::Basic || judge_.language == Language::Structured;
-  if (!programs || tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
-      !holds("true false", tokens[2].text))
-    return;
-  tokens[2].kind = Token::Kind::Number;
-  tokens[2].text = equal_words(tokens[2].text, "true") ? "1" : "0";
-}
-
 /// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon.
 void LineRepair::read_logo() {
   auto& tokens = parts_.tokens;
@@ -207,10 +185,8 @@ void LineRepair::drop_colons() {
     const bool operand = before.is_number() || before.is(")") || before.is("]") ||
                          before.is_text() || (before.is_word() && before.text.size() == 1);
     if (tokens[i].is(":") && tokens[i].gap && !operand && tokens[i + 1].is_word() &&
-        !tokens[i + 1].gap && !before.is("else") && !before.is("then")) {
-      tokens[i + 1].gap = true;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+        !tokens[i + 1].gap && !before.is("else") && !before.is("then"))
+      take_out(tokens, i, 1);
   }
 }
 
@@ -223,16 +199,6 @@ void LineRepair::without_accents() {
       if (const auto plain = plain_letters(token.text);
           has_word(judge_.words, plain) || has_word(names_, plain))
         token.text = plain;
-}
-
-/// `state = "open"` where the program has `open`.
-void LineRepair::names_in_quotes() {
-  auto& tokens = parts_.tokens;
-  if (judge_.language != Language::Structured || has_token(tokens, "print"))
-    return;
-  for (std::size_t i = 1; i < tokens.size(); ++i)
-    if (tokens[i].is_text() && tokens[i - 1].is_relation() && has_word(names_, tokens[i].text))
-      tokens[i].kind = Token::Kind::Word;
 }
 
 /// `Math.max(`, `Program.best(` and `FNmean` where `max`, `best` and `mean` are known.
@@ -250,22 +216,17 @@ void LineRepair::drop_prefixes() {
     const bool waits = token.is("await") && i + 1 < tokens.size() &&
                        holds("delay sleep wait", tokens[i + 1].text); // counted in seconds
     if (token.is("await") && !waits && i + 1 < tokens.size() && tokens[i + 1].is_word()) {
-      tokens[i + 1].gap = token.gap;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
+      take_out(tokens, i, 1);
       continue;
     }
     const bool member = i + 2 < tokens.size() && tokens[i + 1].is(".") && tokens[i + 2].is_word();
     const bool calls = member && i + 3 < tokens.size() && tokens[i + 3].is("(");
-    if (member && !calls && i > 0 && has_word(judge_.words, tokens[i + 2].text) &&
-        !find_colour(tokens[i + 2])) { // `Ball.accelone`
-      tokens[i + 2].gap = token.gap;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
-                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
-    } else if (calls &&
-               (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text))) {
-      tokens[i + 2].gap = token.gap;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
-                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
+    const bool function =
+        calls && (own(tokens[i + 2].text) || holds("abs max min sqrt", tokens[i + 2].text));
+    const bool value = member && !calls && i > 0 && has_word(judge_.words, tokens[i + 2].text) &&
+                       !find_colour(tokens[i + 2]); // `Ball.accelone`
+    if (function || value) {
+      take_out(tokens, i, 2);
     } else {
       for (const std::string_view prefix : {"FN", "PROC", "fn", "proc"})
         if (token.text.starts_with(prefix) &&
@@ -288,11 +249,8 @@ void LineRepair::drop_objects() {
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
         (i > 0 || !has_word(judge_.words, tokens[i].text)) &&
-        (has_word(judge_.words, tokens[i + 2].text) || is_called("print", tokens[i + 2].text))) {
-      tokens[i + 2].gap = tokens[i].gap;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
-                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
-    }
+        (has_word(judge_.words, tokens[i + 2].text) || is_called("print", tokens[i + 2].text)))
+      take_out(tokens, i, 2);
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
     if (tokens[i].is("(") && tokens[i + 1].is(")") && tokens[i - 1].is_word())
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
@@ -372,10 +330,8 @@ void LineRepair::drop_sigils() {
   if (judge_.language != Language::Basic && judge_.language != Language::Structured)
     return;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `print "macro", #M`
-    if (tokens[i].is("#") && tokens[i - 1].is(",") && !tokens[i + 1].gap) {
-      tokens[i + 1].gap = tokens[i].gap;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+    if (tokens[i].is("#") && tokens[i - 1].is(",") && !tokens[i + 1].gap)
+      take_out(tokens, i, 1);
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `STR$(F)`
     if (tokens[i].is("$") && !tokens[i].gap && tokens[i - 1].is_word() && tokens[i + 1].is("("))
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
@@ -421,94 +377,6 @@ void LineRepair::resolve_labels(const Scenery& scenery) {
     if (const auto number = scenery.number_of(tokens[i + 1].text); !number.empty())
       tokens[i + 1].text = number;
   }
-}
-
-/// A condition whose last bracket is not closed: `if not (a = 1 then`. Empty where it is.
-std::string LineRepair::with_bracket() const {
-  auto tokens = parts_.tokens;
-  const auto then = std::find_if(tokens.begin(), tokens.end(),
-                                 [](const Token& token) { return token.is("then"); });
-  int open = 0;
-  for (auto at = tokens.begin(); at != then; ++at)
-    open += at->is("(") ? 1 : at->is(")") ? -1 : 0;
-  if (then == tokens.end() || open != 1)
-    return {};
-  tokens.insert(then, Token{Token::Kind::Sign, ")"});
-  return join(tokens);
-}
-
-/// A `print` with an odd number of quotes, and the places where one more can stand: the best first,
-/// which leaves the fewest names of the program in texts. `print "toss, C ": " T` is `print "toss",
-/// C ": " T`.
-std::vector<std::string> LineRepair::with_one_quote() const {
-  const std::string text(trim(line_.substr(std::min(parts_.head.size(), line_.size()))));
-  const bool programs =
-      judge_.language == Language::Basic || judge_.language == Language::Structured;
-  constexpr std::size_t longest = 160;
-  if (!programs || std::count(text.begin(), text.end(), '"') % 2 == 0 || text.size() > longest ||
-      !has_token(parts_.tokens, "print"))
-    return {};
-  const auto is_value = [&](const Token& token) {
-    return token.is_word() &&
-           (judge_.language == Language::Basic && token.text.size() == 1
-                ? to_lower(token.text[0]) != token.text[0]
-                : has_word(names_, token.text) || has_word(judge_.words, token.text));
-  };
-  constexpr int name = 2; // in a text
-  constexpr int odd = 3;
-  std::vector<std::pair<int, std::string>> all;
-  const auto consider = [&](const std::string& with, int cost) {
-    const auto tokens = tokens_of(with, judge_.language);
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-      if (!tokens[i].is_text()) {
-        if (tokens[i].is_word() && !is_value(tokens[i]))
-          return;
-        continue;
-      }
-      const std::string_view said = tokens[i].text;
-      if (said.empty() || (i + 1 < tokens.size() && tokens[i + 1].is_text() && !tokens[i + 1].gap))
-        return;
-      for (const auto& token : tokens_of(said, judge_.language))
-        cost += is_value(token) ? name : 0;
-      const bool parts =
-          said.find_first_of(",;") == 0 && said.find_first_not_of(",; ") != said.npos;
-      cost += parts ? odd : 0;
-    }
-    if (judge_.parses(parts_.head + with))
-      all.emplace_back(cost, with);
-  };
-  for (std::size_t at = 0; at <= text.size(); ++at) {
-    const bool end = at == text.size();
-    const bool sign = !end && (text[at] == ',' || text[at] == ';' || text[at] == '+');
-    const bool blank = !end && is_blank(text[at]);
-    const bool word = !end && at > 0 && is_letter(text[at]) && !is_letter(text[at - 1]);
-    const auto here = text.begin() + static_cast<std::ptrdiff_t>(at);
-    const bool closes = std::count(text.begin(), here, '"') % 2 == 1;
-    if (closes ? !end && !sign && !blank : !word && !sign)
-      continue;
-    auto with = text;
-    with.insert(at, "\"");
-    consider(with, closes && blank ? odd : !closes && sign ? 1 : 0);
-  }
-  for (std::size_t at = 0; at < text.size(); ++at) { // the key of `"` without shift
-    const bool opens =
-        at > 0 && is_blank(text[at - 1]) && at + 1 < text.size() && is_letter(text[at + 1]);
-    const bool closes =
-        at > 0 && at + 1 == text.size() && !is_blank(text[at - 1]) && !is_digit(text[at - 1]);
-    auto with = text;
-    with[at] = '"';
-    if (text[at] == '2' && (opens || closes))
-      consider(with, -1);
-  }
-  if (text.ends_with('"')) // one too many
-    consider(text.substr(0, text.size() - 1), 0);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::string> best;
-  for (const auto& [cost, with] : all)
-    if (cost == all.front().first)
-      best.push_back(with);
-  return best;
 }
 
 } // namespace orb::repair

@@ -255,69 +255,9 @@ std::string LineRepair::declared_otherwise(const std::string& statement) const {
   return sets ? "const " + statement : std::string();
 }
 
-/// Whether the line gives a value to a name that other lines use.
-bool LineRepair::sets_name() const {
-  const auto& tokens = parts_.tokens;
-  return judge_.language == Language::Structured && tokens.size() > 2 && tokens[1].is("=") &&
-         has_word(names_, tokens[0].text) && !has_word(judge_.words, tokens[0].text);
-}
-
-/// Whether a unit became a condition of its own: `if who = 0 people then`.
-bool LineRepair::adds_condition(std::string_view statement) const {
-  if (has_token(parts_.tokens, "and"))
-    return false;
-  const auto tokens = tokens_of(statement, judge_.language);
-  for (std::size_t i = 2; i < tokens.size(); ++i)
-    if (tokens[i].is("then") && tokens[i - 2].is("and"))
-      return true;
-  return false;
-}
-
-/// Whether the names of the program are still there that are the values of a statement: in a line
-/// of other words they may be words, too.
-bool LineRepair::keeps_names(std::string_view statement) const {
-  if (parts_.tokens.empty() || !has_word(judge_.words, parts_.tokens[0].text) ||
-      parts_.tokens[0].is("end"))
-    return true;
-  const auto is_name = [&](const std::string& word) {
-    return judge_.language == Language::Basic
-               ? word.size() == 1 && word[0] == to_upper(word[0])
-               : judge_.language == Language::Structured && has_word(names_, word) &&
-                     !has_word(judge_.words, word) && milliseconds_of(word) == 0;
-  };
-  const auto kept = tokens_of(statement, judge_.language);
-  return std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
-    return !token.is_word() || !is_name(token.text) || has_token(kept, token.text);
-  });
-}
-
 /// Tries a line in its place; true when it cannot be better.
 bool LineRepair::attempt(const std::string& statement, std::string_view note, bool sure) {
-  if (const auto equals = statement.find(" = ");
-      equals != std::string::npos && statement.substr(0, equals) == statement.substr(equals + 3))
-    return false; // nobody sets a variable to itself
-  const bool branches = !parts_.tokens.empty() && !parts_.tokens.back().is("then") &&
-                        has_token(parts_.tokens, "then");
-  if (branches && statement.ends_with(" then"))
-    return false; // what is to be done was said
-  if (statement.find("\ncase ") != std::string::npos)
-    return false; // a case without lines of its own
-  if (!keeps_names(statement) || adds_condition(statement))
-    return false;
-  if (statement == "print" && parts_.tokens.size() == 1 && is_foreign(parts_.tokens[0].text) &&
-      judge_.language == Language::Structured && !equal_words(parts_.tokens[0].text, "say"))
-    return false; // of what?
-  if (judge_.language == Language::Macro && statement.empty() &&
-      std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
-                  [](const Token& token) { return token.is_number(); }))
-    return false; // it has values
-  if (judge_.language == Language::Macro && parts_.tokens.size() == 2 &&
-      holds("goto gosub on_collision", parts_.tokens[0].text) && parts_.tokens[1].is_word() &&
-      is_digit(statement.back()))
-    return false; // a macro has a name
-  const bool sets = statement.find(" = ") != std::string::npos || statement.starts_with("read ") ||
-                    statement.starts_with("input ");
-  if (sets_name() && !sets)
+  if (!keeps_meaning(statement))
     return false;
   const bool one = statement.find('\n') == std::string::npos;
   const auto text = one ? whole(statement) : several(spelled(statement, 0));
@@ -338,28 +278,6 @@ bool LineRepair::parses(std::string_view lines) const {
     lines.remove_prefix(std::min(lines.find_first_not_of("\r\n", end), lines.size()));
   }
   return true;
-}
-
-/// Whether what was quoted is still there: nobody writes a text for nothing.
-bool LineRepair::keeps_texts(std::string_view lines) const {
-  const auto unquoted = [](std::string_view text) {
-    std::string plain(text);
-    std::erase(plain, '"');
-    return plain;
-  };
-  const bool says_using =
-      std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
-                  [](const Token& token) { return equal_words(token.text, "using"); });
-  return lines.empty() || unquoted(lines) == unquoted(line_) ||
-         std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
-           const bool filled =
-               token.text.find_first_of("{%\\") != std::string::npos ||
-               (token.text.find('#') != std::string::npos && says_using) ||
-               (judge_.language == Language::Macro && // quoted numbers
-                token.text.find_first_not_of("0123456789 ,.;") == std::string::npos);
-           return !token.is_text() || !token.closed || filled || find_colour(token) ||
-                  lines.find(token.text) != std::string_view::npos;
-         });
 }
 
 /// Errors but unknown names that this line does not have: while it did not parse, nobody asked for

@@ -90,6 +90,8 @@ private:
   bool sets_name() const;
   bool adds_condition(std::string_view statement) const;
   bool keeps_names(std::string_view statement) const;
+  bool keeps_operands(std::string_view statement) const;
+  bool keeps_meaning(std::string_view statement) const;
   bool attempt(const std::string& statement, std::string_view note, bool sure);
   bool parses(std::string_view lines) const;
   bool keeps_texts(std::string_view lines) const;
@@ -97,6 +99,7 @@ private:
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
                                        bool keep = true);
   std::string with_bracket() const;
+  std::optional<int> cost_of_texts(std::string_view statement) const;
   std::vector<std::string> with_one_quote() const;
   bool is_foreign(std::string_view line) const;
   bool is_unknown(const Token& token) const;

@@ -47,12 +47,17 @@ std::string Scenery::sub_meant(std::size_t values) const {
 Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
     closers_.push_back(open_.empty() ? "" : open_.back());
+    loops_.push_back(counting_.empty() ? "" : counting_.back());
     const auto line = source.line(n);
     if (line.size() > longest_line)
       continue;
     const auto tokens = split(line, language).tokens;
     if (!tokens.empty() && (language == Language::Structured || language == Language::Macro))
       open_or_close(tokens);
+    if (tokens.size() > 1 && equal_words(tokens[0].text, "for"))
+      counting_.push_back(tokens[1].text);
+    else if (!tokens.empty() && equal_words(tokens[0].text, "next") && !counting_.empty())
+      counting_.pop_back();
     note_roll(n, tokens);
     if (language == Language::Structured && tokens.size() == 2 && tokens[0].is_word() &&
         tokens[1].is(":") && !equal_words(tokens[0].text, "else"))
@@ -191,6 +196,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   Surroundings all;
   all.language = language_;
   all.line_number = digits_of(parts.head);
+  all.loop = loops_[line - 1];
   const auto below = std::partition_point(rolls_.begin(), rolls_.end(),
                                           [&](const Roll& roll) { return roll.line < line; });
   if (below != rolls_.begin()) {
@@ -200,12 +206,9 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   if (language_ == Language::Basic) {
     const auto free = free_letters();
     all.free_letter = free.empty() ? "" : free.front();
-    all.loop = loop_above(line);
     const auto first = number_below(0);
     all.first_number = first == all.line_number ? "" : first;
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
-    if (language_ == Language::Structured)
-      all.loop = loop_above(line);
     all.closer = closers_[line - 1];
     all.label = labels_.size() == 1 ? labels_.front() : "";
   }
@@ -244,18 +247,6 @@ std::vector<std::string> Scenery::free_letters() const {
       free.push_back(upper);
   }
   return free;
-}
-
-std::string Scenery::loop_above(std::uint32_t line) const {
-  std::vector<std::string> open;
-  for (std::uint32_t n = 1; n < line; ++n) {
-    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
-    if (tokens.size() > 1 && equal_words(tokens[0].text, "for"))
-      open.push_back(tokens[1].text);
-    else if (!tokens.empty() && equal_words(tokens[0].text, "next") && !open.empty())
-      open.pop_back();
-  }
-  return open.empty() ? "" : open.back();
 }
 
 void Scenery::open_or_close(const Tokens& line) {

@@ -71,7 +71,6 @@ public:
 private:
   /// Words that other lines have: those of one letter, or of several.
   std::vector<std::string_view> others(const Tokens& line, bool letters) const;
-  std::string loop_above(std::uint32_t line) const;
 
   struct Sub {
     std::string name;
@@ -90,12 +89,14 @@ private:
 
   const Source& source_;
   Language language_;
-  std::vector<std::string> open_;    ///< what ends the blocks that are open, the innermost last
-  std::vector<std::string> closers_; ///< of each line: what ends the block that it is in
-  std::vector<Roll> rolls_;          ///< from the top
-  std::vector<std::string> labels_;  ///< of a structured program
-  std::vector<Sub> subs_;            ///< and its subs and functions
-  std::set<std::string> arrays_;     ///< in lower case
+  std::vector<std::string> open_;     ///< what ends the blocks that are open, the innermost last
+  std::vector<std::string> closers_;  ///< of each line: what ends the block that it is in
+  std::vector<std::string> counting_; ///< the variables of loops that are open
+  std::vector<std::string> loops_;    ///< of each line: that of the innermost loop that it is in
+  std::vector<Roll> rolls_;           ///< from the top
+  std::vector<std::string> labels_;   ///< of a structured program
+  std::vector<Sub> subs_;             ///< and its subs and functions
+  std::set<std::string> arrays_;      ///< in lower case
   std::map<std::string, std::size_t> words_;
   std::map<std::string, std::size_t> set_; ///< those before a `=`, with how often
 };

@@ -1,0 +1,108 @@
+#include "repair/line_repair.h"
+
+#include "base/text/text.h"
+#include "repair/colours.h"
+#include "repair/fill.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+// What a line that is offered keeps of the one that was written: an answer that loses what was said
+// is worse than none.
+
+namespace orb::repair {
+
+/// Whether a statement can mean what the line says.
+bool LineRepair::keeps_meaning(std::string_view statement) const {
+  const auto equals = statement.find(" = ");
+  const bool assigns = equals != std::string_view::npos;
+  if (assigns && statement.substr(0, equals) == statement.substr(equals + 3))
+    return false; // nobody sets a variable to itself
+  if (sets_name() && !assigns && !statement.starts_with("read ") &&
+      !statement.starts_with("input "))
+    return false;
+  const auto& tokens = parts_.tokens;
+  if (has_token(tokens, "then") && !tokens.back().is("then") && statement.ends_with(" then"))
+    return false; // what is to be done was said
+  if (statement.find("\ncase ") != std::string_view::npos)
+    return false; // a case without lines of its own
+  const bool one_word = tokens.size() == 1 && is_foreign(tokens[0].text);
+  if (judge_.language == Language::Structured && statement == "print" && one_word &&
+      !equal_words(tokens[0].text, "say"))
+    return false; // of what?
+  if (judge_.language == Language::Macro && !keeps_operands(statement))
+    return false;
+  return keeps_names(statement) && !adds_condition(statement);
+}
+
+/// Whether the operands of a command are still there: a line with numbers is not left out, and a
+/// macro that has a name is no number.
+bool LineRepair::keeps_operands(std::string_view statement) const {
+  const auto& tokens = parts_.tokens;
+  if (statement.empty())
+    return std::none_of(tokens.begin(), tokens.end(),
+                        [](const Token& token) { return token.is_number(); });
+  return tokens.size() != 2 || !holds("goto gosub on_collision", tokens[0].text) ||
+         !tokens[1].is_word() || !is_digit(statement.back());
+}
+
+/// Whether the line gives a value to a name that other lines use.
+bool LineRepair::sets_name() const {
+  const auto& tokens = parts_.tokens;
+  return judge_.language == Language::Structured && tokens.size() > 2 && tokens[1].is("=") &&
+         has_word(names_, tokens[0].text) && !has_word(judge_.words, tokens[0].text);
+}
+
+/// Whether a unit became a condition of its own: `if who = 0 people then`.
+bool LineRepair::adds_condition(std::string_view statement) const {
+  if (has_token(parts_.tokens, "and"))
+    return false;
+  const auto tokens = tokens_of(statement, judge_.language);
+  for (std::size_t i = 2; i < tokens.size(); ++i)
+    if (tokens[i].is("then") && tokens[i - 2].is("and"))
+      return true;
+  return false;
+}
+
+/// Whether the names of the program are still there that are the values of a statement: in a line
+/// of other words they may be words, too.
+bool LineRepair::keeps_names(std::string_view statement) const {
+  if (parts_.tokens.empty() || !has_word(judge_.words, parts_.tokens[0].text) ||
+      parts_.tokens[0].is("end"))
+    return true;
+  const auto is_name = [&](const std::string& word) {
+    return judge_.language == Language::Basic
+               ? word.size() == 1 && word[0] == to_upper(word[0])
+               : judge_.language == Language::Structured && has_word(names_, word) &&
+                     !has_word(judge_.words, word) && milliseconds_of(word) == 0;
+  };
+  const auto kept = tokens_of(statement, judge_.language);
+  return std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
+    return !token.is_word() || !is_name(token.text) || has_token(kept, token.text);
+  });
+}
+
+/// Whether what was quoted is still there: nobody writes a text for nothing.
+bool LineRepair::keeps_texts(std::string_view lines) const {
+  const auto unquoted = [](std::string_view text) {
+    std::string plain(text);
+    std::erase(plain, '"');
+    return plain;
+  };
+  const bool says_using =
+      std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
+                  [](const Token& token) { return equal_words(token.text, "using"); });
+  return lines.empty() || unquoted(lines) == unquoted(line_) ||
+         std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
+           const bool filled =
+               token.text.find_first_of("{%\\") != std::string::npos ||
+               (token.text.find('#') != std::string::npos && says_using) ||
+               (judge_.language == Language::Macro && // quoted numbers
+                token.text.find_first_not_of("0123456789 ,.;") == std::string::npos);
+           return !token.is_text() || !token.closed || filled || find_colour(token) ||
+                  lines.find(token.text) != std::string_view::npos;
+         });
+}
+
+} // namespace orb::repair
