@@ -196,7 +196,7 @@ Tokens without_signs(Tokens line) {
     line.insert(line.begin(), Token{Token::Kind::Word, ".macro"});
   if (line.size() > 2 && line[1].is("macro") && line[0].is_word()) // `start macro right with id 61`
     line.erase(line.begin());
-  if (has_id && holds("def sub proc function routine define func", line[0].text))
+  if (has_id && holds("def sub proc procedure function routine define func to", line[0].text))
     line[0].text = ".macro";
   if (line.size() > 2 && line[0].is_word() && line[1].is(":") && line[2].is(".macro")) { // a label
     std::swap(line[0], line[2]);

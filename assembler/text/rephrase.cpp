@@ -433,9 +433,7 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
     line.erase(line.begin(), line.begin() + 2); // `LED.Fade(…)`
   if (line.empty() || !line[0].is_word())
     return {};
-  const bool defines = repair::has_token(line, "id") && repair::has_token(line, "=") &&
-                       holds("to def sub function procedure", line[0].text);
-  if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro") || defines))
+  if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro")))
     return rephrase_header(line);
   if (line[0].is(".const") || line[0].is("const")) {
     const std::size_t value = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;

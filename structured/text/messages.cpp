@@ -197,7 +197,7 @@ Diagnostic reserved(const Program& program, Span word) {
   const bool declares = equal_words(first, "sub") || equal_words(first, "function");
   if ((before == '(' || before == ',') && !declares)
     return finding(rules::ReservedName, word,
-                   fmt::format("`{}` is a reserved word", program.text_of(word)), "it is no value");
+                   fmt::format("`{}` is a reserved word", program.text_of(word)), "a reserved word is not a value");
   return finding(rules::ReservedName, word,
                  fmt::format("`{}` is a reserved word", program.text_of(word)),
                  fmt::format("write `my_{}` on all these lines", program.text_of(word)));

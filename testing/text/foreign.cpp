@@ -319,6 +319,15 @@ Tokens without_signs(const Tokens& line) {
   return all;
 }
 
+std::optional<double> centimetres_in(std::string_view unit) {
+  constexpr double metre_cm = 100;
+  constexpr double millimetre_cm = 0.1;
+  return unit == "cm"   ? std::optional(1.0)
+         : unit == "m"  ? std::optional(metre_cm)
+         : unit == "mm" ? std::optional(millimetre_cm)
+                        : std::nullopt;
+}
+
 Tokens plain_places(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -329,12 +338,12 @@ Tokens plain_places(const Tokens& line) {
     const auto sign = all.empty() || !all.back().is("-") ? all.size() : all.size() - 1;
     const bool place =
         sign > 1 && all[sign - 1].is_relation() && (all[sign - 2].is("x") || all[sign - 2].is("y"));
-    const bool unit = place && token.is_number() && i + 1 < line.size() && !line[i + 1].gap &&
-                      (line[i + 1].is("m") || line[i + 1].is("cm"));
+    const auto unit = place && token.is_number() && i + 1 < line.size() && !line[i + 1].gap
+                          ? centimetres_in(line[i + 1].text)
+                          : std::nullopt;
     if (unit) {
-      constexpr double metre_cm = 100;
       const auto value = parse_number<double>(token.text, std::chars_format::fixed).value_or(0);
-      token.text = fmt::format("{}", value * (line[i + 1].is("m") ? metre_cm : 1));
+      token.text = fmt::format("{}", value * *unit);
       ++i;
     }
     all.push_back(token);

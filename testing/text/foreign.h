@@ -18,6 +18,9 @@ repair::Tokens words_of_chain(const repair::Tokens& line);
 /// Without the signs of YAML and JSON: `at: 1s push: [90, 120]`.
 repair::Tokens without_signs(const repair::Tokens& line);
 
+/// How many centimetres a unit of length is: `cm`, `m`, `mm`; nothing for other words.
+std::optional<double> centimetres_in(std::string_view unit);
+
 /// Places in centimetres without their unit, as `beyond` and `wall` take them: `x>0.7m` is `x>70`;
 /// doubled relations once.
 repair::Tokens plain_places(const repair::Tokens& line);

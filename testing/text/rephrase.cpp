@@ -271,8 +271,6 @@ std::optional<std::string> beyond(const Tokens& values) {
       number = "-";
     else if (token.is_number() && number.size() < 2)
       number += token.text;
-    else if (token.is("mm") && number.ends_with('0'))
-      number.pop_back();
     else if (!token.is("(") && !token.is(")") && !token.is("=") && !token.is("cm") &&
              !token.is(";"))
       return std::nullopt;
@@ -942,15 +940,12 @@ std::optional<Rephrased> arrange_wall(const Tokens& line) {
       continue;
     if (axis.empty())
       return std::nullopt;
-    const auto* const unit = i + 1 < line.size() && line[i + 1].is_word() ? &line[i + 1] : nullptr;
-    const double in_cm = unit == nullptr || unit->is("cm") ? 1
-                         : unit->is("m")                   ? 100
-                         : unit->is("mm")                  ? 0.1
-                                                           : 0;
-    if (in_cm == 0)
+    const bool has_unit = i + 1 < line.size() && line[i + 1].is_word();
+    const auto unit = has_unit ? centimetres_in(line[i + 1].text) : std::optional(1.0);
+    if (!unit)
       return std::nullopt;
     const auto cm = parse_number<double>(line[i].text, std::chars_format::fixed).value_or(0) *
-                    in_cm * (negative ? -1 : 1);
+                    *unit * (negative ? -1 : 1);
     all += fmt::format("{}wall {}={}", all.empty() ? "" : "\n", axis, cm);
     axis.clear();
   }
