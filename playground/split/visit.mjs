@@ -64,16 +64,17 @@ function test(engine, files, name) {
  *  lessons and the beginning of a third; `lessons`: the others; `examples`: those in the structured language, of which somebody opens some. Who edits numbered programs, macros or tests, or drives through a
  *  course, loads the rest, as for a robot. `list`: the file that the page loads. */
 export function visits(list) {
+  const test_all = (engine, files) => Object.keys(files).filter(one => one.endsWith(".test")).forEach(name => test(engine, files, name));
   const run_all = (engine, files, main, run = {}) => {
     const given = { files, ...run, names: run.names ?? [main], for: "10s" };
     attempt(() => engine.call("run", { ...given, report: true }));
     play(engine, given);
-    for (const name of Object.keys(files).filter(one => one.endsWith(".test"))) test(engine, files, name);
+    test_all(engine, files);
   };
   const tried = ({ files, main, run, solution }) => ({
     begin(engine) {
       edit(engine, files);
-      for (const name of Object.keys(files).filter(one => one.endsWith(".test"))) test(engine, files, name);
+      test_all(engine, files);
     },
     whole(engine) {
       for (const given of solution ? [files, { ...files, [main]: solution }] : [files]) {
