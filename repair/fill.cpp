@@ -135,6 +135,9 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
     if (token.is_text() || token.is(",") ||
         (token.is_number() && token.text.find('.') != std::string::npos))
       return std::nullopt;
+  if (const auto size = tokens.size(); assume == Assume::Seconds && size > 2 &&
+                                       tokens[size - 2].is("/") && tokens[size - 1].is("1000"))
+    return join(slice(tokens, 0, size - 2)); // milliseconds, once
   return assume == Assume::Seconds ? fmt::format("{} * 1000", as_factor(tokens)) : join(tokens);
 }
 
@@ -467,7 +470,7 @@ constexpr auto functions = std::to_array<Function>({
                   : std::nullopt;
      }},
     {"middle", [](const Holding& held) { return half_way(held, false); }},
-    {"using", [](const Holding& held) { return print_using(held.a, join(held.b)); }},
+    {"using", [](const Holding& held) { return print_using(held.a, held.b); }},
     {"half", [](const Holding& held) { return half_way(held, true); }},
     {"ratio", [](const Holding& held) { return fraction(held.a, false); }},
     {"inverse", [](const Holding& held) { return fraction(held.a, true); }},

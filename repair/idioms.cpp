@@ -217,6 +217,25 @@ std::string replaced(const Tokens& line, std::size_t begin, std::size_t end,
          (right && !(before.empty() && form.empty()) ? " " : "") + after;
 }
 
+/// What a call became, in parentheses where it is a sum beside an operator that binds more tightly.
+std::string as_operand(const Tokens& line, std::size_t begin, std::size_t end, std::string form) {
+  if (!line[end - 1].is(")"))
+    return form;
+  const auto binds = [&](std::size_t at) {
+    return line[at].is("*") || line[at].is("/") || line[at].is("%");
+  };
+  if (!(begin > 0 && binds(begin - 1)) && !(end < line.size() && binds(end)))
+    return form;
+  int depth = 0;
+  for (std::size_t i = 0; i + 2 < form.size(); ++i) {
+    depth += form[i] == '(' ? 1 : form[i] == ')' ? -1 : 0;
+    const auto sign = std::string_view(form).substr(i, 3);
+    if (depth == 0 && (sign == " + " || sign == " - "))
+      return "(" + form + ")";
+  }
+  return form;
+}
+
 /// Whether a form is more than a guess: a short wait may have been meant in seconds.
 bool is_sure(std::string_view form, const Holes& holes) {
   const auto& time = holes['q'];
@@ -265,7 +284,9 @@ void rewrite(const Tokens& line, const Surroundings& around,
       const bool whole = begin == 0 && end == line.size();
       if (!whole && filled->find('\n') != std::string::npos)
         return false; // several lines stand by themselves
-      auto text = replaced(line, begin, end, *filled);
+      const bool inside = pattern.idiom != nullptr && pattern.idiom->where == Where::Inside;
+      auto text =
+          replaced(line, begin, end, inside ? as_operand(line, begin, end, *filled) : *filled);
       const auto note = pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note;
       return text != here && take({std::move(text), fits(note, form) ? note : std::string_view(),
                                    is_sure(form, holes)});

@@ -71,6 +71,9 @@ void LineRepair::truths() {
   auto& tokens = parts_.tokens;
   const bool programs =
       judge_.language == Language::Basic || judge_.language == Language::Structured;
+  if (programs && tokens.size() == 2 && holds("while until if", tokens[0].text) &&
+      tokens[1].is_text() && holds("true false", tokens[1].text))
+    tokens[1].kind = Token::Kind::Word; // `While "True"`
   if (!programs || tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
       !holds("true false", tokens[2].text))
     return;
@@ -81,6 +84,11 @@ void LineRepair::truths() {
 /// `state = "open"` where the program has `open`.
 void LineRepair::names_in_quotes() {
   auto& tokens = parts_.tokens;
+  const bool data = !tokens.empty() && tokens[0].is("data");
+  for (auto& token : tokens) // `DATA "222","121"`
+    if (data && token.is_text() && !token.text.empty() &&
+        token.text.find_first_not_of("0123456789") == std::string::npos)
+      token.kind = Token::Kind::Number;
   if (judge_.language != Language::Structured || has_token(tokens, "print"))
     return;
   for (std::size_t i = 1; i < tokens.size(); ++i)

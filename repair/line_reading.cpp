@@ -41,6 +41,8 @@ void LineRepair::canonical() {
   truths();
   read_logo();
   drop_colons();
+  read_branches();
+  read_hexadecimal();
   plain_signs();
   part_glued();
   part_next();
@@ -190,6 +192,82 @@ void LineRepair::drop_colons() {
   }
 }
 
+/// `ifelse :up [floor = 1] [floor = 2]`: the branches of Logo.
+void LineRepair::read_branches() {
+  auto& tokens = parts_.tokens;
+  if (tokens.empty() || !holds("if ifelse when", tokens[0].text))
+    return;
+  const auto end_of = [&](std::size_t open) {
+    int depth = 0;
+    for (auto at = open; at < tokens.size(); ++at) {
+      depth += tokens[at].is("[") ? 1 : tokens[at].is("]") ? -1 : 0;
+      if (depth == 0)
+        return at;
+    }
+    return tokens.size();
+  };
+  std::size_t open = 2;
+  while (open < tokens.size() && !(tokens[open].is("[") && tokens[open].gap))
+    ++open;
+  const auto close = end_of(open);
+  if (close >= tokens.size() || close < open + 3)
+    return; // an index
+  const auto say = [](Token& token, std::string_view word) {
+    token = Token{Token::Kind::Word, std::string(word), true};
+  };
+  if (close + 1 < tokens.size()) {
+    const auto second = end_of(close + 1);
+    if (!tokens[close + 1].is("[") || second + 1 != tokens.size())
+      return;
+    tokens[close + 2].gap = true;
+    tokens.pop_back();
+    tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(close));
+    say(tokens[close], "else");
+  } else {
+    tokens.pop_back();
+  }
+  tokens[open + 1].gap = true;
+  say(tokens[open], "then");
+  tokens[0].text = "if";
+}
+
+/// `for n = #4E to #62`: as soon as one has a letter they are hexadecimal.
+void LineRepair::read_hexadecimal() {
+  auto& tokens = parts_.tokens;
+  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+    return;
+  struct Number {
+    std::size_t at = 0;
+    std::size_t parts = 0;
+    std::string digits;
+  };
+  constexpr std::size_t longest = 4;
+  std::vector<Number> found;
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    if (!tokens[i].is("#"))
+      continue;
+    Number number{i, 0, {}};
+    for (auto next = i + 1; next < tokens.size() && !tokens[next].gap &&
+                            (tokens[next].is_word() || tokens[next].is_number());
+         ++next, ++number.parts)
+      number.digits += tokens[next].text;
+    if (number.digits.size() > 1 && number.digits.size() <= longest &&
+        number.digits.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos)
+      found.push_back(number);
+  }
+  if (std::all_of(found.begin(), found.end(), [](const Number& number) {
+        return number.digits.find_first_not_of("0123456789") == std::string::npos;
+      }))
+    return;
+  for (auto number = found.rbegin(); number != found.rend(); ++number) {
+    tokens[number->at] =
+        Token{Token::Kind::Number, std::to_string(*parse_number<int>(number->digits, 16)),
+              tokens[number->at].gap};
+    const auto first = tokens.begin() + static_cast<std::ptrdiff_t>(number->at) + 1;
+    tokens.erase(first, first + static_cast<std::ptrdiff_t>(number->parts));
+  }
+}
+
 /// `mín(` where there is `min`.
 void LineRepair::without_accents() {
   if (judge_.language == Language::Test)
@@ -245,6 +323,13 @@ void LineRepair::drop_objects() {
   auto& tokens = parts_.tokens;
   if (tokens.empty() || tokens[0].is("program") || tokens[0].is("with") || tokens[0].is("course"))
     return;
+  for (std::size_t i = 0; i + 2 < tokens.size(); ++i) // `garage.inside`
+    if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
+        tokens[i + 2].is("inside") && !holds("robot ball sphero bot program", tokens[i].text)) {
+      std::swap(tokens[i].text, tokens[i + 2].text);
+      tokens[i + 2].gap = true;
+      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
   for (std::size_t i = 0; i + 2 < tokens.size(); ++i)
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&

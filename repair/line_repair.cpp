@@ -47,6 +47,7 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
     : judge_(judge), line_(source.line(line)), begin_(source.line_start(line)), context_(context),
       lasting_(lasting_errors(before)), parts_(split(line_, judge.language)),
       around_(scenery.around(line, parts_)), sub_(scenery.sub_of(parts_.tokens)),
+      like_(parts_.tokens.empty() ? "" : scenery.sub_like(parts_.tokens[0].text)),
       meant_(scenery.sub_meant(values_between(parts_.tokens, 1))), is_target_(false),
       most_checks_(most_checks) {
   errors_ = errors_of(before, context.above + std::string(line_) + context.below);
@@ -108,7 +109,8 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   own_call(start);
   if (!best_ && judge_.language == Language::Structured)
     own_sub();
-  const bool calls = !sub_.empty() && parts_.tokens[0].text == sub_;
+  const bool bare_return = tokens.size() == 1 && tokens[0].is("return");
+  const bool calls = (!sub_.empty() && parts_.tokens[0].text == sub_) || bare_return;
   if (calls && !best_ && finding.rule->id == "argument-count")
     return {}; // which value is missing is said, whatever others call so
   if (!best_ && !calls && (!own || leaves_out || finding.fix->safety != Safety::Safe))
@@ -158,11 +160,22 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
 /// number on, both are likely.
 std::optional<Accepted> LineRepair::in_milliseconds() {
   constexpr int few = 5;
+  constexpr int half_second = 30; // sixtieths
+  constexpr int most_ticks = 600;
   const auto& tokens = parts_.tokens;
   if (tokens.size() != 2 || !tokens[1].is_number() ||
       parse_number<int>(tokens[1].text).value_or(0) < few ||
       best_->text.find('\n') != std::string::npos)
     return std::nullopt;
+  if (const auto ticks = parse_number<int>(tokens[1].text).value_or(0); // sixtieths, in Logo
+      tokens[0].is("wait") && ticks % half_second == 0 && ticks <= most_ticks &&
+      judge_.language != Language::Macro && best_->text.ends_with(" " + tokens[1].text)) {
+    const auto before = best_->text.substr(0, best_->text.size() - tokens[1].text.size());
+    const auto ms = ticks / half_second * 500;
+    return attempt_line(
+        before + (judge_.language == Language::Basic ? std::to_string(ms) : time_text(ms)),
+        best_->note, false, false);
+  }
   const auto number = " " + tokens[1].text;
   const std::string_view line = best_->text;
   if (line.ends_with(number + "000"))
@@ -297,7 +310,8 @@ std::size_t LineRepair::errors_of(const std::vector<Diagnostic>& findings,
 
 std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::string_view note,
                                                  bool sure, bool keep) {
-  if (text == line_ || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
+  const bool goes_on = text.ends_with(',') && !trim(line_).ends_with(','); // nothing follows
+  if (text == line_ || goes_on || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
     return std::nullopt;
   ++checks_;
   auto changed = context_.above;
@@ -393,17 +407,21 @@ void LineRepair::own_call(const std::string& statement) {
   });
 }
 
-/// `trazo(90)` where nobody calls the only `stroke` yet, or only `stroke` takes one value.
+/// `colore(i)` where there is a `colour`; `trazo(90)` where nobody calls the only `stroke` yet, or
+/// only `stroke` takes one value.
 void LineRepair::own_sub() {
   const auto& tokens = parts_.tokens;
   const bool calls =
       tokens.size() == 1 || (tokens.size() > 2 && tokens[1].is("(") && tokens.back().is(")"));
-  if (meant_.empty() || !calls || !tokens[0].is_word() || !is_foreign(tokens[0].text) ||
-      is_known_word(tokens[0].text, Where::Line) ||
-      !known_form_of(tokens[0].text, judge_.language).empty())
+  if ((meant_.empty() && like_.empty()) || !calls || !tokens[0].is_word() ||
+      !is_foreign(tokens[0].text))
+    return;
+  const bool known = is_known_word(tokens[0].text, Where::Line) ||
+                     !known_form_of(tokens[0].text, judge_.language).empty();
+  if (like_.empty() && known)
     return;
   auto called = tokens;
-  called[0].text = meant_;
+  called[0].text = like_.empty() ? meant_ : like_;
   attempt(join(called), {}, false);
 }
 
@@ -415,9 +433,9 @@ void LineRepair::own_words() {
     auto& token = tokens[i];
     const bool acts = i == 0 && !(tokens.size() > 1 && tokens[1].is("="));
     const bool unit = i > 0 && tokens[i - 1].is_number();
-    if (acts || unit || !token.is_word() || milliseconds_of(token.text) > 0 ||
-        meanings_of(token.text).empty() || !is_foreign(token.text) ||
-        is_known_word(token.text, Where::Line))
+    if (acts || unit || !token.is_word() || holds("true false on off", token.text) ||
+        milliseconds_of(token.text) > 0 || meanings_of(token.text).empty() ||
+        !is_foreign(token.text) || is_known_word(token.text, Where::Line))
       continue;
     const auto own = std::find_if(names_.begin(), names_.end(), [&](std::string_view name) {
       return milliseconds_of(name) == 0 && !has_word(judge_.words, name) &&

@@ -71,6 +71,8 @@ private:
   void truths();
   void read_logo();
   void drop_colons();
+  void read_branches();
+  void read_hexadecimal();
   void without_accents();
   void names_in_quotes();
   void plain_signs();
@@ -131,6 +133,7 @@ private:
   std::vector<std::string_view> letters_; ///< of orbBasic: that other lines use
   std::string number_below_;
   std::string sub_;             ///< of the program, which the line calls, rightly or not
+  std::string like_;            ///< the sub whose name means what the first word says
   std::string meant_;           ///< the sub that a call of an unknown one can only mean
   bool is_target_;              ///< something jumps here
   std::vector<Candidate> near_; ///< by one change, the cheapest first

@@ -10,7 +10,7 @@
 namespace orb::repair {
 
 /// `"### is missing"` with the value in the place of its signs.
-std::optional<std::string> print_using(const Tokens& format, const std::string& value);
+std::optional<std::string> print_using(const Tokens& format, const Tokens& values);
 
 /// What other languages print, as a list for `print`: texts side by side, without `+`, `str()` and
 /// formats.

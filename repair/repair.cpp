@@ -40,7 +40,14 @@ Edit difference(std::string_view from, std::string_view to, std::uint32_t begin)
 bool mend_definition(const Source& source, const Judge& judge, const Scenery& scenery,
                      const std::vector<Diagnostic>& before, Diagnostic& finding) {
   const auto word = source.text(finding.span);
-  const auto other = scenery.misspelt(word, judge.words);
+  auto other = scenery.misspelt(word, judge.words);
+  if (!other && judge.language == Language::Structured) {
+    const auto tokens =
+        split(source.line(source.position(finding.span.begin).line), judge.language).tokens;
+    if (auto sub = scenery.sub_for(word, values_between(tokens, 1));
+        !sub.empty() && !tokens.empty() && tokens[0].text == word)
+      other = std::move(sub);
+  }
   if (!other)
     return false;
   for (std::uint32_t n = 1; n <= source.line_count(); ++n)

@@ -33,6 +33,22 @@ std::size_t values_between(const Tokens& line, std::size_t open) {
   return values;
 }
 
+std::string Scenery::sub_like(std::string_view word) const {
+  const auto like = std::find_if(subs_.begin(), subs_.end(),
+                                 [&](const Sub& sub) { return mean_the_same(sub.name, word); });
+  return like == subs_.end() ? std::string() : like->name;
+}
+
+std::string Scenery::sub_for(std::string_view word, std::size_t values) const {
+  const auto uses = words_.find(std::string(word));
+  const auto uncalled = [this](const Sub& sub) { return words_.at(sub.name) == 1; };
+  const auto only = std::find_if(subs_.begin(), subs_.end(), uncalled);
+  const bool fits = uses != words_.end() && uses->second > 1 && only != subs_.end() &&
+                    only->takes == values &&
+                    std::find_if(only + 1, subs_.end(), uncalled) == subs_.end();
+  return fits ? only->name : std::string();
+}
+
 std::string Scenery::sub_meant(std::size_t values) const {
   const auto only = [this](auto fits) {
     const auto one = std::find_if(subs_.begin(), subs_.end(), fits);

@@ -59,6 +59,13 @@ public:
   /// or its second (`call drive`), or all its words (`wait for shake`); empty without.
   std::string sub_of(const Tokens& line) const;
 
+  /// The sub whose name means the same as a word of another language; empty without.
+  std::string sub_like(std::string_view word) const;
+
+  /// The only sub that nobody calls, if it takes so many values and `word` is called elsewhere,
+  /// too: it was meant to have that name. Empty without.
+  std::string sub_for(std::string_view word, std::size_t values) const;
+
   /// The sub that a call with so many values can only mean, whatever it says: the only one that
   /// nobody calls yet, or the only one that takes as many; empty without.
   std::string sub_meant(std::size_t values) const;

@@ -105,7 +105,7 @@ private:
     else if (sees("--") && at_ + 3 < text_.size() && is_blank(text_[at_ + 2]) &&
              (tokens.empty() || (gap_ && is_letter(text_[at_ + 3]))))
       sign = 2;
-    else if (sees("#") && !colour_here() && !begins_value(tokens) &&
+    else if (sees("#") && !colour_here() && !begins_value(tokens) && !is_number_sign(tokens) &&
              !(tokens.empty() && (sees("#include") || sees("#define"))))
       sign = 1;
     else if (sees(";") && language_ == Language::Macro && (tokens.empty() || gap_))
@@ -132,6 +132,12 @@ private:
       comment_.pop_back();
     at_ = text_.size();
     return true;
+  }
+
+  /// `gosub #200` and `print #2A` in programs.
+  bool is_number_sign(const Tokens& tokens) const {
+    return (language_ == Language::Basic || language_ == Language::Structured) && !tokens.empty() &&
+           at_ + 1 < text_.size() && is_digit(text_[at_ + 1]);
   }
 
   /// `A // 2`: a division, not a remark.
@@ -177,14 +183,17 @@ private:
   bool immediate_here(const Tokens& tokens) const {
     const auto digit =
         at_ + (text_.substr(std::min(at_ + 1, text_.size())).starts_with('-') ? 2 : 1);
-    return language_ == Language::Macro && sees("#") && !tokens.empty() && digit < text_.size() &&
-           is_digit(text_[digit]) && !long_colour_here();
+    const bool id =
+        tokens.size() > 1 && tokens.back().is("=") && tokens[tokens.size() - 2].is("id");
+    return language_ == Language::Macro && sees("#") && !tokens.empty() && !id &&
+           digit < text_.size() && is_digit(text_[digit]) && !long_colour_here();
   }
 
   /// A `'` that begins a text: another one closes it and what stands before wants a value.
   bool quoted_here(const Tokens& tokens) const {
     const auto close = text_.find('\'', at_ + 1);
-    if (close != std::string_view::npos && language_ == Language::Test)
+    if (language_ == Language::Test &&
+        text_.find_first_of("'\"", at_ + 1) != std::string_view::npos)
       return true; // remarks begin with `#` there
     if (close == std::string_view::npos || tokens.empty())
       return false;
@@ -201,7 +210,9 @@ private:
     if (quote == quotes.end())
       return false;
     at_ += quote->size();
-    const bool straight = *quote == "\"" || *quote == "'";
+    const bool mixed = language_ == Language::Test && *quote == "'" &&
+                       text_.find('\'', at_) == std::string_view::npos; // `'4 corners"`
+    const bool straight = !mixed && (*quote == "\"" || *quote == "'");
     std::size_t end = std::string_view::npos;
     std::size_t width = 1;
     for (auto at = at_; at < text_.size() && end == std::string_view::npos; ++at)
@@ -352,6 +363,14 @@ Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end) {
   const auto at = tokens.begin();
   return {at + static_cast<std::ptrdiff_t>(std::min(begin, end)),
           at + static_cast<std::ptrdiff_t>(end)};
+}
+
+Token word(std::string_view text) {
+  return Token{Token::Kind::Word, std::string(text), true};
+}
+
+void append(Tokens& to, const Tokens& tokens) {
+  to.insert(to.end(), tokens.begin(), tokens.end());
 }
 
 std::vector<std::string> parts_of(std::string_view word) {

@@ -64,6 +64,12 @@ bool has_token(const Tokens& tokens, std::string_view text);
 /// The tokens from `begin` to before `end`, as far as there are some.
 Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end = SIZE_MAX);
 
+/// A word with a blank before it.
+Token word(std::string_view text);
+
+/// Puts tokens behind others.
+void append(Tokens& to, const Tokens& tokens);
+
 /// The words in a word, in small letters: `setRoll` and `set_roll` are `set` and `roll`.
 std::vector<std::string> parts_of(std::string_view word);
 

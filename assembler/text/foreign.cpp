@@ -44,15 +44,49 @@ Tokens joined(const Tokens& line) {
   return line;
 }
 
+/// `let speed = 0` and `set rotation rate to 255`: the command that sets it, its values behind it.
+Tokens without_let(const Tokens& line) {
+  constexpr std::size_t most = 3; // words of a mnemonic
+  if (line.empty() || !holds("let set put make define imposta setze", line[0].text))
+    return line;
+  std::string word;
+  for (std::size_t i = 1; i < line.size() && i <= most && line[i].is_word(); ++i) {
+    word += (i > 1 ? "_" : "") + lower(line[i].text);
+    const bool sets = i + 2 < line.size() && (line[i + 1].is("=") || line[i + 1].is("to"));
+    const bool known = spec::find_macro_command(word) != nullptr;
+    if (!sets || (!known && spec::find_macro_command("set_" + word) == nullptr))
+      continue;
+    auto all = repair::slice(line, i + 1);
+    all[0] = Token{Token::Kind::Word, known ? word : "set_" + word};
+    return all;
+  }
+  return line;
+}
+
+/// `rgb.Set(255, 0, 0)` and `await sleep(step)`: calls of other languages.
+void plain_call(Tokens& line) {
+  if (line[0].is("async") || line[0].is("await"))
+    line.erase(line.begin());
+  if (line.size() > 3 && line[1].is(".") && line[3].is("(") &&
+      spec::find_macro_command(line[0].text) != nullptr)
+    line.erase(line.begin() + 1, line.begin() + 3);
+  if (line.size() > 2 && line[0].is("sleep") && line[1].is("(") && line[2].is_word())
+    line[0].text = spec::info(spec::MacroCommand::Delay).mnemonic;
+}
+
 /// Whether a word can stand for a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
 bool stands_for(const std::string& word, const std::string& part) {
   constexpr std::size_t stem = 3; // letters
+  constexpr std::size_t long_ = 6;
   constexpr std::size_t little = 2;
   const auto translated = repair::word_at(repair::tokens_of(word, repair::Language::Macro), 0);
   return word == part || translated == part || repair::is_called(part, word) ||
          (part == "stopped" && repair::is_called("resting", word)) ||
          (word.size() >= stem && part.size() >= stem &&
           (word.starts_with(part) || part.starts_with(word))) ||
+         (word.size() > long_ && word.substr(0, long_) == part.substr(0, long_)) ||
+         (part == "set" &&
+          holds("imposta imposte fija fijar pon poner regler setze mets ajusta defina", word)) ||
          (part.size() <= little && word.size() <= little + 1 && !is_digit(word[0]));
 }
 
@@ -181,6 +215,10 @@ Tokens without_signs(Tokens line) {
     if (token.is_text() && (spec::find_macro_command(token.text) != nullptr ||
                             token.text == "macro" || token.text == "id"))
       token.kind = Token::Kind::Word;
+  if (line.empty())
+    return line;
+  plain_call(line);
+  line = without_let(line);
   read_hexadecimal(line);
   if (line.size() > 3 && line[1].is(":") && line[2].is(".") && line[3].is("macro"))
     line.erase(line.begin() + 2);
@@ -207,7 +245,7 @@ Tokens without_signs(Tokens line) {
     const auto own = bare.empty() ? std::string() : repair::word_at(bare, 0);
     if (own == "const")
       line[0].text = ".const";
-    else if (!bare.empty() && (bare[0].is("makro") || bare[0].is("Makro") || bare[0].is("Macro")))
+    else if (has_id || own == "makro" || own == "macro")
       line[0].text = ".macro";
   }
   return line;

@@ -190,6 +190,44 @@ void part_bytes(Tokens& values, std::size_t wanted) {
   }
 }
 
+/// The macro that can be meant where a command names none: those that nobody names yet but the
+/// first, which is the one that the others are called from.
+std::vector<Rephrased> with_macro(std::string_view mnemonic, const Elsewhere& elsewhere) {
+  if (elsewhere.macros.empty())
+    return {};
+  std::vector<std::string> meant(elsewhere.macros.begin() + 1, elsewhere.macros.end());
+  std::erase_if(meant, [&](const std::string& name) { return elsewhere.named.contains(name); });
+  constexpr std::size_t shown = 2;
+  if (meant.empty() || meant.size() > shown)
+    return {};
+  Rephrased all{fmt::format("{} {}", mnemonic, meant[0]), false};
+  if (meant.size() == shown)
+    all.other = fmt::format("{} {}", mnemonic, meant[1]);
+  return {all};
+}
+
+/// `roll(0, 110, 255)`: a function of another language, perhaps with the heading first.
+std::vector<Rephrased> rephrase_roll(const Tokens& line) {
+  std::vector<std::string> values;
+  for (const auto& token : repair::slice(line, 2)) {
+    if (token.is(")"))
+      break;
+    if (token.is_number())
+      values.push_back(token.text);
+    else if (!token.is(","))
+      return {};
+  }
+  constexpr int brief = 20; // seconds, not milliseconds
+  const auto time = values.size() == 3 ? parse_number<int>(values[2]).value_or(1) : 0;
+  if (values.size() < 2 || values.size() > 3 || values[0] == values[1] ||
+      (time > 0 && time < brief) || parse_number<int>(values[0]).value_or(UINT16_MAX) > UINT8_MAX ||
+      parse_number<int>(values[1]).value_or(UINT16_MAX) > UINT8_MAX)
+    return {};
+  const auto delay = values.size() == 3 ? ", " + values[2] : std::string();
+  return {{fmt::format("roll {}, {}{}", values[0], values[1], delay), false,
+           fmt::format("roll {}, {}{}", values[1], values[0], delay)}};
+}
+
 std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
                                         const Elsewhere& elsewhere) {
   auto operands = std::vector<Operand>();
@@ -203,7 +241,7 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
   if (info.command == spec::MacroCommand::Sleep)
     return {}; // elsewhere it is a wait
   if (info.command == spec::MacroCommand::Roll && line.size() > 1 && line[1].is("("))
-    return {}; // a function of another language, with the heading first
+    return rephrase_roll(line);
   for (auto& operand : operands)
     operand.usual = usual_of(info, operand, elsewhere);
   Tokens values = repair::slice(line, 1);
@@ -213,6 +251,8 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
     say_modes(values);
   if (operands.size() == 1 && operands[0].counts == Counts::Milliseconds)
     join_decimals(values);
+  if (operands.size() == 1 && operands[0].counts == Counts::Name && values.empty())
+    return with_macro(info.mnemonic, elsewhere);
   if (operands.size() == 1 && operands[0].counts == Counts::Name && values.size() > 1)
     std::erase_if(values, [](const Token& token) { return token.is(":") || is_jump(token); });
   if (operands.size() == 1 && operands[0].counts == Counts::Name)
@@ -290,7 +330,10 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     for (const auto& token : flag)
       joined += token.text;
     std::erase_if(joined, [](char c) { return c == '_' || c == '-'; });
-    if (equal_words(joined, "none")) {
+    if (holds(
+            "none no null nothing keine keiner aucun aucune ninguno ninguna nessuno nessuna nenhum "
+            "nenhuma geen",
+            joined)) {
       flags.emplace_back("none");
       flag.clear();
       return true;
@@ -298,7 +341,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     for (const auto& row : spec::macro_flags) {
       std::string bare(row.word);
       std::erase(bare, '_');
-      if (equal_words(bare, joined)) {
+      constexpr std::size_t stem = 4; // letters: `motor`
+      if (equal_words(bare, joined) || (joined.size() > stem && bare.starts_with(lower(joined)))) {
         flags.emplace_back(row.word);
         flag.clear();
         return true;
@@ -312,7 +356,9 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     const auto& token = line[i];
     if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
       continue;
-    if (token.is("called") || token.is("named") || (token.is("with") && !name.empty()))
+    const bool calls =
+        name.empty() && token.is("call") && i + 1 < line.size() && line[i + 1].is_word();
+    if (calls || token.is("called") || token.is("named") || (token.is("with") && !name.empty()))
       continue;
     if (token.is("end") && i + 1 < line.size() && line[i + 1].is("signal")) {
       if (!end_flag())
@@ -408,6 +454,13 @@ Elsewhere look_elsewhere(std::string_view text) {
     if (tokens.size() > 3 && tokens[0].is(".const") && tokens[2].is("="))
       if (const auto value = repair::quantity_of(repair::slice(tokens, 3), found.constants))
         found.constants.emplace(tokens[1].text, *value);
+    if (tokens.size() > 1 && tokens[0].is(".macro") && tokens[1].is_word()) {
+      found.macros.push_back(tokens[1].text);
+      continue;
+    }
+    for (std::size_t i = 1; i < tokens.size(); ++i)
+      if (tokens[i].is_word())
+        found.named.insert(tokens[i].text);
     if (tokens.size() > 2 && tokens.back().is_word() && tokens[tokens.size() - 2].is_number())
       found.times.insert_or_assign(tokens[0].text,
                                    tokens[tokens.size() - 2].text + tokens.back().text);
@@ -429,6 +482,10 @@ std::vector<std::int64_t> waits_of(std::int64_t ms) {
 std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
   const auto& constants = elsewhere.constants;
   auto line = own_signs(written);
+  if (line.size() == 1 && !repair::is_known_word(line[0].text, repair::Where::Line) &&
+      std::find(elsewhere.macros.begin(), elsewhere.macros.end(), line[0].text) !=
+          elsewhere.macros.end())
+    return {{fmt::format("{} {}", spec::info(spec::MacroCommand::Gosub).mnemonic, line[0].text)}};
   if (line.size() > 3 && line[0].is_word() && line[1].is(".") && line[2].is_word())
     line.erase(line.begin(), line.begin() + 2); // `LED.Fade(…)`
   if (line.empty() || !line[0].is_word())

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,8 @@ namespace orb::assembler {
 struct Elsewhere {
   repair::Quantities constants;
   std::map<std::string, std::string, std::less<>> times; ///< the last one of each command
+  std::vector<std::string> macros;                       ///< by their names, from the top
+  std::set<std::string, std::less<>> named;              ///< all words behind commands
 };
 Elsewhere look_elsewhere(std::string_view text);
 

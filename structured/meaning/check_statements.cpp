@@ -39,7 +39,7 @@ void Checker::check_return(std::uint32_t routine, const Statement& statement) {
   const bool function = symbol.kind == SymbolKind::Function;
   if (function && size(statement) == 0)
     report(rules::ArgumentCount, statement.span, "a function must return a value",
-           "write `return e`");
+           "`return` takes the value, as in `return 0`");
   else if (!function && size(statement) > 0)
     turn(program_, names_, routine, "function",
          report(rules::ArgumentCount, item(statement, 0).span, "a sub cannot return a value"));

@@ -55,7 +55,7 @@ constexpr auto structured_words = std::to_array<Habit>({
     {"{", Where::Inside, "", no_braces},
     {"}", Where::Inside, "", no_braces},
     {"do", Where::Inside, "", "remove it"},
-    {"times", Where::Inside, "", "remove it: `repeat 5`"},
+    {"times", Where::Inside, "", ""},
 });
 
 } // namespace

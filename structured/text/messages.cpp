@@ -195,7 +195,10 @@ Diagnostic reserved(const Program& program, Span word) {
   const auto first = first_word(program.text, word.begin);
   const char before = sign_before(program.text, word.begin);
   const bool declares = equal_words(first, "sub") || equal_words(first, "function");
-  if ((before == '(' || before == ',') && !declares)
+  const auto behind = program.text.find_first_not_of(" \t+-*/%", word.end);
+  const bool names = declares || holds("const array local for read input next", first) ||
+                     (behind != std::string::npos && program.text[behind] == '=');
+  if (((before == '(' || before == ',') && !declares) || !names)
     return finding(rules::ReservedName, word,
                    fmt::format("`{}` is a reserved word", program.text_of(word)), "a reserved word is not a value");
   return finding(rules::ReservedName, word,

@@ -15,12 +15,10 @@
 namespace orb::testing {
 namespace {
 
+using repair::append;
 using repair::Token;
 using repair::Tokens;
-
-Token word(std::string_view text) {
-  return Token{Token::Kind::Word, std::string(text), true};
-}
+using repair::word;
 
 /// Where the parenthesis ends that token `open` opens; the size of the line without an end.
 std::size_t close_of(const Tokens& line, std::size_t open) {
@@ -31,10 +29,6 @@ std::size_t close_of(const Tokens& line, std::size_t open) {
       return at;
   }
   return line.size();
-}
-
-void append(Tokens& to, const Tokens& tokens) {
-  to.insert(to.end(), tokens.begin(), tokens.end());
 }
 
 /// What is tested, as test files call it.
@@ -167,6 +161,10 @@ private:
     }
     while (!values.empty() && values.back().is(","))
       values.pop_back();
+    if (values.size() == 1 && (values[0].is("true") || values[0].is("false"))) {
+      never_ = never_ != values[0].is("false");
+      return;
+    }
     reach_ = holds("toBeReached toReach toHaveReached", method);
     const auto comma = std::find_if(values.begin(), values.end(),
                                     [](const Token& token) { return token.is(","); });

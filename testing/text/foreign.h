@@ -15,6 +15,10 @@ namespace orb::testing {
 /// as `at 8s shake`; empty where a line is no such chain of calls.
 repair::Tokens words_of_chain(const repair::Tokens& line);
 
+/// Texts, colours, lengths and bounds as test files write them: `print [a b]` is `print "a b"`,
+/// `distance >= 1m and distance <= 2m` is `distance 1m..2m`, `6in` is `15cm`.
+repair::Tokens with_plain_values(const repair::Tokens& line);
+
 /// Without the signs of YAML and JSON: `at: 1s push: [90, 120]`.
 repair::Tokens without_signs(const repair::Tokens& line);
 

@@ -419,6 +419,8 @@ What what_of(Phrases& phrases, bool never, const Elsewhere& elsewhere) {
   }
   std::rotate(what.begin(), word, word + 1);
   auto values = ascending(repair::slice(what, 1));
+  if (!values.empty() && values[0].is("=")) // `getHeading() = 180`
+    values.erase(values.begin());
   count_events(row, values, phrases.times);
   all.text = std::string(row.word);
   if (row.word == info(Word::Near).word) {
@@ -479,7 +481,8 @@ std::optional<Rephrased> arrange_expectation(const Tokens& line, bool never,
       return Rephrased{*lines, true};
   // `A = 5` is known at the end.
   const auto& what = phrases->what;
-  if (what.size() > 2 && what[0].is_word() && what[1].is("=") && phrases->times.empty())
+  if (what.size() > 2 && what[0].is_word() && expectation(what[0]) == nullptr && what[1].is("=") &&
+      phrases->times.empty())
     return Rephrased{fmt::format("{} {} at end", never ? "never" : "expect", repair::join(what)),
                      true};
   const bool zone = what.size() == 1 && what[0].is_word() && elsewhere.has_course &&
@@ -798,8 +801,10 @@ Tokens translate(const Tokens& line) {
     const bool counts = i > 0 && line[i - 1].is_number(); // `3 x`
     const bool axis = (token.is("x") || token.is("y")) && !counts && following != nullptr &&
                       (following->is_number() || following->is("-") || following->is("beyond"));
-    const bool signed_ = axis || (following != nullptr &&
-                                  (following->is("=") || following->is(">") || following->is("<")));
+    const bool of_wall = (token.is("x") || token.is("y")) && !all.empty() && all[0].is("wall");
+    const bool signed_ =
+        axis || of_wall ||
+        (following != nullptr && (following->is("=") || following->is(">") || following->is("<")));
     const bool unit = i > 0 && line[i - 1].is_number() &&
                       (!token.gap || repair::is_called("degrees", token.text) ||
                        repair::is_called("turns", token.text));
@@ -809,7 +814,8 @@ Tokens translate(const Tokens& line) {
         all.push_back(Token{Token::Kind::Word, "times", true});
       continue;
     }
-    if (!token.is_word() || unit || signed_ || is_vocabulary(token.text, all.empty()) ||
+    const bool asked = token.text.starts_with("get") && repair::parts_of(token.text).size() > 1;
+    if (!token.is_word() || unit || (signed_ && !asked) || is_vocabulary(token.text, all.empty()) ||
         expectation(token) != nullptr) {
       all.push_back(token);
       continue;
@@ -835,7 +841,12 @@ Tokens translate(const Tokens& line) {
     const bool turns = std::any_of(all.begin(), all.end(), [](const Token& before) {
       return before.is("heading") || before.is("color");
     });
-    if (called("within") && timed)
+    const bool zone = following != nullptr && following->is_word() &&
+                      !is_vocabulary(following->text, false) && !repair::test_colour(*following) &&
+                      !repair::is_called("", following->text);
+    if (zone && !all.empty() && holds("touching touches touch", token.text))
+      add("inside");
+    else if (called("within") && timed)
       add("within");
     else if (called("by") && number && (long_ || turns || !called("at")) && !timed && !after_near)
       add("by");
@@ -1025,10 +1036,36 @@ Tokens unwrapped(const Tokens& line) {
   return all;
 }
 
+/// `expect say`, `expect print([`: what is printed stands below.
+std::string prints_below(const Tokens& line, const Elsewhere& elsewhere) {
+  if (line.size() < 2 || !elsewhere.has_texts ||
+      !(line[0].is("expect") || repair::is_called("expect", line[0].text)))
+    return {};
+  const bool says =
+      line[1].is_word() && (repair::is_called("print", line[1].text) ||
+                            repair::is_called("prints", line[1].text) || line[1].is("print"));
+  const bool signs = std::all_of(line.begin() + 2, line.end(), [](const Token& token) {
+    return token.kind == Token::Kind::Sign;
+  });
+  return says && signs ? "expect prints" : std::string();
+}
+
 } // namespace
 
 std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
-  const auto line = unwrapped(written);
+  const auto line = unwrapped(with_plain_values(written));
+  if (line.empty())
+    return {};
+  if (const auto block = prints_below(line, elsewhere); !block.empty())
+    return {{block, false}};
+  if (line.size() == 2 && line[0].is_word() && repair::is_called("print", line[0].text) &&
+      line[1].is_text()) {
+    const auto text = fmt::format("\"{}\"", line[1].text);
+    auto expected = "expect print " + text;
+    if (elsewhere.has_texts)
+      return {{text, false, std::move(expected)}};
+    return {{std::move(expected), false}};
+  }
   if (const auto closed = close_text(line)) {
     auto all = rephrase(*closed, elsewhere);
     all.push_back({repair::join(*closed), true});
