@@ -535,6 +535,10 @@ constexpr auto functions = std::to_array<Function>({
        return held.a.size() == 1 && has(held.around.names, held.a[0].text) ? Text(held.a[0].text)
                                                                   : std::nullopt;
      }},
+    {"returns", // what Logo calls `output`
+     [](const Holding& held) {
+       return held.around.in_function ? Text("return " + join(held.a)) : std::nullopt;
+     }},
     {"alone", // what other lines read was not meant for the ball
      [](const Holding& held) { return only(!has(held.around.elsewhere, held.holes.choice), ""); }},
     {"apart", // where the other does not count

@@ -49,6 +49,7 @@ struct Surroundings {
   int heading = 0;                     ///< of the last roll above, where it is a number
   std::string pace;                    ///< its speed; empty where the ball rests
   std::string label;                   ///< of a structured program, where it has only one
+  bool in_function = false;            ///< of a structured program
   std::string closer;                  ///< what ends the innermost open block
   std::vector<std::string_view> names; ///< that other lines use, too; of orbBasic: that they set
   std::vector<std::string_view> elsewhere; ///< all words of other lines

@@ -57,7 +57,8 @@ void LineRepair::by_leaving_out() {
     const bool unit = all[i].is("%") || all[i].is("cm") || all[i].is("m") || all[i].is("x");
     const bool time = all[i].is_word() && milliseconds_of(all[i].text) > 0;
     const bool compared = i > 1 && all[i - 2].is_relation() && !all[1].is("=");
-    const bool plain = all[i - 1].is_word() || compared; // else which unit was meant is not clear
+    const bool plain = all[i - 1].is_word() || compared ||
+                       all[i - 1].is("0"); // else which unit was meant is not clear
     if (all[i].is("%") && all[i - 1].is_number() && !all[i - 1].is("0"))
       continue; // of what?
     if (!operand(i - 1) || !(time ? plain : unit || is_unknown(all[i])))
@@ -75,10 +76,10 @@ void LineRepair::by_leaving_out() {
   };
   auto bare = all;
   for (std::size_t i = 1; i < bare.size(); ++i) { // `90deg,70%,1s`
-    const bool unit =
-        bare[i - 1].is_number() && (is_unit(bare[i]) || bare[i].is("%") || bare[i].is("cm") ||
-                                    bare[i].is("m") || is_called("degrees", bare[i].text) ||
-                                    (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
+    const bool unit = bare[i - 1].is_number() &&
+                      (is_unit(bare[i]) || bare[i].is("%") || bare[i].is("cm") || bare[i].is("m") ||
+                       holds("rad radians", bare[i].text) || is_called("degrees", bare[i].text) ||
+                       (bare[i].is_word() && milliseconds_of(bare[i].text) > 0));
     const bool per = unit && i + 2 < bare.size() && bare[i + 1].is("/") && bare[i + 2].is("s");
     if (unit)
       bare.erase(bare.begin() + static_cast<std::ptrdiff_t>(i),

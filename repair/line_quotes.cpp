@@ -89,6 +89,16 @@ void LineRepair::names_in_quotes() {
     if (data && token.is_text() && !token.text.empty() &&
         token.text.find_first_not_of("0123456789") == std::string::npos)
       token.kind = Token::Kind::Number;
+  for (std::size_t i = 1; i < tokens.size(); ++i) { // `RGB("0,255,0")`
+    const std::string_view said = tokens[i].text;
+    if (!tokens[i].is_text() || !tokens[0].is("RGB") || said.empty() ||
+        said.find_first_not_of("0123456789, ") != std::string_view::npos)
+      continue;
+    const auto values = tokens_of(said, judge_.language);
+    tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
+    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i), values.begin(), values.end());
+    break;
+  }
   if (judge_.language != Language::Structured || has_token(tokens, "print"))
     return;
   for (std::size_t i = 1; i < tokens.size(); ++i)
@@ -162,9 +172,20 @@ std::vector<std::string> LineRepair::with_one_quote() const {
   return best;
 }
 
-/// A condition whose last bracket is not closed: `if not (a = 1 then`. Empty where it is.
+/// A bracket that is not closed: `if not (a = 1 then`, `goroll (H + 90 % 360, 80, 1`. Empty where
+/// it is.
 std::string LineRepair::with_bracket() const {
   auto tokens = parts_.tokens;
+  for (std::size_t i = 3; i + 1 < tokens.size(); ++i) {
+    const bool turn = tokens[i].is("%") && tokens[i + 1].is("360");
+    if (!turn ||
+        std::count_if(tokens.begin(), tokens.end(),
+                      [](const Token& token) { return token.is("("); }) != 1 ||
+        has_token(tokens, ")"))
+      continue;
+    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i), Token{Token::Kind::Sign, ")"});
+    return join(tokens);
+  }
   const auto then = std::find_if(tokens.begin(), tokens.end(),
                                  [](const Token& token) { return token.is("then"); });
   int open = 0;

@@ -40,10 +40,14 @@ void LineRepair::canonical() {
   close_text();
   truths();
   read_logo();
+  drop_article();
+  drop_brackets();
   drop_colons();
   read_branches();
+  read_shifted();
   read_hexadecimal();
   plain_signs();
+  part_line();
   part_glued();
   part_next();
   same_letters();
@@ -125,6 +129,19 @@ void LineRepair::part_next() {
   tokens.push_back(name);
 }
 
+/// `goto line180`
+void LineRepair::part_line() {
+  constexpr std::string_view line = "line";
+  auto& tokens = parts_.tokens;
+  for (std::size_t i = 1; i < tokens.size() && judge_.language == Language::Basic; ++i) {
+    const std::string_view word = tokens[i].text;
+    if (tokens[i].is_word() && word.size() > line.size() &&
+        equal_words(word.substr(0, line.size()), line) &&
+        word.find_first_not_of("0123456789", line.size()) == std::string_view::npos)
+      tokens[i] = Token{Token::Kind::Number, std::string(word.substr(line.size())), true};
+  }
+}
+
 /// `GOTO150` becomes `goto 150`, and `THENLETT` `then let T`.
 void LineRepair::part_glued() {
   auto& tokens = parts_.tokens;
@@ -154,6 +171,14 @@ void LineRepair::part_glued() {
 void LineRepair::plain_signs() {
   if (judge_.language == Language::Macro)
     return;
+  for (std::size_t i = 2; i + 1 < parts_.tokens.size(); ++i) { // `60 plus tilt`
+    auto& token = parts_.tokens[i];
+    const bool programs =
+        judge_.language == Language::Basic || judge_.language == Language::Structured;
+    if (programs && (token.is("plus") || token.is("minus")) && !has_word(names_, token.text) &&
+        !parts_.tokens[i - 1].is("=") && !parts_.tokens[0].is("print"))
+      token = Token{Token::Kind::Sign, token.is("plus") ? "+" : "-", true};
+  }
   for (auto& token : parts_.tokens)
     if (token.is("==") || token.is("===")) {
       token.text = "=";
@@ -169,14 +194,15 @@ void LineRepair::plain_signs() {
 /// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon.
 void LineRepair::read_logo() {
   auto& tokens = parts_.tokens;
-  if (tokens.size() < 2 || !holds("make setpc setpencolor setcolor setcolour", tokens[0].text) ||
-      !tokens[1].is_text() || tokens[1].closed)
+  const auto size = tokens.size();
+  if (size < 2 || !tokens[size - 1].is_text() || tokens[size - 1].closed ||
+      !holds("make go setpc setpencolor setcolor setcolour", tokens[size - 2].text))
     return;
-  const auto rest = tokens_of(tokens[1].text, judge_.language);
+  auto rest = tokens_of(tokens[size - 1].text, judge_.language);
+  if (!rest.empty())
+    rest[0].gap = true;
   tokens.pop_back();
-  tokens.insert(tokens.end(), rest.begin(), rest.end());
-  if (tokens.size() > 1)
-    tokens[1].gap = true;
+  append(tokens, rest);
 }
 
 /// `if :n > 3`: values of Logo.
@@ -268,6 +294,73 @@ void LineRepair::read_hexadecimal() {
   }
 }
 
+/// `let the course be 0`: no word of a program.
+void LineRepair::drop_article() {
+  auto& tokens = parts_.tokens;
+  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+    return;
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
+    if (tokens[i].is("the") && !has_word(names_, "the"))
+      take_out(tokens, i--, 1);
+}
+
+/// `(print :a :b)` of Logo, and the end of a block behind a statement: `Y += 5 }`.
+void LineRepair::drop_brackets() {
+  auto& tokens = parts_.tokens;
+  if (tokens.size() < 3 ||
+      (judge_.language != Language::Basic && judge_.language != Language::Structured))
+    return;
+  if (tokens[0].is("(") && tokens.back().is(")") && holds("print type show pr", tokens[1].text)) {
+    tokens.pop_back();
+    take_out(tokens, 0, 1);
+  }
+  if (tokens.back().is("}") && !tokens[tokens.size() - 2].is(";") && !has_token(tokens, "{"))
+    tokens.insert(tokens.end() - 1, Token{Token::Kind::Sign, ";"});
+  if (judge_.language == Language::Basic && tokens[0].is(":")) { // `60: P = 1`
+    parts_.head += " ";
+    tokens.erase(tokens.begin());
+  }
+}
+
+/// Digits typed for the signs on their keys: `next_of9n)`, `delay L 8 75`, `M 5 10`; and `m` for
+/// the comma beside it.
+void LineRepair::read_shifted() {
+  auto& tokens = parts_.tokens;
+  if ((judge_.language != Language::Basic && judge_.language != Language::Structured) ||
+      tokens.size() < 3)
+    return;
+  const auto count = [&](std::string_view sign) {
+    return std::count_if(tokens.begin(), tokens.end(),
+                         [&](const Token& token) { return token.is(sign); });
+  };
+  for (std::size_t i = 0; i < tokens.size() && count(")") > count("("); ++i) {
+    const auto nine = tokens[i].is_word() ? tokens[i].text.find('9') : std::string::npos;
+    if (nine == std::string::npos || nine == 0)
+      continue;
+    auto rest = tokens_of(std::string_view(tokens[i].text).substr(nine + 1), judge_.language);
+    tokens[i].text.resize(nine);
+    rest.insert(rest.begin(), Token{Token::Kind::Sign, "("});
+    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest.begin(), rest.end());
+  }
+  const auto is_value = [&](const Token& token) {
+    return token.is(")") ||
+           (token.is_word() && (token.text.size() == 1 || has_word(names_, token.text)));
+  };
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
+    auto& token = tokens[i];
+    const bool apart = token.gap && tokens[i + 1].gap;
+    const bool operand =
+        tokens[i + 1].is_number() || tokens[i + 1].is("(") || is_value(tokens[i + 1]);
+    if ((token.is("8") || token.is("5")) && apart && operand && is_value(tokens[i - 1]) &&
+        !tokens[0].is("print") && !tokens[0].is("data"))
+      token = Token{Token::Kind::Sign, token.is("8") ? "*" : "%", true};
+    const bool after_value = tokens[i - 1].is_text() || tokens[i - 1].is_number();
+    if (token.is("m") && !token.gap && tokens[i + 1].gap && after_value &&
+        (tokens[i + 1].is_number() || is_value(tokens[i + 1])))
+      token = Token{Token::Kind::Sign, ","};
+  }
+}
+
 /// `mín(` where there is `min`.
 void LineRepair::without_accents() {
   if (judge_.language == Language::Test)
@@ -287,6 +380,12 @@ void LineRepair::drop_prefixes() {
   if (judge_.language == Language::Test)
     return drop_objects();
   const auto own = [&](std::string_view word) { return word.size() > 1 && has_word(names_, word); };
+  for (const std::string_view prefix : {"set_", "set"}) // `set_ledc(3)`
+    if (!tokens.empty() && tokens[0].text.size() > prefix.size() + 2 &&
+        equal_words(tokens[0].text.substr(0, prefix.size()), prefix) && is_foreign(tokens[0].text))
+      for (const auto word : {"LEDC", "RGB", "backLED"})
+        if (equal_words(std::string_view(tokens[0].text).substr(prefix.size()), word))
+          tokens[0].text = word;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     auto& token = tokens[i];
     if (!token.is_word() || !is_foreign(token.text))
@@ -334,7 +433,8 @@ void LineRepair::drop_objects() {
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
         (i > 0 || !has_word(judge_.words, tokens[i].text)) &&
-        (has_word(judge_.words, tokens[i + 2].text) || is_called("print", tokens[i + 2].text)))
+        (has_word(judge_.words, tokens[i + 2].text) || is_called("print", tokens[i + 2].text) ||
+         is_called("input", tokens[i + 2].text)))
       take_out(tokens, i, 2);
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
     if (tokens[i].is("(") && tokens[i + 1].is(")") && tokens[i - 1].is_word())

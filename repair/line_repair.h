@@ -65,6 +65,7 @@ public:
 private:
   void canonical();
   bool ends_in_name(const Token& text) const;
+  void part_line();
   void part_glued();
   void part_next();
   void close_text();
@@ -73,6 +74,9 @@ private:
   void drop_colons();
   void read_branches();
   void read_hexadecimal();
+  void read_shifted();
+  void drop_article();
+  void drop_brackets();
   void without_accents();
   void names_in_quotes();
   void plain_signs();

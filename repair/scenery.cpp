@@ -63,6 +63,7 @@ std::string Scenery::sub_meant(std::size_t values) const {
 Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
     closers_.push_back(open_.empty() ? "" : open_.back());
+    in_function_.push_back(std::find(open_.begin(), open_.end(), "end function") != open_.end());
     loops_.push_back(counting_.empty() ? "" : counting_.back());
     const auto line = source.line(n);
     if (line.size() > longest_line)
@@ -226,6 +227,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     all.first_number = first == all.line_number ? "" : first;
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
     all.closer = closers_[line - 1];
+    all.in_function = in_function_[line - 1];
     all.label = labels_.size() == 1 ? labels_.front() : "";
   }
   return all;

@@ -98,6 +98,7 @@ private:
   Language language_;
   std::vector<std::string> open_;     ///< what ends the blocks that are open, the innermost last
   std::vector<std::string> closers_;  ///< of each line: what ends the block that it is in
+  std::vector<bool> in_function_;     ///< of each line
   std::vector<std::string> counting_; ///< the variables of loops that are open
   std::vector<std::string> loops_;    ///< of each line: that of the innermost loop that it is in
   std::vector<Roll> rolls_;           ///< from the top

@@ -342,7 +342,11 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
       std::string bare(row.word);
       std::erase(bare, '_');
       constexpr std::size_t stem = 4; // letters: `motor`
-      if (equal_words(bare, joined) || (joined.size() > stem && bare.starts_with(lower(joined)))) {
+      const bool turned =             // `control_motor`
+          std::is_permutation(bare.begin(), bare.end(), joined.begin(), joined.end()) &&
+          joined.ends_with(bare.substr(0, stem));
+      if (turned || equal_words(bare, joined) ||
+          (joined.size() > stem && bare.starts_with(lower(joined)))) {
         flags.emplace_back(row.word);
         flag.clear();
         return true;

@@ -376,7 +376,7 @@ private:
     if (program_.text_of(word_at(first)) == "if" && !repeat_condition(statements))
       return d;
     const auto step = step_below(statements.size());
-    if (step == 0 || statements.front().size() == 1) // `A: int = 5`
+    if (step == 0 || statements.front().size() < 2) // `A: int = 5`, `60: P = 1`
       return d;
     std::string lines;
     for (std::size_t i = 0; i < statements.size(); ++i) {

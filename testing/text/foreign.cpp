@@ -81,6 +81,8 @@ public:
       append(tail_, {word(values[0].text), word("times")});
     else if (holds("within toBeWithin before under in withinTime timeout toHappenWithin", method))
       within(values);
+    else if (holds("atEnd atTheEnd finally", method) && values.empty())
+      append(tail_, {word("at"), word("end")});
     else if (holds("at after", method) && !values.empty()) {
       tail_.push_back(word("at"));
       append(tail_, values[0].is("end") || (values[0].is_text() && values[0].text == "end")
@@ -376,7 +378,8 @@ Tokens with_spans(const Tokens& line) {
            (line[at + 1].is("s") || line[at + 1].is("ms") || line[at + 1].is("min"));
   };
   for (std::size_t i = 0; i + 5 < line.size(); ++i) {
-    const bool between_ = line[i].is("between") && line[i + 3].is("and");
+    const bool span = line[i].is("between") && line[i + 3].is("..");
+    const bool between_ = span || (line[i].is("between") && line[i + 3].is("and"));
     const bool from = holds("from von de desde da", line[i].text) &&
                       (line[i + 3].is("to") || line[i + 3].is("until") || line[i + 3].is("till"));
     if (!(between_ || from) || !unit(i + 1) || !unit(i + 4))

@@ -121,6 +121,12 @@ Tokens with_plain_calls(const Tokens& line) {
     }
     all.push_back(line[i]);
   }
+  if (all.size() > 5 && all[1].is("(") && (all[0].is("expect") || all[0].is("never")) &&
+      all[3].is_relation() && end_of(all, 1) == 5) { // `expect (inside == garage) at end`
+    all[2].gap = all[4].gap = true;
+    all = Tokens{all[0], all[2], all[4]};
+    append(all, repair::slice(line, 6));
+  }
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {
     const bool after_text =
         all[i - 1].is_text() || (all[i - 1].is(")") && i > 2 && all[i - 2].is_text());
@@ -204,6 +210,26 @@ Tokens with_end(Tokens line) {
   return line;
 }
 
+/// `to "drives home"` and `to test "drives home"`, as Logo begins a procedure.
+Tokens with_test(Tokens line) {
+  if (line.size() > 1 && line[0].is("to") && line[1].is_text())
+    line[0].text = "test";
+  else if (line.size() > 2 && line[0].is("to") && line[1].is("test"))
+    line.erase(line.begin());
+  return line;
+}
+
+/// `inside goal : color green : resting at end`: what is so at once.
+Tokens with_and(Tokens line) {
+  if (line.empty() || !(line[0].is("expect") || line[0].is("never")))
+    return line;
+  for (std::size_t i = 2; i + 1 < line.size(); ++i)
+    if (line[i].is(":") && line[i].gap && line[i + 1].gap && line[i + 1].is_word() &&
+        !line[i + 1].is("at"))
+      line[i] = word("and");
+  return line;
+}
+
 /// A name without its first quote, or without both: `test drives round" seeds 1..5`.
 Tokens with_name(const Tokens& line) {
   if (line.size() < 3 || !line[0].is("test") || !line[1].is_word() || line[1].is("seeds"))
@@ -257,7 +283,8 @@ Tokens with_metric_lengths(Tokens line) {
 } // namespace
 
 Tokens with_plain_values(const Tokens& line) {
-  auto all = with_name(with_whole_texts(with_quotes_for_brackets(with_signs_apart(line))));
+  const auto plain = with_test(with_and(with_signs_apart(line)));
+  const auto all = with_name(with_whole_texts(with_quotes_for_brackets(plain)));
   return with_metric_lengths(with_end(with_bounds(with_plain_calls(with_plain_colours(all)))));
 }
 

@@ -197,7 +197,8 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
     const auto& token = values[i];
     if (token.is(",") || token.is(";") || token.is("(") || token.is(")") || token.is("[") ||
         token.is("]") || token.is("=") || token.is(":") || token.is("x") || token.is("y") ||
-        token.is("by") || token.is("at") || token.is("within")) // a length is no time
+        token.is("by") || token.is("at") || token.is("<") || token.is("<=") ||
+        token.is("within")) // a length is no time
       continue;
     const bool sign = token.is("-") && i + 1 < values.size() && values[i + 1].is_number();
     if (!token.is_number() && !sign)
@@ -272,7 +273,7 @@ std::optional<std::string> beyond(const Tokens& values) {
     else if (token.is_number() && number.size() < 2)
       number += token.text;
     else if (!token.is("(") && !token.is(")") && !token.is("=") && !token.is("cm") &&
-             !token.is(";"))
+             !token.is(",") && !token.is(";"))
       return std::nullopt;
   }
   if (axis.empty() || number.empty() || number == "-")
@@ -672,7 +673,9 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
       left = left || repair::is_called("270", line[i].text);
       continue;
     }
-    if (row->word == "spin" && line[i].is("by"))
+    const bool axis = i > 0 && (line[i - 1].is("x") || line[i - 1].is("y"));
+    if ((row->word == "spin" && line[i].is("by")) || line[i].is("set") || line[i].is("to") ||
+        (line[i].is("=") && !axis))
       continue;
     if (i + 2 < line.size() && line[i].is("at") && line[i + 1].is_number() &&
         is_time_unit(line[i + 2]) && head.empty()) {
@@ -801,7 +804,8 @@ Tokens translate(const Tokens& line) {
     const bool counts = i > 0 && line[i - 1].is_number(); // `3 x`
     const bool axis = (token.is("x") || token.is("y")) && !counts && following != nullptr &&
                       (following->is_number() || following->is("-") || following->is("beyond"));
-    const bool of_wall = (token.is("x") || token.is("y")) && !all.empty() && all[0].is("wall");
+    const bool of_wall = (token.is("x") || token.is("y")) && !all.empty() &&
+                         (all[0].is("wall") || all.back().is("beyond"));
     const bool signed_ =
         axis || of_wall ||
         (following != nullptr && (following->is("=") || following->is(">") || following->is("<")));
@@ -814,7 +818,8 @@ Tokens translate(const Tokens& line) {
         all.push_back(Token{Token::Kind::Word, "times", true});
       continue;
     }
-    const bool asked = token.text.starts_with("get") && repair::parts_of(token.text).size() > 1;
+    const bool asked = (token.text.starts_with("get") || lower(token.text).starts_with("read")) &&
+                       repair::parts_of(token.text).size() > 1;
     if (!token.is_word() || unit || (signed_ && !asked) || is_vocabulary(token.text, all.empty()) ||
         expectation(token) != nullptr) {
       all.push_back(token);
@@ -841,6 +846,16 @@ Tokens translate(const Tokens& line) {
     const bool turns = std::any_of(all.begin(), all.end(), [](const Token& before) {
       return before.is("heading") || before.is("color");
     });
+    if (!all.empty() && i > 0 && (line[i - 1].is_number() || !line[i - 1].gap) &&
+        holds("a à bis hasta até ate tot fino", token.text) && following != nullptr &&
+        following->is_number() && line[i - 1].kind != Token::Kind::Sign) { // `90cm a 110cm`
+      add("to");
+      continue;
+    }
+    if (all.empty() && token.is("after") && timed) { // `after 6s set tilt to 0 0`
+      add("at");
+      continue;
+    }
     const bool zone = following != nullptr && following->is_word() &&
                       !is_vocabulary(following->text, false) && !repair::test_colour(*following) &&
                       !repair::is_called("", following->text);
@@ -1041,13 +1056,16 @@ std::string prints_below(const Tokens& line, const Elsewhere& elsewhere) {
   if (line.size() < 2 || !elsewhere.has_texts ||
       !(line[0].is("expect") || repair::is_called("expect", line[0].text)))
     return {};
-  const bool says =
-      line[1].is_word() && (repair::is_called("print", line[1].text) ||
-                            repair::is_called("prints", line[1].text) || line[1].is("print"));
-  const bool signs = std::all_of(line.begin() + 2, line.end(), [](const Token& token) {
-    return token.kind == Token::Kind::Sign;
-  });
-  return says && signs ? "expect prints" : std::string();
+  const auto word = std::find_if(line.begin() + 1, line.end(),
+                                 [](const Token& token) { return token.is_word(); });
+  const bool says = word != line.end() && (word->is("print") || word->is("prints") ||
+                                           repair::is_called("print", word->text) ||
+                                           repair::is_called("prints", word->text));
+  const bool ends =
+      says && std::all_of(word + 1, line.end(), [](const Token& token) {
+        return token.kind == Token::Kind::Sign || holds("toEqual toBe equals is", token.text);
+      });
+  return ends ? "expect prints" : std::string();
 }
 
 } // namespace
@@ -1081,7 +1099,7 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
       with_ranges(with_spans(with_quotes(once_each(translate(plain_places(with_units(said)))))));
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};
-  if (translated.size() > 1 && repair::join(translated) != repair::join(line))
+  if (translated.size() > 1 && repair::join(translated) != repair::join(written))
     return {{repair::join(translated), chain.empty()}};
   return {};
 }
