@@ -119,10 +119,10 @@ bool LineRepair::ends_in_name(const Token& text) const {
 /// elsewhere. Nothing where an unknown word stands outside of them, or one is empty.
 std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
   const auto is_value = [&](const Token& token) {
+    const bool letter = token.text.size() == 1;
     return token.is_word() &&
-           (judge_.language == Language::Basic && token.text.size() == 1
-                ? to_lower(token.text[0]) != token.text[0]
-                : has_word(names_, token.text) || has_word(judge_.words, token.text));
+           (letter ? judge_.language != Language::Basic || to_lower(token.text[0]) != token.text[0]
+                   : has_word(names_, token.text) || has_word(judge_.words, token.text));
   };
   int cost = 0;
   const auto tokens = tokens_of(statement, judge_.language);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 // How a line that is to be mended is read: spellings, labels, arrays and quotes, before anything is
 // tried.
@@ -314,6 +315,20 @@ void LineRepair::drop_brackets() {
     tokens.pop_back();
     take_out(tokens, 0, 1);
   }
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `call show[]`
+    if (tokens[i].is("[") && tokens[i + 1].is("]") && has_word(names_, tokens[i - 1].text) &&
+        !has_word(judge_.words, tokens[i - 1].text)) {
+      tokens[i].text = "(";
+      tokens[i + 1].text = ")";
+    }
+  for (std::size_t i = 1; i + 1 < tokens.size() && tokens[0].is("print"); ++i) // `"a" and then N`
+    if ((tokens[i].is("and") || tokens[i].is("then")) &&
+        (tokens[i - 1].is_text() || tokens[i - 1].is(",") || tokens[i + 1].is_text())) {
+      if (tokens[i - 1].is(","))
+        tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i--));
+      else
+        tokens[i] = Token{Token::Kind::Sign, ","};
+    }
   if (tokens.back().is("}") && !tokens[tokens.size() - 2].is(";") && !has_token(tokens, "{"))
     tokens.insert(tokens.end() - 1, Token{Token::Kind::Sign, ";"});
   if (judge_.language == Language::Basic && tokens[0].is(":")) { // `60: P = 1`
@@ -380,12 +395,18 @@ void LineRepair::drop_prefixes() {
   if (judge_.language == Language::Test)
     return drop_objects();
   const auto own = [&](std::string_view word) { return word.size() > 1 && has_word(names_, word); };
-  for (const std::string_view prefix : {"set_", "set"}) // `set_ledc(3)`
-    if (!tokens.empty() && tokens[0].text.size() > prefix.size() + 2 &&
-        equal_words(tokens[0].text.substr(0, prefix.size()), prefix) && is_foreign(tokens[0].text))
-      for (const auto word : {"LEDC", "RGB", "backLED"})
-        if (equal_words(std::string_view(tokens[0].text).substr(prefix.size()), word))
-          tokens[0].text = word;
+  for (const std::string_view prefix : {"set_", "set"}) { // `set_ledc(3)`
+    const std::string_view first = tokens.empty() ? "" : std::string_view(tokens[0].text);
+    if (first.size() <= prefix.size() || !equal_words(first.substr(0, prefix.size()), prefix) ||
+        !is_foreign(first))
+      continue;
+    constexpr auto set = std::to_array<std::string_view>({"LEDC", "RGB", "backLED"});
+    const auto word = std::find_if(set.begin(), set.end(), [&](std::string_view one) {
+      return equal_words(first.substr(prefix.size()), one);
+    });
+    if (word != set.end())
+      tokens[0].text = *word;
+  }
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     auto& token = tokens[i];
     if (!token.is_word() || !is_foreign(token.text))
@@ -449,6 +470,23 @@ void LineRepair::count_percents() {
   auto& tokens = parts_.tokens;
   if (tokens.empty() || !tokens[0].is("RGB"))
     return;
+  const bool parts = std::all_of(tokens.begin() + 1, tokens.end(), [](const Token& token) {
+    const auto value = parse_number<double>(token.text, std::chars_format::fixed);
+    return token.is(",") || (token.is_number() && value && *value <= 1);
+  });
+  const bool point = std::any_of(tokens.begin(), tokens.end(), [](const Token& token) {
+    return token.text.find('.') != std::string::npos;
+  });
+  for (auto& token : tokens) // `RGB 0, 0.5, 1.0`
+    if (parts && point && token.is_number())
+      token.text = std::to_string(std::lround(
+          parse_number<double>(token.text, std::chars_format::fixed).value_or(0) * UINT8_MAX));
+  const auto names = std::count_if(tokens.begin() + 1, tokens.end(),
+                                   [](const Token& token) { return token.is_word(); });
+  if (names == 3 && tokens.back().is_number()) // `RGB rosso 255, verde 110, blu 0`
+    for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
+      if (tokens[i].is_word() && tokens[i + 1].is_number())
+        take_out(tokens, i, 1);
   for (std::size_t i = 2; i < tokens.size(); ++i) {
     const auto value = parse_number<int>(tokens[i - 1].text);
     constexpr int all = 100;
@@ -529,6 +567,14 @@ void LineRepair::drop_sigils() {
     if (sigil && !operand && names_variable(tokens[i - 1]))
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i--));
   }
+}
+
+/// `if it is lit then` of a variable.
+void LineRepair::drop_pronoun(const Scenery& scenery) {
+  auto& tokens = parts_.tokens;
+  if (tokens.size() > 3 && holds("if while until", tokens[0].text) && tokens[1].is("it") &&
+      tokens[2].is("is") && has_word(names_, tokens[3].text) && !scenery.is_sub(tokens[3].text))
+    take_out(tokens, 1, 2);
 }
 
 /// `values(3)` of an array becomes `values[3]`.

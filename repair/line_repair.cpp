@@ -66,8 +66,10 @@ LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& 
   canonical();
   if (judge.language == Language::Basic)
     resolve_labels(scenery);
-  if (judge.language == Language::Structured)
+  if (judge.language == Language::Structured) {
+    drop_pronoun(scenery);
     index_arrays(scenery);
+  }
 }
 
 std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
@@ -277,7 +279,8 @@ bool LineRepair::attempt(const std::string& statement, std::string_view note, bo
   if (!one && text.empty())
     return false;
   const auto accepted = attempt_line(text, note, sure);
-  if (accepted && accepted->errors > 0 && one)
+  const bool begins = statement.starts_with("sub ") || statement.starts_with("function ");
+  if (one && (accepted ? accepted->errors > 0 : begins))
     if (const auto other = declared_otherwise(statement); !other.empty())
       attempt_line(whole(other), note, sure);
   return accepted && best_ && best_->settles();
@@ -474,8 +477,13 @@ std::optional<std::string> LineRepair::fixed(const Diagnostic& finding) const {
 
 /// What the language itself offers.
 void LineRepair::by_fix(const Diagnostic& finding) {
-  if (const auto text = fixed(finding))
-    attempt_line(*text, {}, finding.fix->safety == Safety::Safe);
+  const auto text = fixed(finding);
+  if (!text)
+    return;
+  const auto accepted = attempt_line(*text, {}, finding.fix->safety == Safety::Safe);
+  if (accepted && accepted->errors > 0)
+    if (const auto other = declared_otherwise(text->substr(parts_.head.size())); !other.empty())
+      attempt_line(whole(other), {}, false);
 }
 
 /// The nearest line; two where it is not clear which.

@@ -76,6 +76,7 @@ private:
   void read_hexadecimal();
   void read_shifted();
   void drop_article();
+  void drop_pronoun(const Scenery& scenery);
   void drop_brackets();
   void without_accents();
   void names_in_quotes();

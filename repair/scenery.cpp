@@ -98,13 +98,14 @@ bool Scenery::is_array(std::string_view word) const {
   return arrays_.contains(lower(word));
 }
 
+bool Scenery::is_sub(std::string_view word) const {
+  return std::any_of(subs_.begin(), subs_.end(),
+                     [&](const Sub& one) { return equal_words(one.name, word); });
+}
+
 std::string Scenery::sub_of(const Tokens& line) const {
   if (subs_.empty())
     return {};
-  const auto is_sub = [&](std::string_view name) {
-    return std::any_of(subs_.begin(), subs_.end(),
-                       [&](const Sub& one) { return equal_words(one.name, name); });
-  };
   std::string words;
   for (const auto& token : line)
     words += (words.empty() ? "" : "_") + token.text;

@@ -52,6 +52,9 @@ public:
   /// Where other lines of an orbBasic program jump to a number.
   std::vector<Span> jumps_to(std::string_view number) const;
 
+  /// Whether a structured program has a sub or function of that name.
+  bool is_sub(std::string_view word) const;
+
   /// Whether a structured program declares an array of that name.
   bool is_array(std::string_view word) const;
 

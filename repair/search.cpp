@@ -209,7 +209,8 @@ private:
       if (right.size() > 1 && right[0] == '_')
         right.remove_prefix(1);
       const bool value =
-          is_count(right) || (right.size() == 1 && language_ == Language::Basic) || is_known(right);
+          is_count(right) || is_known(right) ||
+          (right.size() == 1 && language_ == Language::Basic && to_lower(right[0]) != right[0]);
       const auto meant = value ? statement_called(left, is_count(right)) : std::string_view();
       if (meant.empty())
         continue;

@@ -279,6 +279,9 @@ private:
     if (is_drawn())
       return false;
     const auto begin = at_++;
+    constexpr std::string_view until = "jusqu'"; // the one word with such a sign
+    if (text_.substr(begin).starts_with(until))
+      at_ += until.size() - 1;
     while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])) && !is_drawn())
       ++at_;
     add(tokens, Token::Kind::Word, std::string(text_.substr(begin, at_ - begin)));

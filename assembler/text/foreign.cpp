@@ -135,6 +135,9 @@ const spec::MacroCommandInfo* command_among(Tokens& line) {
 
 const spec::MacroCommandInfo* command_called(const Token& token) {
   const auto* info = spec::find_macro_command(token.text);
+  constexpr std::string_view set = "set"; // `setrgb_sd2`
+  if (info == nullptr && token.text.starts_with(set))
+    info = spec::find_macro_command(std::string_view(token.text).substr(set.size()));
   if (info == nullptr && token.text.starts_with('.'))
     info = spec::find_macro_command(std::string_view(token.text).substr(1));
   for (const auto name : repair::meanings_of(token.text))

@@ -77,8 +77,6 @@ std::string_view usual_of(const spec::MacroCommandInfo& info, const Operand& ope
   if (lasts && operand.counts == Counts::Milliseconds && as_elsewhere != elsewhere.times.end() &&
       milliseconds(as_elsewhere->second))
     return as_elsewhere->second;
-  if (info.background != spec::MacroBackground::None && operand.name == "time")
-    return "1s";
   if (info.command == spec::MacroCommand::WaitUntilStopped)
     return "5s";
   return info.command == spec::MacroCommand::Stabilization && operand.name == "mode" ? "on" : "";
@@ -316,6 +314,19 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
                        : std::vector<Rephrased>{{text + "\n" + waits, arranged->sure}};
 }
 
+/// Whether words are of the same stems in any order: `controllo_motore` and `motor_control`.
+bool have_same_stems(std::vector<std::string> said, std::vector<std::string> meant) {
+  constexpr std::size_t letters = 4;
+  const auto stem = [letters](std::vector<std::string>& words) {
+    for (auto& word : words)
+      word.resize(std::min(word.size(), letters));
+    std::sort(words.begin(), words.end());
+  };
+  stem(said);
+  stem(meant);
+  return said.size() > 1 && said == meant;
+}
+
 /// `.macro NAME id=40 flags=motor_control`, with its parts in any order.
 std::vector<Rephrased> rephrase_header(const Tokens& line) {
   Tokens name;
@@ -329,6 +340,7 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     std::string joined;
     for (const auto& token : flag)
       joined += token.text;
+    const auto written = without_accents(joined);
     std::erase_if(joined, [](char c) { return c == '_' || c == '-'; });
     if (holds(
             "none no null nothing keine keiner aucun aucune ninguno ninguna nessuno nessuna nenhum "
@@ -342,9 +354,7 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
       std::string bare(row.word);
       std::erase(bare, '_');
       constexpr std::size_t stem = 4; // letters: `motor`
-      const bool turned =             // `control_motor`
-          std::is_permutation(bare.begin(), bare.end(), joined.begin(), joined.end()) &&
-          joined.ends_with(bare.substr(0, stem));
+      const bool turned = have_same_stems(repair::parts_of(written), repair::parts_of(row.word));
       if (turned || equal_words(bare, joined) ||
           (joined.size() > stem && bare.starts_with(lower(joined)))) {
         flags.emplace_back(row.word);
@@ -363,6 +373,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     const bool calls =
         name.empty() && token.is("call") && i + 1 < line.size() && line[i + 1].is_word();
     if (calls || token.is("called") || token.is("named") || (token.is("with") && !name.empty()))
+      continue;
+    if (token.is("and") && in == In::Name && !name.empty())
       continue;
     if (token.is("end") && i + 1 < line.size() && line[i + 1].is("signal")) {
       if (!end_flag())
@@ -413,7 +425,9 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
       if (!end_flag())
         return {};
     } else if (in == In::Flags) {
-      if (token.gap && !flag.empty() && end_flag())
+      const bool goes_on = !flag.empty() && spec::find_macro_flag(lower(flag.back().text) + "_" +
+                                                                  lower(token.text)) != nullptr;
+      if (token.gap && !flag.empty() && !goes_on && end_flag())
         flag.clear();
       flag.push_back(token);
     } else if (const auto* known = spec::find_macro_flag(lower(token.text));
@@ -436,6 +450,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
   const auto plain = plain_name(name);
   if (plain.empty())
     return {};
+  if (says_id && id.empty()) // the first that users' macros have
+    id = std::to_string(spec::macro_id_user_first);
   auto text = ".macro " + plain;
   if (!id.empty())
     text += " id=" + id;

@@ -77,7 +77,8 @@ std::optional<std::string> closest(std::string_view word,
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates,
                          std::string_view otherwise) {
   const auto meant = closest(word, candidates);
-  return meant ? fmt::format("did you mean `{}`?", *meant) : std::string(otherwise);
+  return meant && *meant != word ? fmt::format("did you mean `{}`?", *meant)
+                                 : std::string(otherwise);
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates,

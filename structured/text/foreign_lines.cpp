@@ -198,10 +198,28 @@ bool Lines::declaration(Input& in, std::string_view name, Position position) {
   return true;
 }
 
-std::optional<Kind> Lines::foreign_routine(std::string_view word) {
-  for (const auto* const sub : {"procedure", "proc", "def", "void"})
+bool Lines::gives_value(std::string_view word) const {
+  std::string_view rest(word.data(), static_cast<std::size_t>(end_ - word.data()));
+  for (bool first = true; !rest.empty(); first = false) {
+    const auto end = std::min(rest.find_first_of("\r\n"), rest.size());
+    const auto line = trim(rest.substr(0, end));
+    const auto begin = line.substr(0, line.find_first_of(" \t"));
+    if (!first && (holds("sub function def", begin) || equal_words(line, "end sub")))
+      return false;
+    const auto returns = line.find("return ");
+    if (returns != std::string_view::npos || equal_words(line, "end function"))
+      return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+std::optional<Kind> Lines::foreign_routine(std::string_view word) const {
+  for (const auto* const sub : {"procedure", "proc", "void"})
     if (equal_words(word, sub))
       return Kind::Sub;
+  if (equal_words(word, "def"))
+    return gives_value(word) ? Kind::Function : Kind::Sub;
   return equal_words(word, "func") ? std::optional(Kind::Function) : std::nullopt;
 }
 

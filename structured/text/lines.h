@@ -144,7 +144,10 @@ private:
   bool declaration(Input& in, std::string_view name, Position position);
 
   /// What a word of another language begins, where that is a sub or a function.
-  static std::optional<Kind> foreign_routine(std::string_view word);
+  std::optional<Kind> foreign_routine(std::string_view word) const;
+
+  /// Whether what a `def` begins gives a value back before it ends.
+  bool gives_value(std::string_view word) const;
 
   /// `procedure name` and the like.
   bool routine_line(Input& in, std::string_view name, Kind kind, Position position);

@@ -200,7 +200,8 @@ Diagnostic reserved(const Program& program, Span word) {
                      (behind != std::string::npos && program.text[behind] == '=');
   if (((before == '(' || before == ',') && !declares) || !names)
     return finding(rules::ReservedName, word,
-                   fmt::format("`{}` is a reserved word", program.text_of(word)), "a reserved word is not a value");
+                   fmt::format("`{}` is a reserved word", program.text_of(word)),
+                   "a reserved word is not a value");
   return finding(rules::ReservedName, word,
                  fmt::format("`{}` is a reserved word", program.text_of(word)),
                  fmt::format("write `my_{}` on all these lines", program.text_of(word)));

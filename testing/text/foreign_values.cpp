@@ -121,6 +121,10 @@ Tokens with_plain_calls(const Tokens& line) {
     }
     all.push_back(line[i]);
   }
+  if (all.size() > 2 && all.back().is_number() && all[all.size() - 2].is("/")) { // `/^a$/ 6`
+    all.back().gap = true;
+    all.push_back(word("times"));
+  }
   if (all.size() > 5 && all[1].is("(") && (all[0].is("expect") || all[0].is("never")) &&
       all[3].is_relation() && end_of(all, 1) == 5) { // `expect (inside == garage) at end`
     all[2].gap = all[4].gap = true;
@@ -205,6 +209,10 @@ Tokens with_end(Tokens line) {
       line[i] = word("end");
       line.erase(line.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     }
+  if (line.size() > 2 && line.back().is(":"))
+    line.pop_back();
+  if (line.size() > 3 && line.back().is("end") && line[line.size() - 2].is(","))
+    line[line.size() - 2] = word("at"); // `resting, end`
   if (line.size() > 2 && line.back().is("at"))
     line.push_back(word("end"));
   return line;
@@ -216,6 +224,24 @@ Tokens with_test(Tokens line) {
     line[0].text = "test";
   else if (line.size() > 2 && line[0].is("to") && line[1].is("test"))
     line.erase(line.begin());
+  return line;
+}
+
+/// `getLocation().x > 40` is `beyond x > 40`.
+Tokens with_beyond(Tokens line) {
+  for (std::size_t i = 2; i + 1 < line.size(); ++i)
+    if ((line[i].is("x") || line[i].is("y")) && line[i - 1].is(".") && line[i + 1].is_relation()) {
+      auto begin = i - 1;
+      if (begin > 2 && line[begin - 1].is(")") && line[begin - 2].is("("))
+        begin -= 2;
+      if (begin == 0 || !line[begin - 1].is_word())
+        return line;
+      line[begin - 1] = word("beyond");
+      line[i].gap = true;
+      line.erase(line.begin() + static_cast<std::ptrdiff_t>(begin),
+                 line.begin() + static_cast<std::ptrdiff_t>(i));
+      return line;
+    }
   return line;
 }
 
@@ -232,6 +258,15 @@ Tokens with_and(Tokens line) {
 
 /// A name without its first quote, or without both: `test drives round" seeds 1..5`.
 Tokens with_name(const Tokens& line) {
+  const auto text =
+      std::find_if(line.begin(), line.end(), [](const Token& token) { return token.is_text(); });
+  if (line.size() > 2 && line[0].is("test") && text > line.begin() + 1 && text != line.end() &&
+      text->closed) { // `test if it "finds 25"`, `test: "a", seeds = 1 to 50`
+    auto all = Tokens{line[0]};
+    append(all, Tokens(text, line.end()));
+    all[1].gap = true;
+    return all;
+  }
   if (line.size() < 3 || !line[0].is("test") || !line[1].is_word() || line[1].is("seeds"))
     return line;
   const bool clause = holds("that if whether dass ob que si che", line[1].text);
@@ -283,7 +318,7 @@ Tokens with_metric_lengths(Tokens line) {
 } // namespace
 
 Tokens with_plain_values(const Tokens& line) {
-  const auto plain = with_test(with_and(with_signs_apart(line)));
+  const auto plain = with_test(with_beyond(with_and(with_signs_apart(line))));
   const auto all = with_name(with_whole_texts(with_quotes_for_brackets(plain)));
   return with_metric_lengths(with_end(with_bounds(with_plain_calls(with_plain_colours(all)))));
 }

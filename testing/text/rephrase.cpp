@@ -675,6 +675,7 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
     }
     const bool axis = i > 0 && (line[i - 1].is("x") || line[i - 1].is("y"));
     if ((row->word == "spin" && line[i].is("by")) || line[i].is("set") || line[i].is("to") ||
+        line[i].is("send") || line[i].is(":") || (line[i].is(",") && i == 3) ||
         (line[i].is("=") && !axis))
       continue;
     if (i + 2 < line.size() && line[i].is("at") && line[i + 1].is_number() &&
@@ -790,6 +791,10 @@ Tokens translate(const Tokens& line) {
     }
     if (following != nullptr && token.is("and") && following->is("then"))
       continue;
+    if (token.is("until") && following != nullptr && expectation(*following) != nullptr) {
+      add("before");
+      continue;
+    }
     if (following != nullptr && token.is("to") && following->is("be")) {
       ++i;
       continue;
@@ -820,8 +825,9 @@ Tokens translate(const Tokens& line) {
     }
     const bool asked = (token.text.starts_with("get") || lower(token.text).starts_with("read")) &&
                        repair::parts_of(token.text).size() > 1;
-    if (!token.is_word() || unit || (signed_ && !asked) || is_vocabulary(token.text, all.empty()) ||
-        expectation(token) != nullptr) {
+    const bool counted_ = repair::is_called("lines", token.text); // `líneas < 2000`
+    if (!token.is_word() || unit || (signed_ && !asked && !counted_) ||
+        is_vocabulary(token.text, all.empty()) || expectation(token) != nullptr) {
       all.push_back(token);
       continue;
     }
@@ -852,7 +858,7 @@ Tokens translate(const Tokens& line) {
       add("to");
       continue;
     }
-    if (all.empty() && token.is("after") && timed) { // `after 6s set tilt to 0 0`
+    if (all.empty() && timed && (token.is("after") || called("at"))) { // `after 6s set tilt to 0 0`
       add("at");
       continue;
     }
@@ -918,7 +924,8 @@ Tokens with_quotes(Tokens all) {
 Tokens once_each(Tokens all) {
   all.erase(std::unique(all.begin(), all.end(),
                         [](const Token& a, const Token& b) {
-                          return a.is_word() && a.text == b.text && expectation(a) != nullptr;
+                          return a.is_word() && expectation(a) != nullptr &&
+                                 (a.text == b.text || (a.is("resting") && b.is("moving")));
                         }),
             all.end());
   return all;
@@ -1014,6 +1021,10 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
   else if (!line[0].is("at") && !line[0].is("within") && !line[0].is("during") &&
            expectation(line[0]) == nullptr)
     return std::nullopt;
+  for (std::size_t i = 2; i + 1 < rest.size(); ++i) // `inside garage color green`
+    if (expectation(rest[i]) != nullptr && rest[i - 1].is_word() &&
+        expectation(rest[i - 1]) == nullptr && !is_vocabulary(rest[i - 1].text, false))
+      rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(i++), repair::word("and"));
   for (std::size_t i = 1; i + 1 < rest.size(); ++i) // `inside garage, resting`
     if (rest[i].is(",") && expectation(rest[i + 1]) != nullptr)
       rest[i] = Token{Token::Kind::Word, "and", true};
