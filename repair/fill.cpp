@@ -461,7 +461,10 @@ constexpr auto functions = std::to_array<Function>({
                                                                           : bearing(held.a);
      }},
     {"compass", // a heading, no turns
-     [](const Holding& held) { return only(whole(held.a).value_or(0) < full_circle, join(held.a)); }},
+     [](const Holding& held) {
+       const bool turns = whole(held.a).value_or(0) >= full_circle || has_token(held.a, "-");
+       return only(!turns, join(held.a));
+     }},
     {"leftward",
      [](const Holding& held) {
        const auto value = whole(held.a);
@@ -535,7 +538,7 @@ constexpr auto functions = std::to_array<Function>({
        return held.a.size() == 1 && has(held.around.names, held.a[0].text) ? Text(held.a[0].text)
                                                                   : std::nullopt;
      }},
-    {"returns", // what Logo calls `output`
+    {"output", // what Logo calls `output`
      [](const Holding& held) {
        return held.around.in_function ? Text("return " + join(held.a)) : std::nullopt;
      }},

@@ -16,9 +16,16 @@ namespace orb::repair {
 void LineRepair::by_initials() {
   auto tokens = parts_.tokens;
   bool any = false;
-  for (auto& token : tokens) {
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    auto& token = tokens[i];
     if (!token.is_word() || token.text.size() < 2 || !is_foreign(token.text))
       continue;
+    const bool after_value =
+        i > 0 &&
+        (tokens[i - 1].is_number() || tokens[i - 1].is_text() || tokens[i - 1].text.size() == 1) &&
+        tokens[i - 1].kind != Token::Kind::Sign;
+    if (after_value || is_called("", token.text))
+      return; // `print 3 throws`: a word more, no value
     const std::string initial(1, to_upper(token.text[0]));
     if (!is_letter(initial[0]) ||
         std::find(letters_.begin(), letters_.end(), initial) == letters_.end())
@@ -103,7 +110,7 @@ void LineRepair::by_leaving_out() {
   const auto size = all.size();
   for (const std::size_t count : {1U, 2U}) // `flicker 12 times`, `expect reach goal 1m`
     if (size > count && all[size - count].is_number() && !all[1].is("=") &&
-        (count == 1 || all.back().is_word()) &&
+        (count == 1 ? !all[size - 2].is_word() || size == 2 : all.back().is_word()) &&
         attempt(join(Tokens(all.begin(), all.end() - static_cast<std::ptrdiff_t>(count))), {},
                 false))
       return;

@@ -188,10 +188,11 @@ std::string LineRepair::with_bracket() const {
   }
   const auto then = std::find_if(tokens.begin(), tokens.end(),
                                  [](const Token& token) { return token.is("then"); });
+  const bool first = tokens.size() > 1 && tokens[1].is("(");
   int open = 0;
   for (auto at = tokens.begin(); at != then; ++at)
     open += at->is("(") ? 1 : at->is(")") ? -1 : 0;
-  if (then == tokens.end() || open != 1)
+  if (open != 1 || (then == tokens.end() && first))
     return {};
   tokens.insert(then, Token{Token::Kind::Sign, ")"});
   return join(tokens);

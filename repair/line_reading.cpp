@@ -114,8 +114,17 @@ std::vector<std::string> parts_of_glued(std::string_view word,
 
 } // namespace
 
-/// `nexti` in a program with `i`.
+/// `nexti` in a program with `i`, and `forn = 1 to 5`.
 void LineRepair::part_next() {
+  constexpr std::string_view begins = "for";
+  if (auto& first = parts_.tokens; judge_.language == Language::Structured && first.size() > 4 &&
+                                   first[0].text.starts_with(begins) && first[1].is("=") &&
+                                   has_token(first, "to") && first[0].text.size() > begins.size()) {
+    first[0].text.erase(0, begins.size());
+    first[0].gap = true;
+    first.insert(first.begin(), Token{Token::Kind::Word, std::string(begins)});
+    return;
+  }
   constexpr std::string_view next = "next";
   auto& tokens = parts_.tokens;
   if (tokens.size() != 1 || judge_.language != Language::Structured ||
@@ -211,8 +220,10 @@ void LineRepair::drop_colons() {
   auto& tokens = parts_.tokens;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
     const auto& before = tokens[i - 1];
+    const bool printed = tokens[0].is("print") && before.is_text(); // `print "F(" :N`
     const bool operand = before.is_number() || before.is(")") || before.is("]") ||
-                         before.is_text() || (before.is_word() && before.text.size() == 1);
+                         (before.is_text() && !printed) ||
+                         (before.is_word() && before.text.size() == 1);
     if (tokens[i].is(":") && tokens[i].gap && !operand && tokens[i + 1].is_word() &&
         !tokens[i + 1].gap && !before.is("else") && !before.is("then"))
       take_out(tokens, i, 1);
@@ -301,8 +312,20 @@ void LineRepair::drop_article() {
   if (judge_.language != Language::Basic && judge_.language != Language::Structured)
     return;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
-    if (tokens[i].is("the") && !has_word(names_, "the"))
+    if ((tokens[i].is("the") && !has_word(names_, "the")) ||
+        (tokens[i].is("and") && tokens[i - 1].is(",")))
       take_out(tokens, i--, 1);
+  if (tokens.size() > 2 && holds("cm deg degrees px points units", tokens.back().text) &&
+      tokens[tokens.size() - 2].is_word() && is_unknown(tokens.back()))
+    tokens.pop_back();       // `read v cm`
+  for (auto& token : tokens) // `goroll zéro,0,0`
+    if (token.is_word() && holds("zero zéro cero null nul", token.text) && is_foreign(token.text))
+      token = Token{Token::Kind::Number, "0", token.gap};
+  for (auto& token : tokens) // `PP = W`
+    if (judge_.language == Language::Basic && token.is_word() &&
+        (token.gap || &token == &tokens[0]) && token.text.size() == 2 &&
+        token.text[0] == token.text[1] && to_lower(token.text[0]) != token.text[0])
+      token.text.resize(1);
 }
 
 /// `(print :a :b)` of Logo, and the end of a block behind a statement: `Y += 5 }`.
@@ -412,7 +435,7 @@ void LineRepair::drop_prefixes() {
     if (!token.is_word() || !is_foreign(token.text))
       continue;
     const bool waits = token.is("await") && i + 1 < tokens.size() &&
-                       holds("delay sleep wait", tokens[i + 1].text); // counted in seconds
+                       holds("delay sleep wait asyncio", tokens[i + 1].text); // counted in seconds
     if (token.is("await") && !waits && i + 1 < tokens.size() && tokens[i + 1].is_word()) {
       take_out(tokens, i, 1);
       continue;

@@ -123,7 +123,10 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   const bool remark = parts_.tokens.empty() && !parts_.comment.empty();
   if (remark) // `#end while`
     attempt(std::string(trim(std::string_view(parts_.comment).substr(1))), {}, false);
-  if (!best_ && whole(start) != line_)
+  const bool filled = std::any_of(tokens.begin(), tokens.end(), [](const Token& token) {
+    return token.is_text() && token.text.find("${") != std::string::npos; // `${N} tries`
+  });
+  if (!best_ && !filled && whole(start) != line_)
     attempt(start, {}, true);
 
   const bool known = is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line);

@@ -70,7 +70,8 @@ void plain_call(Tokens& line) {
   if (line.size() > 3 && line[1].is(".") && line[3].is("(") &&
       spec::find_macro_command(line[0].text) != nullptr)
     line.erase(line.begin() + 1, line.begin() + 3);
-  if (line.size() > 2 && line[0].is("sleep") && line[1].is("(") && line[2].is_word())
+  if ((line.size() > 2 && line[0].is("sleep") && line[1].is("(") && line[2].is_word()) ||
+      (line.size() == 2 && line[0].text == "SLEEP")) // of BASIC: a wait
     line[0].text = spec::info(spec::MacroCommand::Delay).mnemonic;
 }
 

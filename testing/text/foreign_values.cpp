@@ -80,7 +80,8 @@ Tokens with_plain_colours(const Tokens& line) {
 Tokens with_whole_texts(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool goes_on = i + 1 < line.size() && line[i].is("+") && !all.empty() &&
+    const bool last = i + 2 == line.size() && line[i].is(";"); // `"F(12) = "; 144`
+    const bool goes_on = i + 1 < line.size() && (line[i].is("+") || last) && !all.empty() &&
                          all.back().is_text() && (line[i + 1].is_text() || line[i + 1].is_number());
     if (goes_on) {
       all.back().text += line[++i].text;
@@ -204,6 +205,10 @@ Tokens with_signs_apart(const Tokens& line) {
 
 /// `stop all` is the end, and what ends in `at` is so at the end.
 Tokens with_end(Tokens line) {
+  for (std::size_t i = 1; i + 2 < line.size(); ++i)
+    if (holds("number amount", line[i].text) && line[i + 1].is("of"))
+      line.erase(line.begin() + static_cast<std::ptrdiff_t>(i),
+                 line.begin() + static_cast<std::ptrdiff_t>(i) + 2);
   for (std::size_t i = 1; i + 1 < line.size(); ++i)
     if (line[i].is("stop") && holds("all program script everything", line[i + 1].text)) {
       line[i] = word("end");
@@ -222,13 +227,22 @@ Tokens with_end(Tokens line) {
 Tokens with_test(Tokens line) {
   if (line.size() > 1 && line[0].is("to") && line[1].is_text())
     line[0].text = "test";
-  else if (line.size() > 2 && line[0].is("to") && line[1].is("test"))
+  else if (line.size() > 2 && (line[0].is("to") || line[0].is("when")) && line[1].is("test"))
     line.erase(line.begin());
+  if (line.size() > 2 && line[0].is("test") && line[1].is_text() && line[2].is("starts"))
+    line.resize(2); // `when test "a" starts`
   return line;
 }
 
 /// `getLocation().x > 40` is `beyond x > 40`.
 Tokens with_beyond(Tokens line) {
+  if (line.size() > 4 && (line[0].is("never") || line[0].is("expect")) && line[1].is("(") &&
+      (line[2].is("x") || line[2].is("y")) && line[3].is_relation() &&
+      end_of(line, 1) < line.size()) { // `never (y < -90)`
+    line.erase(line.begin() + static_cast<std::ptrdiff_t>(end_of(line, 1)));
+    line[1] = word("beyond");
+    return line;
+  }
   for (std::size_t i = 2; i + 1 < line.size(); ++i)
     if ((line[i].is("x") || line[i].is("y")) && line[i - 1].is(".") && line[i + 1].is_relation()) {
       auto begin = i - 1;

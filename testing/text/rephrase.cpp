@@ -200,6 +200,9 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
         token.is("by") || token.is("at") || token.is("<") || token.is("<=") ||
         token.is("within")) // a length is no time
       continue;
+    const bool missing = i > 1 && values[i - 1].is("by") && numbers.size() < 2;
+    if (missing)
+      return std::nullopt; // `near 0, by 40cm`
     const bool sign = token.is("-") && i + 1 < values.size() && values[i + 1].is_number();
     if (!token.is_number() && !sign)
       return std::nullopt;
@@ -228,8 +231,10 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
   const auto part_of_metre = [](const std::string& number) {
     return number.find("0.") != std::string::npos;
   };
+  if (distance.ends_with("m") && part_of_metre(distance) && distance.find('c') == std::string::npos)
+    distance.pop_back(); // places in metres, too
   const bool metres = std::all_of(numbers.begin(), numbers.end(), [&](const std::string& number) {
-    return part_of_metre(number) || number == "0";
+    return part_of_metre(number) || number == "0" || number == "1.0";
   });
   const bool parts =
       std::any_of(numbers.begin(), numbers.end(), part_of_metre) || part_of_metre(distance);
@@ -777,6 +782,8 @@ Tokens translate(const Tokens& line) {
   bool in_pattern = false; // between slashes
   for (std::size_t i = 0; i < line.size(); ++i) {
     auto token = line[i];
+    if (token.is_word() && is_vocabulary(lower(token.text), all.empty()))
+      token.text = lower(token.text); // `Then`
     const auto add = [&](std::string_view word) {
       token.text = word;
       all.push_back(token);
@@ -884,7 +891,7 @@ Tokens translate(const Tokens& line) {
       std::string found(meaning_of(token.text));
       if (const auto parts = repair::parts_of(token.text); parts.size() > 1)
         for (const auto& part : parts) // `getHeading`, `isMoving`
-          if (found.empty())
+          if (found.empty() && part != "on")
             found = is_vocabulary(part, all.empty()) ? part : meaning_of(part);
       if (!found.empty())
         add(found);
@@ -1023,7 +1030,7 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
     return std::nullopt;
   for (std::size_t i = 2; i + 1 < rest.size(); ++i) // `inside garage color green`
     if (expectation(rest[i]) != nullptr && rest[i - 1].is_word() &&
-        expectation(rest[i - 1]) == nullptr && !is_vocabulary(rest[i - 1].text, false))
+        expectation(rest[i - 1]) == nullptr && !is_vocabulary(lower(rest[i - 1].text), false))
       rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(i++), repair::word("and"));
   for (std::size_t i = 1; i + 1 < rest.size(); ++i) // `inside garage, resting`
     if (rest[i].is(",") && expectation(rest[i + 1]) != nullptr)
@@ -1074,7 +1081,7 @@ std::string prints_below(const Tokens& line, const Elsewhere& elsewhere) {
                                            repair::is_called("prints", word->text));
   const bool ends =
       says && std::all_of(word + 1, line.end(), [](const Token& token) {
-        return token.kind == Token::Kind::Sign || holds("toEqual toBe equals is", token.text);
+        return token.kind == Token::Kind::Sign || holds("toEqual toBe equals is using", token.text);
       });
   return ends ? "expect prints" : std::string();
 }
