@@ -22,17 +22,13 @@ public:
       : program_(program), flow_(flow), findings_(findings) {}
 
   void run() {
-    for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
-      const auto& statement = statement_of(i);
-      for (const auto& one : program_.whole(statement))
-        if (!one.error)
-          check(one);
-      if (statement.error)
-        continue;
-      check_exchange(i);
-      if (statement.kind == Statement::For)
-        check_sum(i);
-    }
+    for (const auto& place : flow_.all(Statement::If))
+      check_joint(program_.as<IfView>(program_.statements[place.statement]));
+    for (const auto& place : flow_.all(Statement::Let))
+      check_let(program_.statements[place.statement], place.code);
+    for (const auto& place : flow_.all(Statement::For))
+      if (flow_.is_line(place))
+        check_sum(place.code);
     check_products();
   }
 
@@ -55,13 +51,13 @@ private:
   }
   static std::string name_of(std::uint8_t letter) { return {static_cast<char>('A' + letter)}; }
 
-  void check(const StatementNode& statement) {
-    if (statement.kind == Statement::If)
-      check_joint(program_.as<IfView>(statement));
-    if (set_by(statement)) {
-      note_product(statement);
-      check_share(value_of(statement));
-    }
+  void check_let(const StatementNode& let, std::uint32_t code) {
+    if (!set_by(let))
+      return;
+    note_product(let);
+    check_share(value_of(let));
+    if (&let == &statement_of(code))
+      check_exchange(code);
   }
 
   // ---- two comparisons of one letter or sensor
@@ -170,11 +166,9 @@ private:
   }
 
   void check_products() {
-    for (const auto& statement : program_.statements)
-      if (!statement.error &&
-          (statement.kind == Statement::For || statement.kind == Statement::Read ||
-           statement.kind == Statement::Input))
-        for (const auto& item : program_.items_of(statement))
+    for (const auto kind : {Statement::For, Statement::Read, Statement::Input})
+      for (const auto& place : flow_.all(kind))
+        for (const auto& item : program_.items_of(program_.statements[place.statement]))
           if (item.kind == ItemKind::Letter)
             products_[item.value].others = true;
     for (std::size_t i = 0; i < products_.size(); ++i) {
