@@ -20,6 +20,7 @@ public:
       return;
     found_.reserve(flow_.jumps.size());
     open_.reserve(flow_.jumps.size() + 1);
+    returns_.reserve(flow_.jumps.size());
     read_facts();
     mark_reached();
     check_unreachable();
@@ -88,8 +89,14 @@ private:
   }
 
   void mark_reached() {
-    reached_.assign(size_, 0);
-    spread(0, reached_, Calls::Enter);
+    main_.assign(size_, 0);
+    spread(0, main_, Calls::StepOver);
+    reached_ = main_;
+    if (has_call_)
+      for (const auto from : std::vector(found_))
+        for (const auto& jump : flow_.jumps_of(flow_.code[from]))
+          if (jump.call)
+            spread(jump.to, reached_, Calls::Enter);
     // A line that is named as a wake-up line is an entry of its own.
     for (const auto* sleep : sleeps_) {
       const auto& root = program_.nodes[program_.as<SleepView>(*sleep).line.value];
@@ -119,8 +126,6 @@ private:
   // ---- subroutines
 
   void check_subroutines() {
-    main_.assign(size_, 0);
-    spread(0, main_, Calls::StepOver);
     inside_.assign(size_, 0);
     routines_.reserve(flow_.jumps.size());
     for (std::uint32_t i = 0; i < size_; ++i)
@@ -138,12 +143,9 @@ private:
 
   /// Whether a subroutine calls one.
   bool calls_nest() const {
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (inside_[i] != 0)
-        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-          if (jump.call)
-            return true;
-    return false;
+    return std::any_of(flow_.jumps.begin(), flow_.jumps.end(), [&](const Flow::Jump& jump) {
+      return jump.call && inside_[jump.from] != 0;
+    });
   }
 
   void check_returns() {
@@ -181,14 +183,13 @@ private:
     }
     if (reported)
       return;
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (main_[i] != 0 && inside_[i] == 0)
-        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-          if (!jump.call && jump.to != none && inside_[jump.to] != 0 && returns_from(jump.to))
-            findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
-                          fmt::format("line {} is part of a subroutine and leads to its `return`",
-                                      number_of(jump.to)),
-                          "call it with `gosub`");
+    for (const auto& jump : flow_.jumps)
+      if (main_[jump.from] != 0 && inside_[jump.from] == 0 && !jump.call && jump.to != none &&
+          inside_[jump.to] != 0 && returns_from(jump.to))
+        findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
+                      fmt::format("line {} is part of a subroutine and leads to its `return`",
+                                  number_of(jump.to)),
+                      "call it with `gosub`");
   }
 
   /// Offers an `end` in front of a line of code, where there is a number for it.
@@ -205,11 +206,20 @@ private:
 
   /// Calls of lines from which no way leads to a `return`.
   void check_comes_back() {
+    if (std::all_of(routines_.begin(), routines_.end(),
+                    [&](std::uint32_t entry) { return falls_to_return(entry); }))
+      return; // as nearly always
     const auto back = lines_that_return();
-    for (std::uint32_t i = 0; i < size_; ++i)
-      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-        if (jump.call && jump.to != none && reached_[i] != 0 && back[jump.to] == 0)
-          add_never_returns(i, jump);
+    for (const auto& jump : flow_.jumps)
+      if (jump.call && jump.to != none && reached_[jump.from] != 0 && back[jump.to] == 0)
+        add_never_returns(jump.from, jump);
+  }
+
+  /// Whether a `return` is met without taking any jump.
+  bool falls_to_return(std::uint32_t at) const {
+    while (!flow_.code[at].ends && flow_.code[at].falls && at + 1 < size_)
+      ++at;
+    return std::any_of(whole(at).begin(), whole(at).end(), is_return);
   }
 
   /// The lines from which some way leads to a `return`, or to what may be one once corrected.
@@ -359,18 +369,15 @@ private:
 
   /// A `goto` back to a line, with no way out between and nothing that waits.
   void check_busy_loops() {
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto jumps = flow_.jumps_of(flow_.code[i]);
-      if (jumps.empty() || reached_[i] == 0)
-        continue;
-      const auto& node = statement(i);
-      const auto& jump = jumps.front();
-      if (node.kind != spec::Statement::Goto || jump.to > i || i - jump.to > longest_loop ||
-          leaves_or_waits(jump.to, i))
+    for (const auto& jump : flow_.jumps) {
+      const auto& node = statement(jump.from);
+      if (jump.to > jump.from || jump.from - jump.to > longest_loop ||
+          node.kind != spec::Statement::Goto || reached_[jump.from] == 0 ||
+          leaves_or_waits(jump.to, jump.from))
         continue;
       findings_.add(rules::BusyLoop, node.span,
                     fmt::format("lines {} to {} loop forever without waiting", number_of(jump.to),
-                                number_of(i)),
+                                number_of(jump.from)),
                     "add a `delay`");
     }
   }

@@ -103,6 +103,9 @@ public:
     match_pairs();
     check_jumps();
     check_unended();
+    if (nested_ && std::all_of(parts_.begin(), parts_.end(),
+                               [&](const Part& part) { return keeps_to_loops(part); }))
+      return; // they run as they stand in the text
     follow();
     for (const auto& part : parts_)
       report(part);
@@ -178,12 +181,16 @@ private:
     for (auto& part : parts_) {
       if (part.effect == Effect::Opens) {
         const auto outer = open.empty() ? none : open.back();
+        nested_ = nested_ && open.size() < Loops::most &&
+                  (outer == none || pairs_[outer].variable != part.variable);
         open.push_back(static_cast<std::uint32_t>(pairs_.size()));
         pairs_.push_back({part.variable, part.code, none, outer});
       }
       part.innermost = open.empty() ? none : open.back();
+      nested_ = nested_ && part.effect != Effect::Unsure;
       if (part.effect != Effect::Closes)
         continue;
+      nested_ = nested_ && !open.empty() && pairs_[open.back()].variable == part.variable;
       while (!open.empty() && pairs_[open.back()].variable != part.variable)
         open.pop_back();
       if (!open.empty()) {
@@ -191,6 +198,25 @@ private:
         open.pop_back();
       }
     }
+    nested_ = nested_ && open.empty();
+  }
+
+  /// Where nothing jumps into a loop or out of one, calls or returns in one.
+  bool keeps_to_loops(const Part& part) const {
+    const auto jumps = flow_.jumps_of(flow_.code[part.code]);
+    return !(part.returns && part.innermost != none) &&
+           std::all_of(jumps.begin(), jumps.end(), [&](const Flow::Jump& jump) {
+             return jump.to == none || (loop_around(jump.to) == part.innermost &&
+                                        !(jump.call && part.innermost != none));
+           });
+  }
+
+  /// The pair that is open above a line of code, in the order of the text.
+  std::uint32_t loop_around(std::uint32_t code) const {
+    if (ahead_[code] == none)
+      return none;
+    const auto& part = parts_[ahead_[code]];
+    return part.effect == Effect::Opens ? pairs_[part.innermost].outer : part.innermost;
   }
 
   void check_jumps() {
@@ -435,6 +461,7 @@ private:
   std::vector<Part> parts_;          ///< in the order of the text
   std::vector<std::uint32_t> ahead_; ///< by line of code: the first part from there on
   std::vector<Pair> pairs_;
+  bool nested_ = true;      ///< in the text each loop ends within the one around it
   std::vector<Call> calls_; ///< the first is the main program
   std::vector<Waiting> waiting_;
   std::vector<State> states_;
