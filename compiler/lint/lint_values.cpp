@@ -23,7 +23,7 @@ bool ValuesPass::may_say_more() {
     return true;
   return std::any_of(doubts_.begin(), doubts_.end(), [&](const Doubt& doubt) {
     for (auto n = program_.nodes[doubt.root].first; n <= doubt.root; ++n)
-      ranges_[n] = compute(n);
+      compute(n);
     const auto& range = ranges_[doubt.root];
     return range != Range{} && (range.lo < doubt.least || range.hi > doubt.greatest);
   });

@@ -67,11 +67,9 @@ void ValuesPass::look(const StatementNode& statement) {
   }
 }
 
-void ValuesPass::check_range(const Item& value, std::string_view word,
-                             const spec::Parameter& parameter) {
+void ValuesPass::check_outside(const Item& value, std::string_view word,
+                               const spec::Parameter& parameter) {
   const auto& range = range_of(value);
-  if (parameter.least <= range.lo && range.hi <= parameter.greatest)
-    return;
   if (range.misses(parameter.least, parameter.greatest))
     add_out_of_range(value, word, parameter);
   else if (!check_loop_range(value, word, parameter)) {
@@ -182,13 +180,12 @@ bool ValuesPass::keeps_ends(const Node& node) {
 
 void ValuesPass::check_arguments(const StatementNode& statement) {
   const auto& row = spec::info(statement.kind);
-  const auto parameters = row.parameters();
   const auto arguments = program_.items_of(statement);
   const bool mended = statement.kind == spec::Statement::Goroll &&
                       (check_swapped(arguments) || check_backward(statement));
   for (std::size_t i = mended ? 2 : 0; i < arguments.size(); ++i)
-    check_range(arguments[i], row.word, parameters[i]);
-  if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
+    check_range(arguments[i], row.word, row.parameter_slots[i]);
+  if (statement.kind == spec::Statement::Goroll && arguments.size() < row.parameters().size() &&
       target_.version >= spec::info(spec::BasicGrowth::GoValue).since)
     add_missing_go(statement, arguments.back());
   if (statement.kind == spec::Statement::Basflg)

@@ -1,76 +1,67 @@
 #include "compiler/lint/values_pass.h"
 
 namespace orb::compiler {
+namespace {
+
+/// By variable: among those that reading resets, the how manieth it is.
+constexpr auto clearing_slots = [] {
+  std::array<std::uint8_t, spec::variables.size()> slots{};
+  std::uint8_t next = 0;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    slots[i] = next;
+    next = static_cast<std::uint8_t>(
+        next + (spec::variables[i].access == spec::Access::ReadClears ? 1 : 0));
+  }
+  return slots;
+}();
+
+} // namespace
 
 void ValuesPass::evaluate(const StatementNode& statement) {
-  const auto items = program_.items_of(statement);
-  const auto last = std::find_if(items.rbegin(), items.rend(), [](const Item& item) {
-    return item.kind == ItemKind::Expression || item.kind == ItemKind::Character;
-  });
-  if (last == items.rend())
-    return;
-  // A loop has set its letter to its start when it computes its end.
-  const bool counts = statement.kind == spec::Statement::For && items[0].kind == ItemKind::Letter;
-  for (auto n = evaluated_; n <= last->value; ++n) {
-    ranges_[n] = evaluate(n);
-    exact_[n] = exact(n);
-    if (counts && n == items[1].value)
-      set_letter(items[0].value, ranges_[n]);
+  for (const auto& item : program_.items_of(statement)) {
+    if (item.kind != ItemKind::Expression && item.kind != ItemKind::Character)
+      continue;
+    for (auto n = evaluated_; n <= item.value; ++n)
+      evaluate(n);
+    evaluated_ = item.value + 1;
+    if (statement.kind == spec::Statement::For)
+      begin_counting(program_.as<ForView>(statement), item);
   }
-  evaluated_ = last->value + 1;
+}
+
+/// A loop has set its letter to its start when it computes its end.
+void ValuesPass::begin_counting(const ForView& loop, const Item& computed) {
+  if (&computed == &loop.start && loop.variable.kind == ItemKind::Letter)
+    set_letter(loop.variable.value, range_of(computed));
+}
+
+void ValuesPass::evaluate(std::uint32_t index) {
+  compute(index);
+  const auto& node = program_.nodes[index];
+  if (node.kind == NodeKind::Letter)
+    note_use(node);
+  else if (node.kind != NodeKind::Number)
+    check_operation(node, index);
 }
 
 Range ValuesPass::compute(const Item& item) {
   if (!following_ && item.value < evaluated_)
     return ranges_[item.value];
-  for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {
-    ranges_[n] = compute(n);
-    exact_[n] = exact(n);
-  }
+  for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
+    compute(n);
   return ranges_[item.value];
 }
 
-Range ValuesPass::compute(std::uint32_t index) {
-  const auto& node = program_.nodes[index];
-  switch (node.kind) {
-  case NodeKind::Number: return node.overflow ? Range{} : Range::only(node.value);
-  case NodeKind::Letter: return now_.ranges[node.what];
-  case NodeKind::Indexed: return {};
-  case NodeKind::System: {
-    const auto& row = spec::variables[node.what];
-    return {row.least, row.greatest};
-  }
-  case NodeKind::Group: return ranges_[index - 1];
-  case NodeKind::Negate: return negate(ranges_[index - 1]);
-  case NodeKind::Binary: {
-    const auto right = index - 1;
-    return apply(static_cast<spec::Operator>(node.what), ranges_[program_.nodes[right].first - 1],
-                 ranges_[right]);
-  }
-  case NodeKind::Call: return apply(spec::functions[node.what].function, ranges_[index - 1]);
-  }
-  return {};
-}
-
-bool ValuesPass::exact(std::uint32_t index) const {
-  const auto& node = program_.nodes[index];
-  switch (node.kind) {
-  case NodeKind::Number: return !node.overflow;
-  case NodeKind::Letter: return is_exact(node.what);
-  case NodeKind::Indexed: return false;
-  case NodeKind::System: return reaches_ends(spec::variables[node.what]);
-  case NodeKind::Group:
-  case NodeKind::Negate:
-  case NodeKind::Call: return exact_[index - 1] != 0;
-  case NodeKind::Binary: return is_exact_sum(node, index - 1);
-  }
-  return false;
-}
-
-bool ValuesPass::reaches_ends(const spec::VariableInfo& row) {
-  constexpr std::int32_t byte = 255; // the greatest value of what a client sends
-  return row.unit == "deg" ||
-         (row.unit.empty() && row.greatest <= byte && row.variable != spec::Variable::Speed);
+void ValuesPass::compute_operation(const Node& node, std::uint32_t index) {
+  const auto right = index - 1; // or the only operand
+  if (node.kind == NodeKind::Negate)
+    return know(index, negate(ranges_[right]), exact_[right] != 0);
+  if (node.kind == NodeKind::Call)
+    return know(index, apply(spec::functions[node.what].function, ranges_[right]),
+                exact_[right] != 0);
+  const auto left = program_.nodes[right].first - 1;
+  know(index, apply(static_cast<spec::Operator>(node.what), ranges_[left], ranges_[right]),
+       is_exact_sum(node, right));
 }
 
 bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
@@ -95,38 +86,24 @@ bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
   return false;
 }
 
-Range ValuesPass::evaluate(std::uint32_t index) {
-  const auto& node = program_.nodes[index];
+void ValuesPass::check_operation(const Node& node, std::uint32_t index) {
   switch (node.kind) {
-  case NodeKind::Number: return node.overflow ? Range{} : Range::only(node.value);
+  case NodeKind::Indexed: check_index(node.span); break;
+  case NodeKind::System:
+    if (const auto& row = spec::variables[node.what]; row.access == spec::Access::ReadClears)
+      note_clearing(node, row);
+    break;
+  case NodeKind::Binary: check_binary(node, index); break;
+  case NodeKind::Call: check_call(node, index); break;
   case NodeKind::Letter:
-    if (letters_[node.what].first_used == nullptr)
-      letters_[node.what].first_used = &node;
-    return now_.ranges[node.what];
-  case NodeKind::Indexed: check_index(node.span); return {};
-  case NodeKind::System: return read_system(node);
-  case NodeKind::Group: return ranges_[index - 1];
-  case NodeKind::Negate: return negate(ranges_[index - 1]);
-  case NodeKind::Binary: return evaluate_binary(node, index);
-  case NodeKind::Call: return evaluate_call(node, index);
+  case NodeKind::Number:
+  case NodeKind::Group:
+  case NodeKind::Negate: break;
   }
-  return {};
-}
-
-Range ValuesPass::read_system(const Node& node) {
-  const auto& row = spec::variables[node.what];
-  if (row.access == spec::Access::ReadClears)
-    note_clearing(node, row);
-  return {row.least, row.greatest};
 }
 
 void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) {
-  std::uint32_t slot = 0; // few variables clear themselves; their order is their slot
-  for (const auto& other : spec::variables) {
-    if (other.variable == row.variable)
-      break;
-    slot += other.access == spec::Access::ReadClears ? 1 : 0;
-  }
+  const auto slot = clearing_slots[node.what];
   if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
     findings_.add(
         rules::ClearedByReading, node.span,
@@ -137,41 +114,36 @@ void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) 
     cleared_ |= bit(slot);
 }
 
-Range ValuesPass::evaluate_binary(const Node& node, std::uint32_t index) {
+void ValuesPass::check_binary(const Node& node, std::uint32_t index) {
   const auto op = static_cast<spec::Operator>(node.what);
-  const auto right_index = index - 1;
-  const auto& right = ranges_[right_index];
-  const auto& left = ranges_[program_.nodes[right_index].first - 1];
-  const auto& right_span = program_.nodes[right_index].span;
+  const auto& right = ranges_[index - 1];
+  const auto& right_span = program_.nodes[index - 1].span;
   const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
+  const auto most = spec::value_of(spec::Limit::GreatestShift);
   if (divides && right == Range::only(0)) {
     findings_.add(rules::DivisionByZero, right_span, "division by zero");
-    return {};
-  }
-  const auto most = spec::value_of(spec::Limit::GreatestShift);
-  if (shifts && right.misses(0, most)) {
+    ranges_[index] = {};
+  } else if (shifts && right.misses(0, most)) {
     findings_.add(rules::ValueOutOfRange, right_span,
                   fmt::format("a shift must be 0 to {} bits, found {}", most, shown(right)));
-    return {};
-  }
-  const auto result = apply(op, left, right);
-  if (op == spec::Operator::Divide && result == Range::only(0))
+    ranges_[index] = {};
+  } else if (op == spec::Operator::Divide && ranges_[index] == Range::only(0)) {
     check_quotient(node, index);
-  return result;
+  }
 }
 
-Range ValuesPass::evaluate_call(const Node& node, std::uint32_t index) {
+void ValuesPass::check_call(const Node& node, std::uint32_t index) {
   const auto& row = spec::functions[node.what];
   const auto& range = ranges_[index - 1];
   if (row.function == spec::Function::Rnd && range == Range::only(1) &&
       program_.nodes[index - 1].kind != NodeKind::Letter)
     findings_.add(rules::AlwaysOne, node.span, "`rnd 1` is always 1", "write `rnd 2` for 1 or 2");
   if (!range.misses(row.least, row.greatest))
-    return apply(row.function, range);
+    return;
   findings_.add(rules::ValueOutOfRange, program_.nodes[index - 1].span,
                 fmt::format("`{}` takes {} or more, found {}", row.word, row.least, shown(range)));
-  return {};
+  ranges_[index] = {};
 }
 
 } // namespace orb::compiler

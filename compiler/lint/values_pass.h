@@ -22,6 +22,19 @@ inline std::string shown(Range range) {
                           : fmt::format("{} to {}", range.lo, range.hi);
 }
 
+/// By variable, whether it takes all its values: directions, switches and what clients send; a ball
+/// is never as fast as its sensors could tell.
+inline constexpr auto reaches_ends = [] {
+  constexpr std::int32_t byte = 255; // the greatest value of what a client sends
+  std::array<bool, spec::variables.size()> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto& row = spec::variables[i];
+    table[i] = row.unit == "deg" ||
+               (row.unit.empty() && row.greatest <= byte && row.variable != spec::Variable::Speed);
+  }
+  return table;
+}();
+
 /// How a letter gets its values, over the whole program.
 struct Letter {
   const Item* first_set = nullptr;  ///< null where nothing sets it
@@ -171,7 +184,12 @@ private:
 
   const Range& range_of(const Item& expression) const { return ranges_[expression.value]; }
 
-  void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
+  void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter) {
+    const auto& range = range_of(value);
+    if (range.lo < parameter.least || parameter.greatest < range.hi)
+      check_outside(value, word, parameter);
+  }
+  void check_outside(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
@@ -238,30 +256,53 @@ private:
   /// The range of an expression, without looking for mistakes.
   Range compute(const Item& item);
 
-  Range compute(std::uint32_t index);
+  /// The same of one node; those of its operands are known.
+  void compute(std::uint32_t index) {
+    const auto& node = program_.nodes[index];
+    switch (node.kind) {
+    case NodeKind::Number:
+      return know(index, node.overflow ? Range{} : Range::only(node.value), !node.overflow);
+    case NodeKind::Letter: return know(index, now_.ranges[node.what], is_exact(node.what));
+    case NodeKind::Indexed: return know(index, {}, false);
+    case NodeKind::System: {
+      const auto& row = spec::variables[node.what];
+      return know(index, {row.least, row.greatest}, reaches_ends[node.what]);
+    }
+    case NodeKind::Group: return know(index, ranges_[index - 1], exact_[index - 1] != 0);
+    case NodeKind::Negate:
+    case NodeKind::Binary:
+    case NodeKind::Call: return compute_operation(node, index);
+    }
+  }
+  void compute_operation(const Node& node, std::uint32_t index);
+
+  /// `exact`: both ends of the range are values that the node takes.
+  void know(std::uint32_t index, Range range, bool exact) {
+    ranges_[index] = range;
+    exact_[index] = exact;
+  }
 
   bool is_exact(std::uint32_t letter) const { return (now_.exact & bit(letter)) != 0; }
 
-  /// Whether both ends of a node's range are values that it takes.
-  bool exact(std::uint32_t index) const;
-
-  /// Directions, switches and what clients send take all their values; a ball is never as fast as
-  /// its sensors could tell.
-  static bool reaches_ends(const spec::VariableInfo& row);
-
   bool is_exact_sum(const Node& node, std::uint32_t right) const;
 
-  Range evaluate(std::uint32_t index);
+  void evaluate(std::uint32_t index);
+  void begin_counting(const ForView& loop, const Item& computed);
 
-  Range read_system(const Node& node);
+  void note_use(const Node& letter) {
+    auto& first = letters_[letter.what].first_used;
+    first = first == nullptr ? &letter : first;
+  }
+
+  void check_operation(const Node& node, std::uint32_t index);
 
   void note_clearing(const Node& node, const spec::VariableInfo& row);
 
-  Range evaluate_binary(const Node& node, std::uint32_t index);
+  void check_binary(const Node& node, std::uint32_t index);
 
   void check_quotient(const Node& node, std::uint32_t index);
 
-  Range evaluate_call(const Node& node, std::uint32_t index);
+  void check_call(const Node& node, std::uint32_t index);
 
   const Program& program_;
   const Flow& flow_;
@@ -274,6 +315,8 @@ private:
 
   // what is known on the way
   Letters now_;
+  std::uint32_t set_ = 0; ///< letters that something sets
+  Letters unknown_;       ///< where nothing is known but that letters are 0 which nothing sets
   LetterFlow ways_;
   std::vector<Loop> loops_; ///< that have been entered
   std::vector<Doubt> doubts_;
@@ -283,6 +326,7 @@ private:
   Range data_range_;                                  ///< of the values of all `data`
   std::uint32_t block_ = 0;                           ///< the line from which `now_` is followed
   std::uint32_t tested_ = 0; ///< letters that the condition of this line narrows
+  std::uint32_t moved_ = 0;  ///< letters that became something else in a branch of this line
   bool following_ = false;
   bool followed_ = false;
   std::optional<std::int32_t> index_begins_; ///< where the loop around counts in `Y`: from there

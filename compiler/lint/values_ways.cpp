@@ -3,8 +3,11 @@
 namespace orb::compiler {
 
 void ValuesPass::doubt(const Item& value, std::int64_t least, std::int64_t greatest) {
-  if (!followed_)
-    doubts_.push_back({value.value, least, greatest});
+  if (followed_)
+    return;
+  if (doubts_.empty())
+    doubts_.reserve(flow_.code.size()); // once, where there are any
+  doubts_.push_back({value.value, least, greatest});
 }
 
 void ValuesPass::note_given(std::uint32_t letter, Range range, const Node* root) {
@@ -29,21 +32,24 @@ bool ValuesPass::is_wrapped(const Node& root) const {
 }
 
 void ValuesPass::collect_letters() {
-  for (const auto& statement : program_.statements)
-    collect_set(statement);
+  for (const auto kind :
+       {spec::Statement::Let, spec::Statement::For, spec::Statement::Read, spec::Statement::Input})
+    for (const auto& place : flow_.all(kind))
+      collect_set(program_.statements[place.statement]);
+  unknown_ = Letters::zero();
+  unknown_.exact &= ~set_;
+  for (std::uint32_t i = 0; i < letters; ++i)
+    if ((set_ & bit(i)) != 0)
+      unknown_.ranges[i] = {};
 }
 
 void ValuesPass::collect_set(const StatementNode& statement) {
-  auto items = program_.items_of(statement);
-  if (statement.error || items.empty() || statement.kind == spec::Statement::Next)
-    return;
-  if (statement.kind != spec::Statement::Read) // all others set one variable, which comes first
-    items = items.first(1);
-  for (const auto& item : items) {
+  for (const auto& item : program_.items_of(statement)) {
     if (item.kind != ItemKind::Letter)
       continue;
+    set_ |= bit(item.value);
     auto& letter = letters_[item.value];
-    if (letter.first_set == nullptr)
+    if (letter.first_set == nullptr || &item < letter.first_set)
       letter.first_set = &item;
     (statement.kind == spec::Statement::For ? letter.counted : letter.assigned) = true;
   }
@@ -115,14 +121,15 @@ std::string ValuesPass::meant_by(std::uint32_t letter) const {
 }
 
 void ValuesPass::forget_letters() {
-  now_ = Letters::zero();
-  for (std::uint32_t i = 0; i < letters; ++i)
-    if (letters_[i].first_set != nullptr)
-      set_letter(i, {});
+  now_ = unknown_;
+  moved_ = set_;
+  if ((set_ & bit(index_letter)) != 0)
+    index_begins_.reset();
 }
 
 void ValuesPass::set_letter(std::uint32_t index, Range range, std::uint32_t exact,
                             std::uint32_t dense) {
+  moved_ |= bit(index);
   now_.ranges[index] = range;
   now_.exact = (now_.exact & ~bit(index)) | exact << index;
   now_.dense = (now_.dense & ~bit(index)) | (exact & dense) << index;
@@ -190,6 +197,7 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
       statement.else_branch == none ? nullptr : &program_.statements[statement.else_branch];
   conditional_ = true;
   const auto cleared = cleared_on_line_;
+  moved_ = 0;
   const bool then_falls =
       go_branch(condition, Holds::Yes, &program_.statements[statement.then_branch], code);
   auto after = now_;
@@ -199,7 +207,7 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
   conditional_ = false;
   if (then_falls && else_falls) {
     const auto looked_at = now_.exact | after.exact;
-    join_into(now_, after);
+    join_into(now_, after, moved_);
     // What a test looks at and both ways keep is treated by the other statement somehow.
     now_.exact &= ~(looked_at & tested_);
   } else if (then_falls) {
@@ -332,6 +340,10 @@ bool ValuesPass::end_loop(const NextView& next) {
   if (next.variable.kind != ItemKind::Letter)
     return true;
   const auto letter = next.variable.value;
+  if (!followed_or_following()) {
+    set_letter(letter, {});
+    return true;
+  }
   const auto before = now_;
   std::optional<Range> past;
   for (std::size_t i = 0; i < loops_.size(); ++i) {
@@ -341,10 +353,6 @@ bool ValuesPass::end_loop(const NextView& next) {
       past = past ? join(*past, *left) : *left;
   }
   now_ = before;
-  if (!followed_or_following()) {
-    set_letter(letter, {});
-    return true;
-  }
   if (!past)
     return false;
   set_letter(letter, *past);
@@ -375,6 +383,10 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
       statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;
   if (!following_ && !calls)
     return false;
+  if (!followed_or_following()) {
+    forget_letters();
+    return true;
+  }
   const auto before = now_;
   std::optional<Letters> after;
   for (const auto& way : flow_.jumps_of(flow_.code[code])) {
@@ -385,16 +397,17 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
       continue;
     }
     now_ = before;
-    if (!followed_or_following() || !ways_.call(way.to, block_, now_))
+    if (!ways_.call(way.to, block_, now_))
       continue;
     if (after)
-      join_into(*after, now_);
+      join_into(*after, now_, set_);
     else
       after = now_;
   }
   now_ = before;
   if (!calls)
     return false;
+  moved_ = set_;
   if (after)
     now_ = *after;
   else if (!following_)
