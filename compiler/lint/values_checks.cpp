@@ -17,22 +17,23 @@ void ValuesPass::check_lines() {
     const auto& code = flow_.code[i];
     if (code.target || !falls)
       begin_block();
-    begin_line(i, falls);
+    begin_line(i, code.target || !falls);
     line_end_ = program_.lines[code.line].span.end;
     cleared_on_line_ = 0;
     const auto& statement = program_.statements[code.statement];
-    go(i);
-    if (code.jumps_begin != code.jumps_end || statement.error)
-      counting_ = 0;                        // the loop may be left early
+    go(statement, i);
     falls = code.falls && !statement.error; // a line that does not parse may set anything
-    for (const auto& jump : flow_.jumps_of(code))
+    const auto jumps = flow_.jumps_of(code);
+    if (!jumps.empty() || statement.error)
+      counting_ = 0; // the loop may be left early
+    for (const auto& jump : jumps)
       if (jump.call)
         falls = false; // the subroutine may change everything
     in_order_ = in_order_ && falls;
   }
 }
 
-void ValuesPass::begin_line(std::uint32_t code, bool falls) {
+void ValuesPass::begin_line(std::uint32_t code, bool entered) {
   if (followed_ && ways_.is_kept(code)) {
     block_ = code;
     if (const auto* known = ways_.before(code)) {
@@ -40,30 +41,8 @@ void ValuesPass::begin_line(std::uint32_t code, bool falls) {
       return;
     }
     forget_letters();
-  } else if (!followed_ && (flow_.code[code].target || !falls)) {
+  } else if (!followed_ && entered) {
     forget_letters();
-  }
-}
-
-void ValuesPass::look(const StatementNode& statement) {
-  if (following_ || statement.error)
-    return;
-  evaluate(statement);
-  const auto& row = spec::info(statement.kind);
-  if (row.after == spec::After::Waits)
-    cleared_ = 0;
-  switch (row.form) {
-  case spec::Form::Assignment: check_let(program_.as<LetView>(statement)); break;
-  case spec::Form::Loop: check_for(program_.as<ForView>(statement)); break;
-  case spec::Form::LoopEnd: check_indexed(program_.items_of(statement)); break;
-  case spec::Form::IndexedBranch: check_on(program_.as<OnView>(statement)); break;
-  case spec::Form::Output: check_print(statement); break;
-  case spec::Form::Entry: check_input(statement); break;
-  case spec::Form::Values: check_data(statement); break;
-  case spec::Form::Variables: check_read(statement); break;
-  case spec::Form::Arguments: check_arguments(statement); break;
-  case spec::Form::Conditional: check_condition(program_.as<IfView>(statement)); break;
-  case spec::Form::Branch: break;
   }
 }
 
@@ -73,7 +52,7 @@ void ValuesPass::check_outside(const Item& value, std::string_view word,
   if (range.misses(parameter.least, parameter.greatest))
     add_out_of_range(value, word, parameter);
   else if (!check_loop_range(value, word, parameter)) {
-    if (exact_[value.value] != 0)
+    if (known_[value.value].exact)
       check_may_leave(value, word, parameter);
     else
       doubt(value, parameter.least, parameter.greatest);
@@ -404,7 +383,7 @@ void ValuesPass::check_on(const OnView& on) {
     findings_.add(rules::SelectorRange, selector.span,
                   fmt::format("the list has {}, found {}", plural(targets.size(), "line number"),
                               shown(range)));
-  else if (exact_[selector.value] == 0 && !is_counted(selector))
+  else if (!known_[selector.value].exact && !is_counted(selector))
     doubt(selector, 1, count);
   else if (range.lo < 1 || range.hi > count)
     add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line number")),

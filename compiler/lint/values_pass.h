@@ -52,6 +52,12 @@ struct DataSet {
   const StatementNode* unread = nullptr; ///< the `data` that nothing has read yet
 };
 
+/// What is known of a node of an expression.
+struct Known {
+  Range range;
+  bool exact = false; ///< both ends of the range are values that it takes
+};
+
 /// What is known of a `for`, over all times that it runs.
 struct Loop {
   std::uint32_t code = 0;   ///< a line of code
@@ -67,7 +73,7 @@ class ValuesPass {
 public:
   ValuesPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
       : program_(program), flow_(flow), target_(target), findings_(findings),
-        ranges_(program.nodes.size()), exact_(program.nodes.size()), ways_(program, flow) {}
+        known_(program.nodes.size()), ways_(program, flow) {}
 
   /// Carries values through straight runs of lines only, and forgets them where a jump comes in.
   void run();
@@ -132,8 +138,9 @@ private:
   /// The values that `read` can take.
   void find_data();
 
-  /// Runs a line on what is known; whether the one below can be next.
-  bool go(std::uint32_t code);
+  /// Runs a statement of a line on what is known, and looks for mistakes in it unless the ways are
+  /// still being followed; whether the line below can be next.
+  bool go(const StatementNode& statement, std::uint32_t code);
 
   bool go_branches(const StatementNode& statement, std::uint32_t code);
 
@@ -146,9 +153,6 @@ private:
   bool assume(const Comparison& comparison, Holds holds);
 
   void narrow(const Item& side, const Range& from, const Range& to);
-
-  /// What a statement does to letters and where it leads; whether the line below can be next.
-  bool move(const StatementNode& statement, std::uint32_t code);
 
   void set(const LetView& let);
 
@@ -177,12 +181,9 @@ private:
   void check_lines();
 
   /// Takes up what is known of the letters at a line.
-  void begin_line(std::uint32_t code, bool falls);
+  void begin_line(std::uint32_t code, bool entered);
 
-  /// Looks for mistakes in a statement, unless the ways are still being followed.
-  void look(const StatementNode& statement);
-
-  const Range& range_of(const Item& expression) const { return ranges_[expression.value]; }
+  const Range& range_of(const Item& expression) const { return known_[expression.value].range; }
 
   void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter) {
     const auto& range = range_of(value);
@@ -249,52 +250,27 @@ private:
 
   // ---- expressions
 
-  /// Goes through the nodes of a statement in the order in which they are computed. They stand
-  /// right after those of the statement before.
-  void evaluate(const StatementNode& statement);
+  /// Computes nodes, and looks for mistakes in them unless the ways are still being followed.
+  void compute(std::uint32_t begin, std::uint32_t end);
 
-  /// The range of an expression, without looking for mistakes.
-  Range compute(const Item& item);
-
-  /// The same of one node; those of its operands are known.
-  void compute(std::uint32_t index) {
-    const auto& node = program_.nodes[index];
-    switch (node.kind) {
-    case NodeKind::Number:
-      return know(index, node.overflow ? Range{} : Range::only(node.value), !node.overflow);
-    case NodeKind::Letter: return know(index, now_.ranges[node.what], is_exact(node.what));
-    case NodeKind::Indexed: return know(index, {}, false);
-    case NodeKind::System: {
-      const auto& row = spec::variables[node.what];
-      return know(index, {row.least, row.greatest}, reaches_ends[node.what]);
-    }
-    case NodeKind::Group: return know(index, ranges_[index - 1], exact_[index - 1] != 0);
-    case NodeKind::Negate:
-    case NodeKind::Binary:
-    case NodeKind::Call: return compute_operation(node, index);
-    }
+  /// The range of an expression, computed now.
+  const Range& compute(const Item& item) {
+    compute(program_.nodes[item.value].first, item.value + 1);
+    return range_of(item);
   }
+
   void compute_operation(const Node& node, std::uint32_t index);
 
-  /// `exact`: both ends of the range are values that the node takes.
-  void know(std::uint32_t index, Range range, bool exact) {
-    ranges_[index] = range;
-    exact_[index] = exact;
-  }
+  void know(std::uint32_t index, Range range, bool exact) { known_[index] = {range, exact}; }
 
   bool is_exact(std::uint32_t letter) const { return (now_.exact & bit(letter)) != 0; }
 
   bool is_exact_sum(const Node& node, std::uint32_t right) const;
 
-  void evaluate(std::uint32_t index);
-  void begin_counting(const ForView& loop, const Item& computed);
-
   void note_use(const Node& letter) {
     auto& first = letters_[letter.what].first_used;
     first = first == nullptr ? &letter : first;
   }
-
-  void check_operation(const Node& node, std::uint32_t index);
 
   void note_clearing(const Node& node, const spec::VariableInfo& row);
 
@@ -309,9 +285,7 @@ private:
   const Target& target_;
   Findings& findings_;
   std::array<Letter, letters> letters_{};
-  std::vector<Range> ranges_;       ///< by node
-  std::vector<std::uint8_t> exact_; ///< by node: whether it takes both ends of its range
-  std::uint32_t evaluated_ = 0;     ///< how many of them are known
+  std::vector<Known> known_; ///< by node
 
   // what is known on the way
   Letters now_;

@@ -136,6 +136,7 @@ public:
     statement.kind = kind;
     statement.spelling = spelling;
     statement.items_begin = size(program_.items);
+    statement.nodes_begin = size(program_.nodes);
     statement.word = span(begin, end);
     statement.span.begin = statement.word.begin;
     kind_ = kind;
@@ -180,14 +181,18 @@ public:
     in_branch_ = false;
     auto& branch = program_.statements[index];
     branch.span = span(begin, trim(begin, end));
-    branch.items_end = size(program_.items);
+    end_items(branch);
     statement_ = parent;
     kind_ = spec::Statement::If;
     auto& owner = program_.statements[parent];
     (owner.then_branch == none ? owner.then_branch : owner.else_branch) = index;
   }
   bool in_branch() const { return in_branch_; }
-  void end_condition() { program_.statements[statement_].items_end = size(program_.items); }
+  void end_condition() { end_items(program_.statements[statement_]); }
+  void end_items(StatementNode& statement) const {
+    statement.items_end = size(program_.items);
+    statement.nodes_end = size(program_.nodes);
+  }
 
   void begin_line() {
     depth_ = 0;

@@ -387,7 +387,7 @@ private:
     auto& statement = program_.statements[mark.statements];
     statement.span = builder_.span(body, builder_.trim(body, end));
     if (statement.kind != spec::Statement::If)
-      statement.items_end = static_cast<std::uint32_t>(program_.items.size());
+      builder_.end_items(statement);
   }
 
   /// Steps over one LF, CR or CRLF.
