@@ -5,8 +5,10 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <string>
+#include <utility>
 
 namespace orb::compiler {
 namespace {
@@ -97,15 +99,12 @@ public:
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
+    if (nest_in_text())
+      return; // and run as they stand
     collect_parts();
-    if (set_ == 0 && stepped_ == 0)
-      return;
     match_pairs();
     check_jumps();
     check_unended();
-    if (nested_ && std::all_of(parts_.begin(), parts_.end(),
-                               [&](const Part& part) { return keeps_to_loops(part); }))
-      return; // they run as they stand in the text
     follow();
     for (const auto& part : parts_)
       report(part);
@@ -123,6 +122,45 @@ private:
   }
   std::uint32_t stepped_by(const StatementNode& node) const {
     return variable_of(program_.as<NextView>(node).variable);
+  }
+
+  /// Whether each loop ends within the one around it, and nothing jumps into a loop or out of one,
+  /// calls or returns in one.
+  bool nest_in_text() const {
+    const auto returns = flow_.all(spec::Statement::Return);
+    std::vector<std::uint32_t> around; // by line of code: the `for` of the innermost loop
+    return find_loops(around) &&
+           std::all_of(flow_.jumps.begin(), flow_.jumps.end(),
+                       [&](const Flow::Jump& jump) {
+                         return jump.to == none || (around[jump.from] == around[jump.to] &&
+                                                    !(jump.call && around[jump.from] != none));
+                       }) &&
+           std::all_of(returns.begin(), returns.end(),
+                       [&](const Flow::Place& place) { return around[place.code] == none; });
+  }
+
+  /// False where they do not nest.
+  bool find_loops(std::vector<std::uint32_t>& around) const {
+    std::array<std::uint32_t, Loops::most> open{}; // those around a loop that is open
+    std::size_t count = 0;
+    auto innermost = none;
+    around.assign(size_, none);
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      around[i] = innermost;
+      if (!flow_.code[i].loops)
+        continue;
+      const auto& node = statement(i);
+      const auto variable = innermost == none ? none : counter_of(statement(innermost));
+      if (node.kind == spec::Statement::For && count < open.size() &&
+          counter_of(node) != variable) {
+        open[count++] = std::exchange(innermost, i);
+      } else if (node.kind == spec::Statement::Next && stepped_by(node) == variable) {
+        innermost = open[--count];
+      } else {
+        return false;
+      }
+    }
+    return innermost == none;
   }
 
   void collect_parts() {
@@ -181,16 +219,12 @@ private:
     for (auto& part : parts_) {
       if (part.effect == Effect::Opens) {
         const auto outer = open.empty() ? none : open.back();
-        nested_ = nested_ && open.size() < Loops::most &&
-                  (outer == none || pairs_[outer].variable != part.variable);
         open.push_back(static_cast<std::uint32_t>(pairs_.size()));
         pairs_.push_back({part.variable, part.code, none, outer});
       }
       part.innermost = open.empty() ? none : open.back();
-      nested_ = nested_ && part.effect != Effect::Unsure;
       if (part.effect != Effect::Closes)
         continue;
-      nested_ = nested_ && !open.empty() && pairs_[open.back()].variable == part.variable;
       while (!open.empty() && pairs_[open.back()].variable != part.variable)
         open.pop_back();
       if (!open.empty()) {
@@ -198,25 +232,6 @@ private:
         open.pop_back();
       }
     }
-    nested_ = nested_ && open.empty();
-  }
-
-  /// Where nothing jumps into a loop or out of one, calls or returns in one.
-  bool keeps_to_loops(const Part& part) const {
-    const auto jumps = flow_.jumps_of(flow_.code[part.code]);
-    return !(part.returns && part.innermost != none) &&
-           std::all_of(jumps.begin(), jumps.end(), [&](const Flow::Jump& jump) {
-             return jump.to == none || (loop_around(jump.to) == part.innermost &&
-                                        !(jump.call && part.innermost != none));
-           });
-  }
-
-  /// The pair that is open above a line of code, in the order of the text.
-  std::uint32_t loop_around(std::uint32_t code) const {
-    if (ahead_[code] == none)
-      return none;
-    const auto& part = parts_[ahead_[code]];
-    return part.effect == Effect::Opens ? pairs_[part.innermost].outer : part.innermost;
   }
 
   void check_jumps() {
@@ -461,7 +476,6 @@ private:
   std::vector<Part> parts_;          ///< in the order of the text
   std::vector<std::uint32_t> ahead_; ///< by line of code: the first part from there on
   std::vector<Pair> pairs_;
-  bool nested_ = true;      ///< in the text each loop ends within the one around it
   std::vector<Call> calls_; ///< the first is the main program
   std::vector<Waiting> waiting_;
   std::vector<State> states_;
