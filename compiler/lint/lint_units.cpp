@@ -28,7 +28,6 @@ public:
       : program_(program), flow_(flow), findings_(findings) {}
 
   void run() {
-    each(Statement::Let, &UnitsPass::note_timer);
     each(Statement::Let, &UnitsPass::check_timer);
     each(Statement::If, &UnitsPass::check_comparisons);
     each(Statement::Delay, &UnitsPass::check_delay);
@@ -50,12 +49,6 @@ private:
   void each(Statement kind, Check check) {
     for (const auto& place : flow_.all(kind))
       (this->*check)(program_.statements[place.statement], place.code);
-  }
-
-  void note_timer(const StatementNode& statement, std::uint32_t /*code*/) {
-    const auto let = program_.as<LetView>(statement);
-    if (let.variable.kind == ItemKind::System && number(let.expression) != 0)
-      timers_.set_above_0(static_cast<spec::Variable>(let.variable.value));
   }
 
   /// The only roll has speed 0, and then the ball is stopped: heading and speed are exchanged.
@@ -154,11 +147,13 @@ private:
 
   void check_timer(const StatementNode& statement, std::uint32_t code) {
     const auto let = program_.as<LetView>(statement);
-    if (let.variable.kind != ItemKind::System ||
-        !is_timer(static_cast<spec::Variable>(let.variable.value)))
+    if (let.variable.kind != ItemKind::System)
       return;
+    const auto timer = static_cast<spec::Variable>(let.variable.value);
     const auto ms = number(let.expression);
-    if (!ms || *ms < 1 || *ms >= least_meant || in_loop(code))
+    if (ms != 0)
+      timers_.set_above_0(timer);
+    if (!is_timer(timer) || !ms || *ms < 1 || *ms >= least_meant || in_loop(code))
       return;
     const auto& row = spec::variables[let.variable.value];
     add_time(let.expression, *ms,

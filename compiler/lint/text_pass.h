@@ -102,11 +102,11 @@ private:
   // ---- expressions
 
   /// Whether there may be something to say of a node; of most there is nothing.
-  static bool is_remarkable(const Node& node) {
-    constexpr auto bit = [](NodeKind kind) { return 1U << static_cast<unsigned>(kind); };
-    constexpr auto kinds =
-        bit(NodeKind::System) | bit(NodeKind::Group) | bit(NodeKind::Negate) | bit(NodeKind::Call);
-    return (kinds & bit(node.kind)) != 0 || node.overflow;
+  bool is_remarkable(const Node& node) const {
+    if (node.kind != NodeKind::System)
+      return node.kind > NodeKind::Binary || node.overflow;
+    const auto& row = spec::variables[node.what];
+    return row.since > target_.version || !row.old_word.empty();
   }
 
   void check_node(const Node& node);

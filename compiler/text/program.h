@@ -24,9 +24,9 @@ enum class NodeKind : std::uint8_t {
   Letter,  ///< `what` is 0 for A to 24 for Y
   Indexed, ///< Z: the element that Y names
   System,  ///< `what` is a spec::Variable
+  Binary,  ///< `what` is a spec::Operator
   Group,   ///< parentheses around the operand
   Negate,  ///< a minus sign before the operand
-  Binary,  ///< `what` is a spec::Operator
   Call,    ///< `what` is a spec::Function
 };
 
