@@ -16,7 +16,7 @@ public:
     flow_.jumps.reserve(program_.lines.size());
     for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
       read_line(i);
-    if (!sorted_)
+    if (!flow_.orderly)
       std::stable_sort(flow_.numbers.begin(), flow_.numbers.end(),
                        [](const auto& a, const auto& b) { return a.number < b.number; });
     find_targets();
@@ -28,7 +28,8 @@ private:
   void read_line(std::uint32_t index) {
     const auto& line = program_.lines[index];
     if (line.has_number()) {
-      sorted_ = sorted_ && (flow_.numbers.empty() || flow_.numbers.back().number < line.number);
+      flow_.orderly = flow_.orderly && last_ < line.number && line.has_statement();
+      last_ = line.number;
       const auto code = line.has_statement() ? size(flow_.code) : none;
       flow_.numbers.push_back({line.number, index, code});
     }
@@ -112,7 +113,7 @@ private:
 
   const Program& program_;
   Flow flow_;
-  bool sorted_ = true; ///< by line numbers, so far
+  std::uint32_t last_ = 0; ///< line number
 };
 
 } // namespace

@@ -51,6 +51,7 @@ struct Flow {
   std::vector<Number> numbers; ///< ascending; of equals the first in the text comes first
   std::vector<Place> places;   ///< by kind
   std::array<std::uint32_t, spec::statements.size() + 1> begins{}; ///< of each kind in `places`
+  bool orderly = true; ///< each line number is above those before it and has a statement
 
   std::span<const Jump> jumps_of(const Code& from) const {
     return {jumps.data() + from.jumps_begin, jumps.data() + from.jumps_end};

@@ -56,8 +56,9 @@ private:
       return;
     note_product(let);
     check_share(value_of(let));
-    if (&let == &statement_of(code))
-      check_exchange(code);
+    if (const auto letter = letter_in(program_, value_of(let));
+        letter && &let == &statement_of(code))
+      check_exchange(code, *letter);
   }
 
   // ---- two comparisons of one letter or sensor
@@ -100,17 +101,15 @@ private:
 
   // ---- A = B, then B = A
 
-  void check_exchange(std::uint32_t i) {
+  void check_exchange(std::uint32_t i, std::uint8_t second) {
     if (i + 1 == flow_.code.size() || flow_.code[i + 1].target)
       return;
     const auto first = set_by(statement_of(i));
-    const auto second = set_by(statement_of(i + 1));
-    if (!first || !second || first == second ||
-        letter_in(program_, value_of(statement_of(i))) != second ||
+    if (first == second || set_by(statement_of(i + 1)) != second ||
         letter_in(program_, value_of(statement_of(i + 1))) != first)
       return;
     add(rules::LostExchange, statement_of(i).span,
-        lost_exchange(name_of(*first), name_of(*second), free_letter()));
+        lost_exchange(name_of(*first), name_of(second), free_letter()));
   }
 
   std::string free_letter() const {

@@ -94,6 +94,8 @@ void TextPass::check_line_ends() {
 }
 
 void TextPass::check_numbers() {
+  if (flow_.orderly)
+    return;
   std::uint32_t last = 0;
   bool ascending = true;
   for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {

@@ -15,10 +15,14 @@ void ValuesPass::check_lines() {
   forget_letters();
   for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
     const auto& code = flow_.code[i];
-    if (code.target || !falls)
+    const bool entered = code.target || !falls;
+    if (entered)
       begin_block();
-    begin_line(i, code.target || !falls);
-    line_end_ = program_.lines[code.line].span.end;
+    if (followed_)
+      take_up(i);
+    else if (entered)
+      forget_letters();
+    line_ = code.line;
     cleared_on_line_ = 0;
     const auto& statement = program_.statements[code.statement];
     go(statement, i);
@@ -33,17 +37,14 @@ void ValuesPass::check_lines() {
   }
 }
 
-void ValuesPass::begin_line(std::uint32_t code, bool entered) {
-  if (followed_ && ways_.is_kept(code)) {
-    block_ = code;
-    if (const auto* known = ways_.before(code)) {
-      now_ = *known;
-      return;
-    }
+void ValuesPass::take_up(std::uint32_t code) {
+  if (!ways_.is_kept(code))
+    return;
+  block_ = code;
+  if (const auto* known = ways_.before(code))
+    now_ = *known;
+  else
     forget_letters();
-  } else if (!followed_ && entered) {
-    forget_letters();
-  }
 }
 
 void ValuesPass::check_outside(const Item& value, std::string_view word,
@@ -346,7 +347,8 @@ void ValuesPass::check_index(Span span) {
         rules::MayLeaveRange, span,
         fmt::format("`Z` is used while `Y` can be {}; it must be 1 to {}", shown(range), most),
         fmt::format("keep `Y` within 1 to {}", most));
-  } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ && in_order_ &&
+  } else if (index.first_set != nullptr &&
+             index.first_set->span.begin > program_.lines[line_].span.end && in_order_ &&
              !before_y_) {
     before_y_ = true;
     findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",

@@ -180,8 +180,8 @@ private:
 
   void check_lines();
 
-  /// Takes up what is known of the letters at a line.
-  void begin_line(std::uint32_t code, bool entered);
+  /// Takes up what is known of the letters at a line, once all ways have been followed.
+  void take_up(std::uint32_t code);
 
   const Range& range_of(const Item& expression) const { return known_[expression.value].range; }
 
@@ -309,8 +309,8 @@ private:
   std::uint32_t cleared_ = 0;         ///< variables that are 0 because they have been read
   std::uint32_t cleared_on_line_ = 0; ///< the same, by this line
   std::uint32_t counting_ = 0;        ///< letters of loops that reach their ends for certain
-  std::uint32_t line_end_ = 0;
-  bool conditional_ = false; ///< in a branch
+  std::uint32_t line_ = 0;            ///< that is looked at
+  bool conditional_ = false;          ///< in a branch
 
   bool indexed_used_ = false;
   bool in_order_ = true; ///< nothing above leads away and back, or past lines

@@ -180,7 +180,6 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
     return true;
   }
   const auto& row = spec::info(statement.kind);
-  const auto items = program_.items_of(statement);
   if (row.form != spec::Form::Loop) // which sets its letter before it computes its end
     compute(statement.nodes_begin, statement.nodes_end);
   if (row.after == spec::After::Waits)
@@ -206,7 +205,7 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
   case spec::Form::Entry:
     if (looks)
       check_input(statement);
-    forget(items.first(1));
+    forget(program_.items_of(statement).first(1));
     return true;
   case spec::Form::Values:
     if (looks)
@@ -215,7 +214,7 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
   case spec::Form::Variables:
     if (looks)
       check_read(statement);
-    read(items);
+    read(program_.items_of(statement));
     return true;
   case spec::Form::Arguments:
     if (looks)
