@@ -55,10 +55,13 @@ struct negation       : seq<one<'-'>, _, must<positive>> {};
 struct factor         : seq<sor<positive, negation>, _> {};
 struct product_sign   : one<'*', '/', '%', '{', '}'> {};
 struct product_tail   : seq<product_sign, _, must<factor>> {};
-struct product        : seq<factor, star<at<product_sign>, product_tail>> {}; // at: most have no tail
+struct product_tails  : star<at<product_sign>, product_tail> {}; // at: most have no tail
+struct product        : seq<factor, product_tails> {};
 struct sum_sign       : one<'+', '-', '&', '|'> {};
 struct sum_tail       : seq<sum_sign, _, must<product>> {};
-struct sum            : seq<product, star<at<sum_sign>, sum_tail>> {};
+struct any_sign       : one<'*', '/', '%', '{', '}', '+', '-', '&', '|'> {};
+struct sum_tails      : seq<product_tails, star<at<sum_sign>, sum_tail>> {};
+struct sum            : seq<factor, sor<not_at<any_sign>, sum_tails>> {}; // most have no sign
 
 struct expression     : sum {};
 

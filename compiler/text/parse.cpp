@@ -26,8 +26,16 @@ constexpr std::uint64_t no_letters(std::uint64_t bytes) {
   return (~(small + each * (0x80 - 'a')) | (small + each * (0x7F - 'z')) | bytes) & each * 0x80;
 }
 
+/// The letters from `p` on, one by one.
+Letters single_letters(const char* p, const char* end) {
+  Letters letters;
+  for (; p != end && is_letter(*p); ++p, ++letters.length)
+    letters.packed |= static_cast<std::uint64_t>(*p) << (8 * (letters.length % words::longest));
+  return letters;
+}
+
 /// The letters from `p` on; of words longer than any, `packed` means nothing.
-Letters letters_at(const char* p, const char* end) {
+inline Letters letters_at(const char* p, const char* end) {
   static_assert(words::longest == sizeof(std::uint64_t));
   if (std::endian::native == std::endian::little && end - p >= std::ptrdiff_t{words::longest}) {
     std::uint64_t bytes = 0;
@@ -37,10 +45,7 @@ Letters letters_at(const char* p, const char* end) {
       return {bytes & ((std::uint64_t{1} << bits) - 1), bits / 8};
     }
   }
-  Letters letters;
-  for (; p != end && is_letter(*p); ++p, ++letters.length)
-    letters.packed |= static_cast<std::uint64_t>(*p) << (8 * (letters.length % words::longest));
-  return letters;
+  return single_letters(p, end);
 }
 
 template <typename Input>
