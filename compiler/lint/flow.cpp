@@ -1,6 +1,7 @@
 #include "compiler/lint/flow.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace orb::compiler {
 namespace {
@@ -15,10 +16,11 @@ public:
     flow_.jumps.reserve(program_.lines.size());
     for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
       read_line(i);
-    if (!sorted_)
+    if (!flow_.orderly)
       std::stable_sort(flow_.numbers.begin(), flow_.numbers.end(),
                        [](const auto& a, const auto& b) { return a.number < b.number; });
     find_targets();
+    sort_places();
     return std::move(flow_);
   }
 
@@ -26,8 +28,9 @@ private:
   void read_line(std::uint32_t index) {
     const auto& line = program_.lines[index];
     if (line.has_number()) {
-      sorted_ = sorted_ && (flow_.numbers.empty() || flow_.numbers.back().number < line.number);
-      const auto code = line.has_statement() ? static_cast<std::uint32_t>(flow_.code.size()) : none;
+      flow_.orderly = flow_.orderly && last_ < line.number && line.has_statement();
+      last_ = line.number;
+      const auto code = line.has_statement() ? size(flow_.code) : none;
       flow_.numbers.push_back({line.number, index, code});
     }
     if (!line.has_statement())
@@ -35,12 +38,17 @@ private:
     auto& code = flow_.code.emplace_back();
     code.line = index;
     code.statement = line.statement;
-    code.jumps_begin = static_cast<std::uint32_t>(flow_.jumps.size());
+    code.jumps_begin = size(flow_.jumps);
     const auto& statement = program_.statements[line.statement];
     code.falls = follow(statement, code);
     if (statement.then_branch != none)
       code.falls = follow_branches(statement, code);
-    code.jumps_end = static_cast<std::uint32_t>(flow_.jumps.size());
+    code.jumps_end = size(flow_.jumps);
+  }
+
+  template <typename T>
+  static std::uint32_t size(const std::vector<T>& vector) {
+    return static_cast<std::uint32_t>(vector.size());
   }
 
   bool follow_branches(const StatementNode& statement, Flow::Code& code) {
@@ -56,6 +64,7 @@ private:
   bool follow(const StatementNode& statement, Flow::Code& code) {
     if (statement.error)
       return true; // once corrected it goes on; lint asks may_steer() first
+    ++flow_.begins[static_cast<std::size_t>(statement.kind) + 1];
     const auto& row = spec::info(statement.kind);
     switch (row.after) {
     case spec::After::Falls: return true;
@@ -74,7 +83,7 @@ private:
   void add_targets(const StatementNode& statement, bool call) {
     for (auto i = statement.items_begin; i < statement.items_end; ++i)
       if (program_.items[i].kind == ItemKind::Target)
-        flow_.jumps.push_back({none, i, call});
+        flow_.jumps.push_back({size(flow_.code) - 1, none, i, call});
   }
 
   void find_targets() {
@@ -88,9 +97,23 @@ private:
     }
   }
 
+  /// Each kind has been counted in place of where the next one begins.
+  void sort_places() {
+    std::partial_sum(flow_.begins.begin(), flow_.begins.end(), flow_.begins.begin());
+    flow_.places.resize(flow_.begins.back());
+    auto next = flow_.begins;
+    std::uint32_t code = 0; // the branches of a line stand right after it
+    for (std::uint32_t i = 0; i < program_.statements.size(); ++i) {
+      const auto& statement = program_.statements[i];
+      code += code + 1 < flow_.code.size() && flow_.code[code + 1].statement == i ? 1 : 0;
+      if (!statement.error)
+        flow_.places[next[static_cast<std::size_t>(statement.kind)]++] = {i, code};
+    }
+  }
+
   const Program& program_;
   Flow flow_;
-  bool sorted_ = true; ///< by line numbers, so far
+  std::uint32_t last_ = 0; ///< line number
 };
 
 } // namespace

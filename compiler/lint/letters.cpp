@@ -1,6 +1,7 @@
 #include "compiler/lint/letters.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace orb::compiler {
 namespace {
@@ -18,14 +19,17 @@ std::uint32_t joined_bit(std::uint32_t a, std::uint32_t b, const Range& left, co
   return 0;
 }
 
+/// Whether the same is known of a letter.
+bool same(const Letters& a, const Letters& b, std::size_t letter) {
+  return a.ranges[letter] == b.ranges[letter] &&
+         (((a.exact ^ b.exact) | (a.dense ^ b.dense)) & bit(letter)) == 0;
+}
+
 /// Joins one letter; whether its range changed.
 bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
   const auto old = into.ranges[letter];
   const auto& other = from.ranges[letter];
   const auto mask = bit(letter);
-  if (old == other && (into.exact & mask) == (from.exact & mask) &&
-      (into.dense & mask) == (from.dense & mask))
-    return false;
   const auto joined = join(old, other);
   const auto exact = joined_bit(into.exact, from.exact, old, other, joined, mask);
   // Between two ranges there may be a gap.
@@ -40,10 +44,12 @@ bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
 
 } // namespace
 
-bool join_into(Letters& into, const Letters& from) {
+bool join_into(Letters& into, const Letters& from, std::uint32_t letters) {
   bool changed = false;
-  for (std::size_t letter = 0; letter < spec::letter_count; ++letter)
-    changed = join_letter(into, from, letter) || changed;
+  for (; letters != 0; letters &= letters - 1)
+    if (const auto letter = static_cast<std::size_t>(std::countr_zero(letters));
+        !same(into, from, letter))
+      changed = join_letter(into, from, letter) || changed;
   return changed;
 }
 
@@ -179,7 +185,7 @@ bool LetterFlow::grow(Letters& into, const Letters& from, std::uint32_t visits) 
   constexpr std::uint32_t patience = 2;
   constexpr std::uint32_t limit = 24;
   const auto before = into;
-  if (!join_into(into, from))
+  if (!join_into(into, from, all_letters))
     return std::pair{before.exact, before.dense} != std::pair{into.exact, into.dense};
   if (visits > patience)
     for (std::size_t i = 0; i < spec::letter_count; ++i) {

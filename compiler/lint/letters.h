@@ -16,6 +16,9 @@ constexpr std::uint32_t bit(std::size_t letter) {
   return std::uint32_t{1} << letter;
 }
 
+/// The set of A to Y.
+inline constexpr std::uint32_t all_letters = bit(spec::letter_count) - 1;
+
 /// What is known of A to Y at a place of a program.
 struct Letters {
   std::array<Range, spec::letter_count> ranges{};
@@ -26,13 +29,14 @@ struct Letters {
   static Letters zero() {
     Letters letters;
     letters.ranges.fill(Range::only(0));
-    letters.exact = (1U << spec::letter_count) - 1;
+    letters.exact = all_letters;
     return letters;
   }
 };
 
-/// Joins `from` into `into`; whether that changed something.
-bool join_into(Letters& into, const Letters& from);
+/// Joins `from` into `into`, of these letters: the others are known to be the same. Whether that
+/// changed a range.
+bool join_into(Letters& into, const Letters& from, std::uint32_t letters);
 
 /// The lines of a program at which what is known of its letters is kept, and what is known there
 /// after all ways have been followed. The one who follows says what lines do.

@@ -30,17 +30,22 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
                 Findings& findings) {
   if (flow.code.empty())
     return;
-  const auto size = static_cast<std::int32_t>(image_size(program));
   const auto room = area_bytes(target);
   const auto oldest = spec::value_of(spec::Limit::RamBytesUntil146);
   const bool in_ram = target.area == Area::Ram;
+  const bool may_be_old = in_ram && !target.ram_bytes;
+  // The image adds a blank and an end to a line at most.
+  const auto most = static_cast<std::int32_t>(program.text.size() + 2 * program.lines.size());
+  if (most < (may_be_old ? std::min(room, oldest) : room))
+    return;
+  const auto size = static_cast<std::int32_t>(image_size(program));
   if (size > room) {
     const auto line = line_at_byte(program, flow, room);
     findings.add(rules::ProgramTooLarge, program.lines[line].span,
                  fmt::format("the program is {} bytes, {} more than the {} that the {} area holds",
                              size, size - room, room, in_ram ? "RAM" : "flash"),
                  "`orb build --pack` makes it smaller");
-  } else if (in_ram && !target.ram_bytes && size > oldest) {
+  } else if (may_be_old && size > oldest) {
     const auto line = line_at_byte(program, flow, oldest);
     findings.add(
         rules::LargerThanOldRam, program.lines[line].span,

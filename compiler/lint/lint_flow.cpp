@@ -20,19 +20,24 @@ public:
       return;
     found_.reserve(flow_.jumps.size());
     open_.reserve(flow_.jumps.size() + 1);
-    read_facts();
     mark_reached();
     check_unreachable();
     lint_loops(program_, flow_, findings_);
-    if (!returns_.empty() || has_call_)
+    if (!returns().empty() || has_call())
       check_subroutines();
     check_busy_loops();
   }
 
 private:
+  // What is known of a line:
+  static constexpr std::uint8_t reached = 1;
+  static constexpr std::uint8_t main = 2;   ///< can run while no subroutine is open
+  static constexpr std::uint8_t inside = 4; ///< can run as part of a subroutine
+
   const StatementNode& statement(std::uint32_t code) const {
     return program_.statements[flow_.code[code].statement];
   }
+  bool is(std::uint8_t mark, std::uint32_t code) const { return (marks_[code] & mark) == mark; }
   std::uint32_t line_of(std::uint32_t code) const { return flow_.code[code].line; }
   std::uint32_t number_of(std::uint32_t code) const { return program_.lines[line_of(code)].number; }
 
@@ -41,39 +46,24 @@ private:
     return program_.whole(statement(code));
   }
 
-  void read_facts() {
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      has_wait_ = has_wait_ || flow_.code[i].waits;
-      if (flow_.code[i].ends)
-        read_ends(i);
-    }
-    has_call_ = std::any_of(flow_.jumps.begin(), flow_.jumps.end(),
-                            [](const Flow::Jump& jump) { return jump.call; });
-  }
-
-  void read_ends(std::uint32_t code) {
-    bool returns = false;
-    for (const auto& node : whole(code)) {
-      returns = returns || is_return(node);
-      if (!node.error && node.kind == spec::Statement::Sleep)
-        sleeps_.push_back(&node);
-    }
-    if (returns)
-      returns_.push_back(code);
+  std::span<const Flow::Place> returns() const { return flow_.all(spec::Statement::Return); }
+  bool has_call() const {
+    return std::any_of(flow_.jumps.begin(), flow_.jumps.end(),
+                       [](const Flow::Jump& jump) { return jump.call; });
   }
 
   enum class Calls : std::uint8_t { Enter, StepOver };
 
-  /// Marks the lines that can follow `start`, and notes in `found_` those of them that jump and
-  /// were not marked before.
-  void spread(std::uint32_t start, std::vector<std::uint8_t>& marks, Calls calls) {
-    found_.clear();
+  /// Marks the lines that can follow `start`, and adds to `found_` those of them that jump and were
+  /// not marked before.
+  void spread(std::uint32_t start, std::uint8_t mark, std::vector<std::uint8_t>& marks,
+              Calls calls) {
     open_.assign(1, start);
     while (!open_.empty()) {
       auto at = open_.back();
       open_.pop_back();
-      for (; at < size_ && marks[at] == 0; ++at) {
-        marks[at] = 1;
+      for (; at < size_ && (marks[at] & mark) != mark; ++at) {
+        marks[at] |= mark;
         const auto& code = flow_.code[at];
         const auto jumps = flow_.jumps_of(code);
         if (!jumps.empty())
@@ -88,23 +78,28 @@ private:
   }
 
   void mark_reached() {
-    reached_.assign(size_, 0);
-    spread(0, reached_, Calls::Enter);
+    marks_.assign(size_, 0);
+    spread(0, main | reached, marks_, Calls::StepOver);
+    for (std::size_t i = 0; i < found_.size(); ++i) // which grows
+      for (const auto& jump : flow_.jumps_of(flow_.code[found_[i]]))
+        if (jump.call)
+          spread(jump.to, reached, marks_, Calls::Enter);
     // A line that is named as a wake-up line is an entry of its own.
-    for (const auto* sleep : sleeps_) {
-      const auto& root = program_.nodes[program_.as<SleepView>(*sleep).line.value];
+    for (const auto& sleep : flow_.all(spec::Statement::Sleep)) {
+      const auto view = program_.as<SleepView>(program_.statements[sleep.statement]);
+      const auto& root = program_.nodes[view.line.value];
       if (root.kind == NodeKind::Number && root.value > 0)
         if (const auto* number = flow_.find(static_cast<std::uint32_t>(root.value)))
-          spread(number->code, reached_, Calls::Enter);
+          spread(number->code, reached, marks_, Calls::Enter);
     }
   }
 
   void check_unreachable() {
     for (std::uint32_t i = 0; i < size_; ++i) {
-      if (reached_[i] != 0)
+      if (is(reached, i))
         continue;
       const auto first = i;
-      while (i + 1 < size_ && reached_[i + 1] == 0)
+      while (i + 1 < size_ && !is(reached, i + 1))
         ++i;
       const auto& line = program_.lines[line_of(first)];
       if (!line.has_number())
@@ -119,14 +114,10 @@ private:
   // ---- subroutines
 
   void check_subroutines() {
-    main_.assign(size_, 0);
-    spread(0, main_, Calls::StepOver);
-    inside_.assign(size_, 0);
-    routines_.reserve(flow_.jumps.size());
     for (std::uint32_t i = 0; i < size_; ++i)
-      if (flow_.code[i].called && reached_[i] != 0) {
+      if (flow_.code[i].called && is(reached, i)) {
         routines_.push_back(i);
-        spread(i, inside_, Calls::StepOver);
+        spread(i, inside, marks_, Calls::StepOver);
       }
     check_returns();
     check_comes_back();
@@ -138,37 +129,28 @@ private:
 
   /// Whether a subroutine calls one.
   bool calls_nest() const {
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (inside_[i] != 0)
-        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-          if (jump.call)
-            return true;
-    return false;
+    return std::any_of(flow_.jumps.begin(), flow_.jumps.end(),
+                       [&](const Flow::Jump& jump) { return jump.call && is(inside, jump.from); });
   }
 
   void check_returns() {
     bool falls_into = false;
-    for (const auto i : returns_) {
-      if (main_[i] == 0)
-        continue;
-      for (const auto& node : whole(i)) {
-        if (!is_return(node))
-          continue;
-        if (inside_[i] == 0)
-          findings_
-              .add(rules::ReturnWithoutGosub, node.span, "no `gosub` leads to this `return`",
-                   "end the program with `end`")
-              .fix = single_fix("write `end`", node.span, "end", Safety::Unsafe);
-        else
-          falls_into = true;
-      }
+    for (const auto& place : returns()) {
+      const auto& span = program_.statements[place.statement].span;
+      if (is(main | inside, place.code))
+        falls_into = true;
+      else if (is(main, place.code))
+        findings_
+            .add(rules::ReturnWithoutGosub, span, "no `gosub` leads to this `return`",
+                 "end the program with `end`")
+            .fix = single_fix("write `end`", span, "end", Safety::Unsafe);
     }
     if (!falls_into)
       return;
     bool reported = false;
     for (std::uint32_t i = 1; i < size_; ++i) {
-      const bool runs_in = flow_.code[i].called && main_[i] != 0 && main_[i - 1] != 0 &&
-                           flow_.code[i - 1].falls && inside_[i - 1] == 0;
+      const bool runs_in = flow_.code[i].called && is(main, i) && is(main, i - 1) &&
+                           flow_.code[i - 1].falls && !is(inside, i - 1);
       if (!runs_in || !returns_from(i))
         continue;
       reported = true;
@@ -181,14 +163,13 @@ private:
     }
     if (reported)
       return;
-    for (std::uint32_t i = 0; i < size_; ++i)
-      if (main_[i] != 0 && inside_[i] == 0)
-        for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-          if (!jump.call && jump.to != none && inside_[jump.to] != 0 && returns_from(jump.to))
-            findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
-                          fmt::format("line {} is part of a subroutine and leads to its `return`",
-                                      number_of(jump.to)),
-                          "call it with `gosub`");
+    for (const auto& jump : flow_.jumps)
+      if (is(main, jump.from) && !is(inside, jump.from) && !jump.call && jump.to != none &&
+          is(inside, jump.to) && returns_from(jump.to))
+        findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
+                      fmt::format("line {} is part of a subroutine and leads to its `return`",
+                                  number_of(jump.to)),
+                      "call it with `gosub`");
   }
 
   /// Offers an `end` in front of a line of code, where there is a number for it.
@@ -205,11 +186,20 @@ private:
 
   /// Calls of lines from which no way leads to a `return`.
   void check_comes_back() {
+    if (std::all_of(routines_.begin(), routines_.end(),
+                    [&](std::uint32_t entry) { return falls_to_return(entry); }))
+      return; // as nearly always
     const auto back = lines_that_return();
-    for (std::uint32_t i = 0; i < size_; ++i)
-      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-        if (jump.call && jump.to != none && reached_[i] != 0 && back[jump.to] == 0)
-          add_never_returns(i, jump);
+    for (const auto& jump : flow_.jumps)
+      if (jump.call && jump.to != none && is(reached, jump.from) && back[jump.to] == 0)
+        add_never_returns(jump.from, jump);
+  }
+
+  /// Whether a `return` is met without taking any jump.
+  bool falls_to_return(std::uint32_t at) const {
+    while (!flow_.code[at].ends && flow_.code[at].falls && at + 1 < size_)
+      ++at;
+    return std::any_of(whole(at).begin(), whole(at).end(), is_return);
   }
 
   /// The lines from which some way leads to a `return`, or to what may be one once corrected.
@@ -231,7 +221,9 @@ private:
     for (std::uint32_t i = 0; i < size_; ++i)
       each_next(i, [&](std::uint32_t next) { leads[--begins[next]] = i; });
     std::vector<std::uint8_t> back(size_, 0);
-    open_ = returns_;
+    open_.clear();
+    for (const auto& place : returns())
+      open_.push_back(place.code);
     for (std::uint32_t i = 0; i < size_; ++i)
       if (std::any_of(whole(i).begin(), whole(i).end(),
                       [](const StatementNode& node) { return node.error.has_value(); }))
@@ -271,9 +263,9 @@ private:
 
   bool returns_from(std::uint32_t start) {
     std::vector<std::uint8_t> marks(size_, 0);
-    spread(start, marks, Calls::StepOver);
-    return std::any_of(returns_.begin(), returns_.end(),
-                       [&](std::uint32_t i) { return marks[i] != 0; });
+    spread(start, 1, marks, Calls::StepOver);
+    return std::any_of(returns().begin(), returns().end(),
+                       [&](const Flow::Place& place) { return marks[place.code] != 0; });
   }
 
   /// The least number of calls that are open when a line runs. A `gosub` that already has four
@@ -318,7 +310,8 @@ private:
     std::vector<std::uint8_t> marks;
     for (std::size_t r = 0; r < routines_.size(); ++r) {
       marks.assign(size_, 0);
-      spread(routines_[r], marks, Calls::StepOver);
+      found_.clear();
+      spread(routines_[r], 1, marks, Calls::StepOver);
       for (const auto i : found_)
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (jump.call && jump.to != none)
@@ -359,18 +352,15 @@ private:
 
   /// A `goto` back to a line, with no way out between and nothing that waits.
   void check_busy_loops() {
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto jumps = flow_.jumps_of(flow_.code[i]);
-      if (jumps.empty() || reached_[i] == 0)
-        continue;
-      const auto& node = statement(i);
-      const auto& jump = jumps.front();
-      if (node.kind != spec::Statement::Goto || jump.to > i || i - jump.to > longest_loop ||
-          leaves_or_waits(jump.to, i))
+    for (const auto& jump : flow_.jumps) {
+      const auto& node = statement(jump.from);
+      if (jump.to > jump.from || jump.from - jump.to > longest_loop ||
+          node.kind != spec::Statement::Goto || !is(reached, jump.from) ||
+          leaves_or_waits(jump.to, jump.from))
         continue;
       findings_.add(rules::BusyLoop, node.span,
                     fmt::format("lines {} to {} loop forever without waiting", number_of(jump.to),
-                                number_of(i)),
+                                number_of(jump.from)),
                     "add a `delay`");
     }
   }
@@ -380,7 +370,7 @@ private:
       if (statement(i).error)
         return true;
       for (const auto& jump : flow_.jumps_of(flow_.code[i])) {
-        if (jump.call ? has_wait_ : (jump.to < first || jump.to > last))
+        if (jump.call ? has_wait() : (jump.to < first || jump.to > last))
           return true;
       }
       if (flow_.code[i].waits || flow_.code[i].ends)
@@ -390,6 +380,11 @@ private:
           return true;
     }
     return false;
+  }
+
+  bool has_wait() const {
+    return std::any_of(flow_.code.begin(), flow_.code.end(),
+                       [](const Flow::Code& code) { return code.waits; });
   }
 
   bool reads_timer(const StatementNode& node) const {
@@ -413,16 +408,10 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  bool has_call_ = false;
-  bool has_wait_ = false;
-  std::vector<std::uint32_t> returns_; ///< lines that have a `return`, ascending
-  std::vector<const StatementNode*> sleeps_;
   std::vector<std::uint32_t> routines_; ///< lines that something calls, ascending
-  std::vector<std::uint32_t> found_;    ///< by spread(), the last time
+  std::vector<std::uint32_t> found_;    ///< by spread()
   std::vector<std::uint32_t> open_;     ///< of spread(): where to go on
-  std::vector<std::uint8_t> reached_;
-  std::vector<std::uint8_t> main_;   ///< can run while no subroutine is open
-  std::vector<std::uint8_t> inside_; ///< can run as part of a subroutine
+  std::vector<std::uint8_t> marks_;     ///< of each line
 };
 
 } // namespace

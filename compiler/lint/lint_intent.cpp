@@ -1,6 +1,7 @@
 #include "base/text/text.h"
 #include "compiler/lint/lint_passes.h"
 
+#include "compiler/lint/letters.h"
 #include "compiler/lint/reading.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
@@ -72,29 +73,18 @@ public:
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
-    for (std::uint32_t i = 0; i < size_; ++i)
-      look(i);
-    if (rolls_)
+    for (const auto kind : {Statement::Rgb, Statement::Ledc, Statement::BackLed, Statement::Goroll})
+      for (const auto& place : flow_.all(kind))
+        if (flow_.is_line(place))
+          check_shown(program_.statements[place.statement], place.code);
+    if (may_judge_motion())
       check_motion();
-    if (!letters_given_.empty() && grows_)
-      check_growth();
+    check_growth();
   }
 
 private:
   const StatementNode& statement_of(std::uint32_t code) const {
     return program_.statements[flow_.code[code].statement];
-  }
-
-  void look(std::uint32_t code) {
-    const auto& statement = statement_of(code);
-    if (statement.error || statement.then_branch != none)
-      return;
-    if (shows(statement.kind) != Shows::Nothing)
-      check_shown(statement, code);
-    else if (statement.kind == Statement::Let)
-      note_sum(program_.nodes[program_.as<LetView>(statement).expression.value]);
-    if (spec::info(statement.kind).form == spec::Form::Arguments)
-      note_letters(statement, code);
   }
 
   // ---- what is never seen
@@ -178,13 +168,12 @@ private:
     std::vector<std::uint32_t> callers;
     if (!flow_.code[entry].called)
       return callers;
-    for (std::uint32_t i = 0; i < size_; ++i)
-      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-        if (jump.call && jump.to == entry) {
-          if (callers.size() == many || statement_of(i).kind != Statement::Gosub)
-            return {};
-          callers.push_back(i);
-        }
+    for (const auto& jump : flow_.jumps)
+      if (jump.call && jump.to == entry) {
+        if (callers.size() == many || statement_of(jump.from).kind != Statement::Gosub)
+          return {};
+        callers.push_back(jump.from);
+      }
     return callers;
   }
 
@@ -202,7 +191,6 @@ private:
 
   void check_shown(const StatementNode& statement, std::uint32_t code) {
     const auto what = shows(statement.kind);
-    rolls_ = rolls_ || what == Shows::Roll;
     if (!flow_.code[code].falls)
       return;
     Walk walk{what, code};
@@ -258,6 +246,23 @@ private:
   }
 
   // ---- what drives on
+
+  /// Whether a program that rolls ends somewhere, or has a roll that brakes and has a speed.
+  bool may_judge_motion() const {
+    const auto rolls = flow_.all(Statement::Goroll);
+    return std::any_of(rolls.begin(), rolls.end(),
+                       [&](const Flow::Place& roll) { return flow_.is_line(roll); }) &&
+           (flow_.code.back().falls || !flow_.all(Statement::End).empty() ||
+            std::any_of(rolls.begin(), rolls.end(), [&](const Flow::Place& roll) {
+              return brakes_with_speed(program_.statements[roll.statement]);
+            }));
+  }
+
+  bool brakes_with_speed(const StatementNode& roll) const {
+    const auto items = program_.items_of(roll);
+    return items.size() == 3 && number_in(program_, items[2]) == 0 &&
+           number_in(program_, items[1]).value_or(0) > 0;
+  }
 
   /// Carries along every way whether the ball drives.
   void check_motion() {
@@ -413,11 +418,11 @@ private:
   }
 
   void judge_start(const StatementNode& roll) {
-    const auto items = program_.items_of(roll);
-    const auto speed = number_in(program_, items[1]);
-    if (items.size() == 3 && speed.value_or(0) > 0 && number_in(program_, items[2]) == 0)
+    if (brakes_with_speed(roll))
       add_go(rules::GoZero, roll,
-             fmt::format("go 0 brakes, whatever the speed: {} has no effect", *speed), '1');
+             fmt::format("go 0 brakes, whatever the speed: {} has no effect",
+                         *number_in(program_, program_.items_of(roll)[1])),
+             '1');
   }
 
   void add_go(const Rule& rule, const StatementNode& roll, std::string message, char go) {
@@ -434,7 +439,28 @@ private:
   }
   static bool is_sum(const Node& root) { return is(root, spec::Operator::Add); }
   static bool is_difference(const Node& root) { return is(root, spec::Operator::Subtract); }
-  void note_sum(const Node& root) { grows_ = grows_ || is_sum(root) || is_difference(root); }
+
+  /// What a line adds to its own letter, below 0 where it takes that away: `A = A + 1`.
+  std::optional<std::int32_t> growth_by(const LetView& let) const {
+    const auto nodes = nodes_of(program_, let.expression);
+    if (nodes.size() != 3 || (!is_sum(nodes[2]) && !is_difference(nodes[2])) ||
+        let.variable.kind != ItemKind::Letter || nodes[0].kind != NodeKind::Letter ||
+        nodes[0].what != let.variable.value || nodes[1].kind != NodeKind::Number ||
+        nodes[1].value <= 0)
+      return std::nullopt;
+    return is_sum(nodes[2]) ? nodes[1].value : -nodes[1].value;
+  }
+
+  /// The letters to which a line adds.
+  std::uint32_t growing_letters() const {
+    std::uint32_t grown = 0;
+    for (const auto& place : flow_.all(Statement::Let))
+      if (flow_.is_line(place))
+        if (const auto let = program_.as<LetView>(program_.statements[place.statement]);
+            growth_by(let))
+          grown |= bit(let.variable.value);
+    return grown;
+  }
 
   struct Growth {
     std::uint32_t code = none;         ///< the line that adds to the letter; none where none does
@@ -451,16 +477,29 @@ private:
     const spec::Parameter* parameter;
   };
 
-  void note_letters(const StatementNode& statement, std::uint32_t code) {
-    const auto& row = spec::info(statement.kind);
-    const auto items = program_.items_of(statement);
-    for (std::size_t i = 0; i < items.size(); ++i)
-      if (const auto letter = letter_in(program_, items[i]))
-        letters_given_.push_back({*letter, code, &row, &row.parameter_slots[i]});
+  /// Where one of these letters is given to a statement that is a line.
+  std::vector<Given> places_given(std::uint32_t letters) const {
+    std::vector<Given> all;
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      const auto& statement = statement_of(i);
+      const auto& row = spec::info(statement.kind);
+      if (statement.error || row.form != spec::Form::Arguments)
+        continue;
+      const auto items = program_.items_of(statement);
+      for (std::size_t n = 0; n < items.size(); ++n)
+        if (const auto letter = letter_in(program_, items[n]);
+            letter && (letters & bit(*letter)) != 0)
+          all.push_back({*letter, i, &row, &row.parameter_slots[n]});
+    }
+    return all;
   }
 
   /// Looks for endless loops that add to what a statement takes and never look at it.
   void check_growth() {
+    const auto letters = growing_letters();
+    if (letters == 0)
+      return;
+    const auto all_given = places_given(letters);
     std::array<Growth, spec::letter_count> growth;
     for (std::uint32_t i = 0; i < size_; ++i) {
       const auto whole = program_.whole(program_.statements[flow_.code[i].statement]);
@@ -474,7 +513,7 @@ private:
         continue;
       const auto to = flow_.jumps[flow_.code[i].jumps_begin].to;
       const auto within = [&](std::uint32_t code) { return to <= code && code <= i; };
-      for (const auto& given : letters_given_) {
+      for (const auto& given : all_given) {
         auto& grown = growth[given.letter];
         if (!within(given.code) || !within(grown.code) || grown.bounded ||
             std::any_of(grown.resets.begin(), grown.resets.end(), within))
@@ -506,21 +545,16 @@ private:
       grown.bounded = true;
       return;
     }
-    const auto& sum = program_.as<LetView>(statement).expression;
-    const auto& root = program_.nodes[sum.value];
-    if (root.kind == NodeKind::Number) {
+    const auto let = program_.as<LetView>(statement);
+    if (program_.nodes[let.expression.value].kind == NodeKind::Number) {
       grown.resets.push_back(code);
       return;
     }
-    const bool two = root.kind == NodeKind::Binary && sum.value - root.first == 2 &&
-                     (is_sum(root) || is_difference(root));
-    const auto& right = program_.nodes[two ? sum.value - 1 : sum.value];
-    if (two && program_.nodes[root.first].kind == NodeKind::Letter &&
-        program_.nodes[root.first].what == letter && right.kind == NodeKind::Number &&
-        right.value > 0 && grown.code == none) {
+    const auto step = growth_by(let);
+    if (step && grown.code == none) {
       grown.code = code;
-      grown.sum = &sum;
-      grown.step = is_sum(root) ? right.value : -right.value;
+      grown.sum = &let.expression;
+      grown.step = *step;
     } else {
       grown.bounded = true;
     }
@@ -552,9 +586,6 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::vector<Given> letters_given_;
-  bool grows_ = false; ///< something is set to a sum
-  bool rolls_ = false;
   std::vector<Motion> motion_; ///< by line of code, before it runs
   Motion end_;                 ///< below the last line
   std::vector<std::uint32_t> waiting_;

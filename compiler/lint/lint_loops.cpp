@@ -5,8 +5,10 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <string>
+#include <utility>
 
 namespace orb::compiler {
 namespace {
@@ -97,9 +99,9 @@ public:
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
+    if (nest_in_text())
+      return; // and run as they stand
     collect_parts();
-    if (set_ == 0 && stepped_ == 0)
-      return;
     match_pairs();
     check_jumps();
     check_unended();
@@ -120,6 +122,45 @@ private:
   }
   std::uint32_t stepped_by(const StatementNode& node) const {
     return variable_of(program_.as<NextView>(node).variable);
+  }
+
+  /// Whether each loop ends within the one around it, and nothing jumps into a loop or out of one,
+  /// calls or returns in one.
+  bool nest_in_text() const {
+    const auto returns = flow_.all(spec::Statement::Return);
+    std::vector<std::uint32_t> around; // by line of code: the `for` of the innermost loop
+    return find_loops(around) &&
+           std::all_of(flow_.jumps.begin(), flow_.jumps.end(),
+                       [&](const Flow::Jump& jump) {
+                         return jump.to == none || (around[jump.from] == around[jump.to] &&
+                                                    !(jump.call && around[jump.from] != none));
+                       }) &&
+           std::all_of(returns.begin(), returns.end(),
+                       [&](const Flow::Place& place) { return around[place.code] == none; });
+  }
+
+  /// False where they do not nest.
+  bool find_loops(std::vector<std::uint32_t>& around) const {
+    std::array<std::uint32_t, Loops::most> open{}; // those around a loop that is open
+    std::size_t count = 0;
+    auto innermost = none;
+    around.assign(size_, none);
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      around[i] = innermost;
+      if (!flow_.code[i].loops)
+        continue;
+      const auto& node = statement(i);
+      const auto variable = innermost == none ? none : counter_of(statement(innermost));
+      if (node.kind == spec::Statement::For && count < open.size() &&
+          counter_of(node) != variable) {
+        open[count++] = std::exchange(innermost, i);
+      } else if (node.kind == spec::Statement::Next && stepped_by(node) == variable) {
+        innermost = open[--count];
+      } else {
+        return false;
+      }
+    }
+    return innermost == none;
   }
 
   void collect_parts() {

@@ -22,17 +22,13 @@ public:
       : program_(program), flow_(flow), findings_(findings) {}
 
   void run() {
-    for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
-      const auto& statement = statement_of(i);
-      for (const auto& one : program_.whole(statement))
-        if (!one.error)
-          check(one);
-      if (statement.error)
-        continue;
-      check_exchange(i);
-      if (statement.kind == Statement::For)
-        check_sum(i);
-    }
+    for (const auto& place : flow_.all(Statement::If))
+      check_joint(program_.as<IfView>(program_.statements[place.statement]));
+    for (const auto& place : flow_.all(Statement::Let))
+      check_let(program_.statements[place.statement], place.code);
+    for (const auto& place : flow_.all(Statement::For))
+      if (flow_.is_line(place))
+        check_sum(place.code);
     check_products();
   }
 
@@ -55,13 +51,14 @@ private:
   }
   static std::string name_of(std::uint8_t letter) { return {static_cast<char>('A' + letter)}; }
 
-  void check(const StatementNode& statement) {
-    if (statement.kind == Statement::If)
-      check_joint(program_.as<IfView>(statement));
-    if (set_by(statement)) {
-      note_product(statement);
-      check_share(value_of(statement));
-    }
+  void check_let(const StatementNode& let, std::uint32_t code) {
+    if (!set_by(let))
+      return;
+    note_product(let);
+    check_share(value_of(let));
+    if (const auto letter = letter_in(program_, value_of(let));
+        letter && &let == &statement_of(code))
+      check_exchange(code, *letter);
   }
 
   // ---- two comparisons of one letter or sensor
@@ -104,17 +101,15 @@ private:
 
   // ---- A = B, then B = A
 
-  void check_exchange(std::uint32_t i) {
+  void check_exchange(std::uint32_t i, std::uint8_t second) {
     if (i + 1 == flow_.code.size() || flow_.code[i + 1].target)
       return;
     const auto first = set_by(statement_of(i));
-    const auto second = set_by(statement_of(i + 1));
-    if (!first || !second || first == second ||
-        letter_in(program_, value_of(statement_of(i))) != second ||
+    if (first == second || set_by(statement_of(i + 1)) != second ||
         letter_in(program_, value_of(statement_of(i + 1))) != first)
       return;
     add(rules::LostExchange, statement_of(i).span,
-        lost_exchange(name_of(*first), name_of(*second), free_letter()));
+        lost_exchange(name_of(*first), name_of(second), free_letter()));
   }
 
   std::string free_letter() const {
@@ -170,11 +165,9 @@ private:
   }
 
   void check_products() {
-    for (const auto& statement : program_.statements)
-      if (!statement.error &&
-          (statement.kind == Statement::For || statement.kind == Statement::Read ||
-           statement.kind == Statement::Input))
-        for (const auto& item : program_.items_of(statement))
+    for (const auto kind : {Statement::For, Statement::Read, Statement::Input})
+      for (const auto& place : flow_.all(kind))
+        for (const auto& item : program_.items_of(program_.statements[place.statement]))
           if (item.kind == ItemKind::Letter)
             products_[item.value].others = true;
     for (std::size_t i = 0; i < products_.size(); ++i) {

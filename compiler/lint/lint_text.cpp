@@ -29,9 +29,9 @@ void TextPass::run() {
   for (const auto& code : flow_.code)
     check_line(program_.lines[code.line]);
   check_targets();
-  for (std::uint32_t i = 0; i < program_.nodes.size(); ++i)
-    if (is_remarkable(program_.nodes[i]))
-      check_node(i);
+  for (const auto& node : program_.nodes)
+    if (is_remarkable(node))
+      check_node(node);
 }
 
 void TextPass::check_bytes() {
@@ -94,6 +94,8 @@ void TextPass::check_line_ends() {
 }
 
 void TextPass::check_numbers() {
+  if (flow_.orderly)
+    return;
   std::uint32_t last = 0;
   bool ascending = true;
   for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {

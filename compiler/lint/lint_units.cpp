@@ -28,12 +28,14 @@ public:
       : program_(program), flow_(flow), findings_(findings) {}
 
   void run() {
-    for (const auto& statement : program_.statements)
-      note_timer(statement);
-    for (std::uint32_t i = 0; i < flow_.code.size(); ++i)
-      for (const auto& statement : program_.whole(statement_of(i)))
-        if (!statement.error)
-          check(statement, i);
+    each(Statement::Let, &UnitsPass::check_timer);
+    each(Statement::If, &UnitsPass::check_comparisons);
+    each(Statement::Delay, &UnitsPass::check_delay);
+    each(Statement::Rgb, &UnitsPass::check_colour);
+    each(Statement::Goroll, &UnitsPass::check_speed);
+    each(Statement::BackLed, &UnitsPass::check_back_led);
+    each(Statement::Input, &UnitsPass::check_input);
+    each(Statement::Sleep, &UnitsPass::check_sleep);
     check_exchanged();
   }
 
@@ -43,44 +45,21 @@ private:
   }
   std::optional<std::int32_t> number(const Item& item) const { return number_in(program_, item); }
 
-  void note_timer(const StatementNode& statement) {
-    if (statement.error || statement.kind != Statement::Let)
-      return;
-    const auto let = program_.as<LetView>(statement);
-    if (let.variable.kind == ItemKind::System && number(let.expression) != 0)
-      timers_.set_above_0(static_cast<spec::Variable>(let.variable.value));
-  }
-
-  void check(const StatementNode& statement, std::uint32_t code) {
-    const auto kind = statement.kind;
-    if (kind == Statement::Let)
-      check_timer(statement, code);
-    else if (kind == Statement::If)
-      check_comparisons(program_.as<IfView>(statement));
-    else if (kind == Statement::Delay)
-      check_delay(statement, code);
-    else if (kind == Statement::Rgb)
-      check_colour(statement);
-    else if (kind == Statement::Goroll)
-      check_speed(statement);
-    else if (kind == Statement::BackLed)
-      check_back_led(statement);
-    else if (kind == Statement::Input)
-      check_input(statement, code);
-    else if (kind == Statement::Sleep)
-      check_sleep(statement);
+  using Check = void (UnitsPass::*)(const StatementNode& statement, std::uint32_t code);
+  void each(Statement kind, Check check) {
+    for (const auto& place : flow_.all(kind))
+      (this->*check)(program_.statements[place.statement], place.code);
   }
 
   /// The only roll has speed 0, and then the ball is stopped: heading and speed are exchanged.
   void check_exchanged() {
     const StatementNode* roll = nullptr;
     bool stops = false;
-    for (const auto& statement : program_.statements) {
-      if (statement.error || statement.kind == Statement::Raw ||
-          statement.kind == Statement::Macrun)
-        return;
-      if (statement.kind != Statement::Goroll)
-        continue;
+    const bool all_known = flow_.places.size() == program_.statements.size();
+    if (!all_known || !flow_.all(Statement::Raw).empty() || !flow_.all(Statement::Macrun).empty())
+      return;
+    for (const auto& place : flow_.all(Statement::Goroll)) {
+      const auto& statement = program_.statements[place.statement];
       const auto items = program_.items_of(statement);
       const auto go = items.size() == 3 ? number(items[2]) : std::nullopt;
       if (number(items[1]) != 0 || (go != 0 && (roll != nullptr || go != 1)))
@@ -168,11 +147,13 @@ private:
 
   void check_timer(const StatementNode& statement, std::uint32_t code) {
     const auto let = program_.as<LetView>(statement);
-    if (let.variable.kind != ItemKind::System ||
-        !is_timer(static_cast<spec::Variable>(let.variable.value)))
+    if (let.variable.kind != ItemKind::System)
       return;
+    const auto timer = static_cast<spec::Variable>(let.variable.value);
     const auto ms = number(let.expression);
-    if (!ms || *ms < 1 || *ms >= least_meant || in_loop(code))
+    if (ms != 0)
+      timers_.set_above_0(timer);
+    if (!is_timer(timer) || !ms || *ms < 1 || *ms >= least_meant || in_loop(code))
       return;
     const auto& row = spec::variables[let.variable.value];
     add_time(let.expression, *ms,
@@ -206,7 +187,7 @@ private:
     return plural(static_cast<std::size_t>(ms), "millisecond");
   }
 
-  void check_sleep(const StatementNode& statement) {
+  void check_sleep(const StatementNode& statement, std::uint32_t /*code*/) {
     const auto& time = program_.as<SleepView>(statement).seconds;
     const auto seconds = number(time);
     if (!seconds || *seconds == 0 || *seconds % in_second != 0)
@@ -223,7 +204,7 @@ private:
 
   // ---- speeds and lights
 
-  void check_speed(const StatementNode& statement) {
+  void check_speed(const StatementNode& statement, std::uint32_t /*code*/) {
     const auto items = program_.items_of(statement);
     const auto& speed = items[1];
     const auto value = number(speed);
@@ -236,7 +217,7 @@ private:
              brisk);
   }
 
-  void check_back_led(const StatementNode& statement) {
+  void check_back_led(const StatementNode& statement, std::uint32_t /*code*/) {
     const auto& value = program_.items_of(statement)[0];
     if (number(value) == 1)
       add_tiny(statement, value,
@@ -252,7 +233,7 @@ private:
     d.fix = single_fix(d.help, value.span, fmt::format("{}", meant), Safety::Unsafe);
   }
 
-  void check_colour(const StatementNode& statement) {
+  void check_colour(const StatementNode& statement, std::uint32_t /*code*/) {
     std::string line;
     std::int32_t sum = 0;
     for (const auto& item : program_.items_of(statement)) {
@@ -272,7 +253,8 @@ private:
 
   // ---- comparisons
 
-  void check_comparisons(const IfView& condition) {
+  void check_comparisons(const StatementNode& statement, std::uint32_t /*code*/) {
+    const auto condition = program_.as<IfView>(statement);
     check_comparison(condition.first);
     if (condition.second)
       check_comparison(*condition.second);

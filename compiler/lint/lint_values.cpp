@@ -22,9 +22,8 @@ bool ValuesPass::may_say_more() {
       }))
     return true;
   return std::any_of(doubts_.begin(), doubts_.end(), [&](const Doubt& doubt) {
-    for (auto n = program_.nodes[doubt.root].first; n <= doubt.root; ++n)
-      ranges_[n] = compute(n);
-    const auto& range = ranges_[doubt.root];
+    compute(program_.nodes[doubt.root].first, doubt.root + 1);
+    const auto& range = known_[doubt.root].range;
     return range != Range{} && (range.lo < doubt.least || range.hi > doubt.greatest);
   });
 }

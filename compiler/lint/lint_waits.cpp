@@ -27,18 +27,13 @@ public:
 
   void run() {
     read_settings();
-    for (std::uint32_t i = 0; i < size_; ++i) {
-      const auto& statement = statement_of(i);
-      if (statement.error)
-        continue;
-      if (statement.kind == Statement::For)
-        check_loop(statement, i);
-      if (statement.kind == Statement::On)
-        continue; // may have thousands of targets, and no single condition
-      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
-        if (!jump.call && jump.to <= i && i - jump.to < longest_loop)
-          check_back(statement, jump, i);
-    }
+    for (const auto& place : flow_.all(Statement::For))
+      if (flow_.is_line(place))
+        check_loop(program_.statements[place.statement], place.code);
+    for (const auto& jump : flow_.jumps)
+      if (!jump.call && jump.to <= jump.from && jump.from - jump.to < longest_loop &&
+          statement_of(jump.from).kind != Statement::On) // may have thousands, and no condition
+        check_back(statement_of(jump.from), jump, jump.from);
   }
 
 private:
@@ -200,14 +195,13 @@ private:
   };
 
   void read_settings() {
-    for (std::uint32_t i = 0; i < size_; ++i)
-      for (const auto& statement : program_.whole(statement_of(i)))
-        if (!statement.error && statement.kind != Statement::Next)
-          for (const auto& item : program_.items_of(statement))
-            if (item.kind == ItemKind::Letter) {
-              ++settings_[item.value].count;
-              settings_[item.value].code = i;
-            }
+    for (const auto kind : {Statement::Let, Statement::For, Statement::Read, Statement::Input})
+      for (const auto& place : flow_.all(kind))
+        for (const auto& item : program_.items_of(program_.statements[place.statement]))
+          if (item.kind == ItemKind::Letter) {
+            auto& setting = settings_[item.value];
+            setting.code = ++setting.count == 1 ? place.code : std::max(setting.code, place.code);
+          }
   }
 
   void check_back(const StatementNode& statement, const Flow::Jump& jump, std::uint32_t code) {

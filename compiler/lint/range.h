@@ -25,7 +25,9 @@ struct Range {
   constexpr bool misses(std::int64_t least, std::int64_t greatest) const {
     return hi < least || lo > greatest;
   }
-  friend constexpr bool operator==(Range, Range) = default;
+  friend constexpr bool operator==(Range a, Range b) { // without a branch
+    return ((a.lo ^ b.lo) | (a.hi ^ b.hi)) == 0;
+  }
 };
 
 /// The least range that holds both.

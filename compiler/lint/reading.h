@@ -58,12 +58,12 @@ struct SensorTest {
 
 inline std::optional<SensorTest> sensor_test(const Program& program, const Comparison& comparison) {
   const auto relation = static_cast<spec::Relation>(comparison.relation.value);
-  const auto left = sensor_in(program, comparison.left);
-  const auto right = sensor_in(program, comparison.right);
-  if (const auto number = number_in(program, comparison.right); left && number)
-    return SensorTest{*left, relation, *number, &comparison.right};
-  if (const auto number = number_in(program, comparison.left); right && number)
-    return SensorTest{*right, mirrored(relation), *number, &comparison.left};
+  if (const auto number = number_in(program, comparison.right))
+    if (const auto sensor = sensor_in(program, comparison.left))
+      return SensorTest{*sensor, relation, *number, &comparison.right};
+  if (const auto number = number_in(program, comparison.left))
+    if (const auto sensor = sensor_in(program, comparison.right))
+      return SensorTest{*sensor, mirrored(relation), *number, &comparison.left};
   return std::nullopt;
 }
 

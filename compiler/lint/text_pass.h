@@ -92,16 +92,24 @@ private:
   void check_gap(std::uint32_t begin, std::uint32_t end, std::string_view word);
 
   /// Where a blank should be at `at`, and where one can be put.
-  void check_side(std::uint32_t at, std::uint32_t gap, std::string_view word);
+  void check_side(std::uint32_t at, std::uint32_t gap, std::string_view word) {
+    if (!is_blank(program_.text[at]))
+      add_missing_blank(gap, fmt::format("`{}`", word));
+  }
 
   void add_missing_blank(std::uint32_t at, std::string_view what);
 
   // ---- expressions
 
   /// Whether there may be something to say of a node; of most there is nothing.
-  static bool is_remarkable(const Node& node);
+  bool is_remarkable(const Node& node) const {
+    if (node.kind != NodeKind::System)
+      return node.kind > NodeKind::Binary || node.overflow;
+    const auto& row = spec::variables[node.what];
+    return row.since > target_.version || !row.old_word.empty();
+  }
 
-  void check_node(std::uint32_t index);
+  void check_node(const Node& node);
 
   /// Whether the sign of a step stands here, which is documented.
   bool follows_step(std::uint32_t at) const;

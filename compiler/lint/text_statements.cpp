@@ -179,6 +179,9 @@ void TextPass::add_missing_target(const Item& target) {
 }
 
 void TextPass::check_print(std::span<const Item> items) {
+  if (std::none_of(items.begin(), items.end(),
+                   [](const Item& item) { return item.kind == ItemKind::Semicolon; }))
+    return;
   std::string spaced; // the list with a blank in the place of each
   bool blank = false;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -255,11 +258,6 @@ void TextPass::check_gap(std::uint32_t begin, std::uint32_t end, std::string_vie
   check_side(end - 1, end, word);
 }
 
-void TextPass::check_side(std::uint32_t at, std::uint32_t gap, std::string_view word) {
-  if (!is_blank(program_.text[at]))
-    add_missing_blank(gap, fmt::format("`{}`", word));
-}
-
 void TextPass::add_missing_blank(std::uint32_t at, std::string_view what) {
   if (blank_missing_)
     return; // one for a line is enough
@@ -269,15 +267,7 @@ void TextPass::add_missing_blank(std::uint32_t at, std::string_view what) {
   d.fix = single_fix("insert a space", {at, at}, " ");
 }
 
-bool TextPass::is_remarkable(const Node& node) {
-  constexpr auto bit = [](NodeKind kind) { return 1U << static_cast<unsigned>(kind); };
-  constexpr auto kinds =
-      bit(NodeKind::System) | bit(NodeKind::Group) | bit(NodeKind::Negate) | bit(NodeKind::Call);
-  return (kinds & bit(node.kind)) != 0 || node.overflow;
-}
-
-void TextPass::check_node(std::uint32_t index) {
-  const auto& node = program_.nodes[index];
+void TextPass::check_node(const Node& node) {
   switch (node.kind) {
   case NodeKind::Number:
     if (node.overflow)
@@ -293,7 +283,7 @@ void TextPass::check_node(std::uint32_t index) {
     break;
   case NodeKind::Call:
     check_depth(node);
-    check_operand(node, program_.nodes[index - 1]);
+    check_operand(node, (&node)[-1]);
     break;
   case NodeKind::Letter:
   case NodeKind::Indexed:

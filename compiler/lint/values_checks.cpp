@@ -15,67 +15,45 @@ void ValuesPass::check_lines() {
   forget_letters();
   for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
     const auto& code = flow_.code[i];
-    if (code.target || !falls)
+    const bool entered = code.target || !falls;
+    if (entered)
       begin_block();
-    begin_line(i, falls);
-    line_end_ = program_.lines[code.line].span.end;
+    if (followed_)
+      take_up(i);
+    else if (entered)
+      forget_letters();
+    line_ = code.line;
     cleared_on_line_ = 0;
     const auto& statement = program_.statements[code.statement];
-    go(i);
-    if (code.jumps_begin != code.jumps_end || statement.error)
-      counting_ = 0;                        // the loop may be left early
+    go(statement, i);
     falls = code.falls && !statement.error; // a line that does not parse may set anything
-    for (const auto& jump : flow_.jumps_of(code))
+    const auto jumps = flow_.jumps_of(code);
+    if (!jumps.empty() || statement.error)
+      counting_ = 0; // the loop may be left early
+    for (const auto& jump : jumps)
       if (jump.call)
         falls = false; // the subroutine may change everything
     in_order_ = in_order_ && falls;
   }
 }
 
-void ValuesPass::begin_line(std::uint32_t code, bool falls) {
-  if (followed_ && ways_.is_kept(code)) {
-    block_ = code;
-    if (const auto* known = ways_.before(code)) {
-      now_ = *known;
-      return;
-    }
-    forget_letters();
-  } else if (!followed_ && (flow_.code[code].target || !falls)) {
-    forget_letters();
-  }
-}
-
-void ValuesPass::look(const StatementNode& statement) {
-  if (following_ || statement.error)
+void ValuesPass::take_up(std::uint32_t code) {
+  if (!ways_.is_kept(code))
     return;
-  evaluate(statement);
-  const auto& row = spec::info(statement.kind);
-  if (row.after == spec::After::Waits)
-    cleared_ = 0;
-  switch (row.form) {
-  case spec::Form::Assignment: check_let(program_.as<LetView>(statement)); break;
-  case spec::Form::Loop: check_for(program_.as<ForView>(statement)); break;
-  case spec::Form::LoopEnd: check_indexed(program_.items_of(statement)); break;
-  case spec::Form::IndexedBranch: check_on(program_.as<OnView>(statement)); break;
-  case spec::Form::Output: check_print(statement); break;
-  case spec::Form::Entry: check_input(statement); break;
-  case spec::Form::Values: check_data(statement); break;
-  case spec::Form::Variables: check_read(statement); break;
-  case spec::Form::Arguments: check_arguments(statement); break;
-  case spec::Form::Conditional: check_condition(program_.as<IfView>(statement)); break;
-  case spec::Form::Branch: break;
-  }
+  block_ = code;
+  if (const auto* known = ways_.before(code))
+    now_ = *known;
+  else
+    forget_letters();
 }
 
-void ValuesPass::check_range(const Item& value, std::string_view word,
-                             const spec::Parameter& parameter) {
+void ValuesPass::check_outside(const Item& value, std::string_view word,
+                               const spec::Parameter& parameter) {
   const auto& range = range_of(value);
-  if (parameter.least <= range.lo && range.hi <= parameter.greatest)
-    return;
   if (range.misses(parameter.least, parameter.greatest))
     add_out_of_range(value, word, parameter);
   else if (!check_loop_range(value, word, parameter)) {
-    if (exact_[value.value] != 0)
+    if (known_[value.value].exact)
       check_may_leave(value, word, parameter);
     else
       doubt(value, parameter.least, parameter.greatest);
@@ -182,13 +160,12 @@ bool ValuesPass::keeps_ends(const Node& node) {
 
 void ValuesPass::check_arguments(const StatementNode& statement) {
   const auto& row = spec::info(statement.kind);
-  const auto parameters = row.parameters();
   const auto arguments = program_.items_of(statement);
   const bool mended = statement.kind == spec::Statement::Goroll &&
                       (check_swapped(arguments) || check_backward(statement));
   for (std::size_t i = mended ? 2 : 0; i < arguments.size(); ++i)
-    check_range(arguments[i], row.word, parameters[i]);
-  if (statement.kind == spec::Statement::Goroll && arguments.size() < parameters.size() &&
+    check_range(arguments[i], row.word, row.parameter_slots[i]);
+  if (statement.kind == spec::Statement::Goroll && arguments.size() < row.parameters().size() &&
       target_.version >= spec::info(spec::BasicGrowth::GoValue).since)
     add_missing_go(statement, arguments.back());
   if (statement.kind == spec::Statement::Basflg)
@@ -370,7 +347,8 @@ void ValuesPass::check_index(Span span) {
         rules::MayLeaveRange, span,
         fmt::format("`Z` is used while `Y` can be {}; it must be 1 to {}", shown(range), most),
         fmt::format("keep `Y` within 1 to {}", most));
-  } else if (index.first_set != nullptr && index.first_set->span.begin > line_end_ && in_order_ &&
+  } else if (index.first_set != nullptr &&
+             index.first_set->span.begin > program_.lines[line_].span.end && in_order_ &&
              !before_y_) {
     before_y_ = true;
     findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",
@@ -407,7 +385,7 @@ void ValuesPass::check_on(const OnView& on) {
     findings_.add(rules::SelectorRange, selector.span,
                   fmt::format("the list has {}, found {}", plural(targets.size(), "line number"),
                               shown(range)));
-  else if (exact_[selector.value] == 0 && !is_counted(selector))
+  else if (!known_[selector.value].exact && !is_counted(selector))
     doubt(selector, 1, count);
   else if (range.lo < 1 || range.hi > count)
     add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line number")),

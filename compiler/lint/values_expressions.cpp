@@ -1,83 +1,78 @@
 #include "compiler/lint/values_pass.h"
 
 namespace orb::compiler {
+namespace {
 
-void ValuesPass::evaluate(const StatementNode& statement) {
-  const auto items = program_.items_of(statement);
-  const auto last = std::find_if(items.rbegin(), items.rend(), [](const Item& item) {
-    return item.kind == ItemKind::Expression || item.kind == ItemKind::Character;
-  });
-  if (last == items.rend())
+/// By variable: among those that reading resets, the how manieth it is.
+constexpr auto clearing_slots = [] {
+  std::array<std::uint8_t, spec::variables.size()> slots{};
+  std::uint8_t next = 0;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    slots[i] = next;
+    next = static_cast<std::uint8_t>(
+        next + (spec::variables[i].access == spec::Access::ReadClears ? 1 : 0));
+  }
+  return slots;
+}();
+
+} // namespace
+
+void ValuesPass::compute(std::uint32_t begin, std::uint32_t end) {
+  for (auto n = begin; n < end; ++n) {
+    const auto& node = program_.nodes[n];
+    switch (node.kind) {
+    case NodeKind::Number:
+      know(n, node.overflow ? Range{} : Range::only(node.value), !node.overflow);
+      break;
+    case NodeKind::Letter:
+      if (!following_)
+        note_use(node);
+      know(n, now_.ranges[node.what], is_exact(node.what));
+      break;
+    case NodeKind::Indexed:
+      if (!following_)
+        check_index(node.span);
+      know(n, {}, false);
+      break;
+    case NodeKind::System: {
+      const auto& row = spec::variables[node.what];
+      if (!following_ && row.access == spec::Access::ReadClears)
+        note_clearing(node, row);
+      know(n, {row.least, row.greatest}, reaches_ends[node.what]);
+      break;
+    }
+    case NodeKind::Group: known_[n] = known_[n - 1]; break;
+    case NodeKind::Negate:
+    case NodeKind::Binary:
+    case NodeKind::Call: compute_operation(node, n); break;
+    }
+  }
+}
+
+void ValuesPass::compute_operation(const Node& node, std::uint32_t index) {
+  const auto right = index - 1; // or the only operand
+  if (node.kind == NodeKind::Negate)
+    return know(index, negate(known_[right].range), known_[right].exact);
+  if (node.kind == NodeKind::Call) {
+    know(index, apply(spec::functions[node.what].function, known_[right].range),
+         known_[right].exact);
+    if (!following_)
+      check_call(node, index);
     return;
-  // A loop has set its letter to its start when it computes its end.
-  const bool counts = statement.kind == spec::Statement::For && items[0].kind == ItemKind::Letter;
-  for (auto n = evaluated_; n <= last->value; ++n) {
-    ranges_[n] = evaluate(n);
-    exact_[n] = exact(n);
-    if (counts && n == items[1].value)
-      set_letter(items[0].value, ranges_[n]);
   }
-  evaluated_ = last->value + 1;
-}
-
-Range ValuesPass::compute(const Item& item) {
-  if (!following_ && item.value < evaluated_)
-    return ranges_[item.value];
-  for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {
-    ranges_[n] = compute(n);
-    exact_[n] = exact(n);
-  }
-  return ranges_[item.value];
-}
-
-Range ValuesPass::compute(std::uint32_t index) {
-  const auto& node = program_.nodes[index];
-  switch (node.kind) {
-  case NodeKind::Number: return node.overflow ? Range{} : Range::only(node.value);
-  case NodeKind::Letter: return now_.ranges[node.what];
-  case NodeKind::Indexed: return {};
-  case NodeKind::System: {
-    const auto& row = spec::variables[node.what];
-    return {row.least, row.greatest};
-  }
-  case NodeKind::Group: return ranges_[index - 1];
-  case NodeKind::Negate: return negate(ranges_[index - 1]);
-  case NodeKind::Binary: {
-    const auto right = index - 1;
-    return apply(static_cast<spec::Operator>(node.what), ranges_[program_.nodes[right].first - 1],
-                 ranges_[right]);
-  }
-  case NodeKind::Call: return apply(spec::functions[node.what].function, ranges_[index - 1]);
-  }
-  return {};
-}
-
-bool ValuesPass::exact(std::uint32_t index) const {
-  const auto& node = program_.nodes[index];
-  switch (node.kind) {
-  case NodeKind::Number: return !node.overflow;
-  case NodeKind::Letter: return is_exact(node.what);
-  case NodeKind::Indexed: return false;
-  case NodeKind::System: return reaches_ends(spec::variables[node.what]);
-  case NodeKind::Group:
-  case NodeKind::Negate:
-  case NodeKind::Call: return exact_[index - 1] != 0;
-  case NodeKind::Binary: return is_exact_sum(node, index - 1);
-  }
-  return false;
-}
-
-bool ValuesPass::reaches_ends(const spec::VariableInfo& row) {
-  constexpr std::int32_t byte = 255; // the greatest value of what a client sends
-  return row.unit == "deg" ||
-         (row.unit.empty() && row.greatest <= byte && row.variable != spec::Variable::Speed);
+  const auto left = program_.nodes[right].first - 1;
+  know(index,
+       apply(static_cast<spec::Operator>(node.what), known_[left].range, known_[right].range),
+       is_exact_sum(node, right));
+  if (!following_)
+    check_binary(node, index);
 }
 
 bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
   const auto left = program_.nodes[right].first - 1;
-  if (exact_[left] == 0 || exact_[right] == 0)
+  if (!known_[left].exact || !known_[right].exact)
     return false;
-  const auto& [a, b] = std::pair{ranges_[left], ranges_[right]};
+  const auto& [a, b] = std::pair{known_[left].range, known_[right].range};
   switch (static_cast<spec::Operator>(node.what)) {
   case spec::Operator::Add:
   case spec::Operator::Subtract:
@@ -95,38 +90,8 @@ bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
   return false;
 }
 
-Range ValuesPass::evaluate(std::uint32_t index) {
-  const auto& node = program_.nodes[index];
-  switch (node.kind) {
-  case NodeKind::Number: return node.overflow ? Range{} : Range::only(node.value);
-  case NodeKind::Letter:
-    if (letters_[node.what].first_used == nullptr)
-      letters_[node.what].first_used = &node;
-    return now_.ranges[node.what];
-  case NodeKind::Indexed: check_index(node.span); return {};
-  case NodeKind::System: return read_system(node);
-  case NodeKind::Group: return ranges_[index - 1];
-  case NodeKind::Negate: return negate(ranges_[index - 1]);
-  case NodeKind::Binary: return evaluate_binary(node, index);
-  case NodeKind::Call: return evaluate_call(node, index);
-  }
-  return {};
-}
-
-Range ValuesPass::read_system(const Node& node) {
-  const auto& row = spec::variables[node.what];
-  if (row.access == spec::Access::ReadClears)
-    note_clearing(node, row);
-  return {row.least, row.greatest};
-}
-
 void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) {
-  std::uint32_t slot = 0; // few variables clear themselves; their order is their slot
-  for (const auto& other : spec::variables) {
-    if (other.variable == row.variable)
-      break;
-    slot += other.access == spec::Access::ReadClears ? 1 : 0;
-  }
+  const auto slot = clearing_slots[node.what];
   if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
     findings_.add(
         rules::ClearedByReading, node.span,
@@ -137,41 +102,36 @@ void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) 
     cleared_ |= bit(slot);
 }
 
-Range ValuesPass::evaluate_binary(const Node& node, std::uint32_t index) {
+void ValuesPass::check_binary(const Node& node, std::uint32_t index) {
   const auto op = static_cast<spec::Operator>(node.what);
-  const auto right_index = index - 1;
-  const auto& right = ranges_[right_index];
-  const auto& left = ranges_[program_.nodes[right_index].first - 1];
-  const auto& right_span = program_.nodes[right_index].span;
+  const auto& right = known_[index - 1].range;
+  const auto& right_span = program_.nodes[index - 1].span;
   const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
+  const auto most = spec::value_of(spec::Limit::GreatestShift);
   if (divides && right == Range::only(0)) {
     findings_.add(rules::DivisionByZero, right_span, "division by zero");
-    return {};
-  }
-  const auto most = spec::value_of(spec::Limit::GreatestShift);
-  if (shifts && right.misses(0, most)) {
+    known_[index].range = {};
+  } else if (shifts && right.misses(0, most)) {
     findings_.add(rules::ValueOutOfRange, right_span,
                   fmt::format("a shift must be 0 to {} bits, found {}", most, shown(right)));
-    return {};
-  }
-  const auto result = apply(op, left, right);
-  if (op == spec::Operator::Divide && result == Range::only(0))
+    known_[index].range = {};
+  } else if (op == spec::Operator::Divide && known_[index].range == Range::only(0)) {
     check_quotient(node, index);
-  return result;
+  }
 }
 
-Range ValuesPass::evaluate_call(const Node& node, std::uint32_t index) {
+void ValuesPass::check_call(const Node& node, std::uint32_t index) {
   const auto& row = spec::functions[node.what];
-  const auto& range = ranges_[index - 1];
+  const auto& range = known_[index - 1].range;
   if (row.function == spec::Function::Rnd && range == Range::only(1) &&
       program_.nodes[index - 1].kind != NodeKind::Letter)
     findings_.add(rules::AlwaysOne, node.span, "`rnd 1` is always 1", "write `rnd 2` for 1 or 2");
   if (!range.misses(row.least, row.greatest))
-    return apply(row.function, range);
+    return;
   findings_.add(rules::ValueOutOfRange, program_.nodes[index - 1].span,
                 fmt::format("`{}` takes {} or more, found {}", row.word, row.least, shown(range)));
-  return {};
+  known_[index].range = {};
 }
 
 } // namespace orb::compiler

@@ -22,6 +22,19 @@ inline std::string shown(Range range) {
                           : fmt::format("{} to {}", range.lo, range.hi);
 }
 
+/// By variable, whether it takes all its values: directions, switches and what clients send; a ball
+/// is never as fast as its sensors could tell.
+inline constexpr auto reaches_ends = [] {
+  constexpr std::int32_t byte = 255; // the greatest value of what a client sends
+  std::array<bool, spec::variables.size()> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto& row = spec::variables[i];
+    table[i] = row.unit == "deg" ||
+               (row.unit.empty() && row.greatest <= byte && row.variable != spec::Variable::Speed);
+  }
+  return table;
+}();
+
 /// How a letter gets its values, over the whole program.
 struct Letter {
   const Item* first_set = nullptr;  ///< null where nothing sets it
@@ -39,6 +52,12 @@ struct DataSet {
   const StatementNode* unread = nullptr; ///< the `data` that nothing has read yet
 };
 
+/// What is known of a node of an expression.
+struct Known {
+  Range range;
+  bool exact = false; ///< both ends of the range are values that it takes
+};
+
 /// What is known of a `for`, over all times that it runs.
 struct Loop {
   std::uint32_t code = 0;   ///< a line of code
@@ -54,7 +73,7 @@ class ValuesPass {
 public:
   ValuesPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
       : program_(program), flow_(flow), target_(target), findings_(findings),
-        ranges_(program.nodes.size()), exact_(program.nodes.size()), ways_(program, flow) {}
+        known_(program.nodes.size()), ways_(program, flow) {}
 
   /// Carries values through straight runs of lines only, and forgets them where a jump comes in.
   void run();
@@ -119,8 +138,9 @@ private:
   /// The values that `read` can take.
   void find_data();
 
-  /// Runs a line on what is known; whether the one below can be next.
-  bool go(std::uint32_t code);
+  /// Runs a statement of a line on what is known, and looks for mistakes in it unless the ways are
+  /// still being followed; whether the line below can be next.
+  bool go(const StatementNode& statement, std::uint32_t code);
 
   bool go_branches(const StatementNode& statement, std::uint32_t code);
 
@@ -133,9 +153,6 @@ private:
   bool assume(const Comparison& comparison, Holds holds);
 
   void narrow(const Item& side, const Range& from, const Range& to);
-
-  /// What a statement does to letters and where it leads; whether the line below can be next.
-  bool move(const StatementNode& statement, std::uint32_t code);
 
   void set(const LetView& let);
 
@@ -163,15 +180,17 @@ private:
 
   void check_lines();
 
-  /// Takes up what is known of the letters at a line.
-  void begin_line(std::uint32_t code, bool falls);
+  /// Takes up what is known of the letters at a line, once all ways have been followed.
+  void take_up(std::uint32_t code);
 
-  /// Looks for mistakes in a statement, unless the ways are still being followed.
-  void look(const StatementNode& statement);
+  const Range& range_of(const Item& expression) const { return known_[expression.value].range; }
 
-  const Range& range_of(const Item& expression) const { return ranges_[expression.value]; }
-
-  void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
+  void check_range(const Item& value, std::string_view word, const spec::Parameter& parameter) {
+    const auto& range = range_of(value);
+    if (range.lo < parameter.least || parameter.greatest < range.hi)
+      check_outside(value, word, parameter);
+  }
+  void check_outside(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
@@ -231,49 +250,47 @@ private:
 
   // ---- expressions
 
-  /// Goes through the nodes of a statement in the order in which they are computed. They stand
-  /// right after those of the statement before.
-  void evaluate(const StatementNode& statement);
+  /// Computes nodes, and looks for mistakes in them unless the ways are still being followed.
+  void compute(std::uint32_t begin, std::uint32_t end);
 
-  /// The range of an expression, without looking for mistakes.
-  Range compute(const Item& item);
+  /// The range of an expression, computed now.
+  const Range& compute(const Item& item) {
+    compute(program_.nodes[item.value].first, item.value + 1);
+    return range_of(item);
+  }
 
-  Range compute(std::uint32_t index);
+  void compute_operation(const Node& node, std::uint32_t index);
+
+  void know(std::uint32_t index, Range range, bool exact) { known_[index] = {range, exact}; }
 
   bool is_exact(std::uint32_t letter) const { return (now_.exact & bit(letter)) != 0; }
 
-  /// Whether both ends of a node's range are values that it takes.
-  bool exact(std::uint32_t index) const;
-
-  /// Directions, switches and what clients send take all their values; a ball is never as fast as
-  /// its sensors could tell.
-  static bool reaches_ends(const spec::VariableInfo& row);
-
   bool is_exact_sum(const Node& node, std::uint32_t right) const;
 
-  Range evaluate(std::uint32_t index);
-
-  Range read_system(const Node& node);
+  void note_use(const Node& letter) {
+    auto& first = letters_[letter.what].first_used;
+    first = first == nullptr ? &letter : first;
+  }
 
   void note_clearing(const Node& node, const spec::VariableInfo& row);
 
-  Range evaluate_binary(const Node& node, std::uint32_t index);
+  void check_binary(const Node& node, std::uint32_t index);
 
   void check_quotient(const Node& node, std::uint32_t index);
 
-  Range evaluate_call(const Node& node, std::uint32_t index);
+  void check_call(const Node& node, std::uint32_t index);
 
   const Program& program_;
   const Flow& flow_;
   const Target& target_;
   Findings& findings_;
   std::array<Letter, letters> letters_{};
-  std::vector<Range> ranges_;       ///< by node
-  std::vector<std::uint8_t> exact_; ///< by node: whether it takes both ends of its range
-  std::uint32_t evaluated_ = 0;     ///< how many of them are known
+  std::vector<Known> known_; ///< by node
 
   // what is known on the way
   Letters now_;
+  std::uint32_t set_ = 0; ///< letters that something sets
+  Letters unknown_;       ///< where nothing is known but that letters are 0 which nothing sets
   LetterFlow ways_;
   std::vector<Loop> loops_; ///< that have been entered
   std::vector<Doubt> doubts_;
@@ -283,6 +300,7 @@ private:
   Range data_range_;                                  ///< of the values of all `data`
   std::uint32_t block_ = 0;                           ///< the line from which `now_` is followed
   std::uint32_t tested_ = 0; ///< letters that the condition of this line narrows
+  std::uint32_t moved_ = 0;  ///< letters that became something else in a branch of this line
   bool following_ = false;
   bool followed_ = false;
   std::optional<std::int32_t> index_begins_; ///< where the loop around counts in `Y`: from there
@@ -291,8 +309,8 @@ private:
   std::uint32_t cleared_ = 0;         ///< variables that are 0 because they have been read
   std::uint32_t cleared_on_line_ = 0; ///< the same, by this line
   std::uint32_t counting_ = 0;        ///< letters of loops that reach their ends for certain
-  std::uint32_t line_end_ = 0;
-  bool conditional_ = false; ///< in a branch
+  std::uint32_t line_ = 0;            ///< that is looked at
+  bool conditional_ = false;          ///< in a branch
 
   bool indexed_used_ = false;
   bool in_order_ = true; ///< nothing above leads away and back, or past lines

@@ -3,8 +3,11 @@
 namespace orb::compiler {
 
 void ValuesPass::doubt(const Item& value, std::int64_t least, std::int64_t greatest) {
-  if (!followed_)
-    doubts_.push_back({value.value, least, greatest});
+  if (followed_)
+    return;
+  if (doubts_.empty())
+    doubts_.reserve(flow_.code.size()); // once, where there are any
+  doubts_.push_back({value.value, least, greatest});
 }
 
 void ValuesPass::note_given(std::uint32_t letter, Range range, const Node* root) {
@@ -29,21 +32,24 @@ bool ValuesPass::is_wrapped(const Node& root) const {
 }
 
 void ValuesPass::collect_letters() {
-  for (const auto& statement : program_.statements)
-    collect_set(statement);
+  for (const auto kind :
+       {spec::Statement::Let, spec::Statement::For, spec::Statement::Read, spec::Statement::Input})
+    for (const auto& place : flow_.all(kind))
+      collect_set(program_.statements[place.statement]);
+  unknown_ = Letters::zero();
+  unknown_.exact &= ~set_;
+  for (std::uint32_t i = 0; i < letters; ++i)
+    if ((set_ & bit(i)) != 0)
+      unknown_.ranges[i] = {};
 }
 
 void ValuesPass::collect_set(const StatementNode& statement) {
-  auto items = program_.items_of(statement);
-  if (statement.error || items.empty() || statement.kind == spec::Statement::Next)
-    return;
-  if (statement.kind != spec::Statement::Read) // all others set one variable, which comes first
-    items = items.first(1);
-  for (const auto& item : items) {
+  for (const auto& item : program_.items_of(statement)) {
     if (item.kind != ItemKind::Letter)
       continue;
+    set_ |= bit(item.value);
     auto& letter = letters_[item.value];
-    if (letter.first_set == nullptr)
+    if (letter.first_set == nullptr || &item < letter.first_set)
       letter.first_set = &item;
     (statement.kind == spec::Statement::For ? letter.counted : letter.assigned) = true;
   }
@@ -115,14 +121,15 @@ std::string ValuesPass::meant_by(std::uint32_t letter) const {
 }
 
 void ValuesPass::forget_letters() {
-  now_ = Letters::zero();
-  for (std::uint32_t i = 0; i < letters; ++i)
-    if (letters_[i].first_set != nullptr)
-      set_letter(i, {});
+  now_ = unknown_;
+  moved_ = set_;
+  if ((set_ & bit(index_letter)) != 0)
+    index_begins_.reset();
 }
 
 void ValuesPass::set_letter(std::uint32_t index, Range range, std::uint32_t exact,
                             std::uint32_t dense) {
+  moved_ |= bit(index);
   now_.ranges[index] = range;
   now_.exact = (now_.exact & ~bit(index)) | exact << index;
   now_.dense = (now_.dense & ~bit(index)) | (exact & dense) << index;
@@ -148,7 +155,7 @@ void ValuesPass::follow(std::uint32_t begin) {
       ways_.enter(i, now_);
       return;
     }
-    if (!go(i))
+    if (!go(program_.statements[flow_.code[i].statement], i))
       return;
   }
 }
@@ -167,20 +174,58 @@ void ValuesPass::find_data() {
   }
 }
 
-bool ValuesPass::go(std::uint32_t code) {
-  const auto& statement = program_.statements[flow_.code[code].statement];
-  look(statement);
+bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
   if (statement.error) {
     forget_letters(); // it may do anything, once corrected
-    return flow_.code[code].falls;
+    return true;
   }
-  if (statement.then_branch == none)
-    return move(statement, code);
-  if (following_)
-    for (const auto& item : program_.items_of(statement))
-      if (item.kind == ItemKind::Expression)
-        compute(item);
-  return go_branches(statement, code);
+  const auto& row = spec::info(statement.kind);
+  if (row.form != spec::Form::Loop) // which sets its letter before it computes its end
+    compute(statement.nodes_begin, statement.nodes_end);
+  if (row.after == spec::After::Waits)
+    cleared_ = 0;
+  const bool looks = !following_;
+  switch (row.form) {
+  case spec::Form::Assignment: set(program_.as<LetView>(statement)); return true;
+  case spec::Form::Loop: begin_loop(program_.as<ForView>(statement), code); return true;
+  case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement));
+  case spec::Form::Branch: return jump(statement, code);
+  case spec::Form::IndexedBranch:
+    if (looks)
+      check_on(program_.as<OnView>(statement));
+    return jump(statement, code);
+  case spec::Form::Conditional:
+    if (looks)
+      check_condition(program_.as<IfView>(statement));
+    return go_branches(statement, code);
+  case spec::Form::Output:
+    if (looks)
+      check_print(statement);
+    return true;
+  case spec::Form::Entry:
+    if (looks)
+      check_input(statement);
+    forget(program_.items_of(statement).first(1));
+    return true;
+  case spec::Form::Values:
+    if (looks)
+      check_data(statement);
+    return true;
+  case spec::Form::Variables:
+    if (looks)
+      check_read(statement);
+    read(program_.items_of(statement));
+    return true;
+  case spec::Form::Arguments:
+    if (looks)
+      check_arguments(statement);
+    else if (statement.kind == spec::Statement::Return)
+      ways_.leave(code, now_);
+    else if (statement.kind == spec::Statement::Reset)
+      ways_.enter(0, Letters::zero());
+    return row.after != spec::After::Ends;
+  }
+  return true;
 }
 
 bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code) {
@@ -190,6 +235,7 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
       statement.else_branch == none ? nullptr : &program_.statements[statement.else_branch];
   conditional_ = true;
   const auto cleared = cleared_on_line_;
+  moved_ = 0;
   const bool then_falls =
       go_branch(condition, Holds::Yes, &program_.statements[statement.then_branch], code);
   auto after = now_;
@@ -199,7 +245,7 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
   conditional_ = false;
   if (then_falls && else_falls) {
     const auto looked_at = now_.exact | after.exact;
-    join_into(now_, after);
+    join_into(now_, after, moved_);
     // What a test looks at and both ways keep is treated by the other statement somehow.
     now_.exact &= ~(looked_at & tested_);
   } else if (then_falls) {
@@ -216,12 +262,9 @@ bool ValuesPass::go_branch(const IfView& condition, Holds holds, const Statement
     return can_be;
   if (!can_be && following_)
     return false;
-  look(*branch);
-  if (branch->error) {
-    forget_letters();
+  const bool falls = go(*branch, code);
+  if (branch->error)
     return true;
-  }
-  const bool falls = move(*branch, code);
   if (branch->kind == spec::Statement::Let)
     tested_ &= ~bit(program_.as<LetView>(*branch).variable.value);
   return falls && can_be;
@@ -237,14 +280,14 @@ bool ValuesPass::assume(const IfView& condition, Holds holds) {
 
 bool ValuesPass::assume(const Comparison& comparison, Holds holds) {
   const auto relation = static_cast<spec::Relation>(comparison.relation.value);
-  const auto left = ranges_[comparison.left.value];
-  const auto right = ranges_[comparison.right.value];
+  const auto left = known_[comparison.left.value].range;
+  const auto right = known_[comparison.right.value].range;
   const auto left_where = where(relation, holds, left, right);
-  const auto right_where = where(mirrored(relation), holds, right, left);
-  if (!left_where || !right_where)
+  if (!left_where)
     return false;
   narrow(comparison.left, left, *left_where);
-  narrow(comparison.right, right, *right_where);
+  if (program_.nodes[comparison.right.value].kind != NodeKind::Number) // which stays what it is
+    narrow(comparison.right, right, *where(mirrored(relation), holds, right, left));
   return true;
 }
 
@@ -257,36 +300,17 @@ void ValuesPass::narrow(const Item& side, const Range& from, const Range& to) {
   set_letter(*letter, to, dense, dense);
 }
 
-bool ValuesPass::move(const StatementNode& statement, std::uint32_t code) {
-  switch (spec::info(statement.kind).form) {
-  case spec::Form::Assignment: set(program_.as<LetView>(statement)); return true;
-  case spec::Form::Loop: begin_loop(program_.as<ForView>(statement), code); return true;
-  case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement));
-  case spec::Form::Entry: forget(program_.items_of(statement).first(1)); return true;
-  case spec::Form::Variables: read(program_.items_of(statement)); return true;
-  case spec::Form::Branch:
-  case spec::Form::IndexedBranch: return jump(statement, code);
-  case spec::Form::Arguments:
-    if (statement.kind == spec::Statement::Return && following_)
-      ways_.leave(code, now_);
-    if (statement.kind == spec::Statement::Reset && following_)
-      ways_.enter(0, Letters::zero());
-    return spec::info(statement.kind).after != spec::After::Ends;
-  case spec::Form::Conditional:
-  case spec::Form::Output:
-  case spec::Form::Values: break;
-  }
-  return true;
-}
-
 void ValuesPass::set(const LetView& let) {
-  if (let.variable.kind != ItemKind::Letter)
+  if (let.variable.kind != ItemKind::Letter) {
+    if (!following_)
+      check_let(let);
     return;
-  const auto range = compute(let.expression);
+  }
+  const auto range = range_of(let.expression);
   const auto& root = program_.nodes[let.expression.value];
   const bool spread = root.kind == NodeKind::Binary &&
                       static_cast<spec::Operator>(root.what) == spec::Operator::Multiply;
-  const std::uint32_t exact = exact_[let.expression.value];
+  const std::uint32_t exact = known_[let.expression.value].exact;
   const bool number = range.constant();
   note_given(let.variable.value, range, &root);
   set_letter(let.variable.value, range, exact, spread || number ? 0 : exact);
@@ -307,12 +331,16 @@ Range ValuesPass::rounds(const ForView& loop, const Range& start, const Range& e
 }
 
 void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
-  if (loop.variable.kind != ItemKind::Letter)
-    return;
+  const bool counts = loop.variable.kind == ItemKind::Letter;
   const auto start = compute(loop.start);
-  set_letter(loop.variable.value, start); // before the end is computed
+  if (counts)
+    set_letter(loop.variable.value, start);
   const auto end = compute(loop.end);
   const auto step = loop.step != nullptr ? compute(*loop.step) : Range::only(1);
+  if (!following_)
+    check_for(loop);
+  if (!counts)
+    return;
   const auto body = rounds(loop, start, end, step);
   note_given(loop.variable.value, body, nullptr);
   set_letter(loop.variable.value, body);
@@ -329,9 +357,15 @@ void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
 }
 
 bool ValuesPass::end_loop(const NextView& next) {
+  if (!following_)
+    check_indexed({&next.variable, 1});
   if (next.variable.kind != ItemKind::Letter)
     return true;
   const auto letter = next.variable.value;
+  if (!followed_or_following()) {
+    set_letter(letter, {});
+    return true;
+  }
   const auto before = now_;
   std::optional<Range> past;
   for (std::size_t i = 0; i < loops_.size(); ++i) {
@@ -341,10 +375,6 @@ bool ValuesPass::end_loop(const NextView& next) {
       past = past ? join(*past, *left) : *left;
   }
   now_ = before;
-  if (!followed_or_following()) {
-    set_letter(letter, {});
-    return true;
-  }
   if (!past)
     return false;
   set_letter(letter, *past);
@@ -375,6 +405,10 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
       statement.kind == spec::Statement::Gosub || statement.spelling == Spelling::OnGosub;
   if (!following_ && !calls)
     return false;
+  if (!followed_or_following()) {
+    forget_letters();
+    return true;
+  }
   const auto before = now_;
   std::optional<Letters> after;
   for (const auto& way : flow_.jumps_of(flow_.code[code])) {
@@ -385,16 +419,17 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
       continue;
     }
     now_ = before;
-    if (!followed_or_following() || !ways_.call(way.to, block_, now_))
+    if (!ways_.call(way.to, block_, now_))
       continue;
     if (after)
-      join_into(*after, now_);
+      join_into(*after, now_, set_);
     else
       after = now_;
   }
   now_ = before;
   if (!calls)
     return false;
+  moved_ = set_;
   if (after)
     now_ = *after;
   else if (!following_)

@@ -42,13 +42,14 @@ struct NumberRead {
   std::uint32_t value = 0; ///< modulo 2^32
   bool above_integer = false;
   bool above_word = false; ///< 2^32 or more
+  const char* end = nullptr;
 };
 
-inline NumberRead read_digits(const char* begin, const char* end) {
+/// Whether more digits than are always an integer are above that, or above a word.
+inline void judge_size(std::string_view written, NumberRead& digits) {
   std::uint64_t value = 0;
-  NumberRead digits;
-  for (; begin != end; ++begin) {
-    value = value * 10 + static_cast<std::uint64_t>(*begin - '0');
+  for (const char c : written) {
+    value = value * 10 + static_cast<std::uint64_t>(c - '0');
     if (value > static_cast<std::uint64_t>(spec::value_of(spec::Limit::GreatestInteger))) {
       constexpr auto word = std::numeric_limits<std::uint32_t>::max();
       digits.above_integer = true;
@@ -56,13 +57,23 @@ inline NumberRead read_digits(const char* begin, const char* end) {
       value &= word;
     }
   }
-  digits.value = static_cast<std::uint32_t>(value);
+}
+
+/// Reads the digits at `begin`; the rest of the text ends at `end`.
+inline NumberRead read_digits(const char* begin, const char* end) {
+  constexpr std::ptrdiff_t small = std::numeric_limits<std::int32_t>::digits10;
+  NumberRead digits;
+  const char* p = begin;
+  for (; p != end && is_digit(*p); ++p)
+    digits.value = digits.value * 10 + static_cast<std::uint32_t>(*p - '0');
+  digits.end = p;
+  if (p - begin > small)
+    judge_size({begin, static_cast<std::size_t>(p - begin)}, digits);
   return digits;
 }
 
 /// A line number as written, saturated below `none`.
-inline std::uint32_t read_line_number(const char* begin, const char* end) {
-  const auto digits = read_digits(begin, end);
+inline std::uint32_t line_number(const NumberRead& digits) {
   return digits.above_word ? none - 1 : std::min(digits.value, none - 1);
 }
 
@@ -79,11 +90,10 @@ public:
     add(kind, what, size(program_.nodes), span(begin, end));
   }
 
-  void number(const char* begin, const char* end) {
-    const auto digits = read_digits(begin, end);
-    leaf(NodeKind::Number, 0, begin, end);
-    program_.nodes.back().value = static_cast<std::int32_t>(digits.value);
-    program_.nodes.back().overflow = digits.above_integer;
+  void number(const NumberRead& digits, const char* begin) {
+    auto& node = add(NodeKind::Number, 0, size(program_.nodes), span(begin, digits.end));
+    node.value = static_cast<std::int32_t>(digits.value);
+    node.overflow = digits.above_integer;
   }
 
   /// An operator before, or parentheses around, the last operand.
@@ -126,6 +136,7 @@ public:
     statement.kind = kind;
     statement.spelling = spelling;
     statement.items_begin = size(program_.items);
+    statement.nodes_begin = size(program_.nodes);
     statement.word = span(begin, end);
     statement.span.begin = statement.word.begin;
     kind_ = kind;
@@ -170,14 +181,18 @@ public:
     in_branch_ = false;
     auto& branch = program_.statements[index];
     branch.span = span(begin, trim(begin, end));
-    branch.items_end = size(program_.items);
+    end_items(branch);
     statement_ = parent;
     kind_ = spec::Statement::If;
     auto& owner = program_.statements[parent];
     (owner.then_branch == none ? owner.then_branch : owner.else_branch) = index;
   }
   bool in_branch() const { return in_branch_; }
-  void end_condition() { program_.statements[statement_].items_end = size(program_.items); }
+  void end_condition() { end_items(program_.statements[statement_]); }
+  void end_items(StatementNode& statement) const {
+    statement.items_end = size(program_.items);
+    statement.nodes_end = size(program_.nodes);
+  }
 
   void begin_line() {
     depth_ = 0;

@@ -44,19 +44,24 @@ struct word_gosub : particle<'g', 'o', 's', 'u', 'b'> {};
 
 struct sum;
 
-struct number         : plus<digit> {};
+ORB_BY_HAND(number)        // digits
 struct group_begin    : one<'('> {};
 struct group_end      : one<')'> {};
 struct group          : seq<group_begin, _, must<sum>, must<group_end>> {};
 struct call_operand   : seq<_, must<sum>> {};
 ORB_BY_HAND(named_factor)  // a letter, a system variable, or a function and call_operand
-struct positive       : sor<number, named_factor, group> {};
+struct positive       : sor<seq<at<digit>, number>, seq<at<alpha>, named_factor>, group> {};
 struct negation       : seq<one<'-'>, _, must<positive>> {};
 struct factor         : seq<sor<positive, negation>, _> {};
-struct product_tail   : seq<one<'*', '/', '%', '{', '}'>, _, must<factor>> {};
-struct product        : seq<factor, star<product_tail>> {};
-struct sum_tail       : seq<one<'+', '-', '&', '|'>, _, must<product>> {};
-struct sum            : seq<product, star<sum_tail>> {};
+struct product_sign   : one<'*', '/', '%', '{', '}'> {};
+struct product_tail   : seq<product_sign, _, must<factor>> {};
+struct product_tails  : star<at<product_sign>, product_tail> {}; // at: most have no tail
+struct product        : seq<factor, product_tails> {};
+struct sum_sign       : one<'+', '-', '&', '|'> {};
+struct sum_tail       : seq<sum_sign, _, must<product>> {};
+struct any_sign       : one<'*', '/', '%', '{', '}', '+', '-', '&', '|'> {};
+struct sum_tails      : seq<product_tails, star<at<sum_sign>, sum_tail>> {};
+struct sum            : seq<factor, sor<not_at<any_sign>, sum_tails>> {}; // most have no sign
 
 struct expression     : sum {};
 
@@ -120,6 +125,8 @@ namespace tao::pegtl {
 
 namespace orb_grammar = orb::compiler::grammar;
 
+template <typename Name>
+struct analyze_traits<Name, orb_grammar::number> : analyze_seq_traits<plus<digit>> {};
 template <typename Name>
 struct analyze_traits<Name, orb_grammar::named_factor>
     : analyze_seq_traits<orb_grammar::word, opt<orb_grammar::call_operand>> {};

@@ -7,6 +7,8 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <utility>
 
 namespace orb::compiler {
@@ -17,14 +19,38 @@ struct Letters {
   std::size_t length = 0;
 };
 
+/// Of eight bytes those that are no letters, as the highest bit of each.
+constexpr std::uint64_t no_letters(std::uint64_t bytes) {
+  constexpr std::uint64_t each = 0x0101010101010101;
+  const auto small = (bytes | each * ' ') & each * 0x7F;
+  return (~(small + each * (0x80 - 'a')) | (small + each * (0x7F - 'z')) | bytes) & each * 0x80;
+}
+
+/// The letters from `p` on, one by one.
+Letters single_letters(const char* p, const char* end) {
+  Letters letters;
+  for (; p != end && is_letter(*p); ++p, ++letters.length)
+    letters.packed |= static_cast<std::uint64_t>(*p) << (8 * (letters.length % words::longest));
+  return letters;
+}
+
+/// The letters from `p` on; of words longer than any, `packed` means nothing.
+inline Letters letters_at(const char* p, const char* end) {
+  static_assert(words::longest == sizeof(std::uint64_t));
+  if (std::endian::native == std::endian::little && end - p >= std::ptrdiff_t{words::longest}) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, p, words::longest);
+    if (const auto others = no_letters(bytes); others != 0) {
+      const auto bits = static_cast<unsigned>(std::countr_zero(others)) & ~7U;
+      return {bytes & ((std::uint64_t{1} << bits) - 1), bits / 8};
+    }
+  }
+  return single_letters(p, end);
+}
+
 template <typename Input>
 Letters peek_letters(const Input& in) {
-  Letters letters;
-  const char* p = in.current();
-  for (; p != in.end() && is_letter(*p); ++p, ++letters.length)
-    if (letters.length < words::longest)
-      letters.packed |= static_cast<std::uint64_t>(*p) << (8 * letters.length);
-  return letters;
+  return letters_at(in.current(), in.end());
 }
 
 template <typename Input>
@@ -54,6 +80,16 @@ const char* skip_outside_strings(const char* p, const char* end, IsEnd is_end) {
 } // namespace
 
 namespace grammar {
+
+ORB_MATCH(number) {
+  const char* const begin = in.current();
+  const auto digits = read_digits(begin, in.end());
+  if (digits.end == begin)
+    return false;
+  builder.number(digits, begin);
+  in.bump_in_this_line(static_cast<std::size_t>(digits.end - begin));
+  return true;
+}
 
 ORB_MATCH(named_factor) {
   const auto letters = peek_letters(in);
@@ -108,8 +144,9 @@ ORB_MATCH(user_variable) {
 
 ORB_MATCH(arguments) {
   const auto& row = spec::info(builder.kind());
-  const auto most = row.parameters().size();
-  for (std::size_t n = 0; n < most; ++n) {
+  const auto& slots = row.parameter_slots; // used ones come first
+  std::size_t n = 0;
+  for (; n < slots.size() && !slots[n].name.empty(); ++n) {
     if (n > 0) {
       const char* const here = in.current();
       if (!ORB_MATCHES(comma)) {
@@ -121,7 +158,7 @@ ORB_MATCH(arguments) {
     if (!ORB_MATCHES(expression))
       throw Stop{Reason::ExpectedExpression, in.current(), nullptr, static_cast<std::uint32_t>(n)};
   }
-  if (most > 0 && in.current() != in.end() && *in.current() == ',')
+  if (n > 0 && in.current() != in.end() && *in.current() == ',')
     throw Stop{Reason::TooManyArguments, in.current(), nullptr};
   return true;
 }
@@ -166,16 +203,15 @@ ORB_MATCH(else_branch) {
   return match_branch<line_end, false, A, M, Action, Control>(in, builder);
 }
 
+/// `word` is what stands here, with `length` letters.
 ORB_RULE_TEMPLATE
-bool match_assignment(Input& in, Builder& builder) {
-  const auto letters = peek_letters(in);
+bool match_assignment(Input& in, Builder& builder, Word word, std::size_t length) {
   const char* const begin = in.current();
-  const auto word = find_word(letters.packed, letters.length);
-  if (letters.length > 0 && word.kind == WordKind::Variable) {
+  if (length > 0 && word.kind == WordKind::Variable) {
     if (spec::variables[word.index].access != spec::Access::ReadWrite)
       throw Stop{Reason::ReadOnly, begin, nullptr};
-    builder.item(ItemKind::System, word.index, builder.span(begin, begin + letters.length));
-    in.bump_in_this_line(letters.length);
+    builder.item(ItemKind::System, word.index, builder.span(begin, begin + length));
+    in.bump_in_this_line(length);
     skip_blanks(in);
   } else if (!ORB_MATCHES(user_variable)) {
     throw Stop{Reason::ExpectedVariable, begin, nullptr};
@@ -196,7 +232,7 @@ ORB_MATCH(word_statement) {
   case WordKind::Letter:
   case WordKind::Variable:
     builder.begin_statement(spec::Statement::Let, Spelling::Plain, begin, begin);
-    return match_assignment<A, M, Action, Control>(in, builder);
+    return match_assignment<A, M, Action, Control>(in, builder, word, letters.length);
   case WordKind::Statement: break;
   }
   const auto kind = static_cast<spec::Statement>(word.index);
@@ -206,9 +242,12 @@ ORB_MATCH(word_statement) {
   in.bump_in_this_line(letters.length);
   skip_blanks(in);
   switch (spec::info(kind).form) {
-  case spec::Form::Assignment:
+  case spec::Form::Assignment: {
     builder.spell(Spelling::Let);
-    return match_assignment<A, M, Action, Control>(in, builder);
+    const auto name = peek_letters(in);
+    return match_assignment<A, M, Action, Control>(in, builder, find_word(name.packed, name.length),
+                                                   name.length);
+  }
   case spec::Form::Conditional: return ORB_MATCHES(conditional);
   case spec::Form::Loop: return ORB_MATCHES(loop);
   case spec::Form::LoopEnd: return ORB_MATCHES(loop_end);
@@ -255,14 +294,13 @@ ORB_CONTROL
 
 ORB_ACTIONS
 
-ORB_ACTION(g::number, builder.number(in.begin(), in.end()))
 ORB_ACTION(g::group_begin, builder.open(in.begin()))
 ORB_ACTION(g::group, builder.unary(NodeKind::Group, 0, in.begin(), in.end()); builder.close())
 ORB_ACTION(g::negation, builder.unary(NodeKind::Negate, 0, in.begin(), in.end()))
 ORB_ACTION(g::product_tail, builder.binary(*in.begin()))
 ORB_ACTION(g::sum_tail, builder.binary(*in.begin()))
 ORB_ACTION(g::expression, builder.expression(ItemKind::Expression))
-ORB_ACTION(g::target, builder.item(ItemKind::Target, read_line_number(in.begin(), in.end()),
+ORB_ACTION(g::target, builder.item(ItemKind::Target, line_number(read_digits(in.begin(), in.end())),
                                    builder.span(in.begin(), in.end())))
 ORB_ACTION(g::relation_sign,
            builder.item(ItemKind::Relation,
@@ -325,18 +363,17 @@ private:
   const char* parse_content(Line& line, const char* begin) {
     builder_.begin_line();
     const auto mark = builder_.mark();
-    const char* const digits_end =
-        std::find_if_not(begin, end_, [](char c) { return is_digit(c); });
-    const char* body = digits_end;
+    const auto digits = read_digits(begin, end_);
+    const char* body = digits.end;
     while (body != end_ && is_blank(*body))
       ++body;
     try {
-      if (digits_end == begin)
+      if (digits.end == begin)
         throw Stop{Reason::MissingNumber, begin, nullptr};
-      line.number = read_line_number(begin, digits_end);
-      line.number_span = builder_.span(begin, digits_end);
+      line.number = line_number(digits);
+      line.number_span = builder_.span(begin, digits.end);
       if (line.number > static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)))
-        throw Stop{Reason::BadNumber, begin, digits_end};
+        throw Stop{Reason::BadNumber, begin, digits.end};
       Input in(body, end_, "");
       tao::pegtl::parse<g::line_rest, Action, Control>(in, builder_);
       if (program_.statements.size() > mark.statements)
@@ -355,7 +392,7 @@ private:
     auto& statement = program_.statements[mark.statements];
     statement.span = builder_.span(body, builder_.trim(body, end));
     if (statement.kind != spec::Statement::If)
-      statement.items_end = static_cast<std::uint32_t>(program_.items.size());
+      builder_.end_items(statement);
   }
 
   /// Steps over one LF, CR or CRLF.

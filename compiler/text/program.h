@@ -24,9 +24,9 @@ enum class NodeKind : std::uint8_t {
   Letter,  ///< `what` is 0 for A to 24 for Y
   Indexed, ///< Z: the element that Y names
   System,  ///< `what` is a spec::Variable
+  Binary,  ///< `what` is a spec::Operator
   Group,   ///< parentheses around the operand
   Negate,  ///< a minus sign before the operand
-  Binary,  ///< `what` is a spec::Operator
   Call,    ///< `what` is a spec::Function
 };
 
@@ -83,6 +83,8 @@ struct StatementNode {
   std::optional<spec::BasicError> error;
   std::uint32_t items_begin = 0;
   std::uint32_t items_end = 0;
+  std::uint32_t nodes_begin = 0; ///< of all expressions in the items, in the order of the text
+  std::uint32_t nodes_end = 0;
   std::uint32_t then_branch = none; ///< If: a statement
   std::uint32_t else_branch = none; ///< If: a statement, or none
   Span word;                        ///< the statement's word; empty for `v = e`
