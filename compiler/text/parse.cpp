@@ -21,9 +21,11 @@ struct Letters {
 
 /// Of eight bytes those that are no letters, as the highest bit of each.
 constexpr std::uint64_t no_letters(std::uint64_t bytes) {
-  constexpr std::uint64_t each = 0x0101010101010101;
-  const auto small = (bytes | each * ' ') & each * 0x7F;
-  return (~(small + each * (0x80 - 'a')) | (small + each * (0x7F - 'z')) | bytes) & each * 0x80;
+  constexpr std::uint64_t each = ~std::uint64_t{0} / UINT8_MAX; // a 1 in each byte
+  constexpr std::uint64_t high = UINT8_MAX / 2 + 1;             // the highest bit of a byte
+  constexpr std::uint64_t low = UINT8_MAX / 2;                  // the others
+  const auto small = (bytes | each * ' ') & each * low;
+  return (~(small + each * (high - 'a')) | (small + each * (low - 'z')) | bytes) & each * high;
 }
 
 /// The letters from `p` on, one by one.
