@@ -552,7 +552,7 @@ The others:
 
 {}
 An older batch that has been read through, and mistakes at random places of examples and lessons, most of them typed by
-who made the rows for them, nearly four hundred by strangers (`tests/slips/programs.txt`):
+who made the rows for them, more than five hundred by strangers (`tests/slips/programs.txt`):
 
 {}
 {} programs without a mistake (`tests/slips/clean.txt`) have {} findings.
