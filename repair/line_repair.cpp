@@ -1,5 +1,6 @@
 #include "repair/line_repair.h"
 
+#include "base/duration.h"
 #include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/fill.h"

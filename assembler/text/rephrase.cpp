@@ -316,10 +316,10 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
 
 /// Whether words are of the same stems in any order: `controllo_motore` and `motor_control`.
 bool have_same_stems(std::vector<std::string> said, std::vector<std::string> meant) {
-  constexpr std::size_t letters = 4;
-  const auto stem = [letters](std::vector<std::string>& words) {
+  constexpr std::size_t compared = 4;
+  const auto stem = [compared](std::vector<std::string>& words) {
     for (auto& word : words)
-      word.resize(std::min(word.size(), letters));
+      word.resize(std::min(word.size(), compared));
     std::sort(words.begin(), words.end());
   };
   stem(said);

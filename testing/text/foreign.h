@@ -4,6 +4,7 @@
 
 #include "repair/tokens.h"
 
+#include <optional>
 #include <vector>
 
 // Lines of other test frameworks, in the words of test files as far as their grammar goes; what the

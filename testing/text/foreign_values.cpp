@@ -1,4 +1,5 @@
 #include "base/text/text.h"
+#include "repair/arrange.h"
 #include "testing/text/foreign.h"
 
 #include <algorithm>
