@@ -42,11 +42,12 @@ void LineRepair::canonical() {
   truths();
   read_logo();
   drop_article();
-  drop_brackets();
-  drop_colons();
-  read_branches();
-  read_shifted();
-  read_hexadecimal();
+  const auto has = [this](std::string_view part) {
+    return line_.find(part) != std::string_view::npos;
+  };
+  if (line_.find_first_of("[](){}#:9") != std::string_view::npos || has(" 8 ") || has(" 5 ") ||
+      has("m "))
+    read_signs();
   plain_signs();
   part_line();
   part_glued();
@@ -228,6 +229,16 @@ void LineRepair::drop_colons() {
         !tokens[i + 1].gap && !before.is("else") && !before.is("then"))
       take_out(tokens, i, 1);
   }
+}
+
+/// Brackets, colons and digits, where there are some: by itself, as few lines need it, and the page
+/// loads what few need only then.
+[[gnu::noinline]] void LineRepair::read_signs() {
+  drop_brackets();
+  drop_colons();
+  read_branches();
+  read_shifted();
+  read_hexadecimal();
 }
 
 /// `ifelse :up [floor = 1] [floor = 2]`: the branches of Logo.

@@ -72,6 +72,7 @@ private:
   void truths();
   void read_logo();
   void drop_colons();
+  void read_signs();
   void read_branches();
   void read_hexadecimal();
   void read_shifted();
